@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// The only vocabulary both servers share: what happened in the water, in SI units.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+namespace splash::protocol {
+
+/// A place or a direction: right-handed, z up [m].
+struct Vec3 {
+  float x = 0.0F;
+  float y = 0.0F;
+  float z = 0.0F;
+  bool operator==(const Vec3&) const = default;
+};
+
+/// A body met the water's surface. Paper, section 5.1.
+struct Impact {
+  std::int32_t id = 0;     ///< counts the impacts of a session, wraps at 2^24
+  std::int32_t body = 0;   ///< index of the body in the scene
+  float speed = 0.0F;      ///< speed of the touching point of the body [m/s]
+  float approach = 0.0F;   ///< its part along the water surface's normal [m/s]
+  Vec3 position;           ///< where the surfaces meet [m]
+  float offset_ms = 0.0F;  ///< moment of the event after its bundle's time [ms]
+  bool operator==(const Impact&) const = default;
+};
+
+/// A pocket of air was entrapped. Paper, sections 4 and 5.2.
+struct Bubble {
+  std::int32_t id = 0;     ///< counts the bubbles of a session, wraps at 2^24
+  std::int32_t body = -1;  ///< nearest body, -1: none
+  float radius = 0.0F;     ///< [m]
+  float epsilon = 0.0F;    ///< initial excitation as a part of the radius [1]
+  Vec3 position;           ///< [m]
+  float offset_ms = 0.0F;  ///< moment of the event after its bundle's time [ms]
+  bool operator==(const Bubble&) const = default;
+};
+
+/// The main cavity behind a body closed. Same fields as a bubble. Paper, section 5.3.
+struct Cavity {
+  std::int32_t id = 0;
+  std::int32_t body = -1;
+  float radius = 0.0F;   ///< of the sphere that holds the cavity's air [m]
+  float epsilon = 0.1F;  ///< [1]
+  Vec3 position;         ///< its centre [m]
+  float offset_ms = 0.0F;
+  bool operator==(const Cavity&) const = default;
+};
+
+using Event = std::variant<Impact, Bubble, Cavity>;
+
+/// Opens each bundle: who speaks, which bundle this is, how long until its time.
+struct Frame {
+  std::int32_t session = 0;   ///< drawn at start, in [1, 2^24): a new one means a restarted sender
+  std::int32_t sequence = 0;  ///< counts bundles, wraps at 2^24
+  std::int32_t step = 0;      ///< simulation step the bundle speaks of, wraps at 2^24
+  float delay_ms = 0.0F;      ///< from sending to the bundle's time tag [ms], for receivers
+                              ///< that cannot read time tags (vanilla Pd)
+  bool operator==(const Frame&) const = default;
+};
+
+/// Pose of a tracked body: to the simulator.
+struct BodyPose {
+  std::int32_t body = 0;  ///< index of the body in the scene
+  Vec3 position;          ///< of the body's origin [m]
+  float qx = 0.0F;        ///< unit quaternion, body to world
+  float qy = 0.0F;
+  float qz = 0.0F;
+  float qw = 1.0F;
+  bool operator==(const BodyPose&) const = default;
+};
+
+}  // namespace splash::protocol

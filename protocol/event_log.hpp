@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Event logs: OSC bundles, each behind its size (int32, big-endian). The framing of OSC 1.0
+// streams and of scsynth's score files; time tags count seconds from the log's start.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "protocol/message.hpp"
+
+namespace splash::protocol {
+
+/// Appends bundles to a log. Throws std::runtime_error (path and cause) when it cannot write.
+class LogWriter {
+ public:
+  explicit LogWriter(const std::filesystem::path& path);
+  /// `seconds`: the bundle's time from the log's start [s], never smaller than the last one's
+  /// (it is raised to it, so that the log is a legal score).
+  void append(double seconds, const std::vector<Message>& messages);
+  /// Writes buffered bytes; throws when the disk refuses them.
+  void flush();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream file_;
+  double last_seconds_ = 0.0;
+};
+
+struct LogEntry {
+  double seconds = 0.0;  ///< from the log's start
+  std::vector<Message> messages;
+};
+
+/// Reads a whole log; every packet passes the gate. Throws std::runtime_error naming the file,
+/// the byte offset and the reason.
+[[nodiscard]] std::vector<LogEntry> read_log(const std::filesystem::path& path);
+
+}  // namespace splash::protocol

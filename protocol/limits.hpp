@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Every number that bounds the wire and the protocol's clocks, once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace splash::protocol {
+
+/// One Ethernet frame: 1500 bytes less the IPv4 and UDP headers.
+inline constexpr std::size_t kMaxDatagram = 1472;
+/// Counters that a patch may see wrap here: Pd's floats hold integers up to 2^24 exactly.
+inline constexpr std::int32_t kCounterWrap = 1 << 24;
+inline constexpr std::size_t kMaxMessages = 64;   ///< in one bundle
+inline constexpr std::size_t kMaxArguments = 16;  ///< of one message
+inline constexpr std::size_t kMaxString = 64;     ///< characters, address included
+
+inline constexpr double kHeartbeatPeriod = 0.1;  ///< an idle simulator still says /frame [s]
+inline constexpr double kPeerLease = 0.3;        ///< three missed heartbeats: the peer is gone [s]
+
+inline constexpr std::uint16_t kSimPort = 57300;    ///< the simulator's control and poses (UDP)
+inline constexpr std::uint16_t kSynthPort = 57310;  ///< the synth's events and control (UDP)
+
+}  // namespace splash::protocol

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// One OSC message as plain values, and bundles of them: what encode writes and decode reads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "protocol/event.hpp"
+#include "protocol/gate.hpp"
+#include "protocol/time_tag.hpp"
+
+namespace splash::protocol {
+
+using Argument = std::variant<std::int32_t, float, std::string, TimeTag>;
+
+struct Message {
+  std::string address;
+  std::vector<Argument> arguments;
+  bool operator==(const Message&) const = default;
+};
+
+/// A datagram: a bundle with a time, or a bare message (no time).
+struct Packet {
+  std::optional<TimeTag> time;
+  std::vector<Message> messages;
+  bool operator==(const Packet&) const = default;
+};
+
+/// OSC bytes of a message or a bundle. Throws std::length_error when it breaks the wire's limits.
+[[nodiscard]] std::vector<std::byte> encode(const Message& message);
+[[nodiscard]] std::vector<std::byte> encode(TimeTag time, const std::vector<Message>& messages);
+
+/// Our own reader. Gates first; an accepted packet always decodes.
+struct DecodeResult {
+  Refusal refusal = Refusal::none;
+  Packet packet;  ///< empty when refused
+};
+[[nodiscard]] DecodeResult decode(Bytes bytes);
+
+/// Events and frames as messages, and back. `nullopt`: another address, wrong types, or a value
+/// outside the ranges of the address table.
+[[nodiscard]] Message to_message(const Impact& impact);
+[[nodiscard]] Message to_message(const Bubble& bubble);
+[[nodiscard]] Message to_message(const Cavity& cavity);
+[[nodiscard]] Message to_message(const Event& event);
+[[nodiscard]] Message to_message(const Frame& frame);
+[[nodiscard]] Message to_message(const BodyPose& pose);
+[[nodiscard]] std::optional<Event> to_event(const Message& message);
+[[nodiscard]] std::optional<Frame> to_frame(const Message& message);
+[[nodiscard]] std::optional<BodyPose> to_body_pose(const Message& message);
+
+}  // namespace splash::protocol

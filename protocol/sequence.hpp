@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Watches the sequence numbers of one sender: what is missing, doubled, late or from a new session.
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/event.hpp"
+
+namespace splash::protocol {
+
+enum class Arrival {
+  first,        ///< nothing was heard before
+  in_order,
+  new_session,  ///< the sender was restarted: counting starts anew
+  reordered,    ///< older than the newest, but not seen before: play it
+  duplicate,    ///< seen already: drop it
+};
+
+/// Remembers the last 64 sequence numbers of a session.
+class SequenceWatch {
+ public:
+  Arrival observe(const Frame& frame) noexcept;
+  [[nodiscard]] std::uint64_t received() const noexcept { return received_; }
+  /// Bundles that were skipped and have not come since.
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+  [[nodiscard]] std::uint64_t duplicates() const noexcept { return duplicates_; }
+  [[nodiscard]] std::uint64_t reordered() const noexcept { return reordered_; }
+  [[nodiscard]] std::uint64_t sessions() const noexcept { return sessions_; }
+
+ private:
+  std::int32_t session_ = 0;
+  std::int32_t newest_ = 0;
+  std::uint64_t seen_ = 0;  ///< bit k: newest_ - k was seen
+  std::uint64_t received_ = 0;
+  std::uint64_t lost_ = 0;
+  std::uint64_t duplicates_ = 0;
+  std::uint64_t reordered_ = 0;
+  std::uint64_t sessions_ = 0;
+};
+
+}  // namespace splash::protocol

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A UDP socket of our own, for both servers: bound where it is told (loopback unless asked
+// otherwise), with a large receive buffer and a count of what the kernel dropped.
+#pragma once
+
+#include <netinet/in.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "protocol/gate.hpp"
+
+namespace splash::protocol {
+
+/// An IPv4 address and port.
+struct Endpoint {
+  std::uint32_t address = INADDR_LOOPBACK;  ///< host byte order
+  std::uint16_t port = 0;
+  bool operator==(const Endpoint&) const = default;
+};
+
+/// "host:port", ":port" or "host" -> Endpoint; names are resolved.
+/// Throws std::invalid_argument with the text, the cause and an example.
+[[nodiscard]] Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port);
+[[nodiscard]] std::string to_string(const Endpoint& endpoint);
+
+class UdpSocket {
+ public:
+  /// Binds to `local` (port 0: a free one). Throws std::runtime_error that names the port, the
+  /// cause and what to do.
+  explicit UdpSocket(const Endpoint& local);
+  ~UdpSocket();
+  UdpSocket(UdpSocket&& other) noexcept;
+  UdpSocket& operator=(UdpSocket&&) = delete;
+  UdpSocket(const UdpSocket&) = delete;
+  UdpSocket& operator=(const UdpSocket&) = delete;
+
+  /// False when the kernel refused it (no route, buffer full): UDP may lose, the caller counts.
+  bool send_to(const Endpoint& peer, Bytes packet) noexcept;
+
+  struct Received {
+    std::size_t size = 0;  ///< real size of the datagram, may exceed what fitted the buffer
+    Endpoint from;
+  };
+  /// Waits up to `timeout` seconds (0: not at all) for one datagram. Interrupted waits return
+  /// nothing.
+  [[nodiscard]] std::optional<Received> receive(std::byte* buffer, std::size_t capacity,
+                                                double timeout) noexcept;
+
+  [[nodiscard]] Endpoint local() const noexcept { return local_; }
+  [[nodiscard]] std::uint64_t dropped_by_kernel() const noexcept { return dropped_; }
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+
+ private:
+  int descriptor_ = -1;
+  Endpoint local_;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace splash::protocol

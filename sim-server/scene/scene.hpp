@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// What a scene file says, as plain validated structs. SI units throughout. Read by
+// scene/scene_reader; nothing here knows YAML, OpenCL or OSC.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace splash::sim {
+
+using Vector3 = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  ///< x y z w, unit
+
+/// The water itself and the numbers of its solver.
+struct FluidSettings {
+  double spacing = 0.0;         ///< particle spacing [m]; 0: from `particles`
+  int particles = 0;            ///< wanted number of particles; 0: from `spacing`
+  double density = 998.0;       ///< at rest [kg/m3]
+  double sound_speed = 0.0;     ///< of the weakly compressible model [m/s]; 0: from the scene
+  double viscosity = 1.0e-2;    ///< kinematic [m2/s]
+  double artificial = 0.05;     ///< Monaghan's artificial viscosity alpha [1]
+  double time_step_factor = 1;  ///< multiplies the largest stable time step's safe share [1]
+  Vector3 gravity = {0.0, 0.0, -9.81};  ///< [m/s2]
+};
+
+/// A box open at the top. Its five sides are walls; spray may rise above `upper`.
+struct Tank {
+  Vector3 lower = {0.0, 0.0, 0.0};  ///< [m]
+  Vector3 upper = {1.0, 1.0, 1.0};  ///< [m]
+};
+
+/// A sloped floor: rises from the tank's floor at x = `foot` by `gradient` towards +x.
+struct Slope {
+  bool present = false;
+  double foot = 0.0;      ///< x where it leaves the floor [m]
+  double gradient = 0.1;  ///< rise over run [1]
+};
+
+/// The wall at the smallest x moves as a piston: x = lower.x + stroke/2 (1 - cos(2 pi t/period)).
+struct WaveMaker {
+  bool present = false;
+  double stroke = 0.1;  ///< front to back [m]
+  double period = 2.0;  ///< [s]
+};
+
+/// Water at rest fills the box between `lower` and `upper`, cut by the tank, slope and bodies.
+struct WaterBlock {
+  Vector3 lower = {0.0, 0.0, 0.0};  ///< [m]
+  Vector3 upper = {1.0, 1.0, 0.5};  ///< [m]
+};
+
+enum class ShapeKind { box, sphere, cylinder };
+
+struct Shape {
+  ShapeKind kind = ShapeKind::box;
+  Vector3 size = {0.1, 0.1, 0.1};  ///< box: edges; sphere: diameters (equal); cylinder: diameter,
+                                   ///< diameter, length along z [m]
+  double rocker = 0.0;             ///< box only: the sole curves up at both x ends by this [m]
+};
+
+struct Keyframe {
+  double time = 0.0;                        ///< [s]
+  Vector3 position = {0.0, 0.0, 0.0};       ///< of the body's centre [m]
+  Quaternion rotation = {0.0, 0.0, 0.0, 1.0};  ///< body to world
+};
+
+enum class MotionKind { fixed, script, csv, trc, osc };
+
+struct MotionSettings {
+  MotionKind kind = MotionKind::fixed;
+  bool smooth = true;                ///< script: cubic between keyframes, else straight lines
+  bool repeat = false;               ///< script, csv, trc: start again at the end
+  std::vector<Keyframe> keyframes;   ///< script
+  std::filesystem::path file;        ///< csv, trc
+  std::vector<std::string> markers;  ///< trc: at least three
+  double start = 0.0;                ///< csv, trc: seconds of the recording that are skipped
+};
+
+struct BodySettings {
+  std::string name;
+  Shape shape;
+  Keyframe rest;  ///< pose at the start and, for fixed bodies, for ever
+  MotionSettings motion;
+};
+
+/// Thresholds of the detectors; paper sections 4 and 5.
+struct DetectSettings {
+  double impact_speed = 0.05;     ///< a body approaching the water slower makes no impact [m/s]
+  double impact_lookahead = 0.010;  ///< an impact is announced this long before it happens [s]
+  double impact_release = 0.006;  ///< gap at which a body may make its next impact [m]
+  double bubble_speed = 0.5;      ///< slower particles make no bubbles [m/s]
+  double bubble_gradient = 0.3;   ///< least upward colour gradient, in that of a flat surface [1]
+  double bubble_life = 0.5;       ///< a bubble particle is dropped after this [s]
+  double radius_min = 0.0005;     ///< bubble radii follow r^-radius_exponent [m]
+  double radius_max = 0.030;      ///< [m]
+  double radius_exponent = 10.0 / 3.0;   ///< Deane & Stokes 2002, above the Hinze scale [1]
+  double epsilon_min = 0.01;      ///< excitations follow epsilon^-epsilon_exponent [1]
+  double epsilon_max = 0.1;       ///< [1]
+  double epsilon_exponent = 2.0;  ///< [1]
+  double cavity_colour = 0.5;     ///< colour field c_b above which a bubble seeds a cavity [1]
+  int cavity_bubbles_min = 8;     ///< N_b that is mapped to cavity_radius_min
+  int cavity_bubbles_max = 200;   ///< N_b that is mapped to cavity_radius_max
+  double cavity_radius_min = 0.010;  ///< [m]
+  double cavity_radius_max = 0.100;  ///< [m]
+};
+
+/// Pacing and sending.
+struct ServeSettings {
+  double frame_rate = 250.0;  ///< frames per second: detection, sending and pacing [1/s]
+  double latency_ms = 10.0;   ///< bubbles and cavities are played this long after they happened
+};
+
+struct Scene {
+  std::string name;
+  std::string description;
+  int seed = 1;
+  FluidSettings fluid;
+  Tank tank;
+  Slope slope;
+  WaveMaker wave_maker;
+  std::vector<WaterBlock> water;
+  std::vector<BodySettings> bodies;
+  DetectSettings detect;
+  ServeSettings serve;
+};
+
+}  // namespace splash::sim
