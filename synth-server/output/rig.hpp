@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What the synth drives, as plain validated structs: a list of outputs, each a group of channels
+// with its place in the scene's world, its band and its level. Read by output/rig_reader.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace splash::synth {
+
+enum class OutputKind {
+  tiles,   ///< a floor of square tiles, one channel each
+  single,  ///< one transducer, in a hand or a shoe: one channel
+  stereo,  ///< two loudspeakers or headphones: left, right
+};
+
+/// What an output renders; outside it, channels fall by 24 dB per octave.
+struct Band {
+  double low = 20.0;    ///< -3 dB point of the high-pass [Hz]
+  double high = 750.0;  ///< -3 dB point of the low-pass [Hz]; bubbles born above it are left out
+};
+
+struct Output {
+  std::string name;
+  OutputKind kind = OutputKind::single;
+  Band band;
+  double full_scale = 0.01;  ///< amplitude of a voice that drives the channel to 1.0 [m], as
+                             ///< paper section 5.2 measures amplitudes: A0 = epsilon r
+  double gain_db = 0.0;      ///< on top of that [dB]
+  double ceiling = 0.9;      ///< the device never gets a sample beyond this [full scale]
+  int body = -1;             ///< renders events of this body of the scene only; -1: of all
+  /// tiles: lower corner of tile 0; stereo: middle between the loudspeakers [m].
+  std::array<double, 3> place = {0.0, 0.0, 0.0};
+  int tiles_x = 6;           ///< tiles: columns, along +x
+  int tiles_y = 6;           ///< tiles: rows, along +y
+  double tile_size = 0.305;  ///< tiles: edge of a tile [m]; paper section 6: 30.5 cm
+  double reach = 0.40;       ///< tiles: an event is felt up to this far from a tile's middle [m]
+  double width = 2.0;        ///< stereo: an event this wide from left to right pans fully [m]
+  std::vector<double> trims_db;  ///< gain of each channel [dB]; empty: none
+};
+
+struct Rig {
+  std::string name;
+  std::string description;
+  std::vector<Output> outputs;  ///< their channels follow each other in this order
+};
+
+[[nodiscard]] int channel_count(const Output& output) noexcept;
+[[nodiscard]] int channel_count(const Rig& rig) noexcept;
+
+/// One name per channel, for lists and port maps: "floor/tile/07", "hand", "speakers/left".
+/// Tiles are numbered from the lower corner along +x, then row by row along +y.
+[[nodiscard]] std::vector<std::string> channel_names(const Rig& rig);
+
+/// Throws std::invalid_argument with output, key, value and limit when a rig cannot be rendered.
+void check(const Rig& rig);
+
+}  // namespace splash::synth

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The real-time engine: timed events in, blocks of channels out. Knows events, voices and outputs;
+// no operating system, no allocation after construction, no lock, no exception.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "protocol/event.hpp"
+#include "synth-server/output/rig.hpp"
+#include "synth-server/render/counters.hpp"
+
+namespace splash::synth {
+
+/// The paper's three components (section 5) as bits, so that one can be rendered alone.
+enum Component : unsigned {
+  kImpacts = 1U,
+  kBubbles = 2U,
+  kCavities = 4U,
+  kAllComponents = kImpacts | kBubbles | kCavities,
+};
+
+/// An event and the absolute sample of the engine's clock at which it starts.
+struct TimedEvent {
+  protocol::Event event;
+  std::int64_t sample = 0;
+};
+
+struct EngineSettings {
+  double sample_rate = 48000.0;  ///< [Hz], 8000 to 384000
+  int max_block = 4096;          ///< most frames of one render call, 1 to 65536
+  std::uint64_t seed = 1;        ///< of the impacts' noise
+  bool literal_chirp = true;     ///< sin(2 pi t f(t)) as printed; false: phase is the integral of f
+  double impact_gain = 5.0e-4;   ///< amplitude of an impact at 1 m/s [m]
+  double impact_exponent = 3.0;  ///< amplitude ~ speed^exponent; paper section 5.1.2
+  unsigned components = kAllComponents;
+  int max_voices = 1024;      ///< sounding at once; above it the quietest is faded out
+  int max_scheduled = 16384;  ///< events waiting for their time
+  double start_ramp = 2.0;    ///< fade-in of the first samples [s]; 0 for files
+  bool skip_silent = true;    ///< leave silent channels uncomputed (same samples, less work)
+};
+
+/// Every method but counters() and silence() belongs to one thread, the rendering one.
+/// The samples do not depend on how rendering is cut into blocks.
+class Engine {
+ public:
+  /// Allocates all it will ever use. Throws std::invalid_argument naming the value and its limits.
+  Engine(const Rig& rig, const EngineSettings& settings);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// False, and counted, when the event cannot be rendered or the queue is full. An event of the
+  /// past starts with the next sample.
+  bool schedule(const TimedEvent& timed) noexcept;
+
+  /// Fills `frames` samples (up to max_block) of each channel: channels[c][i], in the rig's order.
+  void render(float* const* channels, int frames) noexcept;
+
+  /// Samples rendered so far.
+  [[nodiscard]] std::int64_t clock() const noexcept;
+
+  /// Drops all scheduled events and fades out the sounding voices.
+  void clear() noexcept;
+
+  /// Fades all channels out (20 ms) or in again; from any thread, heard in the next block.
+  void silence(bool silent) noexcept;
+  /// Whether the fade-out has reached nil: after it a device may be closed without a click.
+  [[nodiscard]] bool silenced() const noexcept;
+
+  /// From any thread.
+  [[nodiscard]] EngineCounters counters() const noexcept;
+
+  [[nodiscard]] int channels() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace splash::synth
