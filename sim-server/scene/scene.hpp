@@ -62,8 +62,8 @@ struct Shape {
 };
 
 struct Keyframe {
-  double time = 0.0;                        ///< [s]
-  Vector3 position = {0.0, 0.0, 0.0};       ///< of the body's centre [m]
+  double time = 0.0;                           ///< [s]
+  Vector3 position = {0.0, 0.0, 0.0};          ///< of the body's centre [m]
   Quaternion rotation = {0.0, 0.0, 0.0, 1.0};  ///< body to world
 };
 
@@ -76,6 +76,7 @@ struct MotionSettings {
   std::vector<Keyframe> keyframes;   ///< script
   std::filesystem::path file;        ///< csv, trc
   std::vector<std::string> markers;  ///< trc: at least three
+  bool sole = false;                 ///< trc: a foot, its underside calibrated to the floor z = 0
   double start = 0.0;                ///< csv, trc: seconds of the recording that are skipped
 };
 
@@ -88,21 +89,21 @@ struct BodySettings {
 
 /// Thresholds of the detectors; paper sections 4 and 5.
 struct DetectSettings {
-  double impact_speed = 0.05;     ///< a body approaching the water slower makes no impact [m/s]
+  double impact_speed = 0.05;       ///< a body approaching the water slower makes no impact [m/s]
   double impact_lookahead = 0.010;  ///< an impact is announced this long before it happens [s]
-  double impact_release = 0.006;  ///< gap at which a body may make its next impact [m]
-  double bubble_speed = 0.5;      ///< slower particles make no bubbles [m/s]
-  double bubble_gradient = 0.3;   ///< least upward colour gradient, in that of a flat surface [1]
-  double bubble_life = 0.5;       ///< a bubble particle is dropped after this [s]
-  double radius_min = 0.0005;     ///< bubble radii follow r^-radius_exponent [m]
-  double radius_max = 0.030;      ///< [m]
-  double radius_exponent = 10.0 / 3.0;   ///< Deane & Stokes 2002, above the Hinze scale [1]
-  double epsilon_min = 0.01;      ///< excitations follow epsilon^-epsilon_exponent [1]
-  double epsilon_max = 0.1;       ///< [1]
-  double epsilon_exponent = 2.0;  ///< [1]
-  double cavity_colour = 0.5;     ///< colour field c_b above which a bubble seeds a cavity [1]
-  int cavity_bubbles_min = 8;     ///< N_b that is mapped to cavity_radius_min
-  int cavity_bubbles_max = 200;   ///< N_b that is mapped to cavity_radius_max
+  double impact_release = 0.006;    ///< gap at which a body may make its next impact [m]
+  double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
+  double bubble_gradient = 0.3;     ///< least upward colour gradient, in that of a flat surface [1]
+  double bubble_life = 0.5;         ///< a bubble particle is dropped after this [s]
+  double radius_min = 0.0005;       ///< bubble radii follow r^-radius_exponent [m]
+  double radius_max = 0.030;        ///< [m]
+  double radius_exponent = 10.0 / 3.0;  ///< Deane & Stokes 2002, above the Hinze scale [1]
+  double epsilon_min = 0.01;            ///< excitations follow epsilon^-epsilon_exponent [1]
+  double epsilon_max = 0.1;             ///< [1]
+  double epsilon_exponent = 2.0;        ///< [1]
+  double cavity_colour = 0.5;        ///< colour field c_b above which a bubble seeds a cavity [1]
+  int cavity_bubbles_min = 8;        ///< N_b that is mapped to cavity_radius_min
+  int cavity_bubbles_max = 200;      ///< N_b that is mapped to cavity_radius_max
   double cavity_radius_min = 0.010;  ///< [m]
   double cavity_radius_max = 0.100;  ///< [m]
 };

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The rows of a scene file that say what is detected and how it is sent.
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+using D = DetectSettings;
+
+Fields<D> impact_fields() {
+  return {
+      {{.key = "impact_speed",
+        .unit = "m/s",
+        .meaning = "A body that approaches the water slower makes no impact.",
+        .min = 0,
+        .max = 10},
+       &D::impact_speed},
+      {{.key = "impact_lookahead",
+        .unit = "s",
+        .meaning = "An impact is announced this long before the surfaces meet.",
+        .min = 0,
+        .max = 0.1},
+       &D::impact_lookahead},
+      {{.key = "impact_release",
+        .unit = "m",
+        .meaning = "Gap to the water at which a body may make its next impact.",
+        .min = 0.0005,
+        .max = 1},
+       &D::impact_release},
+  };
+}
+
+Fields<D> bubble_fields() {
+  return {
+      {{.key = "bubble_speed",
+        .unit = "m/s",
+        .meaning = "Slower particles make no bubbles.",
+        .min = 0,
+        .max = 100,
+        .source = "paper, section 4"},
+       &D::bubble_speed},
+      {{.key = "bubble_gradient",
+        .unit = "1",
+        .meaning = "Least upward colour gradient, in that of a flat surface.",
+        .min = 0,
+        .max = 10,
+        .source = "paper, section 4"},
+       &D::bubble_gradient},
+      {{.key = "bubble_life",
+        .unit = "s",
+        .meaning = "A bubble particle is dropped after this.",
+        .min = 0.01,
+        .max = 60},
+       &D::bubble_life},
+      {{.key = "radius_min",
+        .unit = "m",
+        .meaning = "Smallest bubble radius.",
+        .min = 0.0001,
+        .max = 0.1},
+       &D::radius_min},
+      {{.key = "radius_max",
+        .unit = "m",
+        .meaning = "Largest bubble radius.",
+        .min = 0.0001,
+        .max = 0.1},
+       &D::radius_max},
+      {{.key = "radius_exponent",
+        .unit = "1",
+        .meaning = "Bubble radii r follow r^-exponent.",
+        .min = 0,
+        .max = 10,
+        .source = "Deane & Stokes 2002, above the Hinze scale"},
+       &D::radius_exponent},
+      {{.key = "epsilon_min",
+        .unit = "1",
+        .meaning = "Smallest initial excitation of a bubble, as a part of its radius.",
+        .min = 0.0001,
+        .max = 1},
+       &D::epsilon_min},
+      {{.key = "epsilon_max",
+        .unit = "1",
+        .meaning = "Largest initial excitation of a bubble.",
+        .min = 0.0001,
+        .max = 1,
+        .source = "paper, section 5"},
+       &D::epsilon_max},
+      {{.key = "epsilon_exponent",
+        .unit = "1",
+        .meaning = "Excitations e follow e^-exponent.",
+        .min = 0,
+        .max = 10},
+       &D::epsilon_exponent},
+  };
+}
+
+Fields<D> cavity_fields() {
+  return {
+      {{.key = "cavity_colour",
+        .unit = "1",
+        .meaning = "Bubbles whose colour field c_b is above this seed a cavity.",
+        .min = 0,
+        .max = 10,
+        .source = "paper, section 5.3"},
+       &D::cavity_colour},
+      {{.key = "cavity_bubbles_min",
+        .unit = "1",
+        .meaning = "Number of bubbles N_b that makes the smallest cavity.",
+        .min = 1,
+        .max = 1'000'000},
+       &D::cavity_bubbles_min},
+      {{.key = "cavity_bubbles_max",
+        .unit = "1",
+        .meaning = "Number of bubbles N_b that makes the largest cavity.",
+        .min = 2,
+        .max = 1'000'000},
+       &D::cavity_bubbles_max},
+      {{.key = "cavity_radius_min",
+        .unit = "m",
+        .meaning = "Radius of the smallest cavity.",
+        .min = 0.001,
+        .max = 1},
+       &D::cavity_radius_min},
+      {{.key = "cavity_radius_max",
+        .unit = "m",
+        .meaning = "Radius of the largest cavity.",
+        .min = 0.001,
+        .max = 1},
+       &D::cavity_radius_max},
+  };
+}
+
+}  // namespace
+
+const Fields<DetectSettings>& detect_fields() {
+  static const Fields<D> kFields = [] {
+    Fields<D> all = impact_fields();
+    for (const auto& part : {bubble_fields(), cavity_fields()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }();
+  return kFields;
+}
+
+const Fields<ServeSettings>& serve_fields() {
+  static const Fields<ServeSettings> kFields = {
+      {{.key = "frame_rate",
+        .unit = "1/s",
+        .meaning = "Frames per second: detection, sending and pacing.",
+        .min = 20,
+        .max = 2000},
+       &ServeSettings::frame_rate},
+      {{.key = "latency_ms",
+        .unit = "ms",
+        .meaning = "Bubbles and cavities are played this long after they happened.",
+        .min = 0,
+        .max = 1000},
+       &ServeSettings::latency_ms},
+  };
+  return kFields;
+}
+
+}  // namespace splash::sim

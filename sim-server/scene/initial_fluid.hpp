@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Where the water's particles are before anything moves.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+/// Centres of the particles: a lattice per block of water that fills it exactly, half a spacing
+/// from its sides and above the slope, without those that a body displaces. `poses` are the
+/// bodies' at the start (their times are ignored), one each; without them bodies are where
+/// `rest` says. The order is fixed: x fastest, then y, then z.
+[[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene);
+[[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene,
+                                                     std::span<const Keyframe> poses);
+
+/// Distance from a body's surface [m], negative inside; exact outside up to the rocker, which
+/// counts as part of the box. `point` in the body's own frame.
+[[nodiscard]] double distance_to(const Shape& shape, const Vector3& point);
+
+}  // namespace splash::sim

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splash::sim {
+
+namespace {
+
+/// Integral over [a, b] of max(0, p + q x), exact.
+double positive_area(double a, double b, double p, double q) {
+  if (b <= a) return 0.0;
+  const double left = p + q * a;
+  const double right = p + q * b;
+  if (left >= 0.0 && right >= 0.0) return 0.5 * (left + right) * (b - a);
+  if (left <= 0.0 && right <= 0.0) return 0.0;
+  const double root = -p / q;
+  return left > 0.0 ? 0.5 * left * (root - a) : 0.5 * right * (b - root);
+}
+
+double block_volume(const Scene& scene, const WaterBlock& block) {
+  const double height = block.upper[2] - block.lower[2];
+  const double width = block.upper[1] - block.lower[1];
+  double left = block.lower[0];
+  double area = 0.0;
+  if (!scene.slope.present) return height * width * (block.upper[0] - left);
+  // Up to where the slope reaches the block's underside nothing is cut; from there the depth falls
+  // linearly.
+  const double gradient = scene.slope.gradient;
+  const double cut = scene.slope.foot + (block.lower[2] - scene.tank.lower[2]) / gradient;
+  const double whole = std::clamp(cut, left, block.upper[0]);
+  area += height * (whole - left);
+  left = whole;
+  area += positive_area(left, block.upper[0], height + gradient * cut, -gradient);
+  return area * width;
+}
+
+}  // namespace
+
+double floor_height(const Scene& scene, double x) {
+  if (!scene.slope.present) return scene.tank.lower[2];
+  return scene.tank.lower[2] + scene.slope.gradient * std::max(0.0, x - scene.slope.foot);
+}
+
+double water_volume(const Scene& scene) {
+  double volume = 0.0;
+  for (const auto& block : scene.water) volume += block_volume(scene, block);
+  return volume;
+}
+
+double particle_spacing(const Scene& scene) {
+  if (scene.fluid.spacing > 0.0) return scene.fluid.spacing;
+  return std::cbrt(water_volume(scene) / scene.fluid.particles);
+}
+
+double water_depth(const Scene& scene) {
+  double top = scene.tank.lower[2];
+  for (const auto& block : scene.water) top = std::max(top, block.upper[2]);
+  return top - scene.tank.lower[2];
+}
+
+double scene_sound_speed(const Scene& scene) {
+  if (scene.fluid.sound_speed > 0.0) return scene.fluid.sound_speed;
+  // Monaghan 1994: density stays within (v/c)^2 of rest, so c is ten times the speed of the fastest
+  // wave the depth allows. The floor covers bodies of up to 1.5 m/s, whatever the depth.
+  constexpr double kRatio = 10.0;
+  constexpr double kLeast = 15.0;
+  const auto& g = scene.fluid.gravity;
+  const double wave = std::sqrt(std::hypot(g[0], g[1], g[2]) * water_depth(scene));
+  return std::max(kRatio * wave, kLeast);
+}
+
+}  // namespace splash::sim

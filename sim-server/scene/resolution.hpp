@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// How finely a scene's water is resolved, and how stiff it is: what follows from the whole scene.
+#pragma once
+
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+inline constexpr int kParticlesMin = 100;
+inline constexpr int kParticlesMax = 4'000'000;
+
+/// Height of the floor at `x`, slope included [m].
+[[nodiscard]] double floor_height(const Scene& scene, double x);
+/// Water at rest above the floor and the slope, bodies not subtracted [m3].
+[[nodiscard]] double water_volume(const Scene& scene);
+/// As given, or such that the wanted number of particles fills the water [m].
+[[nodiscard]] double particle_spacing(const Scene& scene);
+/// Deepest water at rest [m].
+[[nodiscard]] double water_depth(const Scene& scene);
+/// As given, or from the depth [m/s].
+[[nodiscard]] double scene_sound_speed(const Scene& scene);
+
+}  // namespace splash::sim

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/scene_reader.hpp"
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "protocol/config.hpp"
+#include "sim-server/scene/scene_rules.hpp"
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+using protocol::ConfigMap;
+
+/// Brings a quaternion to unit length.
+void normalise(const ConfigMap& map, Quaternion& q) {
+  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  if (length < 1.0e-3) throw map.error("rotation", "is no rotation: its length is zero");
+  for (double& part : q) part /= length;
+}
+
+Shape read_shape(const ConfigMap& map) {
+  static const std::map<std::string, ShapeKind> kKinds = {
+      {"box", ShapeKind::box}, {"sphere", ShapeKind::sphere}, {"cylinder", ShapeKind::cylinder}};
+  ShapeEntry entry;
+  map.read(shape_fields(), {}, entry);
+  entry.kind = kKinds.at(entry.kind_name);
+  check_shape(map, entry);
+  return entry;
+}
+
+std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
+  std::vector<Keyframe> keyframes;
+  for (const ConfigMap& map : motion.list("keyframes")) {
+    Keyframe keyframe;
+    map.read(keyframe_fields(), {}, keyframe);
+    normalise(map, keyframe.rotation);
+    if (!keyframes.empty() && keyframe.time <= keyframes.back().time) {
+      throw map.error("time", "is not later than that of the keyframe before");
+    }
+    keyframes.push_back(keyframe);
+  }
+  return keyframes;
+}
+
+/// A key that this kind of motion does not use is a mistake, not a no-op.
+void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
+  static const std::map<std::string, std::set<std::string>> kUsedBy = {
+      {"keyframes", {"script"}}, {"smooth", {"script"}}, {"repeat", {"script", "csv", "trc"}},
+      {"file", {"csv", "trc"}},  {"markers", {"trc"}},   {"sole", {"trc"}},
+      {"start", {"csv", "trc"}}};
+  for (const auto& [key, kinds] : kUsedBy) {
+    if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
+    throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name);
+  }
+}
+
+void check_markers(const ConfigMap& map, const MotionEntry& entry) {
+  if (entry.markers.size() < 3) {
+    throw map.error("markers", "a trc motion needs three or more (got " +
+                                   std::to_string(entry.markers.size()) + ")");
+  }
+  const std::set<std::string> names(entry.markers.begin(), entry.markers.end());
+  if (names.size() < entry.markers.size()) throw map.error("markers", "names a marker twice");
+}
+
+/// The recording's path, made absolute by the scene's folder.
+std::filesystem::path find_file(const ConfigMap& map, const std::string& name) {
+  if (name.empty()) return {};
+  const std::filesystem::path path = map.folder() / name;
+  if (!std::filesystem::is_regular_file(path)) {
+    throw map.error("file", "there is no file " + path.string());
+  }
+  return path;
+}
+
+MotionSettings read_motion(const ConfigMap& map) {
+  static const std::map<std::string, MotionKind> kKinds = {{"fixed", MotionKind::fixed},
+                                                           {"script", MotionKind::script},
+                                                           {"csv", MotionKind::csv},
+                                                           {"trc", MotionKind::trc},
+                                                           {"osc", MotionKind::osc}};
+  MotionEntry entry;
+  map.read(motion_fields(), {"keyframes"}, entry);
+  entry.kind = kKinds.at(entry.kind_name);
+  refuse_foreign_keys(map, entry);
+  entry.keyframes = read_keyframes(map);
+  if (entry.kind == MotionKind::script && entry.keyframes.empty()) {
+    throw map.error("keyframes", "a scripted motion needs at least one");
+  }
+  if (entry.kind == MotionKind::csv && entry.file_name.empty()) {
+    throw map.error("file", "a csv motion needs one");
+  }
+  if (entry.kind == MotionKind::trc) check_markers(map, entry);
+  entry.file = find_file(map, entry.file_name);
+  return entry;
+}
+
+void read_rest(const ConfigMap& map, BodySettings& body) {
+  const MotionKind kind = body.motion.kind;
+  const bool needed = kind == MotionKind::fixed || kind == MotionKind::osc;
+  if (needed) {
+    const ConfigMap rest = map.child("rest");
+    rest.read(rest_fields(), {}, body.rest);
+    normalise(rest, body.rest.rotation);
+    return;
+  }
+  if (map.has("rest")) throw map.error("rest", "the motion already says where the body is");
+  if (!body.motion.keyframes.empty()) body.rest = body.motion.keyframes.front();
+}
+
+BodySettings read_body(const ConfigMap& map) {
+  BodySettings body;
+  map.read(body_fields(), {"shape", "rest", "motion"}, body);
+  if (body.name.empty()) throw map.error("name", "must not be empty");
+  body.shape = read_shape(map.child("shape"));
+  if (const auto motion = map.optional_child("motion")) body.motion = read_motion(*motion);
+  read_rest(map, body);
+  return body;
+}
+
+void read_bodies(const ConfigMap& map, Scene& scene) {
+  std::set<std::string> names;
+  for (const ConfigMap& entry : map.list("bodies")) {
+    scene.bodies.push_back(read_body(entry));
+    const std::string& name = scene.bodies.back().name;
+    if (!names.insert(name).second) {
+      throw entry.error("name", "there is another body named '" + name + "'");
+    }
+  }
+}
+
+void read_basin(const ConfigMap& map, Scene& scene) {
+  const ConfigMap tank = map.child("tank");
+  tank.read(tank_fields(), {}, scene.tank);
+  check_tank(tank, scene.tank);
+  if (const auto slope = map.optional_child("slope")) {
+    slope->read(slope_fields(), {}, scene.slope);
+    scene.slope.present = true;
+    check_slope(*slope, scene.slope, scene.tank);
+  }
+  if (const auto maker = map.optional_child("wave_maker")) {
+    maker->read(wave_maker_fields(), {}, scene.wave_maker);
+    scene.wave_maker.present = true;
+    check_wave_maker(*maker, scene.wave_maker, scene.tank);
+  }
+  for (const ConfigMap& entry : map.list("water")) {
+    WaterBlock block;
+    entry.read(water_fields(), {}, block);
+    check_water(entry, block, scene.tank, scene.water);
+    scene.water.push_back(block);
+  }
+  if (scene.water.empty()) throw map.error("water", "the scene needs at least one block of water");
+}
+
+Scene build(const ConfigMap& map, const std::string& file_stem) {
+  Scene scene;
+  map.read(scene_fields(),
+           {"fluid", "tank", "slope", "wave_maker", "water", "bodies", "detect", "serve"}, scene);
+  if (scene.name.empty()) scene.name = file_stem;
+  read_basin(map, scene);
+  const ConfigMap fluid = map.child("fluid");
+  fluid.read(fluid_fields(), {}, scene.fluid);
+  check_resolution(fluid, scene);
+  read_bodies(map, scene);
+  if (const auto detect = map.optional_child("detect")) {
+    detect->read(detect_fields(), {}, scene.detect);
+    check_detect(*detect, scene.detect);
+  }
+  if (const auto serve = map.optional_child("serve")) serve->read(serve_fields(), {}, scene.serve);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path) {
+  return build(ConfigMap::load(path), path.stem().string());
+}
+
+Scene parse_scene(const std::string& text, const std::string& file_name) {
+  return build(ConfigMap::parse(text, file_name), std::filesystem::path(file_name).stem().string());
+}
+
+}  // namespace splash::sim

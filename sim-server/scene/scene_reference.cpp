@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/scene_reference.hpp"
+
+#include <cstddef>
+#include <iomanip>
+#include <sstream>
+#include <type_traits>
+
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+void print(std::ostream& out, double value) {
+  out << std::setprecision(6) << value;
+}
+void print(std::ostream& out, int value) {
+  out << value;
+}
+void print(std::ostream& out, bool value) {
+  out << (value ? "true" : "false");
+}
+void print(std::ostream& out, const std::string& value) {
+  out << value;
+}
+
+template <class List>
+void print(std::ostream& out, const List& values) {
+  if (values.size() == 0) return;
+  out << '[';
+  const char* separator = "";
+  for (const auto& value : values) {
+    out << separator;
+    print(out, value);
+    separator = ", ";
+  }
+  out << ']';
+}
+
+/// Zero stands for "not given" where it is outside the row's range.
+template <class Value>
+bool is_default(const protocol::Row& row, const Value& value) {
+  if (row.required) return false;
+  if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
+    return static_cast<double>(value) >= row.min;
+  }
+  return true;
+}
+
+template <class Struct>
+std::string section(const std::string& heading, const Fields<Struct>& fields) {
+  const Struct defaults;
+  std::vector<protocol::Row> rows;
+  std::vector<std::string> texts;
+  for (const auto& field : fields) {
+    rows.push_back(field.row);
+    std::ostringstream text;
+    std::visit(
+        [&](auto member) {
+          if (is_default(field.row, defaults.*member)) print(text, defaults.*member);
+        },
+        field.member);
+    texts.push_back(text.str());
+  }
+  return heading + "\n\n" + protocol::describe(rows, texts) + "\n";
+}
+
+}  // namespace
+
+std::string scene_reference() {
+  return section("### At the top", scene_fields()) + section("### `fluid`", fluid_fields()) +
+         section("### `tank`", tank_fields()) + section("### `slope` (optional)", slope_fields()) +
+         section("### `wave_maker` (optional): the wall at the smallest x is a piston",
+                 wave_maker_fields()) +
+         section("### `water`: a list", water_fields()) +
+         section("### `bodies`: a list", body_fields()) +
+         section("### `shape` of a body", shape_fields()) +
+         section("### `rest` of a body (kinds `fixed` and `osc`)", rest_fields()) +
+         section("### `motion` of a body (optional)", motion_fields()) +
+         section("### `keyframes` of a scripted motion: a list", keyframe_fields()) +
+         section("### `detect` (optional)", detect_fields()) +
+         section("### `serve` (optional)", serve_fields());
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/scene_rules.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "sim-server/scene/resolution.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+using protocol::ConfigMap;
+
+constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+/// Positions this close count as equal [m].
+constexpr double kTouch = 1.0e-9;
+
+std::string text(double value) {
+  std::string digits = std::to_string(value);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits;
+}
+
+void check_corners(const ConfigMap& map, const Vector3& lower, const Vector3& upper) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (upper[i] > lower[i]) continue;
+    throw map.error("upper", std::string(kAxes[i]) + " is " + text(upper[i]) +
+                                 ", not above that of 'lower' (" + text(lower[i]) + ")");
+  }
+}
+
+bool overlap(const WaterBlock& a, const WaterBlock& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (a.upper[i] <= b.lower[i] + kTouch || b.upper[i] <= a.lower[i] + kTouch) return false;
+  }
+  return true;
+}
+
+void check_order(const ConfigMap& map, const std::string& low_key, double low,
+                 const std::string& high_key, double high) {
+  if (high > low) return;
+  throw map.error(
+      map.has(high_key) || !map.has(low_key) ? high_key : low_key,
+      high_key + " is " + text(high) + ", not above " + low_key + " (" + text(low) + ")");
+}
+
+}  // namespace
+
+void check_tank(const ConfigMap& map, const Tank& tank) {
+  check_corners(map, tank.lower, tank.upper);
+}
+
+void check_slope(const ConfigMap& map, const Slope& slope, const Tank& tank) {
+  if (slope.foot < tank.lower[0] || slope.foot >= tank.upper[0]) {
+    throw map.error("foot", text(slope.foot) + " is outside the tank, whose x goes from " +
+                                text(tank.lower[0]) + " to " + text(tank.upper[0]));
+  }
+  const double top = tank.lower[2] + slope.gradient * (tank.upper[0] - slope.foot);
+  if (top > tank.upper[2]) {
+    throw map.error("gradient", "the slope ends at a height of " + text(top) +
+                                    " m, above the tank's upper z (" + text(tank.upper[2]) +
+                                    "); make it flatter or the tank higher");
+  }
+}
+
+void check_wave_maker(const ConfigMap& map, const WaveMaker& maker, const Tank& tank) {
+  const double half = 0.5 * (tank.upper[0] - tank.lower[0]);
+  if (maker.stroke < half) return;
+  throw map.error(
+      "stroke", text(maker.stroke) + " is not below half the tank's length (" + text(half) + " m)");
+}
+
+void check_water(const ConfigMap& map, const WaterBlock& block, const Tank& tank,
+                 const std::vector<WaterBlock>& blocks) {
+  check_corners(map, block.lower, block.upper);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string axis = kAxes[i];
+    if (block.lower[i] < tank.lower[i] - kTouch) {
+      throw map.error("lower", axis + " is " + text(block.lower[i]) +
+                                   ", outside the tank, which begins at " + text(tank.lower[i]));
+    }
+    if (block.upper[i] > tank.upper[i] + kTouch) {
+      throw map.error("upper", axis + " is " + text(block.upper[i]) +
+                                   ", outside the tank, which ends at " + text(tank.upper[i]));
+    }
+  }
+  for (const auto& other : blocks) {
+    if (overlap(block, other)) throw map.error("lower", "this water overlaps a block before it");
+  }
+}
+
+void check_shape(const ConfigMap& map, const Shape& shape) {
+  const bool round = shape.kind != ShapeKind::box;
+  if (round && shape.size[0] != shape.size[1]) {
+    throw map.error("size", "x and y are diameters and must be equal (got " + text(shape.size[0]) +
+                                " and " + text(shape.size[1]) + ")");
+  }
+  if (shape.kind == ShapeKind::sphere && shape.size[0] != shape.size[2]) {
+    throw map.error("size", "a sphere's three diameters must be equal");
+  }
+  if (round && shape.rocker > 0.0) {
+    throw map.error("rocker", "only a box can have one");
+  }
+  if (shape.rocker >= shape.size[2]) {
+    throw map.error("rocker", text(shape.rocker) + " is not below the box's height (" +
+                                  text(shape.size[2]) + " m)");
+  }
+}
+
+void check_detect(const ConfigMap& map, const DetectSettings& d) {
+  check_order(map, "radius_min", d.radius_min, "radius_max", d.radius_max);
+  check_order(map, "epsilon_min", d.epsilon_min, "epsilon_max", d.epsilon_max);
+  check_order(map, "cavity_bubbles_min", d.cavity_bubbles_min, "cavity_bubbles_max",
+              d.cavity_bubbles_max);
+  check_order(map, "cavity_radius_min", d.cavity_radius_min, "cavity_radius_max",
+              d.cavity_radius_max);
+}
+
+void check_resolution(const ConfigMap& fluid, const Scene& scene) {
+  if (fluid.has("spacing") == fluid.has("particles")) {
+    throw fluid.error(fluid.has("spacing") ? "spacing" : "particles",
+                      "give exactly one of 'spacing' and 'particles'");
+  }
+  const std::string key = fluid.has("spacing") ? "spacing" : "particles";
+  const double volume = water_volume(scene);
+  if (volume <= 0.0) throw fluid.error(key, "no water is left above the slope");
+  const double spacing = particle_spacing(scene);
+  const double number = volume / (spacing * spacing * spacing);
+  if (number < kParticlesMin || number > kParticlesMax) {
+    throw fluid.error(key, "makes " + text(std::round(number)) + " particles, allowed are " +
+                               std::to_string(kParticlesMin) + " to " +
+                               std::to_string(kParticlesMax));
+  }
+  for (const auto& block : scene.water) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (block.upper[i] - block.lower[i] >= spacing) continue;
+      throw fluid.error(key, "makes particles " + text(spacing) + " m apart, but a block of " +
+                                 "water is only " + text(block.upper[i] - block.lower[i]) +
+                                 " m thick along " + kAxes[i]);
+    }
+  }
+}
+
+}  // namespace splash::sim

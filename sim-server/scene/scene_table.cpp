@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+
+const Fields<Scene>& scene_fields() {
+  static const Fields<Scene> kFields = {
+      {{.key = "name",
+        .unit = "",
+        .meaning = "Short name for logs and reports; the file's name if left out."},
+       &Scene::name},
+      {{.key = "description", .unit = "", .meaning = "One sentence for people."},
+       &Scene::description},
+      {{.key = "seed",
+        .unit = "1",
+        .meaning = "Seed of every random draw: same scene, same seed, same events.",
+        .min = 0,
+        .max = 2147483647},
+       &Scene::seed},
+  };
+  return kFields;
+}
+
+const Fields<FluidSettings>& fluid_fields() {
+  using F = FluidSettings;
+  static const Fields<F> kFields = {
+      {{.key = "spacing",
+        .unit = "m",
+        .meaning = "Particle spacing at rest. Give this or `particles`, not both.",
+        .min = 0.001,
+        .max = 0.2},
+       &F::spacing},
+      {{.key = "particles",
+        .unit = "1",
+        .meaning = "Wanted number of particles; the spacing follows from the water's volume.",
+        .min = 100,
+        .max = 4'000'000},
+       &F::particles},
+      {{.key = "density",
+        .unit = "kg/m3",
+        .meaning = "Density at rest.",
+        .min = 100,
+        .max = 5000,
+        .source = "fresh water at 21 C"},
+       &F::density},
+      {{.key = "sound_speed",
+        .unit = "m/s",
+        .meaning = "Speed of sound of the weakly compressible model; left out: from the depth and "
+                   "the speeds in the scene.",
+        .min = 1,
+        .max = 1500,
+        .source = "Monaghan 1994: ten times the largest speed keeps density within 1 %"},
+       &F::sound_speed},
+      {{.key = "viscosity",
+        .unit = "m2/s",
+        .meaning = "Kinematic viscosity of the laminar term.",
+        .min = 0,
+        .max = 1},
+       &F::viscosity},
+      {{.key = "artificial",
+        .unit = "1",
+        .meaning = "Monaghan's artificial viscosity alpha.",
+        .min = 0,
+        .max = 2,
+        .source = "Monaghan 1992"},
+       &F::artificial},
+      {{.key = "time_step_factor",
+        .unit = "1",
+        .meaning = "Multiplies the safe time step; smaller is slower and steadier.",
+        .min = 0.05,
+        .max = 2},
+       &F::time_step_factor},
+      {{.key = "gravity",
+        .unit = "m/s2",
+        .meaning = "Acceleration of gravity, x y z.",
+        .min = -100,
+        .max = 100,
+        .source = "standard gravity"},
+       &F::gravity},
+  };
+  return kFields;
+}
+
+const Fields<Tank>& tank_fields() {
+  static const Fields<Tank> kFields = {
+      {{.key = "lower",
+        .unit = "m",
+        .meaning = "Corner with the smallest x y z; its z is the floor.",
+        .min = -100,
+        .max = 100,
+        .required = true},
+       &Tank::lower},
+      {{.key = "upper",
+        .unit = "m",
+        .meaning = "Opposite corner; the top is open and spray may rise above it.",
+        .min = -100,
+        .max = 100,
+        .required = true},
+       &Tank::upper},
+  };
+  return kFields;
+}
+
+const Fields<Slope>& slope_fields() {
+  static const Fields<Slope> kFields = {
+      {{.key = "foot",
+        .unit = "m",
+        .meaning = "x at which the slope leaves the tank's floor.",
+        .min = -100,
+        .max = 100,
+        .required = true},
+       &Slope::foot},
+      {{.key = "gradient",
+        .unit = "1",
+        .meaning = "Rise over run towards +x.",
+        .min = 0.001,
+        .max = 2},
+       &Slope::gradient},
+  };
+  return kFields;
+}
+
+const Fields<WaveMaker>& wave_maker_fields() {
+  static const Fields<WaveMaker> kFields = {
+      {{.key = "stroke",
+        .unit = "m",
+        .meaning = "Way of the piston from back to front.",
+        .min = 0.001,
+        .max = 5},
+       &WaveMaker::stroke},
+      {{.key = "period", .unit = "s", .meaning = "Time of one wave.", .min = 0.2, .max = 60},
+       &WaveMaker::period},
+  };
+  return kFields;
+}
+
+const Fields<WaterBlock>& water_fields() {
+  static const Fields<WaterBlock> kFields = {
+      {{.key = "lower",
+        .unit = "m",
+        .meaning = "Corner of the water at rest with the smallest x y z.",
+        .min = -100,
+        .max = 100,
+        .required = true},
+       &WaterBlock::lower},
+      {{.key = "upper",
+        .unit = "m",
+        .meaning = "Opposite corner; its z is the water's level.",
+        .min = -100,
+        .max = 100,
+        .required = true},
+       &WaterBlock::upper},
+  };
+  return kFields;
+}
+
+const Fields<BodySettings>& body_fields() {
+  static const Fields<BodySettings> kFields = {
+      {{.key = "name", .unit = "", .meaning = "Its name, unlike any other's.", .required = true},
+       &BodySettings::name},
+  };
+  return kFields;
+}
+
+const Fields<ShapeEntry>& shape_fields() {
+  using S = ShapeEntry;
+  static const Fields<S> kFields = {
+      {{.key = "kind",
+        .unit = "",
+        .meaning = "The form.",
+        .choices = {"box", "sphere", "cylinder"}},
+       &S::kind_name},
+      {{.key = "size",
+        .unit = "m",
+        .meaning = "box: edges x y z; sphere: its diameter thrice; cylinder: diameter, diameter, "
+                   "length along z.",
+        .min = 0.005,
+        .max = 10,
+        .required = true},
+       &S::size},
+      {{.key = "rocker",
+        .unit = "m",
+        .meaning = "box only: its underside curves up at both x ends by this, like a sole.",
+        .min = 0,
+        .max = 1},
+       &S::rocker},
+  };
+  return kFields;
+}
+
+namespace {
+
+protocol::Field<Keyframe> position_field(bool required) {
+  return {{.key = "position",
+           .unit = "m",
+           .meaning = "Of the body's centre.",
+           .min = -100,
+           .max = 100,
+           .required = required},
+          &Keyframe::position};
+}
+
+protocol::Field<Keyframe> rotation_field() {
+  return {{.key = "rotation",
+           .unit = "1",
+           .meaning = "Quaternion x y z w, body to world; brought to unit length.",
+           .min = -1,
+           .max = 1},
+          &Keyframe::rotation};
+}
+
+}  // namespace
+
+const Fields<Keyframe>& rest_fields() {
+  static const Fields<Keyframe> kFields = {position_field(true), rotation_field()};
+  return kFields;
+}
+
+const Fields<Keyframe>& keyframe_fields() {
+  static const Fields<Keyframe> kFields = {{{.key = "time",
+                                             .unit = "s",
+                                             .meaning = "Later than the keyframe before.",
+                                             .min = 0,
+                                             .max = 86400,
+                                             .required = true},
+                                            &Keyframe::time},
+                                           position_field(true),
+                                           rotation_field()};
+  return kFields;
+}
+
+const Fields<MotionEntry>& motion_fields() {
+  using M = MotionEntry;
+  static const Fields<M> kFields = {
+      {{.key = "kind",
+        .unit = "",
+        .meaning = "fixed: stays at rest; script: keyframes; csv: poses from a file; trc: markers "
+                   "from a file; osc: /body/pose messages.",
+        .choices = {"fixed", "script", "csv", "trc", "osc"}},
+       &M::kind_name},
+      {{.key = "smooth",
+        .unit = "",
+        .meaning = "script: no corner and no overshoot between keyframes; false: straight lines "
+                   "at constant speed."},
+       &M::smooth},
+      {{.key = "repeat",
+        .unit = "",
+        .meaning = "script, csv, trc: start again at the end; the last pose must be the first."},
+       &M::repeat},
+      {{.key = "file",
+        .unit = "",
+        .meaning = "csv, trc: the recording, relative to the scene file. A trc body without one "
+                   "needs --tracker FILE."},
+       &M::file_name},
+      {{.key = "markers",
+        .unit = "",
+        .meaning = "trc: three or more names of markers on the body. The first two give its x "
+                   "axis (heel and toe of a foot)."},
+       &M::markers},
+      {{.key = "sole",
+        .unit = "",
+        .meaning = "trc: the body is a foot; its underside is calibrated from the stance so that "
+                   "it touches the floor z = 0."},
+       &M::sole},
+      {{.key = "start",
+        .unit = "s",
+        .meaning = "csv, trc: seconds of the recording that are skipped.",
+        .min = 0,
+        .max = 86400},
+       &M::start},
+  };
+  return kFields;
+}
+
+}  // namespace splash::sim

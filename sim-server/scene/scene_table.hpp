@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Every key of a scene file, one row each. The reader, its error texts and the reference page in
+// configs/README.md all come from these tables.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/config.hpp"
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+template <class Struct>
+using Fields = std::vector<protocol::Field<Struct>>;
+
+/// A shape as its mapping spells it: the kind is still a word.
+struct ShapeEntry : Shape {
+  std::string kind_name = "box";
+};
+
+/// A motion as its mapping spells it: the kind is still a word, the file relative to the scene.
+struct MotionEntry : MotionSettings {
+  std::string kind_name = "fixed";
+  std::string file_name;
+};
+
+[[nodiscard]] const Fields<Scene>& scene_fields();
+[[nodiscard]] const Fields<FluidSettings>& fluid_fields();
+[[nodiscard]] const Fields<Tank>& tank_fields();
+[[nodiscard]] const Fields<Slope>& slope_fields();
+[[nodiscard]] const Fields<WaveMaker>& wave_maker_fields();
+[[nodiscard]] const Fields<WaterBlock>& water_fields();
+[[nodiscard]] const Fields<BodySettings>& body_fields();
+[[nodiscard]] const Fields<ShapeEntry>& shape_fields();
+[[nodiscard]] const Fields<Keyframe>& rest_fields();
+[[nodiscard]] const Fields<Keyframe>& keyframe_fields();
+[[nodiscard]] const Fields<MotionEntry>& motion_fields();
+[[nodiscard]] const Fields<DetectSettings>& detect_fields();
+[[nodiscard]] const Fields<ServeSettings>& serve_fields();
+
+}  // namespace splash::sim
