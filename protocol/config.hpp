@@ -28,17 +28,21 @@ class ConfigError : public std::runtime_error {
  public:
   ConfigError(const Place& place, const std::string& reason);
   [[nodiscard]] const Place& place() const noexcept { return place_; }
+  /// The same error, followed by "; did you mean 'name'?".
+  [[nodiscard]] static ConfigError with_suggestion(const ConfigError& error,
+                                                   const std::string& name);
 
  private:
   Place place_;
+  std::string reason_;
 };
 
 inline constexpr int kExitConfig = 78;
 
 struct Row {
   std::string key;
-  std::string unit;     ///< "m", "1", "" for text
-  std::string meaning;  ///< one sentence
+  std::string unit;                                       ///< "m", "1", "" for text
+  std::string meaning;                                    ///< one sentence
   double min = -std::numeric_limits<double>::infinity();  ///< allowed, inclusive
   double max = std::numeric_limits<double>::infinity();
   bool required = false;

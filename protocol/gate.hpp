@@ -15,20 +15,20 @@ using Bytes = std::span<const std::byte>;
 enum class Refusal {
   none,
   empty,
-  too_long,         ///< over kMaxDatagram
-  not_aligned,      ///< length no multiple of four
-  bad_address,      ///< not [a-z0-9/_.A-Z-], not closed, over kMaxString: patterns are refused
-  bad_tags,         ///< a type besides i f s t, or no type string
+  too_long,     ///< over kMaxDatagram
+  not_aligned,  ///< length no multiple of four
+  bad_address,  ///< not [a-z0-9/_.A-Z-], not closed, over kMaxString: patterns are refused
+  bad_tags,     ///< a type besides i f s t, or no type string
   too_many_arguments,
-  truncated,        ///< an argument or element passes the end
-  bad_padding,      ///< a padding byte that is not zero
-  not_finite,       ///< a float that is NaN or infinite
-  bad_string,       ///< not printable, or over kMaxString
-  bad_element,      ///< a bundle element of size zero, odd or past the end
-  nested,           ///< a bundle inside a bundle
+  truncated,    ///< an argument or element passes the end
+  bad_padding,  ///< a padding byte that is not zero
+  not_finite,   ///< a float that is NaN or infinite
+  bad_string,   ///< not printable, or over kMaxString
+  bad_element,  ///< a bundle element of size zero, odd or past the end
+  nested,       ///< a bundle inside a bundle
   too_many_messages,
-  left_over,        ///< bytes behind the last argument
-  count_            ///< number of reasons
+  left_over,  ///< bytes behind the last argument
+  count_      ///< number of reasons
 };
 
 /// Whether `packet` is a message or a one-level bundle of messages that keeps all limits.

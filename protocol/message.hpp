@@ -34,6 +34,11 @@ struct Packet {
 [[nodiscard]] std::vector<std::byte> encode(const Message& message);
 [[nodiscard]] std::vector<std::byte> encode(TimeTag time, const std::vector<Message>& messages);
 
+/// The message's type string, e.g. ",iff", and the bytes it takes on the wire (in a bundle four
+/// more, its size). A bundle has 16 bytes besides its messages.
+[[nodiscard]] std::string type_tags(const Message& message);
+[[nodiscard]] std::size_t encoded_size(const Message& message) noexcept;
+
 /// Our own reader. Gates first; an accepted packet always decodes.
 struct DecodeResult {
   Refusal refusal = Refusal::none;

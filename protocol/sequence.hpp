@@ -9,11 +9,11 @@
 namespace splash::protocol {
 
 enum class Arrival {
-  first,        ///< nothing was heard before
+  first,  ///< nothing was heard before
   in_order,
   new_session,  ///< the sender was restarted: counting starts anew
   reordered,    ///< older than the newest, but not seen before: play it
-  duplicate,    ///< seen already: drop it
+  duplicate,    ///< seen already, or too old to know: drop it
 };
 
 /// Remembers the last 64 sequence numbers of a session.
@@ -28,9 +28,15 @@ class SequenceWatch {
   [[nodiscard]] std::uint64_t sessions() const noexcept { return sessions_; }
 
  private:
+  void restart(const Frame& frame) noexcept;
+  Arrival advance(std::int32_t ahead, const Frame& frame) noexcept;
+  Arrival look_back(std::int32_t behind, const Frame& frame) noexcept;
+
   std::int32_t session_ = 0;
   std::int32_t newest_ = 0;
-  std::uint64_t seen_ = 0;  ///< bit k: newest_ - k was seen
+  std::uint64_t seen_ = 0;     ///< bit k: newest_ - k was seen
+  std::uint64_t missing_ = 0;  ///< bit k: newest_ - k was skipped and has not come since
+  std::int32_t stale_ = 0;     ///< frames too old to remember since the last newer one
   std::uint64_t received_ = 0;
   std::uint64_t lost_ = 0;
   std::uint64_t duplicates_ = 0;

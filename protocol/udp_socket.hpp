@@ -51,6 +51,8 @@ class UdpSocket {
 
   [[nodiscard]] Endpoint local() const noexcept { return local_; }
   [[nodiscard]] std::uint64_t dropped_by_kernel() const noexcept { return dropped_; }
+  /// Bytes of receive buffer the kernel granted (it counts its own overhead in them).
+  [[nodiscard]] std::size_t receive_buffer() const noexcept;
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
  private:

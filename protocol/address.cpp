@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// The table itself, and what it says of a message.
+#include "protocol/address.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "protocol/limits.hpp"
+
+namespace splash::protocol {
+namespace {
+
+constexpr double kLastId = kCounterWrap - 1;
+constexpr double kReach = 1000.0;  // a scene's coordinates [m]
+constexpr double kLastInt = 2147483647.0;
+
+constexpr ArgumentRow count_row(std::string_view name, std::string_view meaning) {
+  return {'i', name, "1", 0, kLastId, meaning};
+}
+constexpr ArgumentRow coordinate(std::string_view name, std::string_view meaning) {
+  return {'f', name, "m", -kReach, kReach, meaning};
+}
+constexpr ArgumentRow component(std::string_view name, std::string_view meaning) {
+  // A little over 1: trackers round.
+  return {'f', name, "1", -1.01, 1.01, meaning};
+}
+constexpr ArgumentRow text(std::string_view name, std::string_view meaning) {
+  return {'s', name, "", 0, 0, meaning};
+}
+constexpr ArgumentRow stamp(std::string_view name, std::string_view meaning) {
+  return {'t', name, "", 0, 0, meaning};
+}
+constexpr ArgumentRow program(std::string_view name) {
+  return {'s', "program", "", 0, 0, "who answers", name};
+}
+
+constexpr ArgumentRow kOffset = {'f', "offset_ms", "ms",
+                                 0,   10000,       "moment of the event after its bundle's time"};
+constexpr ArgumentRow kNearestBody = {'i', "body", "1",
+                                      -1,  255,    "nearest body of the scene, -1: none"};
+
+constexpr ArgumentRow kFrame[] = {
+    {'i', "session", "1", 1, kLastId, "drawn at the sender's start: a new one means a restart"},
+    count_row("sequence", "counts the sender's bundles, wraps at 2^24"),
+    count_row("step", "simulation step the bundle speaks of, wraps at 2^24"),
+    {'f', "delay_ms", "ms", -10000, 10000,
+     "from sending to the bundle's time, for receivers that cannot read time tags"}};
+constexpr ArgumentRow kImpact[] = {
+    count_row("id", "counts the impacts of a session, wraps at 2^24"),
+    {'i', "body", "1", -1, 255, "index of the body in the scene, -1: none"},
+    {'f', "speed", "m/s", 0, 100, "speed of the touching point of the body"},
+    {'f', "approach", "m/s", 0, 100, "its part along the water surface's normal"},
+    coordinate("x", "where the surfaces meet"),
+    coordinate("y", "to the left of x, seen from above"),
+    coordinate("z", "upwards"),
+    kOffset};
+constexpr ArgumentRow kBubble[] = {
+    count_row("id", "counts the bubbles of a session, wraps at 2^24"),
+    kNearestBody,
+    {'f', "radius", "m", 1e-4, 1, "of the bubble at rest"},
+    {'f', "epsilon", "1", 0, 1, "initial excitation as a part of the radius"},
+    coordinate("x", "where the air was entrapped"),
+    coordinate("y", "to the left of x, seen from above"),
+    coordinate("z", "upwards"),
+    kOffset};
+constexpr ArgumentRow kCavity[] = {
+    count_row("id", "counts the cavities of a session, wraps at 2^24"),
+    kNearestBody,
+    {'f', "radius", "m", 1e-4, 1, "of the sphere that holds the cavity's air"},
+    {'f', "epsilon", "1", 0, 1, "initial excitation as a part of the radius"},
+    coordinate("x", "the cavity's centre"),
+    coordinate("y", "to the left of x, seen from above"),
+    coordinate("z", "upwards"),
+    kOffset};
+constexpr ArgumentRow kBodyPose[] = {
+    {'i', "body", "1", 0, 255, "index of the body in the scene"},
+    coordinate("x", "the body's origin"),
+    coordinate("y", "to the left of x, seen from above"),
+    coordinate("z", "upwards"),
+    component("qx", "unit quaternion, body to world; its length may be off by 1 %"),
+    component("qy", "same"),
+    component("qz", "same"),
+    component("qw", "same, the real part")};
+constexpr ArgumentRow kForce[] = {{'i', "body", "1", 0, 255, "index of the body in the scene"},
+                                  {'f', "fx", "N", -1e6, 1e6, "force of the water on the body"},
+                                  {'f', "fy", "N", -1e6, 1e6, "same"},
+                                  {'f', "fz", "N", -1e6, 1e6, "same, upwards"},
+                                  {'f', "tx", "N m", -1e6, 1e6, "torque about the body's origin"},
+                                  {'f', "ty", "N m", -1e6, 1e6, "same"},
+                                  {'f', "tz", "N m", -1e6, 1e6, "same"}};
+
+constexpr ArgumentRow kNotify[] = {
+    {'i', "streams", "1", 0, 3, "sum of 1: events, 2: forces; 0 ends both"}};
+constexpr ArgumentRow kSync[] = {{'i', "id", "1", -kLastInt - 1, kLastInt, "returned in /synced"}};
+constexpr ArgumentRow kDumpOsc[] = {
+    {'i', "level", "1", 0, 3, "0: off, 1: text, 2: hexadecimal, 3: both"}};
+constexpr ArgumentRow kError[] = {
+    {'i', "on", "1", 0, 1, "1: failures are reported in the log, 0: not"}};
+constexpr ArgumentRow kPing[] = {stamp("t0", "sender's clock when it sent the ping")};
+
+constexpr ArgumentRow kDone[] = {
+    text("command", "address of the command"),
+    {'i', "value", "1", -kLastInt - 1, kLastInt, "its result, if it has one", {}, true}};
+constexpr ArgumentRow kFail[] = {text("command", "address of the command"),
+                                 text("reason", "why, and what is allowed; cut at 64 characters")};
+constexpr ArgumentRow kSynced[] = {{'i', "id", "1", -kLastInt - 1, kLastInt, "as given to /sync"}};
+constexpr ArgumentRow kPong[] = {stamp("t0", "as given to /ping"),
+                                 stamp("t1", "answerer's clock when the ping came"),
+                                 stamp("t2", "answerer's clock when it sent this")};
+constexpr ArgumentRow kVersionReply[] = {text("program", "sim-server or synth-server"),
+                                         count_row("major", "version"),
+                                         count_row("minor", "version"),
+                                         count_row("patch", "version"),
+                                         text("branch", "of the source, may be empty"),
+                                         text("hash", "of the source, may be empty")};
+
+constexpr ArgumentRow kSynthStatus[] = {
+    program("synth-server"),
+    count_row("voices", "sounding now"),
+    count_row("events", "events taken"),
+    count_row("late", "events that came after their moment"),
+    count_row("early", "events too far ahead of their moment"),
+    count_row("lost", "bundles that never came"),
+    count_row("duplicates", "bundles that came twice"),
+    count_row("refused", "datagrams stopped by the gate or the address table"),
+    count_row("dropped", "events without a free voice or queue place"),
+    count_row("xruns", "missed deadlines of the audio device"),
+    {'f', "cpu_average", "%", 0, 10000, "rendering time in its block's time, mean"},
+    {'f', "cpu_peak", "%", 0, 10000, "rendering time in its block's time, largest"},
+    {'f', "sample_rate", "Hz", 0, 1e6, "of the output"},
+    count_row("silenced", "blocks the output guard had to silence")};
+constexpr ArgumentRow kSimStatus[] = {
+    program("sim-server"),
+    count_row("particles", "fluid particles in the scene"),
+    count_row("steps", "simulation steps done"),
+    count_row("impacts", "impacts sent"),
+    count_row("bubbles", "bubbles sent"),
+    count_row("cavities", "cavities sent"),
+    count_row("late", "frames that overran real time"),
+    count_row("unsent", "datagrams the network refused"),
+    count_row("refused", "datagrams stopped by the gate or the address table"),
+    count_row("resets", "times the solver had to recover"),
+    count_row("skipped", "stages of the step skipped as needless"),
+    {'f', "real_time_factor", "1", 0, 1e6, "simulated time in wall time, last second"},
+    {'f', "steps_per_second", "1/s", 0, 1e6, "last second"},
+    {'f', "density_error", "1", 0, 10, "mean of |density / density at rest - 1|"}};
+
+constexpr auto kTable = std::to_array<AddressRow>({
+    {"/frame", Direction::to_synth, "Opens each bundle; alone in its bundle it is the heartbeat",
+     kFrame},
+    {"/impact", Direction::to_synth, "A body met the water's surface", kImpact},
+    {"/bubble", Direction::to_synth, "A pocket of air was entrapped", kBubble},
+    {"/cavity", Direction::to_synth, "The cavity behind a body closed", kCavity},
+    {"/body/pose", Direction::to_sim, "Pose of a tracked body", kBodyPose},
+    {"/force", Direction::subscribers, "Force and torque of the water on a body", kForce},
+    {"/notify", Direction::to_both, "Subscribes the sender to streams; answered by /done", kNotify},
+    {"/status", Direction::to_both, "Asks for /status.reply", {}},
+    {"/version", Direction::to_both, "Asks for /version.reply", {}},
+    {"/sync", Direction::to_both, "Answered by /synced when all earlier commands are done", kSync},
+    {"/clearSched", Direction::to_both, "Drops what waits for its time; answered by /done", {}},
+    {"/dumpOSC", Direction::to_both, "Prints incoming packets", kDumpOsc},
+    {"/error", Direction::to_both, "Turns the report of failures on or off", kError},
+    {"/quit", Direction::to_both, "Ends the program; answered by /done; only from loopback", {}},
+    {"/ping", Direction::to_both, "Measures the clocks; answered by /pong", kPing},
+    {"/done", Direction::reply, "A command was carried out", kDone},
+    {"/fail", Direction::reply, "A command was refused", kFail},
+    {"/synced", Direction::reply, "Answers /sync", kSynced},
+    {"/pong", Direction::reply, "Answers /ping", kPong},
+    {"/version.reply", Direction::reply, "Answers /version, laid out as scsynth's", kVersionReply},
+    {"/status.reply", Direction::reply, "Answers /status: the synth", kSynthStatus},
+    {"/status.reply", Direction::reply, "Answers /status: the simulator", kSimStatus},
+});
+
+constexpr std::string_view kTypes = "ifst";  // in the order of Argument's types
+
+std::size_t required_count(const AddressRow& row) {
+  std::size_t count = 0;
+  for (const auto& argument : row.arguments) count += argument.optional ? 0U : 1U;
+  return count;
+}
+
+bool has_types(const Message& message, const AddressRow& row) {
+  const auto& arguments = message.arguments;
+  if (arguments.size() > row.arguments.size() || arguments.size() < required_count(row)) {
+    return false;
+  }
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (kTypes[arguments[i].index()] != row.arguments[i].type) return false;
+  }
+  return true;
+}
+
+// Bounds are compared as floats: 1e-4 sent as a float lies under the double 1e-4.
+bool in_range(const Argument& argument, const ArgumentRow& row) {
+  if (const auto* value = std::get_if<std::int32_t>(&argument)) {
+    return *value >= row.min && *value <= row.max;
+  }
+  if (const auto* value = std::get_if<float>(&argument)) {
+    return *value >= static_cast<float>(row.min) && *value <= static_cast<float>(row.max);
+  }
+  const auto* value = std::get_if<std::string>(&argument);
+  return value == nullptr || row.fixed.empty() || *value == row.fixed;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string describe_range(const Argument& argument, const ArgumentRow& row) {
+  std::string got = "'" + std::string(row.fixed) + "' expected";
+  if (const auto* value = std::get_if<std::int32_t>(&argument)) got = std::to_string(*value);
+  if (const auto* value = std::get_if<float>(&argument)) got = number(static_cast<double>(*value));
+  const std::string unit = row.unit == "1" || row.unit.empty() ? "" : " " + std::string(row.unit);
+  std::string reason = std::string(row.name) + ' ' + got;
+  if (row.fixed.empty()) {
+    reason += unit + ", allowed " + number(row.min) + " to " + number(row.max);
+  }
+  return reason;
+}
+
+}  // namespace
+
+std::span<const AddressRow> address_table() noexcept {
+  return kTable;
+}
+
+std::string type_tags(const AddressRow& row) {
+  std::string tags = ",";
+  for (const auto& argument : row.arguments) tags += argument.type;
+  return tags;
+}
+
+const AddressRow* find_address(std::string_view address) noexcept {
+  for (const auto& row : kTable) {
+    if (row.address == address) return &row;
+  }
+  return nullptr;
+}
+
+bool conforms(const Message& message, const AddressRow& row) noexcept {
+  if (message.address != row.address || !has_types(message, row)) return false;
+  for (std::size_t i = 0; i < message.arguments.size(); ++i) {
+    if (!in_range(message.arguments[i], row.arguments[i])) return false;
+  }
+  return true;
+}
+
+std::optional<std::string> violation(const Message& message) {
+  std::optional<std::string> reason = "unknown address";
+  for (const auto& row : kTable) {
+    if (row.address != message.address) continue;
+    if (conforms(message, row)) return std::nullopt;
+    reason = "types are " + type_tags(message) + ", expected " + type_tags(row);
+    if (!has_types(message, row)) continue;
+    for (std::size_t i = 0; i < message.arguments.size(); ++i) {
+      if (in_range(message.arguments[i], row.arguments[i])) continue;
+      reason = describe_range(message.arguments[i], row.arguments[i]);
+      break;
+    }
+  }
+  return reason;
+}
+
+}  // namespace splash::protocol

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Size, bundle, size, bundle, ... to the end of the file.
+#include "protocol/event_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "protocol/limits.hpp"
+
+namespace splash::protocol {
+namespace {
+
+// Hours of dense events; a file beyond it is not a log of ours and would fill the memory.
+constexpr std::uintmax_t kMaxLogBytes = std::uintmax_t{256} << 20U;
+constexpr std::uint32_t kBundleHead = 16;
+
+std::runtime_error cannot(const std::string& what, const std::filesystem::path& path) {
+  const std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
+  return std::runtime_error("cannot " + what + " event log '" + path.string() + "': " + cause);
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::uintmax_t offset,
+                         const std::string& reason) {
+  throw std::runtime_error("event log '" + path.string() + "', byte " + std::to_string(offset) +
+                           ": " + reason);
+}
+
+std::uint32_t read_u32(const std::array<char, 4>& bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes) value = value << 8U | static_cast<unsigned char>(byte);
+  return value;
+}
+
+LogEntry to_entry(const std::filesystem::path& path, std::uintmax_t offset, Bytes bundle) {
+  auto decoded = decode(bundle);
+  if (decoded.refusal != Refusal::none) {
+    refuse(path, offset, "the packet is refused: " + std::string(describe(decoded.refusal)));
+  }
+  if (!decoded.packet.time) refuse(path, offset, "a bare message, expected a bundle");
+  return {to_score_seconds(*decoded.packet.time), std::move(decoded.packet.messages)};
+}
+
+std::uint32_t read_size(const std::filesystem::path& path, std::uintmax_t offset,
+                        std::uintmax_t left, std::ifstream& file) {
+  std::array<char, 4> bytes{};
+  if (left < bytes.size() || !file.read(bytes.data(), bytes.size())) {
+    refuse(path, offset, "the file ends inside a packet's size");
+  }
+  const std::uint32_t size = read_u32(bytes);
+  if (size < kBundleHead || size % 4 != 0 || size > kMaxDatagram) {
+    refuse(path, offset,
+           "packet size " + std::to_string(size) + ", expected a multiple of 4 in " +
+               std::to_string(kBundleHead) + ".." + std::to_string(kMaxDatagram));
+  }
+  if (size > left - bytes.size()) {
+    refuse(path, offset,
+           "the file ends inside a packet: it has " + std::to_string(size) + " bytes, " +
+               std::to_string(left - bytes.size()) + " are left");
+  }
+  return size;
+}
+
+}  // namespace
+
+LogWriter::LogWriter(const std::filesystem::path& path) : path_(path) {
+  errno = 0;
+  file_.open(path, std::ios::binary | std::ios::trunc);
+  if (!file_) throw cannot("create", path_);
+}
+
+void LogWriter::append(double seconds, const std::vector<Message>& messages) {
+  const double time = std::max(seconds, last_seconds_);  // NaN keeps the last time
+  const auto packet = encode(to_score_tag(time), messages);
+  last_seconds_ = time;
+  std::array<char, 4> size{};
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    size[i] = static_cast<char>(packet.size() >> (8U * (3U - i)) & 0xffU);
+  }
+  errno = 0;
+  file_.write(size.data(), size.size());
+  file_.write(reinterpret_cast<const char*>(packet.data()),
+              static_cast<std::streamsize>(packet.size()));
+  if (!file_) throw cannot("write", path_);
+}
+
+void LogWriter::flush() {
+  errno = 0;
+  if (!file_.flush()) throw cannot("write", path_);
+}
+
+std::vector<LogEntry> read_log(const std::filesystem::path& path) {
+  errno = 0;
+  std::error_code error;
+  const auto total = std::filesystem::file_size(path, error);
+  if (error) {
+    throw std::runtime_error("cannot read event log '" + path.string() + "': " + error.message());
+  }
+  if (total > kMaxLogBytes) {
+    refuse(path, 0,
+           "the file has " + std::to_string(total) + " bytes, at most " +
+               std::to_string(kMaxLogBytes) + " are read");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw cannot("read", path);
+
+  std::vector<LogEntry> entries;
+  std::array<std::byte, kMaxDatagram> packet{};
+  for (std::uintmax_t offset = 0; offset < total;) {
+    const auto size = read_size(path, offset, total - offset, file);
+    if (!file.read(reinterpret_cast<char*>(packet.data()), size)) throw cannot("read", path);
+    auto entry = to_entry(path, offset, Bytes(packet).first(size));
+    if (!entries.empty() && entry.seconds < entries.back().seconds) {
+      refuse(path, offset,
+             "its time " + std::to_string(entry.seconds) + " s lies before the " +
+                 std::to_string(entries.back().seconds) + " s of the packet before");
+    }
+    entries.push_back(std::move(entry));
+    offset += 4 + size;
+  }
+  return entries;
+}
+
+}  // namespace splash::protocol

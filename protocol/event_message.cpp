@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The order of each message's arguments, written once for both ways; their types and ranges are
+// the address table's.
+#include "protocol/address.hpp"
+#include "protocol/message.hpp"
+
+namespace splash::protocol {
+namespace {
+
+// Takes the arguments of a message that conforms to its row, one after the other.
+class Taker {
+ public:
+  explicit Taker(const Message& message) : message_(message) {}
+  void operator()(std::int32_t& value) { value = std::get<std::int32_t>(next()); }
+  void operator()(float& value) { value = std::get<float>(next()); }
+
+ private:
+  const Argument& next() { return message_.arguments[index_++]; }
+  const Message& message_;
+  std::size_t index_ = 0;
+};
+
+class Giver {
+ public:
+  explicit Giver(Message& message) : message_(message) {}
+  template <class Value>
+  void operator()(const Value& value) {
+    message_.arguments.emplace_back(value);
+  }
+
+ private:
+  Message& message_;
+};
+
+constexpr const char* address_of(const Impact&) {
+  return "/impact";
+}
+constexpr const char* address_of(const Bubble&) {
+  return "/bubble";
+}
+constexpr const char* address_of(const Cavity&) {
+  return "/cavity";
+}
+constexpr const char* address_of(const Frame&) {
+  return "/frame";
+}
+constexpr const char* address_of(const BodyPose&) {
+  return "/body/pose";
+}
+
+template <class... Values, class Visit>
+void visit_all(Visit& visit, Values&... values) {
+  (visit(values), ...);
+}
+
+// Order of the arguments. `Record` is const when giving, not when taking.
+template <class Record, class Visit>
+void visit_arguments(Record& r, Visit visit) {
+  using Plain = std::remove_const_t<Record>;
+  if constexpr (std::is_same_v<Plain, Impact>) {
+    visit_all(visit, r.id, r.body, r.speed, r.approach, r.position.x, r.position.y, r.position.z,
+              r.offset_ms);
+  } else if constexpr (std::is_same_v<Plain, Frame>) {
+    visit_all(visit, r.session, r.sequence, r.step, r.delay_ms);
+  } else if constexpr (std::is_same_v<Plain, BodyPose>) {
+    visit_all(visit, r.body, r.position.x, r.position.y, r.position.z, r.qx, r.qy, r.qz, r.qw);
+  } else {
+    visit_all(visit, r.id, r.body, r.radius, r.epsilon, r.position.x, r.position.y, r.position.z,
+              r.offset_ms);
+  }
+}
+
+template <class Record>
+Message give(const Record& record) {
+  Message message{address_of(record), {}};
+  message.arguments.reserve(8);
+  visit_arguments(record, Giver(message));
+  return message;
+}
+
+template <class Record>
+std::optional<Record> take(const Message& message) {
+  Record record;
+  const auto* row = find_address(address_of(record));
+  if (row == nullptr || !conforms(message, *row)) return std::nullopt;
+  visit_arguments(record, Taker(message));
+  return record;
+}
+
+}  // namespace
+
+Message to_message(const Impact& impact) {
+  return give(impact);
+}
+Message to_message(const Bubble& bubble) {
+  return give(bubble);
+}
+Message to_message(const Cavity& cavity) {
+  return give(cavity);
+}
+Message to_message(const Frame& frame) {
+  return give(frame);
+}
+Message to_message(const BodyPose& pose) {
+  return give(pose);
+}
+
+Message to_message(const Event& event) {
+  return std::visit([](const auto& one) { return give(one); }, event);
+}
+
+std::optional<Event> to_event(const Message& message) {
+  if (const auto impact = take<Impact>(message)) return *impact;
+  if (const auto bubble = take<Bubble>(message)) return *bubble;
+  if (const auto cavity = take<Cavity>(message)) return *cavity;
+  return std::nullopt;
+}
+
+std::optional<Frame> to_frame(const Message& message) {
+  return take<Frame>(message);
+}
+
+std::optional<BodyPose> to_body_pose(const Message& message) {
+  const auto pose = take<BodyPose>(message);
+  if (!pose) return std::nullopt;
+  // A quaternion far from unit length is no rotation; 1 % is a tracker's rounding.
+  const float square =
+      pose->qx * pose->qx + pose->qy * pose->qy + pose->qz * pose->qz + pose->qw * pose->qw;
+  if (square < 0.99F * 0.99F || square > 1.01F * 1.01F) return std::nullopt;
+  return pose;
+}
+
+}  // namespace splash::protocol

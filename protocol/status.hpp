@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What /status.reply says of each program. Order and meaning are the address table's; a field is
+// only ever added at the end, so that receivers which know fewer still read the rest.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "protocol/address.hpp"
+#include "protocol/message.hpp"
+
+namespace splash::protocol {
+
+/// Counters travel modulo 2^24; floats are held within the table's range, NaN becomes 0.
+struct SynthStatus {
+  std::uint64_t voices = 0;
+  std::uint64_t events = 0;
+  std::uint64_t late = 0;
+  std::uint64_t early = 0;
+  std::uint64_t lost = 0;
+  std::uint64_t duplicates = 0;
+  std::uint64_t refused = 0;
+  std::uint64_t dropped = 0;
+  std::uint64_t xruns = 0;
+  float cpu_average = 0.0F;  ///< [%]
+  float cpu_peak = 0.0F;     ///< [%]
+  float sample_rate = 0.0F;  ///< [Hz]
+  std::uint64_t silenced = 0;
+  bool operator==(const SynthStatus&) const = default;
+};
+
+struct SimStatus {
+  std::uint64_t particles = 0;
+  std::uint64_t steps = 0;
+  std::uint64_t impacts = 0;
+  std::uint64_t bubbles = 0;
+  std::uint64_t cavities = 0;
+  std::uint64_t late = 0;
+  std::uint64_t unsent = 0;
+  std::uint64_t refused = 0;
+  std::uint64_t resets = 0;
+  std::uint64_t skipped = 0;
+  float real_time_factor = 0.0F;  ///< [1]
+  float steps_per_second = 0.0F;  ///< [1/s]
+  float density_error = 0.0F;     ///< [1]
+  bool operator==(const SimStatus&) const = default;
+};
+
+/// The argument rows of a program's /status.reply, the program's name first.
+[[nodiscard]] std::span<const ArgumentRow> synth_status_fields() noexcept;
+[[nodiscard]] std::span<const ArgumentRow> sim_status_fields() noexcept;
+
+[[nodiscard]] Message to_message(const SynthStatus& status);
+[[nodiscard]] Message to_message(const SimStatus& status);
+/// `nullopt`: another message or program, fewer fields than are known here, or out of range.
+[[nodiscard]] std::optional<SynthStatus> to_synth_status(const Message& message);
+[[nodiscard]] std::optional<SimStatus> to_sim_status(const Message& message);
+
+}  // namespace splash::protocol

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// BSD sockets, plainly: never SO_REUSEADDR, so two programs cannot share a port by mistake.
+#include "protocol/udp_socket.hpp"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace splash::protocol {
+namespace {
+
+constexpr int kWantedBuffer = 4 << 20;   // bytes, as scsynth asks; the kernel may grant less
+constexpr double kLongestWait = 3600.0;  // [s]
+
+sockaddr_in to_sockaddr(const Endpoint& endpoint) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(endpoint.address);
+  address.sin_port = htons(endpoint.port);
+  return address;
+}
+
+Endpoint to_endpoint(const sockaddr_in& address) {
+  return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
+}
+
+std::invalid_argument bad_endpoint(const std::string& text, const std::string& cause) {
+  return std::invalid_argument("'" + text + "' is no host:port: " + cause +
+                               "; write for example 127.0.0.1:57310 or :57310");
+}
+
+std::uint16_t parse_port(const std::string& text, const std::string& port) {
+  unsigned value = 0;
+  const char* end = port.data() + port.size();
+  const auto [stop, error] = std::from_chars(port.data(), end, value);
+  if (port.empty() || stop != end || error != std::errc{} || value > 65535) {
+    throw bad_endpoint(text, "port '" + port + "' is not a number in 0..65535");
+  }
+  return static_cast<std::uint16_t>(value);
+}
+
+std::uint32_t resolve(const std::string& text, const std::string& host) {
+  if (host.empty()) return INADDR_LOOPBACK;
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found);
+  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> guard(found, &freeaddrinfo);
+  if (error != 0) {
+    throw bad_endpoint(text, "host '" + host + "': " + std::string(gai_strerror(error)));
+  }
+  sockaddr_in address{};
+  std::memcpy(&address, found->ai_addr, sizeof address);
+  return ntohl(address.sin_addr.s_addr);
+}
+
+std::runtime_error cannot_bind(const Endpoint& local, int error) {
+  std::string cause = std::strerror(error);
+  if (error == EADDRINUSE) cause += ", another program holds it";
+  return std::runtime_error("cannot listen on UDP port " + std::to_string(local.port) + " (" +
+                            to_string(local) + "): " + cause +
+                            "; use --listen host:port with a port that is free, or port 0");
+}
+
+void apply_options(int descriptor) {
+  const int on = 1;
+  // Both may be refused without harm: a smaller buffer, drops that are not counted.
+  (void)setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kWantedBuffer, sizeof kWantedBuffer);
+  (void)setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+}
+
+// Total of datagrams the kernel dropped for a full buffer, when it says so with this one.
+std::optional<std::uint32_t> drop_count(msghdr& header) {
+  for (cmsghdr* item = CMSG_FIRSTHDR(&header); item != nullptr; item = CMSG_NXTHDR(&header, item)) {
+    if (item->cmsg_level == SOL_SOCKET && item->cmsg_type == SO_RXQ_OVFL) {
+      std::uint32_t count = 0;
+      std::memcpy(&count, CMSG_DATA(item), sizeof count);
+      return count;
+    }
+  }
+  return std::nullopt;
+}
+
+bool wait_readable(int descriptor, double timeout) {
+  const double seconds = timeout > 0.0 ? std::min(timeout, kLongestWait) : 0.0;
+  timespec limit{};
+  limit.tv_sec = static_cast<time_t>(seconds);
+  limit.tv_nsec = static_cast<long>((seconds - static_cast<double>(limit.tv_sec)) * 1e9);
+  pollfd readable{descriptor, POLLIN, 0};
+  return ppoll(&readable, 1, &limit, nullptr) > 0;
+}
+
+}  // namespace
+
+Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port) {
+  if (text.empty()) throw bad_endpoint(text, "it is empty");
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) return {resolve(text, text), default_port};
+  if (text.find(':', colon + 1) != std::string::npos) {
+    throw bad_endpoint(text, "more than one ':' (IPv6 is not supported)");
+  }
+  const auto port = parse_port(text, text.substr(colon + 1));
+  return {resolve(text, text.substr(0, colon)), port};
+}
+
+std::string to_string(const Endpoint& endpoint) {
+  std::string text;
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    text += std::to_string(endpoint.address >> static_cast<unsigned>(shift) & 0xffU);
+    text += shift > 0 ? '.' : ':';
+  }
+  return text + std::to_string(endpoint.port);
+}
+
+UdpSocket::UdpSocket(const Endpoint& local)
+    : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+  if (descriptor_ < 0) {
+    throw std::runtime_error(std::string("cannot open a UDP socket: ") + std::strerror(errno));
+  }
+  apply_options(descriptor_);
+  auto address = to_sockaddr(local);
+  socklen_t size = sizeof address;
+  if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
+      getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
+    const int error = errno;
+    close(descriptor_);
+    throw cannot_bind(local, error);
+  }
+  local_ = to_endpoint(address);
+}
+
+UdpSocket::~UdpSocket() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+UdpSocket::UdpSocket(UdpSocket&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      local_(other.local_),
+      dropped_(other.dropped_) {}
+
+bool UdpSocket::send_to(const Endpoint& peer, Bytes packet) noexcept {
+  const auto address = to_sockaddr(peer);
+  ssize_t sent = -1;
+  do {
+    sent = sendto(descriptor_, packet.data(), packet.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                  reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  } while (sent < 0 && errno == EINTR);
+  return sent == static_cast<ssize_t>(packet.size());
+}
+
+std::optional<UdpSocket::Received> UdpSocket::receive(std::byte* buffer, std::size_t capacity,
+                                                      double timeout) noexcept {
+  if (!wait_readable(descriptor_, timeout)) return std::nullopt;
+  sockaddr_in from{};
+  iovec block{buffer, capacity};
+  alignas(cmsghdr) std::byte control[64];
+  msghdr header{};
+  header.msg_name = &from;
+  header.msg_namelen = sizeof from;
+  header.msg_iov = &block;
+  header.msg_iovlen = 1;
+  header.msg_control = control;
+  header.msg_controllen = sizeof control;
+  // MSG_TRUNC makes the kernel tell the datagram's real size.
+  const ssize_t size = recvmsg(descriptor_, &header, MSG_TRUNC | MSG_DONTWAIT);
+  if (size < 0) return std::nullopt;
+  // The kernel's count has 32 bits: add what it moved by.
+  if (const auto count = drop_count(header))
+    dropped_ += *count - static_cast<std::uint32_t>(dropped_);
+  return Received{static_cast<std::size_t>(size), to_endpoint(from)};
+}
+
+std::size_t UdpSocket::receive_buffer() const noexcept {
+  int granted = 0;
+  socklen_t size = sizeof granted;
+  if (getsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &granted, &size) != 0) return 0;
+  return static_cast<std::size_t>(granted);
+}
+
+}  // namespace splash::protocol
