@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The simulator's ear: poses and control, gated, answered, counted, on a thread of its own so that
+// a pose is stamped when it arrives and not when a step ends.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/gate.hpp"
+#include "protocol/limits.hpp"
+#include "protocol/message.hpp"
+#include "protocol/status.hpp"
+#include "protocol/udp_socket.hpp"
+#include "sim-server/send/dump.hpp"
+#include "sim-server/send/rate_limit.hpp"
+#include "sim-server/send/targets.hpp"
+
+namespace splash::sim {
+
+struct ControlSettings {
+  protocol::Endpoint listen{.address = INADDR_LOOPBACK, .port = protocol::kSimPort};
+  /// Hosts that are heard besides this one (127.0.0.0/8), in host byte order.
+  std::vector<std::uint32_t> allowed = {};
+};
+
+/// What the program does on request. All are called on the control's thread, `pose` for each pose
+/// as it arrives; they must be quick. Empty ones are refused with /fail.
+struct ControlActions {
+  /// `arrival`: monotonic [s].
+  std::function<void(const protocol::BodyPose& pose, double arrival)> pose = {};
+  /// The program's numbers; the refused datagrams are filled in here.
+  std::function<protocol::SimStatus()> status = {};
+  std::function<void()> quit = {};
+  std::function<void(const std::string& line)> print = {};  ///< /dumpOSC and /error write here
+};
+
+struct ControlCounts {
+  std::uint64_t packets = 0;      ///< datagrams that came
+  std::uint64_t poses = 0;        ///< poses passed on
+  std::uint64_t replies = 0;      ///< sent
+  std::uint64_t not_allowed = 0;  ///< from a host that is not heard; never answered
+  std::array<std::uint64_t, static_cast<std::size_t>(protocol::Refusal::count_)> refused = {};
+  std::uint64_t failed = 0;    ///< messages that were not obeyed; answered by /fail
+  std::uint64_t unasked = 0;   ///< replies and events, which the simulator has no use for
+  std::uint64_t withheld = 0;  ///< replies over the limit, see RateLimit
+  std::uint64_t dropped = 0;   ///< by the kernel, its buffer full
+};
+
+class ControlServer {
+ public:
+  /// Binds and starts to listen. Throws std::runtime_error when the port cannot be had.
+  ControlServer(const ControlSettings& settings, ControlActions actions, Targets& targets);
+  ~ControlServer() = default;  ///< stops within a tenth of a second
+  ControlServer(const ControlServer&) = delete;
+  ControlServer& operator=(const ControlServer&) = delete;
+
+  [[nodiscard]] protocol::Endpoint local() const noexcept { return socket_.local(); }
+  [[nodiscard]] ControlCounts counts() const;
+
+ private:
+  struct Request {
+    const protocol::Message& message;
+    protocol::Endpoint from;
+    double monotonic;  ///< of arrival [s]
+    double unix_time;  ///< of arrival [s]
+  };
+  struct Command;  ///< an address and what it does, see control_commands.cpp
+
+  void listen(const std::stop_token& stop);
+  void take(protocol::Bytes packet, const protocol::Endpoint& from);
+  void refuse(protocol::Refusal refusal, const protocol::Endpoint& from);
+  void obey(const Request& request);
+  void run(const Request& request);
+  [[nodiscard]] bool is_allowed(const protocol::Endpoint& from) const;
+  void reply(const Request& request, const protocol::Message& message);
+  void fail(const Request& request, const std::string& reason);
+  void complain(const protocol::Endpoint& from, const std::string& text);
+  void count(std::uint64_t ControlCounts::*counter);
+
+  void body_pose(const Request& request);
+  void status(const Request& request);
+  void version(const Request& request);
+  void sync(const Request& request);
+  void notify(const Request& request);
+  void dump_osc(const Request& request);
+  void error(const Request& request);
+  void clear_sched(const Request& request);
+  void quit(const Request& request);
+  void ping(const Request& request);
+
+  ControlSettings settings_;
+  ControlActions actions_;
+  Targets& targets_;
+  protocol::UdpSocket socket_;
+  RateLimit replies_;
+  RateLimit complaints_;
+  DumpLevel dump_level_ = DumpLevel::off;
+  bool complains_ = true;  ///< /error 1
+  mutable std::mutex mutex_;
+  ControlCounts counts_;  ///< under mutex_
+  std::jthread thread_;   ///< last: it uses all of the above
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The keys of the JSON are a contract with the benchmark: add, never rename.
+#include "sim-server/send/report.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace splash::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json known_or_null(const std::optional<std::uint64_t>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+double per(double amount, double wall_seconds) {
+  return wall_seconds > 0.0 ? amount / wall_seconds : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string known_or_dash(const std::optional<std::uint64_t>& value) {
+  return value ? std::to_string(*value) : "unknown (no target answered)";
+}
+
+std::runtime_error cannot_write(const std::filesystem::path& path, int error) {
+  const std::string cause = error != 0 ? std::strerror(error) : "input/output error";
+  return std::runtime_error("cannot write the report '" + path.string() + "': " + cause +
+                            "; name a file in a folder that exists and is writable");
+}
+
+/// `path` is what the person asked for, `file_path` where the bytes go.
+void write_text(const std::filesystem::path& file_path, const std::filesystem::path& path,
+                const std::string& text) {
+  errno = 0;
+  std::ofstream file(file_path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (file) return;
+  const int error = errno;
+  std::error_code ignored;  // the first error is the one to tell
+  if (file_path != path) std::filesystem::remove(file_path, ignored);
+  throw cannot_write(path, error);
+}
+
+}  // namespace
+
+double RunReport::steps_per_second() const noexcept {
+  return per(static_cast<double>(steps), wall_seconds);
+}
+
+double RunReport::real_time_factor() const noexcept {
+  return per(simulated_seconds, wall_seconds);
+}
+
+std::string to_json(const RunReport& report) {
+  Json json;
+  json["device"] = report.device;
+  json["scene"] = report.scene;
+  json["particles"] = report.particles;
+  json["steps"] = report.steps;
+  json["frames"] = report.frames;
+  json["simulated_seconds"] = finite_or_null(report.simulated_seconds);
+  json["wall_seconds"] = finite_or_null(report.wall_seconds);
+  json["steps_per_second"] = finite_or_null(report.steps_per_second());
+  json["real_time_factor"] = finite_or_null(report.real_time_factor());
+  json["mean_density_error"] = finite_or_null(report.mean_density_error);
+  json["maximum_density_error"] = finite_or_null(report.maximum_density_error);
+  json["events"] = {{"impacts", report.events.impacts},
+                    {"bubbles", report.events.bubbles},
+                    {"cavities", report.events.cavities}};
+  json["invalid_events"] = report.invalid_events;
+  json["overdue_events"] = report.overdue_events;
+  json["send_failures"] = report.send_failures;
+  json["late"] = known_or_null(report.late);
+  json["lost"] = known_or_null(report.lost);
+  json["behind"] = report.behind;
+  json["slipped_seconds"] = finite_or_null(report.slipped_seconds);
+  json["resets"] = report.resets;
+  // A device may call itself anything: bytes that are no UTF-8 are replaced.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_report(const std::filesystem::path& path, const RunReport& report) {
+  std::error_code ignored;
+  const bool in_place =  // never replace a device or a pipe by a file
+      std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
+  if (in_place) {
+    write_text(path, path, to_json(report));
+    return;
+  }
+  const std::filesystem::path draft = path.string() + ".part";
+  write_text(draft, path, to_json(report));
+  std::error_code renamed;
+  std::filesystem::rename(draft, path, renamed);
+  if (!renamed) return;
+  std::filesystem::remove(draft, ignored);
+  throw cannot_write(path, renamed.value());
+}
+
+std::string summary(const RunReport& report) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2);
+  text << "scene     " << report.scene << ", " << report.particles << " particles on "
+       << report.device << '\n';
+  text << "time      " << report.simulated_seconds << " s simulated in " << report.wall_seconds
+       << " s: real-time factor " << report.real_time_factor() << ", " << std::setprecision(0)
+       << report.steps_per_second() << " steps/s\n";
+  text << std::setprecision(2) << "density   error mean " << 100.0 * report.mean_density_error
+       << " %, maximum " << 100.0 * report.maximum_density_error << " %\n";
+  text << "events    " << report.events.impacts << " impacts, " << report.events.bubbles
+       << " bubbles, " << report.events.cavities << " cavities\n";
+  text << "receivers late " << known_or_dash(report.late) << ", lost " << known_or_dash(report.lost)
+       << ", refused by the network " << report.send_failures << '\n';
+  text << "pacing    " << report.behind << " of " << report.frames << " frames behind, "
+       << std::setprecision(3) << report.slipped_seconds << " s slipped, " << report.resets
+       << " resets\n";
+  return text.str();
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What a run achieved: as JSON for programs, as a few lines for people.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace splash::sim {
+
+struct EventTotals {
+  std::uint64_t impacts = 0;
+  std::uint64_t bubbles = 0;
+  std::uint64_t cavities = 0;
+};
+
+struct RunReport {
+  std::string device;
+  std::string scene;
+  std::int64_t particles = 0;
+  std::int64_t steps = 0;
+  std::int64_t frames = 0;
+  double simulated_seconds = 0.0;
+  double wall_seconds = 0.0;
+  double mean_density_error = 0.0;     ///< of the compressed part, in the rest density [1]
+  double maximum_density_error = 0.0;  ///< same [1]
+  EventTotals events;
+  std::uint64_t invalid_events = 0;   ///< outside the wire's ranges, not sent
+  std::uint64_t overdue_events = 0;   ///< their moment had passed when they were sent
+  std::uint64_t send_failures = 0;    ///< datagrams the kernel refused, all targets
+  std::optional<std::uint64_t> late;  ///< events the targets got too late; empty: none answered
+  std::optional<std::uint64_t> lost;  ///< bundles the targets missed; empty: none answered
+  std::uint64_t behind = 0;           ///< frames that were late against the wall clock
+  double slipped_seconds = 0.0;       ///< simulated time given up to stay in real time
+  std::uint64_t resets = 0;           ///< times the fluid had to be set up anew
+
+  /// Per second of wall time [1/s]; not a number when no time passed.
+  [[nodiscard]] double steps_per_second() const noexcept;
+  /// Simulated time over wall time [1]; not a number when no time passed.
+  [[nodiscard]] double real_time_factor() const noexcept;
+};
+
+/// The report as JSON; numbers that are not finite become null.
+[[nodiscard]] std::string to_json(const RunReport& report);
+
+/// Writes it whole or not at all (by way of a file beside it). Throws std::runtime_error with the
+/// path and the cause.
+void write_report(const std::filesystem::path& path, const RunReport& report);
+
+/// A few lines for the terminal.
+[[nodiscard]] std::string summary(const RunReport& report);
+
+}  // namespace splash::sim

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Who gets the events: the targets named at start, for good, and those who asked with /notify, for
+// a lease. Safe to use from the control's thread and the simulator's at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "protocol/gate.hpp"
+#include "protocol/time_tag.hpp"
+#include "protocol/udp_socket.hpp"
+
+namespace splash::sim {
+
+/// A subscriber that says nothing for this long is dropped [s]: nobody unplugs politely.
+inline constexpr double kSubscriptionLease = 60.0;
+inline constexpr std::size_t kMaxSubscribers = 16;
+
+struct Target {
+  protocol::Endpoint endpoint;
+  bool fixed = true;         ///< named at start, else a subscriber
+  double expires = 0.0;      ///< of a subscriber, monotonic [s]
+  std::uint64_t sent = 0;    ///< datagrams handed to the kernel
+  std::uint64_t failed = 0;  ///< datagrams the kernel refused
+};
+
+class Targets {
+ public:
+  using Clock = std::function<double()>;
+
+  /// Each endpoint once, however often it is named. `clock`: monotonic [s].
+  explicit Targets(const std::vector<protocol::Endpoint>& fixed,
+                   Clock clock = protocol::monotonic_now);
+
+  /// False when the list is full. Subscribing again renews the lease.
+  bool subscribe(const protocol::Endpoint& endpoint);
+  /// False when it was no subscriber. Targets named at start stay.
+  bool unsubscribe(const protocol::Endpoint& endpoint);
+  /// Any sign of life renews the lease of a subscriber.
+  void renew(const protocol::Endpoint& endpoint);
+
+  /// The same bytes to all. Refusals are counted, not thrown: UDP may lose.
+  void send(protocol::UdpSocket& socket, protocol::Bytes packet);
+
+  [[nodiscard]] std::vector<Target> list() const;
+
+ private:
+  void drop_expired();
+
+  mutable std::mutex mutex_;
+  Clock clock_;
+  std::vector<Target> targets_;
+};
+
+/// Where a socket must be bound to reach all of `targets`: loopback where that is enough, else
+/// every interface; any free port.
+[[nodiscard]] protocol::Endpoint sending_endpoint(const std::vector<protocol::Endpoint>& targets);
+
+/// 127.0.0.0/8. `address` in host byte order.
+[[nodiscard]] constexpr bool is_loopback(std::uint32_t address) noexcept {
+  return (address >> 24) == 127U;
+}
+
+}  // namespace splash::sim
