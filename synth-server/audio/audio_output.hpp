@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Where blocks of samples go: a sound device or the null clock, behind one interface.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace splash::synth {
+
+/// One call of the audio clock.
+struct AudioBlock {
+  float* const* channels = nullptr;  ///< channels[c][i], planar, to be filled
+  int frames = 0;
+  double time = 0.0;     ///< when the block was asked for [s, monotonic]
+  bool xrun = false;     ///< samples were lost before this block
+  bool restart = false;  ///< first block since start(): it continues no other's timing
+};
+
+/// Fills blocks. `render` runs in the real-time thread: it neither waits, allocates nor throws.
+class BlockSource {
+ public:
+  virtual void render(const AudioBlock& block) noexcept = 0;
+
+ protected:
+  ~BlockSource() = default;
+};
+
+/// What an open output really does, which may differ from what was asked.
+struct AudioFormat {
+  std::string api;     ///< "jack", "alsa", "pulse", "null"
+  std::string device;  ///< its name
+  int channels = 0;
+  int sample_rate = 0;  ///< [Hz]
+  int block = 0;        ///< frames per call
+};
+
+/// An open output. It calls its BlockSource between start() and stop(), from one thread.
+class AudioOutput {
+ public:
+  virtual ~AudioOutput() = default;
+  AudioOutput(const AudioOutput&) = delete;
+  AudioOutput& operator=(const AudioOutput&) = delete;
+
+  virtual void start(BlockSource& source) = 0;
+  /// After it returns, the source is not called any more.
+  virtual void stop() noexcept = 0;
+
+  [[nodiscard]] virtual const AudioFormat& format() const noexcept = 0;
+  /// Frames asked for since the start; when they stand still, the device is gone.
+  [[nodiscard]] virtual std::uint64_t frames() const noexcept = 0;
+  /// Scheduling of the thread that renders, in words; empty before the first block.
+  [[nodiscard]] virtual std::string scheduling() const = 0;
+
+ protected:
+  AudioOutput() = default;
+};
+
+}  // namespace splash::synth

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/audio/rtaudio_output.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "protocol/time_tag.hpp"
+#include "synth-server/audio/rtaudio_port.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// stop() waits this long for a block that is being rendered.
+constexpr auto kLongestBlock = std::chrono::milliseconds(500);
+constexpr int kNotSeen = -1;
+
+}  // namespace
+
+/// Everything RtAudio's thread touches. Nothing here asks RtAudio about a stream that has started:
+/// 5.2 crashes in getStreamTime() when its JACK server has died.
+struct RtAudioOutput::Stream {
+  std::unique_ptr<RtAudio> audio;
+  AudioFormat format;
+  std::vector<float*> channels;
+  bool restart = true;  ///< the next block is the first
+  std::atomic<BlockSource*> source{nullptr};
+  std::atomic<bool> rendering{false};
+  std::atomic<std::uint64_t> frames{0};
+  std::atomic<int> policy{kNotSeen};
+  std::atomic<int> priority{0};
+
+  ~Stream() { rtaudio_port::close(*audio); }
+
+  /// Always 0: any other answer makes RtAudio start a thread from within the callback.
+  static int called(void* output, void* /*input*/, unsigned int frames, double /*stream_time*/,
+                    RtAudioStreamStatus status, void* context) {
+    static_cast<Stream*>(context)->fill(static_cast<float*>(output), frames, status);
+    return 0;
+  }
+
+  void fill(float* output, unsigned int count, RtAudioStreamStatus status) noexcept {
+    const double time = protocol::monotonic_now();
+    if (policy == kNotSeen) note_scheduling();
+    rendering = true;
+    if (BlockSource* target = source) {
+      float* channel = output;
+      for (auto& pointer : channels) {
+        pointer = channel;
+        channel += count;
+      }
+      target->render({channels.data(), static_cast<int>(count), time,
+                      (status & RTAUDIO_OUTPUT_UNDERFLOW) != 0, restart});
+      restart = false;
+    } else {
+      std::fill_n(output, static_cast<std::size_t>(count) * channels.size(), 0.0F);
+    }
+    rendering = false;
+    frames.store(frames.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
+  }
+
+  void note_scheduling() noexcept {
+    int found = SCHED_OTHER;
+    sched_param parameters{};
+    pthread_getschedparam(pthread_self(), &found, &parameters);
+    priority = parameters.sched_priority;
+    policy = found;
+  }
+};
+
+RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_shared<Stream>()) {
+  const auto all = list_devices(choice.api);
+  const DeviceDescription chosen = all[choose_device(all, choice.device)];
+  const std::string title = chosen.api + " device '" + chosen.name + "'";
+  if (chosen.channels < choice.channels) {
+    throw DeviceError(title + " has " + std::to_string(chosen.channels) +
+                      " output channels, the rig needs " + std::to_string(choice.channels) +
+                      "; choose another device (--list-devices) or rig");
+  }
+  stream_->audio = rtaudio_port::create(chosen.api);
+  const auto devices = rtaudio_port::devices(*stream_->audio, chosen.api);
+  const auto found = std::find_if(devices.begin(), devices.end(), [&](const auto& device) {
+    return device.description.name == chosen.name;
+  });
+  if (found == devices.end()) throw DeviceError(title + " has gone while it was being opened");
+
+  const int rate = choice.sample_rate != 0 ? choice.sample_rate : chosen.preferred_rate;
+  rtaudio_port::Opening opening{found->id,
+                                static_cast<unsigned int>(choice.channels),
+                                static_cast<unsigned int>(rate),
+                                static_cast<unsigned int>(choice.block),
+                                &Stream::called,
+                                stream_.get()};
+  try {
+    rtaudio_port::open(*stream_->audio, opening);
+  } catch (const DeviceError& error) {
+    throw DeviceError(title + " cannot be opened at " + std::to_string(rate) + " Hz (it prefers " +
+                      std::to_string(chosen.preferred_rate) + "): " + error.what());
+  }
+  stream_->channels.resize(static_cast<std::size_t>(choice.channels));
+  stream_->format = {chosen.api, chosen.name, choice.channels, rate,
+                     static_cast<int>(opening.block)};
+}
+
+RtAudioOutput::~RtAudioOutput() {
+  stop();
+}
+
+void RtAudioOutput::start(BlockSource& source) {
+  stream_->source = &source;
+  rtaudio_port::start(*stream_->audio);
+}
+
+void RtAudioOutput::stop() noexcept {
+  stream_->source = nullptr;
+  const auto limit = std::chrono::steady_clock::now() + kLongestBlock;
+  while (stream_->rendering && std::chrono::steady_clock::now() < limit) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+const AudioFormat& RtAudioOutput::format() const noexcept {
+  return stream_->format;
+}
+
+std::uint64_t RtAudioOutput::frames() const noexcept {
+  return stream_->frames;
+}
+
+std::string RtAudioOutput::scheduling() const {
+  switch (stream_->policy.load()) {
+    case kNotSeen:
+      return {};
+    case SCHED_FIFO:
+      return "realtime, SCHED_FIFO priority " + std::to_string(stream_->priority.load());
+    case SCHED_RR:
+      return "realtime, SCHED_RR priority " + std::to_string(stream_->priority.load());
+    default:
+      return "ordinary priority: realtime was refused, sound may break up under load "
+             "(allow it with 'ulimit -r 95', or run jackd with -R)";
+  }
+}
+
+}  // namespace splash::synth

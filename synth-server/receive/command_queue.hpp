@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What the receiving thread tells the audio thread, and the lock-free queue it travels in.
+#pragma once
+
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstddef>
+
+#include "protocol/event.hpp"
+
+namespace splash::synth {
+
+struct Command {
+  enum class Kind {
+    play,             ///< `event` at `moment`
+    clear_scheduled,  ///< forget what waits; what sounds may end
+    silence,          ///< the last sender is gone: fade out and forget everything
+    resume,           ///< a sender is there (again)
+  };
+  Kind kind = Kind::play;
+  protocol::Event event;
+  double moment = 0.0;      ///< of the event [s, monotonic]
+  double by_arrival = 0.0;  ///< arrival + announced delay [s, monotonic]
+};
+
+/// Ten blocks of 20 ms at the 40 000 events per second that fill a datagram per frame; one producer
+/// (the receiver), one consumer (the audio callback).
+inline constexpr std::size_t kCommandCapacity = 8192;
+using CommandQueue =
+    boost::lockfree::spsc_queue<Command, boost::lockfree::capacity<kCommandCapacity>>;
+
+}  // namespace splash::synth

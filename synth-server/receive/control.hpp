@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Control commands, worded and answered like SuperCollider's server; only from allowed hosts.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "protocol/message.hpp"
+#include "protocol/status.hpp"
+#include "protocol/udp_socket.hpp"
+#include "synth-server/receive/reply_limit.hpp"
+
+namespace splash::synth {
+
+/// What a command may do to the program.
+struct ControlActions {
+  /// Completes what the receiving side knows with what the audio side does.
+  std::function<protocol::SynthStatus(protocol::SynthStatus)> status;
+  std::function<void()> clear_scheduled;
+  std::function<void()> quit;
+};
+
+/// Where and when a command came.
+struct Arrived {
+  protocol::Endpoint from;
+  double monotonic = 0.0;  ///< [s]
+  double unix_time = 0.0;  ///< [s]
+};
+
+struct Reply {
+  protocol::Endpoint to;
+  protocol::Message message;
+};
+
+class Control {
+ public:
+  /// Loopback is always allowed; `allowed`: further hosts (IPv4, host byte order).
+  Control(ControlActions actions, std::vector<std::uint32_t> allowed);
+
+  [[nodiscard]] bool allows(const protocol::Endpoint& from) const noexcept;
+  /// Carries out a command from an allowed host; what is no command is answered with /fail.
+  /// `status`: what the receiving side knows of it.
+  void handle(const protocol::Message& message, const Arrived& arrived,
+              const protocol::SynthStatus& status, std::vector<Reply>& replies);
+  /// To all who asked with /notify: the program ends.
+  void say_goodbye(std::vector<Reply>& replies) const;
+
+  [[nodiscard]] int dump_level() const noexcept { return dump_level_; }
+  [[nodiscard]] bool reports_failures() const noexcept { return reports_failures_; }
+  /// Replies withheld because a host asked too often.
+  [[nodiscard]] std::uint64_t withheld() const noexcept { return withheld_; }
+
+ private:
+  /// The reply to a message that the address table accepts.
+  [[nodiscard]] protocol::Message carry_out(const protocol::Message& message,
+                                            const protocol::Endpoint& from,
+                                            const protocol::SynthStatus& status);
+  [[nodiscard]] protocol::Message notify(const protocol::Message& message,
+                                         const protocol::Endpoint& from);
+  [[nodiscard]] protocol::Message quit(const protocol::Endpoint& from);
+
+  ControlActions actions_;
+  std::vector<std::uint32_t> allowed_;
+  std::vector<protocol::Endpoint> clients_;
+  ReplyLimit limit_;
+  int dump_level_ = 0;
+  bool reports_failures_ = true;
+  std::uint64_t withheld_ = 0;
+};
+
+}  // namespace splash::synth

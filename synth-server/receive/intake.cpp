@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/receive/intake.hpp"
+
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include "protocol/address.hpp"
+#include "protocol/control.hpp"
+#include "synth-server/receive/oscpack_reader.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// The first pings follow each other quickly, so that an estimate is there soon [s].
+constexpr int kQuickPings = 8;
+constexpr double kQuickPingPeriod = 0.1;
+constexpr double kPingPeriod = 1.0;
+
+bool is_event(std::string_view address) noexcept {
+  return address == "/impact" || address == "/bubble" || address == "/cavity";
+}
+
+/// Replies are never answered, lest two programs talk to each other for ever.
+bool is_reply(const protocol::Message& message) noexcept {
+  const auto* row = protocol::find_address(message.address);
+  return row != nullptr && row->direction == protocol::Direction::reply;
+}
+
+/// Moment of an event after its bundle's [s].
+double offset_seconds(const protocol::Event& event) noexcept {
+  return std::visit([](const auto& e) { return 1e-3 * static_cast<double>(e.offset_ms); }, event);
+}
+
+}  // namespace
+
+std::uint64_t refused(const IntakeCounters& counters) noexcept {
+  return std::accumulate(counters.refusals.begin(), counters.refusals.end(), counters.out_of_table);
+}
+
+Intake::Intake(CommandQueue& queue, Control control, LocalTime time)
+    : queue_(queue), control_(std::move(control)), time_(std::move(time)) {}
+
+void Intake::datagram(protocol::Bytes bytes, const protocol::Endpoint& from, double arrival,
+                      std::vector<Reply>& replies) {
+  ++counters_.datagrams;
+  const auto [refusal, packet] = read_packet(bytes);
+  if (refusal != protocol::Refusal::none) {
+    ++counters_.refusals[static_cast<std::size_t>(refusal)];
+    return;
+  }
+  const auto timing = open_bundle(packet, from, arrival, replies);
+  if (!timing) return;
+  for (const auto& message : packet.messages) route(message, *timing, from, arrival, replies);
+}
+
+std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet,
+                                                  const protocol::Endpoint& from, double arrival,
+                                                  std::vector<Reply>& replies) {
+  const bool tagged = packet.time && *packet.time != protocol::kImmediately;
+  const auto frame =
+      packet.messages.empty() ? std::nullopt : protocol::to_frame(packet.messages.front());
+  if (!frame) {
+    const double moment = tagged ? time_.monotonic_of(*packet.time) : arrival;
+    return Timing{moment, arrival};
+  }
+  Sender& sender = senders_.at(from);
+  if (!welcome(*frame, sender, arrival)) return std::nullopt;
+  if (arrival >= sender.next_ping) ask_clock(sender, arrival, replies);
+
+  const double delay = 1e-3 * static_cast<double>(frame->delay_ms);
+  const double by_arrival = arrival + delay;
+  if (!tagged) return Timing{by_arrival, by_arrival};
+  const double moment = time_.monotonic_of(*packet.time);
+  sender.clock.observe(moment - delay, arrival);
+  const double correction = sender.clock.correction(time_.unix_of(arrival));
+  if (correction != 0.0) ++counters_.corrected;
+  return Timing{moment + correction, by_arrival};
+}
+
+bool Intake::welcome(const protocol::Frame& frame, Sender& sender, double arrival) {
+  const protocol::Arrival kind = sender.sequence.observe(frame);
+  if (kind == protocol::Arrival::duplicate) return false;
+  if (kind == protocol::Arrival::new_session) {
+    sender.clock.restart();
+    sender.pings = 0;
+  }
+  if (!senders_.anybody_present()) push(Command::Kind::resume);
+  sender.present = true;
+  sender.heard = arrival;
+  return true;
+}
+
+void Intake::route(const protocol::Message& message, const Timing& timing,
+                   const protocol::Endpoint& from, double arrival, std::vector<Reply>& replies) {
+  if (is_event(message.address) || message.address == "/frame") {
+    if (const auto event = protocol::to_event(message)) return play(*event, timing);
+    if (protocol::violation(message)) ++counters_.out_of_table;
+  } else if (is_reply(message)) {
+    take_pong(message, from, arrival);
+  } else if (control_.allows(from) ||
+             (message.address == "/ping" && senders_.find(from) != nullptr)) {
+    if (protocol::violation(message)) ++counters_.out_of_table;
+    control_.handle(message, {from, arrival, time_.unix_of(arrival)}, status(), replies);
+  } else {
+    ++counters_.forbidden;
+  }
+}
+
+void Intake::play(const protocol::Event& event, const Timing& timing) {
+  const double offset = offset_seconds(event);
+  const Command command{Command::Kind::play, event, timing.moment + offset,
+                        timing.by_arrival + offset};
+  ++(queue_.push(command) ? counters_.events : counters_.queue_full);
+}
+
+void Intake::push(Command::Kind kind) {
+  Command command;
+  command.kind = kind;
+  // A full queue means that nothing has been rendered for a while: there is nothing to silence.
+  (void)queue_.push(command);
+}
+
+void Intake::ask_clock(Sender& sender, double now, std::vector<Reply>& replies) {
+  sender.next_ping = now + (sender.pings < kQuickPings ? kQuickPingPeriod : kPingPeriod);
+  ++sender.pings;
+  sender.asked = protocol::to_time_tag(time_.unix_of(now));
+  replies.push_back({sender.endpoint, protocol::ping(sender.asked)});
+}
+
+void Intake::take_pong(const protocol::Message& message, const protocol::Endpoint& from,
+                       double arrival) {
+  Sender* sender = senders_.find(from);
+  if (message.address != "/pong" || protocol::violation(message) || sender == nullptr) return;
+  const auto stamp = [&](std::size_t i) {
+    return std::get<protocol::TimeTag>(message.arguments[i]);
+  };
+  if (stamp(0) != sender->asked) return;  // not what was asked, or answered already
+  sender->asked = protocol::kImmediately;
+  sender->clock.pong(protocol::to_unix_seconds(stamp(0)), protocol::to_unix_seconds(stamp(1)),
+                     protocol::to_unix_seconds(stamp(2)), time_.unix_of(arrival));
+}
+
+void Intake::tick(double now, std::vector<Reply>& replies) {
+  if (senders_.expire(now)) {
+    ++counters_.departures;
+    push(Command::Kind::silence);
+  }
+  for (Sender& sender : senders_.all()) {
+    if (sender.present && now >= sender.next_ping) ask_clock(sender, now, replies);
+  }
+  if (time_.refresh()) ++counters_.clock_steps;
+}
+
+protocol::SynthStatus Intake::status() const {
+  const IntakeCounters all = counters();
+  protocol::SynthStatus status;
+  status.events = all.events;
+  status.lost = all.sequence.lost;
+  status.duplicates = all.sequence.duplicates;
+  status.refused = refused(all);
+  status.dropped = all.queue_full;
+  return status;
+}
+
+IntakeCounters Intake::counters() const {
+  IntakeCounters counters = counters_;
+  counters.withheld = control_.withheld();
+  counters.sequence = senders_.totals();
+  return counters;
+}
+
+}  // namespace splash::synth

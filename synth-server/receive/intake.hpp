@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What becomes of a datagram: gate, oscpack, then events with their moments to the audio thread,
+// commands to Control. Knows no socket and no thread, so tests bring their own time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "protocol/gate.hpp"
+#include "protocol/udp_socket.hpp"
+#include "synth-server/receive/command_queue.hpp"
+#include "synth-server/receive/control.hpp"
+#include "synth-server/receive/local_time.hpp"
+#include "synth-server/receive/sender.hpp"
+
+namespace splash::synth {
+
+struct IntakeCounters {
+  std::uint64_t datagrams = 0;
+  std::uint64_t events = 0;        ///< handed to the audio thread
+  std::uint64_t queue_full = 0;    ///< events dropped because the audio thread did not take them
+  std::uint64_t out_of_table = 0;  ///< messages the address table refuses
+  std::uint64_t forbidden = 0;     ///< commands from hosts that are not allowed
+  std::uint64_t withheld = 0;      ///< replies beyond the limit
+  std::uint64_t clock_steps = 0;   ///< times this host's clock was set
+  std::uint64_t corrected = 0;     ///< bundles whose sender's clock was off
+  std::uint64_t departures = 0;    ///< times the last sender went silent
+  std::array<std::uint64_t, static_cast<std::size_t>(protocol::Refusal::count_)> refusals{};
+  SequenceTotals sequence;  ///< lost, duplicates, reordered: bundles
+};
+/// Datagrams the gate stopped and messages the address table refused.
+[[nodiscard]] std::uint64_t refused(const IntakeCounters& counters) noexcept;
+
+class Intake {
+ public:
+  Intake(CommandQueue& queue, Control control, LocalTime time = LocalTime{});
+
+  /// `arrival`: when it came [s, monotonic]. Replies and pings are appended to `replies`.
+  void datagram(protocol::Bytes bytes, const protocol::Endpoint& from, double arrival,
+                std::vector<Reply>& replies);
+  /// To be called often, with the socket drained: leases, pings, this host's clock.
+  void tick(double now, std::vector<Reply>& replies);
+  /// To all clients, at the end.
+  void say_goodbye(std::vector<Reply>& replies) const { control_.say_goodbye(replies); }
+
+  [[nodiscard]] IntakeCounters counters() const;
+  [[nodiscard]] const Control& control() const noexcept { return control_; }
+  [[nodiscard]] bool sender_present() const noexcept { return senders_.anybody_present(); }
+
+ private:
+  /// What a bundle says about the time of its events.
+  struct Timing {
+    double moment = 0.0;      ///< the bundle's [s, monotonic]
+    double by_arrival = 0.0;  ///< arrival + announced delay [s, monotonic]
+  };
+  /// nullopt: a bundle that was heard before.
+  [[nodiscard]] std::optional<Timing> open_bundle(const protocol::Packet& packet,
+                                                  const protocol::Endpoint& from, double arrival,
+                                                  std::vector<Reply>& replies);
+  /// The peer's frame; false: a duplicate.
+  bool welcome(const protocol::Frame& frame, Sender& sender, double arrival);
+  void route(const protocol::Message& message, const Timing& timing, const protocol::Endpoint& from,
+             double arrival, std::vector<Reply>& replies);
+  void play(const protocol::Event& event, const Timing& timing);
+  void take_pong(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
+  void ask_clock(Sender& sender, double now, std::vector<Reply>& replies);
+  void push(Command::Kind kind);
+  [[nodiscard]] protocol::SynthStatus status() const;
+
+  CommandQueue& queue_;
+  Control control_;
+  LocalTime time_;
+  SenderTable senders_;
+  IntakeCounters counters_;
+};
+
+}  // namespace splash::synth

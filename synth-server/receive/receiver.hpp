@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The receiving thread: takes datagrams from the socket, sends replies, never dies of a packet.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/udp_socket.hpp"
+#include "synth-server/receive/intake.hpp"
+
+namespace splash::synth {
+
+class Receiver {
+ public:
+  /// `log` gets lines for people: refused datagrams (at most one a second) and /dumpOSC's.
+  Receiver(protocol::UdpSocket socket, CommandQueue& queue, Control control,
+           std::function<void(const std::string&)> log);
+  /// Says goodbye to the clients.
+  ~Receiver();
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+
+  [[nodiscard]] protocol::Endpoint local() const noexcept { return socket_.local(); }
+  [[nodiscard]] IntakeCounters counters() const;
+  [[nodiscard]] bool sender_present() const;
+  /// Datagrams the kernel dropped because they came faster than they were read.
+  [[nodiscard]] std::uint64_t dropped_by_kernel() const noexcept { return dropped_by_kernel_; }
+
+ private:
+  void run();
+  void take(const protocol::UdpSocket::Received& received, std::vector<Reply>& replies);
+  void send(std::vector<Reply>& replies);
+  void dump(protocol::Bytes bytes, const protocol::Endpoint& from) const;
+  /// At most one line a second, whatever comes.
+  void report(const protocol::Endpoint& from);
+  [[nodiscard]] std::uint64_t rejected() const;
+
+  protocol::UdpSocket socket_;
+  std::function<void(const std::string&)> log_;
+  mutable std::mutex mutex_;  ///< guards intake_; the audio thread never takes it
+  Intake intake_;
+  std::vector<std::byte> buffer_;
+  double next_report_ = 0.0;  ///< [s, monotonic]
+  std::atomic<std::uint64_t> dropped_by_kernel_{0};
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace splash::synth

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/receive/reply_limit.hpp"
+
+#include <algorithm>
+
+namespace splash::synth {
+namespace {
+
+constexpr double kRepliesPerSecond = 10.0;
+constexpr double kBurst = 10.0;
+constexpr std::size_t kMostHosts = 64;
+
+}  // namespace
+
+bool ReplyLimit::allow(std::uint32_t address, double now) {
+  auto host = std::find_if(hosts_.begin(), hosts_.end(),
+                           [&](const Host& known) { return known.address == address; });
+  if (host == hosts_.end()) {
+    if (hosts_.size() == kMostHosts) {
+      hosts_.erase(std::min_element(hosts_.begin(), hosts_.end(),
+                                    [](const Host& a, const Host& b) { return a.time < b.time; }));
+    }
+    host = hosts_.insert(hosts_.end(), {address, kBurst, now});
+  }
+  host->tokens = std::min(kBurst, host->tokens + kRepliesPerSecond * (now - host->time));
+  host->time = now;
+  if (host->tokens < 1.0) return false;
+  host->tokens -= 1.0;
+  return true;
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// When an event is played: its moment plus the fixed latency, on the sample clock; what comes late
+// plays at once or not at all, what lies too far ahead is not believed.
+#pragma once
+
+#include <cstdint>
+
+#include "synth-server/receive/sample_clock.hpp"
+
+namespace splash::synth {
+
+struct ScheduleSettings {
+  double latency = 0.008;      ///< added to every moment; covers one block [s]
+  double late_window = 0.050;  ///< later than this an event is dropped [s]
+  double horizon = 2.0;        ///< further ahead a time tag is taken for a wrong clock [s]
+};
+
+enum class Timing {
+  on_time,
+  late,      ///< within the window: plays at the block's start
+  too_late,  ///< dropped
+  early,     ///< beyond the horizon: plays by arrival
+};
+
+struct Placement {
+  Timing timing = Timing::on_time;
+  std::int64_t sample = 0;  ///< never before the block's start; meaningless when too late
+};
+
+/// `moment`: when the event happens; `by_arrival`: when it would, going by its arrival and the
+/// delay it names [s, monotonic]. `block_start`: first sample that can still be rendered.
+[[nodiscard]] Placement place(double moment, double by_arrival, const SampleClock& clock,
+                              std::int64_t block_start, const ScheduleSettings& settings) noexcept;
+
+}  // namespace splash::synth
