@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// How loud a voice is at any time and when it is over, known in closed form at its start. So no
+// decision of the engine depends on what has been rendered already, or in which blocks.
+#pragma once
+
+#include <cstdint>
+
+namespace splash::synth {
+
+struct VoiceLife {
+  double log_amplitude = 0.0;  ///< natural logarithm of the amplitude at the start [ln m]
+  double decay = 0.0;          ///< amplitude falls as e^(-decay t) [1/s]
+  double hold = 0.0;           ///< decay begins after this [s]
+  std::int64_t length = 0;     ///< samples until the amplitude is under the floor; 0: never audible
+  std::int64_t fold = 0;       ///< sample at which the pitch reaches Nyquist; INT64_MAX: never
+
+  /// Natural logarithm of the amplitude `t` seconds after the start [ln m].
+  [[nodiscard]] double log_amplitude_at(double t) const noexcept {
+    return t > hold ? log_amplitude - decay * (t - hold) : log_amplitude;
+  }
+};
+
+}  // namespace splash::synth
