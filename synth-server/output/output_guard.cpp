@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/output/output_guard.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace splash::synth {
+namespace {
+
+/// By its exponent bits: holds whatever a compiler assumes about NaN.
+bool is_finite(double value) noexcept {
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000ULL;
+  return (std::bit_cast<std::uint64_t>(value) & kExponent) != kExponent;
+}
+
+/// The largest float that does not exceed `value`.
+double rounded_down(double value) noexcept {
+  auto nearest = static_cast<float>(value);
+  if (static_cast<double>(nearest) > value) nearest = std::nextafter(nearest, 0.0F);
+  return static_cast<double>(nearest);
+}
+
+constexpr double kSettled = 1.0e-12;  ///< states below this are nil: -240 dB
+
+}  // namespace
+
+OutputGuard::OutputGuard(const Output& output, double sample_rate)
+    : band_(output.band, sample_rate),
+      limiter_(output.ceiling, sample_rate),
+      ceiling_(rounded_down(output.ceiling)),
+      // A sine at the band's upper end and the ceiling changes by 2 pi f ceiling per second; twice
+      // that never touches what the band lets through.
+      slew_(2.0 * 2.0 * std::numbers::pi * std::min(output.band.high, 0.5 * sample_rate) *
+            output.ceiling / sample_rate) {}
+
+double OutputGuard::checked(double in) noexcept {
+  if (is_finite(in)) return std::clamp(in, -kMostInput, kMostInput);
+  band_.reset();
+  limiter_.reset();
+  ++resets_;
+  return 0.0;
+}
+
+void OutputGuard::process(const double* in, const double* fade, float* out, int count) noexcept {
+  for (int i = 0; i < count; ++i) {
+    const double limited = limiter_.process(band_.process(checked(in[i])));
+    if (limiter_.limiting()) ++limited_;
+    last_ += std::clamp(limited - last_, -slew_, slew_);
+    out[i] = static_cast<float>(std::clamp(last_ * fade[i], -ceiling_, ceiling_));
+  }
+}
+
+bool OutputGuard::settle() noexcept {
+  if (!band_.at_rest(kSettled) || std::abs(last_) > kSettled || limiter_.limiting()) return false;
+  band_.reset();
+  limiter_.reset();
+  last_ = 0.0;
+  return true;
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The last thing between the mix and a transducer, one per channel, in this order: finite check
+// before any state, DC block and band (the high-pass has its zeros at 0 Hz), limiter, slew limit,
+// fade, hard clamp at the ceiling. Whatever comes in, what goes out is finite and within it.
+#pragma once
+
+#include <cstdint>
+
+#include "synth-server/output/band_filter.hpp"
+#include "synth-server/output/limiter.hpp"
+#include "synth-server/output/rig.hpp"
+
+namespace splash::synth {
+
+class OutputGuard {
+ public:
+  /// Louder input is cut before the filters: 24 dB over full scale, where only the limiter would
+  /// be heard anyway. Else one sample of 1e30 would hold the limiter down for minutes.
+  static constexpr double kMostInput = 16.0;
+
+  OutputGuard() = default;
+  /// `sample_rate` [Hz].
+  OutputGuard(const Output& output, double sample_rate);
+
+  /// `in`: the mix [full scale]; `fade`: its gain, sample by sample; `out`: what the device gets.
+  void process(const double* in, const double* fade, float* out, int count) noexcept;
+
+  /// To be called at rest points only (no input for a while): takes vanishing states for nil and
+  /// says whether all are, so that silent input gives exactly silent output and can be skipped.
+  bool settle() noexcept;
+
+  [[nodiscard]] std::uint64_t resets() const noexcept { return resets_; }    ///< samples
+  [[nodiscard]] std::uint64_t limited() const noexcept { return limited_; }  ///< samples
+
+ private:
+  double checked(double in) noexcept;
+
+  BandFilter band_;
+  Limiter limiter_;
+  double ceiling_ = 1.0;  ///< representable as float
+  double slew_ = 1.0;     ///< largest change per sample [full scale]
+  double last_ = 0.0;     ///< of the slew limit
+  std::uint64_t resets_ = 0;
+  std::uint64_t limited_ = 0;
+};
+
+}  // namespace splash::synth

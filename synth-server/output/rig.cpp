@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/output/rig.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace splash::synth {
+namespace {
+
+constexpr int kMaxTiles = 1024;
+constexpr int kMaxChannels = 2048;
+
+[[noreturn]] void refuse(const Output& output, const std::string& key, double value,
+                         const std::string& rule) {
+  std::array<char, 32> number{};
+  std::snprintf(number.data(), number.size(), "%g", value);
+  throw std::invalid_argument("output '" + output.name + "': " + key + " = " + number.data() +
+                              ": " + rule);
+}
+
+void check_tiles(const Output& output) {
+  if (output.tiles_x < 1) refuse(output, "tiles_x", output.tiles_x, "must be at least 1");
+  if (output.tiles_y < 1) refuse(output, "tiles_y", output.tiles_y, "must be at least 1");
+  if (output.tiles_x > kMaxTiles / output.tiles_y) {
+    refuse(output, "tiles_x", output.tiles_x, "an output has at most 1024 tiles");
+  }
+  if (!(output.tile_size > 0.0)) refuse(output, "tile_size", output.tile_size, "must be positive");
+  // Half a tile's diagonal is 0.71 of its edge: with less reach, corners would be mute.
+  if (!(output.reach >= 0.75 * output.tile_size)) {
+    refuse(output, "reach", output.reach, "must be at least 0.75 of tile_size");
+  }
+}
+
+void check_output(const Output& output) {
+  if (output.name.empty()) throw std::invalid_argument("an output needs a name");
+  const Band& band = output.band;
+  if (!(band.low >= 1.0)) refuse(output, "band.low", band.low, "must be at least 1 Hz");
+  if (!(band.high > band.low)) refuse(output, "band.high", band.high, "must be above band.low");
+  if (!(output.ceiling > 0.0 && output.ceiling <= 1.0)) {
+    refuse(output, "ceiling", output.ceiling, "must be in (0, 1]");
+  }
+  if (!(output.full_scale > 0.0)) {
+    refuse(output, "full_scale", output.full_scale, "must be positive");
+  }
+  if (!(std::abs(output.gain_db) <= 60.0)) {
+    refuse(output, "gain_db", output.gain_db, "must be within -60 and 60 dB");
+  }
+  if (output.kind == OutputKind::tiles) check_tiles(output);
+  if (output.kind == OutputKind::stereo && !(output.width > 0.0)) {
+    refuse(output, "width", output.width, "must be positive");
+  }
+  const auto channels = static_cast<std::size_t>(channel_count(output));
+  if (!output.trims_db.empty() && output.trims_db.size() != channels) {
+    refuse(output, "number of trims_db", static_cast<double>(output.trims_db.size()),
+           "must be " + std::to_string(channels) + ", one per channel, or none");
+  }
+}
+
+}  // namespace
+
+int channel_count(const Output& output) noexcept {
+  switch (output.kind) {
+    case OutputKind::tiles:
+      return output.tiles_x * output.tiles_y;
+    case OutputKind::single:
+      return 1;
+    case OutputKind::stereo:
+      return 2;
+  }
+  return 0;
+}
+
+int channel_count(const Rig& rig) noexcept {
+  int count = 0;
+  for (const Output& output : rig.outputs) count += channel_count(output);
+  return count;
+}
+
+std::vector<std::string> channel_names(const Rig& rig) {
+  std::vector<std::string> names;
+  for (const Output& output : rig.outputs) {
+    if (output.kind == OutputKind::single) names.push_back(output.name);
+    if (output.kind == OutputKind::stereo) {
+      names.push_back(output.name + "/left");
+      names.push_back(output.name + "/right");
+    }
+    if (output.kind != OutputKind::tiles) continue;
+    const int count = channel_count(output);
+    const std::size_t width = std::max<std::size_t>(2, std::to_string(count - 1).size());
+    for (int tile = 0; tile < count; ++tile) {
+      const std::string number = std::to_string(tile);
+      names.push_back(output.name + "/tile/" + std::string(width - number.size(), '0') + number);
+    }
+  }
+  return names;
+}
+
+void check(const Rig& rig) {
+  if (rig.outputs.empty()) {
+    throw std::invalid_argument("rig '" + rig.name + "' has no outputs; it needs at least one");
+  }
+  for (std::size_t i = 0; i < rig.outputs.size(); ++i) {
+    check_output(rig.outputs[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (rig.outputs[i].name != rig.outputs[j].name) continue;
+      throw std::invalid_argument("two outputs are named '" + rig.outputs[i].name +
+                                  "'; channel names must differ");
+    }
+  }
+  if (channel_count(rig) > kMaxChannels) {
+    throw std::invalid_argument("rig '" + rig.name + "' has " + std::to_string(channel_count(rig)) +
+                                " channels; limit: 2048");
+  }
+}
+
+}  // namespace splash::synth
