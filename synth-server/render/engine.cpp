@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// Time is cut into cells of 64 samples at fixed multiples of the clock. All that is decided once in
+// a while (whether a channel is at rest, how many voices may start) is decided per cell, and a cell
+// may be rendered in pieces: that is why block sizes cannot be heard.
+#include "synth-server/render/engine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "synth-server/output/fade.hpp"
+#include "synth-server/output/output_guard.hpp"
+#include "synth-server/render/admission.hpp"
+#include "synth-server/render/event_queue.hpp"
+#include "synth-server/render/flush_denormals.hpp"
+#include "synth-server/render/routing.hpp"
+#include "synth-server/render/voice_pool.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// Voices end 120 dB under full scale of their loudest channel.
+constexpr double kFloor = 1.0e-6;
+/// Most voices that start within one cell; 190 000 per second at 48 kHz. Bounds the time that a
+/// flood of events can take from a block.
+constexpr int kMostStarts = 256;
+
+const Rig& checked(const Rig& rig) {
+  check(rig);
+  return rig;
+}
+
+}  // namespace
+
+struct Engine::State {
+  State(const Rig& rig, const EngineSettings& s);
+
+  void start(const protocol::Impact& impact, std::int64_t sample) noexcept;
+  void start(const protocol::Bubble& bubble, std::int64_t sample) noexcept;
+  void start(const protocol::Cavity& cavity, std::int64_t sample) noexcept;
+  bool start_bubble(double radius, double epsilon, const Source& source,
+                    std::int64_t sample) noexcept;
+  bool start_voice(const Sound& sound, const VoiceLife& life, const Routing::Reach& reach,
+                   std::int64_t sample) noexcept;
+  void mix_until(std::int64_t sample) noexcept;
+  void render_piece(float* const* channels, int done, int count) noexcept;
+  void guard_channel(std::size_t channel, float* out, int count) noexcept;
+  void end_piece() noexcept;
+
+  EngineSettings settings;
+  double sample_rate;
+  double floor;  ///< amplitude that no channel can make audible [m]
+  Chirp chirp;
+  Routing routing;
+  VoicePool pool;
+  EventQueue queue;
+  std::vector<Route> routes;  ///< of the voice that is being started
+  Mix mix;
+  std::vector<OutputGuard> guards;
+  std::vector<char> idle;  ///< per channel: its guard is at rest
+  Fade fade;
+  std::array<double, kCell> fade_gains{};
+  std::int64_t clock = 0;
+  std::int64_t mixed = 0;  ///< voices are mixed up to here
+  int starts = 0;          ///< in this cell
+  std::atomic<bool> silent{false};
+  std::atomic<bool> silenced{false};
+  std::atomic<std::int64_t> shown_clock{0};
+  struct Counts {
+    Count voices, scheduled, impacts, bubbles, cavities, late, stolen, refused, queue, pool, band,
+        unheard, muted, cleared, skipped, cells, resets, limited;
+  } counts;
+};
+
+Engine::State::State(const Rig& rig, const EngineSettings& s)
+    : settings(checked(s)),
+      sample_rate(s.sample_rate),
+      floor(0.0),
+      chirp(s.literal_chirp ? Chirp::literal : Chirp::integrated),
+      routing(checked(rig)),
+      pool(s.max_voices, routing.max_routes(), s.sample_rate),
+      queue(s.max_scheduled),
+      routes(static_cast<std::size_t>(routing.max_routes())),
+      fade(s.start_ramp, s.sample_rate) {
+  floor = kFloor / routing.loudest();
+  for (const Output& output : rig.outputs) {
+    for (int c = 0; c < channel_count(output); ++c) guards.emplace_back(output, s.sample_rate);
+  }
+  idle.assign(guards.size(), 1);
+  mix.touched.assign(guards.size(), 0);
+  mix.samples.assign(guards.size() * kCell, 0.0);
+}
+
+bool Engine::State::start_voice(const Sound& sound, const VoiceLife& life,
+                                const Routing::Reach& reach, std::int64_t sample) noexcept {
+  if (starts >= kMostStarts) {
+    counts.pool.add();
+    return false;
+  }
+  if (pool.full()) {  // voices that are over by now give their places back
+    mix_until(sample);
+    pool.release(sample);
+  }
+  const std::span<const Route> reached(routes.data(), static_cast<std::size_t>(reach.routes));
+  const VoicePool::Start result =
+      pool.full() ? VoicePool::Start::refused : pool.start(sound, life, reached, sample);
+  if (result == VoicePool::Start::refused) counts.pool.add();
+  if (result == VoicePool::Start::refused) return false;
+  if (result == VoicePool::Start::stole) counts.stolen.add();
+  ++starts;
+  return true;
+}
+
+void Engine::State::start(const protocol::Impact& impact, std::int64_t sample) noexcept {
+  const double amplitude = impact_amplitude(static_cast<double>(impact.speed), settings.impact_gain,
+                                            settings.impact_exponent);
+  const VoiceLife life = impact_life(amplitude, sample_rate, floor);
+  const Routing::Reach reach = routing.route({impact.position, impact.body, 0.0}, routes);
+  if (reach.result != Routing::Result::heard || life.length <= 0) {
+    counts.unheard.add();
+    return;
+  }
+  const Noise noise(settings.seed, static_cast<std::uint64_t>(impact.id));
+  if (start_voice(ImpactVoice(amplitude, noise, sample_rate), life, reach, sample)) {
+    counts.impacts.add();
+  }
+}
+
+bool Engine::State::start_bubble(double radius, double epsilon, const Source& source,
+                                 std::int64_t sample) noexcept {
+  const VoiceLife life = bubble_life(radius, epsilon, sample_rate, chirp, floor);
+  const Routing::Reach reach = routing.route(source, routes);
+  if (reach.result == Routing::Result::out_of_band || life.fold <= 0) {
+    counts.band.add();
+    return false;
+  }
+  if (reach.result == Routing::Result::unheard || life.length <= 0) {
+    counts.unheard.add();
+    return false;
+  }
+  return start_voice(BubbleVoice(radius, epsilon, sample_rate, chirp), life, reach, sample);
+}
+
+void Engine::State::start(const protocol::Bubble& bubble, std::int64_t sample) noexcept {
+  const auto radius = static_cast<double>(bubble.radius);
+  const Source source{bubble.position, bubble.body, bubble_frequency(radius)};
+  if (start_bubble(radius, static_cast<double>(bubble.epsilon), source, sample)) {
+    counts.bubbles.add();
+  }
+}
+
+void Engine::State::start(const protocol::Cavity& cavity, std::int64_t sample) noexcept {
+  const auto radius = static_cast<double>(cavity.radius);
+  const Source source{cavity.position, cavity.body, bubble_frequency(radius)};
+  if (start_bubble(radius, static_cast<double>(cavity.epsilon), source, sample)) {
+    counts.cavities.add();
+  }
+}
+
+void Engine::State::mix_until(std::int64_t sample) noexcept {
+  if (sample > mixed) pool.mix(mixed, sample, mix);
+  mixed = std::max(mixed, sample);
+}
+
+/// `count` samples from the clock on, within one cell; `done`: samples of the block before them.
+void Engine::State::render_piece(float* const* channels, int done, int count) noexcept {
+  const std::int64_t end = clock + count;
+  while (queue.due(end)) {
+    const EventQueue::Waiting next = queue.pop();
+    const std::int64_t sample = std::max(next.sample, clock);
+    if (next.sample < clock) counts.late.add();
+    std::visit([&](const auto& event) { start(event, sample); }, next.event);
+  }
+  mix_until(end);
+  pool.release(end);
+  const bool open = !silent.load(std::memory_order_relaxed);
+  for (int i = 0; i < count; ++i) fade_gains[static_cast<std::size_t>(i)] = fade.next(open);
+  for (std::size_t c = 0; c < guards.size(); ++c) guard_channel(c, channels[c] + done, count);
+  clock = end;
+  if (clock % kCell == 0) end_piece();
+}
+
+void Engine::State::guard_channel(std::size_t channel, float* out, int count) noexcept {
+  if (settings.skip_silent && idle[channel] != 0 && mix.touched[channel] == 0) {
+    std::fill_n(out, count, 0.0F);
+    return;
+  }
+  const double* in = mix.samples.data() + channel * kCell + static_cast<std::size_t>(clock % kCell);
+  guards[channel].process(in, fade_gains.data(), out, count);
+}
+
+/// The cell is complete: find the channels that have come to rest, and begin the next one.
+void Engine::State::end_piece() noexcept {
+  std::uint64_t skipped = 0;
+  std::uint64_t resets = 0;
+  std::uint64_t limited = 0;
+  for (std::size_t c = 0; c < guards.size(); ++c) {
+    if (mix.touched[c] != 0) {
+      idle[c] = 0;
+      mix.touched[c] = 0;
+      std::fill_n(mix.samples.begin() + static_cast<std::ptrdiff_t>(c * kCell), kCell, 0.0);
+    } else if (idle[c] == 0) {
+      idle[c] = guards[c].settle() ? 1 : 0;
+    } else if (settings.skip_silent) {
+      ++skipped;
+    }
+    resets += guards[c].resets();
+    limited += guards[c].limited();
+  }
+  counts.skipped.add(skipped);
+  counts.resets.set(resets);
+  counts.limited.set(limited);
+  counts.cells.add();
+  starts = 0;
+}
+
+Engine::Engine(const Rig& rig, const EngineSettings& settings)
+    : state_(std::make_unique<State>(rig, settings)) {}
+
+Engine::~Engine() = default;
+
+bool Engine::schedule(const TimedEvent& timed) noexcept {
+  auto& counts = state_->counts;
+  const auto component = 1U << timed.event.index();
+  static_assert(std::is_same_v<std::variant_alternative_t<1, protocol::Event>, protocol::Bubble>);
+  if ((state_->settings.components & component) == 0) {
+    counts.muted.add();
+    return false;
+  }
+  if (!renderable(timed.event)) {
+    counts.refused.add();
+    return false;
+  }
+  if (!state_->queue.push(timed.event, timed.sample)) {
+    counts.queue.add();
+    return false;
+  }
+  counts.scheduled.set(state_->queue.size());
+  return true;
+}
+
+void Engine::render(float* const* channels, int frames) noexcept {
+  const FlushDenormals flush;
+  State& s = *state_;
+  const int wanted = std::clamp(frames, 0, s.settings.max_block);
+  for (int done = 0; done < wanted;) {
+    const int left = kCell - static_cast<int>(s.clock % kCell);
+    const int count = std::min(wanted - done, left);
+    s.render_piece(channels, done, count);
+    done += count;
+  }
+  s.silenced.store(s.fade.closed(), std::memory_order_relaxed);
+  s.counts.voices.set(s.pool.size());
+  s.counts.scheduled.set(s.queue.size());
+  s.shown_clock.store(s.clock, std::memory_order_relaxed);
+}
+
+std::int64_t Engine::clock() const noexcept {
+  return state_->shown_clock.load(std::memory_order_relaxed);
+}
+
+void Engine::clear() noexcept {
+  state_->counts.cleared.add(state_->queue.size());
+  state_->queue.clear();
+  state_->counts.scheduled.set(0);
+  state_->pool.fade_all(state_->clock);
+}
+
+void Engine::silence(bool silent) noexcept {
+  state_->silent.store(silent, std::memory_order_relaxed);
+}
+
+bool Engine::silenced() const noexcept {
+  return state_->silenced.load(std::memory_order_relaxed);
+}
+
+EngineCounters Engine::counters() const noexcept {
+  const auto& c = state_->counts;
+  return {c.voices.get(), c.scheduled.get(), c.impacts.get(), c.bubbles.get(), c.cavities.get(),
+          c.late.get(),   c.stolen.get(),    c.refused.get(), c.queue.get(),   c.pool.get(),
+          c.band.get(),   c.unheard.get(),   c.muted.get(),   c.cleared.get(), c.skipped.get(),
+          c.cells.get(),  c.resets.get(),    c.limited.get()};
+}
+
+int Engine::channels() const noexcept {
+  return static_cast<int>(state_->guards.size());
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Events that wait for their sample: a heap of fixed capacity, first come first served among
+// events of one sample.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "protocol/event.hpp"
+
+namespace splash::synth {
+
+class EventQueue {
+ public:
+  explicit EventQueue(int capacity) { waiting_.reserve(static_cast<std::size_t>(capacity)); }
+
+  /// False when full.
+  bool push(const protocol::Event& event, std::int64_t sample) noexcept {
+    if (waiting_.size() == waiting_.capacity()) return false;
+    waiting_.push_back({event, sample, serial_++});
+    std::push_heap(waiting_.begin(), waiting_.end(), later);
+    return true;
+  }
+
+  /// Whether an event starts before `end`.
+  [[nodiscard]] bool due(std::int64_t end) const noexcept {
+    return !waiting_.empty() && waiting_.front().sample < end;
+  }
+
+  struct Waiting {
+    protocol::Event event;
+    std::int64_t sample = 0;
+    std::uint64_t serial = 0;
+  };
+  /// Not to be called when empty.
+  Waiting pop() noexcept {
+    std::pop_heap(waiting_.begin(), waiting_.end(), later);
+    const Waiting first = waiting_.back();
+    waiting_.pop_back();
+    return first;
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return waiting_.size(); }
+  void clear() noexcept { waiting_.clear(); }
+
+ private:
+  static bool later(const Waiting& a, const Waiting& b) noexcept {
+    return a.sample != b.sample ? a.sample > b.sample : a.serial > b.serial;
+  }
+
+  std::vector<Waiting> waiting_;  ///< a heap, the next one first
+  std::uint64_t serial_ = 0;
+};
+
+}  // namespace splash::synth

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/render/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "synth-server/output/fade.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// A log that speaks of later than this is broken, not long [s].
+constexpr double kLongest = 7.0 * 24.0 * 3600.0;
+
+std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
+  const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
+  if (!(start <= kLongest)) {
+    throw std::invalid_argument("event log: an event at " + std::to_string(start) +
+                                " s; a log may last 7 days");
+  }
+  return std::max<std::int64_t>(0, std::llround(start * sample_rate));
+}
+
+/// The log's events in the order of their samples.
+std::vector<TimedEvent> collect(const std::vector<protocol::LogEntry>& log, double sample_rate,
+                                ReplayReport& report) {
+  std::vector<TimedEvent> events;
+  for (const protocol::LogEntry& entry : log) {
+    for (const protocol::Message& message : entry.messages) {
+      const std::optional<protocol::Event> event = protocol::to_event(message);
+      if (!event) {
+        ++report.not_events;
+        continue;
+      }
+      const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
+      events.push_back({*event, start_sample(entry.seconds, offset, sample_rate)});
+    }
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const TimedEvent& a, const TimedEvent& b) { return a.sample < b.sample; });
+  report.events = events.size();
+  return events;
+}
+
+/// Renders block after block, handing the engine its events as their samples come near.
+class Player {
+ public:
+  Player(const std::vector<TimedEvent>& events, Engine& engine, int block, const BlockSink& sink)
+      : events_(events),
+        engine_(engine),
+        block_(block),
+        sink_(sink),
+        samples_(static_cast<std::size_t>(engine.channels()) * static_cast<std::size_t>(block)) {
+    for (int c = 0; c < engine.channels(); ++c) {
+      channels_.push_back(samples_.data() + static_cast<std::ptrdiff_t>(c) * block);
+    }
+  }
+
+  void play_until(std::int64_t end) {
+    while (engine_.clock() < end) {
+      const auto frames = static_cast<int>(std::min<std::int64_t>(block_, end - engine_.clock()));
+      while (next_ < events_.size() && events_[next_].sample < engine_.clock() + frames) {
+        engine_.schedule(events_[next_++]);
+      }
+      engine_.render(channels_.data(), frames);
+      sink_(channels_.data(), frames);
+    }
+  }
+
+ private:
+  const std::vector<TimedEvent>& events_;
+  Engine& engine_;
+  int block_;
+  const BlockSink& sink_;
+  std::vector<float> samples_;
+  std::vector<float*> channels_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
+                    const ReplaySettings& settings, const BlockSink& sink) {
+  if (!(settings.tail >= 0.0 && settings.tail <= 3600.0)) {
+    throw std::invalid_argument("replay: tail = " + std::to_string(settings.tail) +
+                                " s: must be 0 to 3600 s");
+  }
+  ReplayReport report;
+  EngineSettings engine_settings = settings.engine;
+  engine_settings.start_ramp = 0.0;
+  engine_settings.max_block = settings.block;
+  const double rate = engine_settings.sample_rate;
+  Engine engine(rig, engine_settings);
+  const std::vector<TimedEvent> events = collect(log, rate, report);
+  const std::int64_t last = events.empty() ? 0 : events.back().sample;
+  report.frames = last + std::llround(settings.tail * rate);
+  Player player(events, engine, settings.block, sink);
+  player.play_until(std::max<std::int64_t>(0, report.frames - std::llround(Fade::kSeconds * rate)));
+  engine.silence(true);
+  player.play_until(report.frames);
+  report.counters = engine.counters();
+  return report;
+}
+
+}  // namespace splash::synth

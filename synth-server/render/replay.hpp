@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Renders an event log without a clock or a device. The same log, rig and settings give the same
+// bits, in whatever blocks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "protocol/event_log.hpp"
+#include "synth-server/render/engine.hpp"
+
+namespace splash::synth {
+
+struct ReplaySettings {
+  EngineSettings engine;  ///< its start_ramp is ignored: a file begins open
+  double tail = 2.0;      ///< rendered after the last event, the last 20 ms fading out [s]
+  int block = 512;        ///< frames per call of the sink
+};
+
+/// Gets the rendered blocks in order; planar, channels[c][i].
+using BlockSink = std::function<void(const float* const* channels, int frames)>;
+
+struct ReplayReport {
+  std::int64_t frames = 0;       ///< rendered
+  std::uint64_t events = 0;      ///< in the log
+  std::uint64_t not_events = 0;  ///< messages of the log that are none, such as /frame
+  EngineCounters counters;       ///< at the end
+};
+
+/// Renders from the log's start to its last event and the tail. Throws std::invalid_argument on
+/// settings out of their limits, and what `sink` throws.
+ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
+                    const ReplaySettings& settings, const BlockSink& sink);
+
+}  // namespace splash::synth

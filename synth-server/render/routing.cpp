@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/render/routing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "synth-server/output/spreading.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// Most channels one event can reach.
+int most_routes(const Output& output) {
+  if (output.kind != OutputKind::tiles) return channel_count(output);
+  const int across = 2 * static_cast<int>(std::ceil(output.reach / output.tile_size)) + 1;
+  return std::min(across, output.tiles_x) * std::min(across, output.tiles_y);
+}
+
+}  // namespace
+
+Routing::Routing(const Rig& rig) : outputs_(rig.outputs) {
+  std::size_t widest = 0;
+  for (const Output& output : outputs_) {
+    const auto channels = static_cast<std::size_t>(channel_count(output));
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double trim = output.trims_db.empty() ? 0.0 : output.trims_db[c];
+      levels_.push_back(std::pow(10.0, (output.gain_db + trim) / 20.0) / output.full_scale);
+    }
+    widest = std::max(widest, channels);
+    max_routes_ += most_routes(output);
+  }
+  gains_.resize(widest);
+  for (const double level : levels_) loudest_ = std::max(loudest_, level);
+}
+
+Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noexcept {
+  Reach reach;
+  bool in_band = false;
+  int first = 0;
+  for (const Output& output : outputs_) {
+    const int channels = channel_count(output);
+    const int begin = first;
+    first += channels;
+    if (source.frequency > output.band.high) continue;
+    in_band = true;
+    if (output.body >= 0 && output.body != source.body) continue;
+    spread(output, source.position, gains_.data());
+    for (int c = 0; c < channels; ++c) {
+      const double gain =
+          gains_[static_cast<std::size_t>(c)] * levels_[static_cast<std::size_t>(begin + c)];
+      if (gain <= 0.0 || static_cast<std::size_t>(reach.routes) == routes.size()) continue;
+      routes[static_cast<std::size_t>(reach.routes++)] = {begin + c, gain};
+      reach.loudest = std::max(reach.loudest, gain);
+    }
+  }
+  if (reach.routes > 0) {
+    reach.result = Result::heard;
+  } else if (!in_band) {
+    reach.result = Result::out_of_band;
+  }
+  return reach;
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Which channels an event reaches, and how loudly: body, band, place, level.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "protocol/event.hpp"
+#include "synth-server/output/rig.hpp"
+
+namespace splash::synth {
+
+struct Route {
+  int channel = 0;
+  double gain = 0.0;  ///< from metres to full scale [1/m]
+};
+
+/// What a voice needs to find its channels.
+struct Source {
+  protocol::Vec3 position;
+  std::int32_t body = -1;
+  double frequency = 0.0;  ///< lowest it sounds at [Hz]: outputs whose band ends below are left out
+};
+
+class Routing {
+ public:
+  explicit Routing(const Rig& rig);
+
+  enum class Result { heard, out_of_band, unheard };
+  struct Reach {
+    Result result = Result::unheard;
+    int routes = 0;        ///< written
+    double loudest = 0.0;  ///< largest gain among them [1/m]
+  };
+  /// Writes up to max_routes() routes.
+  Reach route(const Source& source, std::span<Route> routes) noexcept;
+
+  [[nodiscard]] int max_routes() const noexcept { return max_routes_; }
+  /// Largest gain of any channel [1/m].
+  [[nodiscard]] double loudest() const noexcept { return loudest_; }
+
+ private:
+  std::vector<Output> outputs_;
+  std::vector<double> levels_;  ///< of each channel [1/m]
+  std::vector<double> gains_;   ///< of one output's channels, for spread()
+  int max_routes_ = 0;
+  double loudest_ = 0.0;
+};
+
+}  // namespace splash::synth
