@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Packets that crash or hang the libraries, floods and strangers: the control goes on answering.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <ifaddrs.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/control.hpp"
+#include "sim-server/send/rate_limit.hpp"
+#include "tests/sim-server/send/control_fixture.hpp"
+
+namespace splash::sim {
+namespace {
+
+using namespace std::string_literals;
+using protocol::Refusal;
+
+class ControlAbuse : public test::ControlFixture {
+ protected:
+  std::uint64_t refused(Refusal why) {
+    return server_->counts().refused[static_cast<std::size_t>(why)];
+  }
+};
+
+std::vector<std::byte> raw(const std::string& text) {
+  std::vector<std::byte> bytes;
+  for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
+  return bytes;
+}
+
+const std::string kBundle = "#bundle\0\0\0\0\0\0\0\0\1"s;
+
+/// A bundle in a bundle in a bundle ...: liblo's parser calls itself for each.
+std::string nested(int depth) {
+  std::string packet;
+  for (int i = 0; i < depth; ++i) {
+    std::string size;
+    for (int shift = 24; shift >= 0; shift -= 8) {
+      size += static_cast<char>(packet.size() >> static_cast<unsigned>(shift) & 0xFFU);
+    }
+    packet = packet.empty() ? kBundle : kBundle + size + packet;
+  }
+  return packet;
+}
+
+TEST_F(ControlAbuse, KillersOfTheLibrariesAreRefusedByName) {
+  const std::vector<std::pair<std::string, Refusal>> killers{
+      {"", Refusal::empty},
+      {"/", Refusal::not_aligned},
+      {kBundle + "\0\0\0\0"s, Refusal::bad_element},          // oscpack: endless loop
+      {kBundle + "\xFF\xFF\xFF\xFC"s, Refusal::bad_element},  // oscpack: reads behind the end
+      {"/x\0\0,b\0\0"s, Refusal::bad_tags},                   // liblo: size of a blob not there
+      {"/x\0\0,b\0\0\x7F\xFF\xFF\xFF"s, Refusal::bad_tags},
+      {"/x\0\0,[[[[[["s + "\0"s, Refusal::bad_tags},
+      {"/*?*?*?*?*?*?*?*?*?*?*?*?*?q\0,\0\0\0"s, Refusal::bad_address},  // liblo: backtracks
+      {"/x\0\0,i\0\0"s, Refusal::truncated},
+      {"/x\0\0,f\0\0\x7F\xC0\0\0"s, Refusal::not_finite},
+      {nested(70), Refusal::nested},
+      {std::string(1500, '/'), Refusal::too_long},
+      {std::string(60000, 'a'), Refusal::too_long}};
+  for (const auto& [packet, why] : killers) {
+    const auto before = refused(why);
+    peer_.send(server_->local(), raw(packet));
+    settle();
+    EXPECT_EQ(refused(why), before + 1) << protocol::describe(why);
+  }
+  EXPECT_TRUE(poses().empty());
+}
+
+TEST_F(ControlAbuse, AnEmptyBundleIsNothing) {
+  peer_.send(server_->local(), raw(kBundle));
+  settle();
+}
+
+TEST_F(ControlAbuse, AFloodDrawsABoundedNumberOfRepliesAndHarmsNoOther) {
+  constexpr int kFlood = 2000;
+  test::Peer flooder;
+  const double start = protocol::monotonic_now();
+  for (int i = 0; i < kFlood; ++i) {
+    flooder.send(server_->local(), protocol::Message{"/nosuch", {}});
+    if (i % 50 == 0) settle();  // paces the flood to what the server takes, so that none is lost
+    if (testing::Test::HasFatalFailure()) return;
+  }
+  settle();
+  const double seconds = protocol::monotonic_now() - start;
+  int answers = 0;
+  while (flooder.bytes(0.0)) ++answers;
+  EXPECT_GE(answers, 1);
+  EXPECT_LE(answers, RateLimit::kBurst + RateLimit::kRate * seconds + 1.0);
+  EXPECT_EQ(server_->counts().failed, static_cast<std::uint64_t>(kFlood));
+  EXPECT_LE(static_cast<double>(lines().size()),
+            RateLimit::kBurst + RateLimit::kRate * seconds + 1.0);
+}
+
+TEST_F(ControlAbuse, PosesAreNotLimited) {
+  const auto pose = protocol::to_message(protocol::BodyPose{});
+  for (int i = 0; i < 500; ++i) tell(pose);
+  wait_for_packets(500);
+  settle();
+  EXPECT_EQ(poses().size(), 500U);
+}
+
+/// An address of this machine that is not loopback: packets sent from it to itself never leave.
+std::optional<std::uint32_t> own_address() {
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return std::nullopt;
+  std::optional<std::uint32_t> found;
+  for (const auto* item = list; item != nullptr; item = item->ifa_next) {
+    if (item->ifa_addr == nullptr || item->ifa_addr->sa_family != AF_INET) continue;
+    const auto* ip = reinterpret_cast<const sockaddr_in*>(item->ifa_addr);
+    const auto address = ntohl(ip->sin_addr.s_addr);
+    if (!is_loopback(address)) found = address;
+  }
+  freeifaddrs(list);
+  return found;
+}
+
+class ControlStranger : public ControlAbuse {
+ protected:
+  void SetUp() override {
+    const auto address = own_address();
+    if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
+    address_ = *address;
+  }
+  std::uint32_t address_ = 0;
+};
+
+TEST_F(ControlStranger, IsNeitherAnsweredNorObeyed) {
+  start({.listen = {.address = address_, .port = 0}});
+  protocol::UdpSocket stranger({.address = address_, .port = 0});
+  for (const auto& message :
+       {protocol::to_message(protocol::BodyPose{}), protocol::Message{"/status", {}},
+        protocol::Message{"/quit", {}}, protocol::Message{"/notify", {1}}}) {
+    ASSERT_TRUE(stranger.send_to(server_->local(), protocol::encode(message)));
+  }
+  wait_for_packets(4);
+  server_.reset();  // nothing more is under way
+  std::byte buffer[64];
+  EXPECT_FALSE(stranger.receive(buffer, sizeof buffer, 0.0).has_value());
+  EXPECT_TRUE(poses().empty());
+  EXPECT_TRUE(targets_.list().empty());
+  EXPECT_EQ(quits(), 0);
+}
+
+TEST_F(ControlStranger, WhoIsAllowedIsHeardButMayNotQuit) {
+  start({.listen = {.address = address_, .port = 0}, .allowed = {address_}});
+  protocol::UdpSocket friendly({.address = address_, .port = 0});
+  std::vector<std::byte> buffer(2048);
+  const auto ask_friendly = [&](const protocol::Message& message) {
+    EXPECT_TRUE(friendly.send_to(server_->local(), protocol::encode(message)));
+    const auto received = friendly.receive(buffer.data(), buffer.size(), test::kPatience);
+    if (!received) return protocol::Message{};
+    return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);
+  };
+  EXPECT_EQ(ask_friendly({"/status", {}}).address, "/status.reply");
+  EXPECT_EQ(ask_friendly({"/quit", {}}),
+            protocol::fail("/quit", "only from the simulator's own host"));
+  EXPECT_EQ(quits(), 0);
+}
+
+}  // namespace
+}  // namespace splash::sim

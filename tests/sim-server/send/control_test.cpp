@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Each command over a real socket: its reply, its effect, its refusal.
+#include "sim-server/send/control.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "protocol/control.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/sim-server/send/control_fixture.hpp"
+
+namespace splash::sim {
+namespace {
+
+using protocol::Message;
+using testing::HasSubstr;
+
+class Control : public test::ControlFixture {};
+
+const protocol::BodyPose kPose{
+    .body = 2, .position = {0.1F, 0.2F, 0.3F}, .qx = 0.0F, .qy = 0.6F, .qz = 0.0F, .qw = 0.8F};
+
+std::string reason(const Message& reply) {
+  if (reply.address != "/fail" || reply.arguments.size() != 2) return "no /fail came";
+  return std::get<std::string>(reply.arguments[1]);
+}
+
+TEST_F(Control, PassesPosesOnWithTheirArrival) {
+  const double before = protocol::monotonic_now();
+  tell(protocol::to_message(kPose));
+  settle();
+  const double after = protocol::monotonic_now();
+  ASSERT_EQ(poses().size(), 1U);
+  EXPECT_EQ(poses()[0].pose, kPose);
+  EXPECT_GE(poses()[0].arrival, before);
+  EXPECT_LE(poses()[0].arrival, after);
+  EXPECT_EQ(server_->counts().poses, 1U);
+}
+
+TEST_F(Control, TakesPosesFromBundlesInTheirOrder) {
+  auto second = kPose;
+  second.body = 3;
+  peer_.send(server_->local(),
+             protocol::encode({1}, {protocol::to_message(kPose), protocol::to_message(second)}));
+  settle();
+  ASSERT_EQ(poses().size(), 2U);
+  EXPECT_EQ(poses()[0].pose.body, 2);
+  EXPECT_EQ(poses()[1].pose.body, 3);
+}
+
+TEST_F(Control, RefusesAPoseThatIsNoRotation) {
+  auto stretched = kPose;
+  stretched.qw = 0.9F;
+  EXPECT_THAT(reason(ask(protocol::to_message(stretched))), HasSubstr("quaternion"));
+  EXPECT_TRUE(poses().empty());
+}
+
+TEST_F(Control, AnswersStatusWithItsRefusals) {
+  peer_.send(server_->local(), std::vector<std::byte>(3));
+  const auto status = protocol::to_sim_status(ask({"/status", {}}));
+  ASSERT_TRUE(status.has_value());
+  EXPECT_EQ(status->particles, 15000U);
+  EXPECT_EQ(status->steps, 42U);
+  EXPECT_EQ(status->refused, 1U);
+}
+
+TEST_F(Control, AnswersVersionSyncAndClearSched) {
+  EXPECT_EQ(ask({"/version", {}}), protocol::version_reply("sim-server"));
+  EXPECT_EQ(ask({"/sync", {-5}}), protocol::synced(-5));
+  EXPECT_EQ(ask({"/clearSched", {}}), protocol::done("/clearSched"));
+}
+
+TEST_F(Control, PongCarriesThreeOrderedStamps) {
+  const auto t0 = protocol::to_time_tag(protocol::unix_now());
+  const auto pong = ask(protocol::ping(t0));
+  ASSERT_EQ(pong.address, "/pong");
+  ASSERT_EQ(pong.arguments.size(), 3U);
+  EXPECT_EQ(std::get<protocol::TimeTag>(pong.arguments[0]), t0);
+  const double t1 = protocol::to_unix_seconds(std::get<protocol::TimeTag>(pong.arguments[1]));
+  const double t2 = protocol::to_unix_seconds(std::get<protocol::TimeTag>(pong.arguments[2]));
+  EXPECT_GE(t1, protocol::to_unix_seconds(t0) - 1.0e-6);
+  EXPECT_GE(t2, t1);
+  EXPECT_LE(t2, protocol::unix_now() + 1.0e-6);
+}
+
+TEST_F(Control, NotifySubscribesTheSenderAndEndsIt) {
+  EXPECT_EQ(ask({"/notify", {1}}), protocol::done("/notify", 1));
+  ASSERT_EQ(targets_.list().size(), 1U);
+  EXPECT_EQ(targets_.list()[0].endpoint, peer_.endpoint());
+  EXPECT_FALSE(targets_.list()[0].fixed);
+  EXPECT_EQ(ask({"/notify", {0}}), protocol::done("/notify", 0));
+  EXPECT_TRUE(targets_.list().empty());
+}
+
+TEST_F(Control, NotifyRefusesStreamsThatAreNotSent) {
+  EXPECT_THAT(reason(ask({"/notify", {2}})), HasSubstr("only events"));
+  EXPECT_TRUE(targets_.list().empty());
+}
+
+TEST_F(Control, QuitFromThisHostIsDoneAndObeyed) {
+  EXPECT_EQ(ask({"/quit", {}}), protocol::done("/quit"));
+  settle();
+  EXPECT_EQ(quits(), 1);
+}
+
+TEST_F(Control, UnknownCommandsAreToldTheNearest) {
+  const auto reply = ask({"/statsu", {}});
+  EXPECT_EQ(std::get<std::string>(reply.arguments.at(0)), "/statsu");
+  EXPECT_THAT(reason(reply), HasSubstr("/status"));
+  EXPECT_EQ(reason(ask({"/qqqqqqqq", {}})), "unknown command");
+  EXPECT_EQ(server_->counts().failed, 2U);
+}
+
+TEST_F(Control, WrongArgumentsAreNamed) {
+  EXPECT_THAT(reason(ask({"/sync", {1.5F}})), HasSubstr("expected ,i"));
+  EXPECT_THAT(reason(ask({"/dumpOSC", {7}})), HasSubstr("allowed 0 to 3"));
+}
+
+TEST_F(Control, RepliesAndEventsAreNotAnswered) {
+  tell(protocol::fail("/status", "no"));
+  tell(protocol::done("/notify"));
+  tell(protocol::to_message(protocol::Frame{.session = 1}));
+  settle();  // and nothing came before its reply
+  EXPECT_EQ(server_->counts().unasked, 3U);
+}
+
+TEST_F(Control, AnActionThatThrowsIsToldAndSurvived) {
+  server_ = nullptr;
+  sim::ControlActions actions;
+  actions.status = []() -> protocol::SimStatus { throw std::runtime_error("device is gone"); };
+  sim::ControlServer server({.listen = {}}, actions, targets_);
+  for (int i = 0; i < 2; ++i) {
+    peer_.send(server.local(), Message{"/status", {}});
+    EXPECT_EQ(reason(peer_.message()), "device is gone");
+  }
+}
+
+TEST_F(Control, WhatTheProgramDoesNotOfferIsRefused) {
+  server_ = nullptr;
+  sim::ControlServer server({.listen = {}}, {}, targets_);
+  for (const auto& message :
+       {Message{"/status", {}}, Message{"/quit", {}}, protocol::to_message(kPose)}) {
+    peer_.send(server.local(), message);
+    EXPECT_EQ(peer_.message().address, "/fail") << message.address;
+  }
+}
+
+TEST_F(Control, DumpOscPrintsWhatCame) {
+  tell({"/dumpOSC", {3}});
+  tell(protocol::to_message(kPose));
+  settle();
+  const auto printed = lines();
+  ASSERT_GE(printed.size(), 2U);
+  EXPECT_EQ(printed[0].substr(0, 8), "2f 62 6f");
+  EXPECT_EQ(printed[1], protocol::to_string(peer_.endpoint()) +
+                            " /body/pose ,ifffffff 2 0.100000001 0.200000003 0.300000012 0 "
+                            "0.600000024 0 0.800000012");
+}
+
+TEST_F(Control, ErrorTurnsComplaintsOff) {
+  ask({"/nosuch", {}});
+  EXPECT_EQ(lines().size(), 1U);
+  tell({"/error", {0}});
+  ask({"/nosuch", {}});
+  EXPECT_EQ(lines().size(), 1U);
+}
+
+TEST_F(Control, APortThatIsTakenIsAnError) {
+  EXPECT_THROW(start({.listen = peer_.endpoint()}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace splash::sim

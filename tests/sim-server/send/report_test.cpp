@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The report read back by a JSON parser, and every way in which a disk can refuse it.
+#include "sim-server/send/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "tests/sim-server/send/temporary_folder.hpp"
+
+namespace splash::sim {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+RunReport example() {
+  RunReport report;
+  report.device = "cpu-haswell (PoCL 3.1)";
+  report.scene = "basin";
+  report.particles = 7000;
+  report.steps = 7200;
+  report.frames = 7500;
+  report.simulated_seconds = 30.0;
+  report.wall_seconds = 24.0;
+  report.mean_density_error = 0.004;
+  report.maximum_density_error = 0.03;
+  report.events = {.impacts = 3, .bubbles = 120, .cavities = 2};
+  report.late = 0;
+  report.lost = 7;
+  report.behind = 4;
+  report.resets = 1;
+  return report;
+}
+
+TEST(Report, HoldsTheKeysOfTheContract) {
+  const auto read = json::parse(to_json(example()));
+  EXPECT_EQ(read.at("device"), "cpu-haswell (PoCL 3.1)");
+  EXPECT_EQ(read.at("scene"), "basin");
+  EXPECT_EQ(read.at("particles"), 7000);
+  EXPECT_EQ(read.at("steps"), 7200);
+  EXPECT_EQ(read.at("frames"), 7500);
+  EXPECT_DOUBLE_EQ(read.at("steps_per_second"), 300.0);
+  EXPECT_DOUBLE_EQ(read.at("real_time_factor"), 1.25);
+  EXPECT_DOUBLE_EQ(read.at("mean_density_error"), 0.004);
+  EXPECT_DOUBLE_EQ(read.at("maximum_density_error"), 0.03);
+  EXPECT_EQ(read.at("events"), (json{{"impacts", 3}, {"bubbles", 120}, {"cavities", 2}}));
+  EXPECT_EQ(read.at("late"), 0);
+  EXPECT_EQ(read.at("lost"), 7);
+  EXPECT_EQ(read.at("behind"), 4);
+  EXPECT_EQ(read.at("resets"), 1);
+}
+
+TEST(Report, WhatIsUnknownIsNull) {
+  auto report = example();
+  report.late.reset();
+  report.lost.reset();
+  report.wall_seconds = 0.0;
+  report.mean_density_error = std::numeric_limits<double>::quiet_NaN();
+  report.maximum_density_error = std::numeric_limits<double>::infinity();
+  const auto read = json::parse(to_json(report));
+  for (const auto* key : {"late", "lost", "steps_per_second", "real_time_factor",
+                          "mean_density_error", "maximum_density_error"}) {
+    EXPECT_TRUE(read.at(key).is_null()) << key;
+  }
+}
+
+TEST(Report, ADeviceWithAStrangeNameIsStillJson) {
+  auto report = example();
+  report.device = "quote \" backslash \\ newline \n bad utf-8 \xFF";
+  EXPECT_THAT(json::parse(to_json(report)).at("device").get<std::string>(),
+              HasSubstr("quote \" backslash \\ newline \n bad utf-8"));
+}
+
+TEST(Report, IsWrittenWholeAndReplacesAnOlderOne) {
+  const test::TemporaryFolder folder;
+  auto report = example();
+  write_report(folder / "r.json", report);
+  report.particles = 1;
+  write_report(folder / "r.json", report);
+  EXPECT_EQ(test::read_file(folder / "r.json"), to_json(report));
+  const auto begin = std::filesystem::directory_iterator(folder.path());
+  EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator()), 1) << "no draft is left";
+}
+
+std::string refusal(const std::filesystem::path& path) {
+  try {
+    write_report(path, example());
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "written";
+}
+
+TEST(Report, RefusalsNameThePathAndTheCause) {
+  const test::TemporaryFolder folder;
+  const auto nowhere = folder / "no" / "such" / "r.json";
+  EXPECT_THAT(refusal(nowhere), HasSubstr(nowhere.string()));
+  EXPECT_THAT(refusal(nowhere), HasSubstr("No such file"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("directory"));
+}
+
+TEST(Report, ADeviceFileIsWrittenInPlaceAndItsErrorTold) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  EXPECT_THAT(refusal("/dev/full"), HasSubstr("No space left"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(Report, SummaryTellsThePersonTheSame) {
+  const auto text = summary(example());
+  for (const auto* part :
+       {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25", "300 steps/s",
+        "3 impacts, 120 bubbles, 2 cavities", "lost 7", "4 of 7500 frames behind", "1 resets"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  auto report = example();
+  report.late.reset();
+  EXPECT_THAT(summary(report), HasSubstr("no target answered"));
+}
+
+}  // namespace
+}  // namespace splash::sim

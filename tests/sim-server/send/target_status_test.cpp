@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Questions and answers with synths of the test's own making: present, silent, restarted, lying.
+#include "sim-server/send/target_status.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+#include "protocol/message.hpp"
+#include "tests/sim-server/send/peer.hpp"
+
+namespace splash::sim {
+namespace {
+
+using protocol::SynthStatus;
+using test::Peer;
+
+class TargetStatusTest : public testing::Test {
+ protected:
+  /// Takes the question that lies in the synth's socket and answers it.
+  static void answer(Peer& synth, const SynthStatus& status) {
+    ASSERT_EQ(synth.message(), (protocol::Message{"/status", {}}));
+    synth.send(synth.last_sender(), protocol::to_message(status));
+  }
+  double now = 100.0;
+  Peer synth;
+};
+
+TEST_F(TargetStatusTest, AsksOnceASecondAndKeepsTheLastAnswer) {
+  TargetStatus status({synth.endpoint()}, [this] { return now; });
+  status.poll();
+  answer(synth, {.voices = 3, .late = 1, .lost = 2});
+  status.poll();
+  EXPECT_TRUE(synth.silent());
+  now += 0.9;
+  status.poll();
+  EXPECT_TRUE(synth.silent());
+  now += 0.2;
+  status.poll();
+  answer(synth, {.voices = 5, .late = 4, .lost = 2});
+  status.poll();
+  EXPECT_EQ(status.answers().at(0).last.value().voices, 5U);
+  EXPECT_EQ(status.answers().at(0).answers, 2U);
+  EXPECT_EQ(status.late(), 4U);
+  EXPECT_EQ(status.lost(), 2U);
+}
+
+TEST_F(TargetStatusTest, SilenceIsNotZero) {
+  TargetStatus status({synth.endpoint()});
+  status.begin(0.01);
+  status.poll();
+  status.finish(0.01);
+  EXPECT_EQ(status.late(), std::nullopt);
+  EXPECT_EQ(status.lost(), std::nullopt);
+}
+
+TEST_F(TargetStatusTest, WhatWasCountedBeforeTheRunIsNotTheRuns) {
+  TargetStatus status({synth.endpoint()});
+  std::thread synth_thread([&] {
+    answer(synth, {.late = 100, .lost = 50});
+    answer(synth, {.late = 103, .lost = 50});
+  });
+  status.begin(test::kPatience);
+  status.finish(test::kPatience);
+  synth_thread.join();
+  EXPECT_EQ(status.late(), 3U);
+  EXPECT_EQ(status.lost(), 0U);
+}
+
+TEST_F(TargetStatusTest, ARestartedSynthLosesNothingItHadTold) {
+  TargetStatus status({synth.endpoint()}, [this] { return now; });
+  for (const std::uint64_t late : {5U, 9U, 2U, 3U}) {  // restarted after 9
+    status.poll();
+    answer(synth, {.late = late});
+    status.poll();
+    now += 1.1;
+  }
+  EXPECT_EQ(status.late(), 9U + 3U);
+}
+
+TEST_F(TargetStatusTest, SumsOverThoseWhoAnswer) {
+  Peer second;
+  Peer mute;
+  TargetStatus status({synth.endpoint(), second.endpoint(), mute.endpoint(), synth.endpoint()});
+  status.poll();
+  answer(synth, {.late = 1, .lost = 10});
+  answer(second, {.late = 2, .lost = 20});
+  status.poll();
+  EXPECT_EQ(status.answers().size(), 3U);
+  EXPECT_EQ(status.late(), 3U);
+  EXPECT_EQ(status.lost(), 30U);
+}
+
+TEST_F(TargetStatusTest, StrangersAndNonsenseAreNotBelieved) {
+  TargetStatus status({synth.endpoint()});
+  status.poll();
+  ASSERT_EQ(synth.message().address, "/status");
+  const auto asker = synth.last_sender();
+  Peer stranger;
+  stranger.send(asker, protocol::to_message(SynthStatus{.late = 9}));
+  synth.send(asker, std::vector<std::byte>(7));
+  synth.send(asker, std::vector<std::byte>{});
+  synth.send(asker, protocol::encode(protocol::TimeTag{1}, {}));
+  synth.send(asker, protocol::Message{"/status.reply", {1}});
+  synth.send(asker, protocol::to_message(protocol::SimStatus{}));
+  status.poll();
+  EXPECT_EQ(status.late(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace splash::sim
