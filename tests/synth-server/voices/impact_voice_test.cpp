@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The impact: its envelope against the formula, its loudness against speed, its burst against the
+// variance that noise, envelope and resonator predict.
+#include "synth-server/voices/impact_voice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace splash::synth {
+namespace {
+
+constexpr double kRate = 48000.0;
+
+std::vector<double> burst(double amplitude, std::uint64_t id, int length, int block) {
+  ImpactVoice voice(amplitude, Noise(1, id), kRate);
+  std::vector<double> out(static_cast<std::size_t>(length));
+  for (int done = 0; done < length; done += block) {
+    voice.render(out.data() + done, std::min(block, length - done));
+  }
+  return out;
+}
+
+TEST(ImpactEnvelope, FollowsItsFormulaAtEveryRate) {
+  for (const double rate : {44100.0, 48000.0, 96000.0}) {
+    ImpactEnvelope envelope(rate);
+    double worst = 0.0;
+    for (int n = 0; n < static_cast<int>(rate); ++n) {
+      worst = std::max(worst, std::abs(envelope.next() - impact_envelope(n / rate)));
+    }
+    EXPECT_LT(worst, 1e-12) << rate;
+  }
+}
+
+TEST(ImpactEnvelope, RisesFromNilInOneMillisecondAndFalls60DecibelsIn370) {
+  EXPECT_EQ(impact_envelope(0.0), 0.0);
+  EXPECT_NEAR(impact_envelope(0.001), 1.0, 1e-12);
+  EXPECT_NEAR(impact_envelope(0.001 - 1e-9), 1.0, 1e-6);
+  EXPECT_NEAR(impact_envelope(0.371), 0.001, 1e-12);
+  EXPECT_NEAR(impact_envelope(0.186), std::sqrt(0.001), 1e-12);
+}
+
+/// Slope of log amplitude against log speed, of the peaks of rendered bursts.
+double slope(double exponent) {
+  double sum_xx = 0.0;
+  double sum_xy = 0.0;
+  const double first = std::log(0.25);
+  double first_peak = 0.0;
+  for (const double speed : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    const auto out = burst(impact_amplitude(speed, 5e-4, exponent), 3, 4800, 64);
+    double peak = 0.0;
+    for (const double v : out) peak = std::max(peak, std::abs(v));
+    if (first_peak == 0.0) first_peak = std::log(peak);
+    const double x = std::log(speed) - first;
+    sum_xx += x * x;
+    sum_xy += x * (std::log(peak) - first_peak);
+  }
+  return sum_xy / sum_xx;
+}
+
+TEST(ImpactVoice, GrowsWithThePowerOfSpeed) {
+  EXPECT_NEAR(slope(3.0), 3.0, 1e-9);
+  EXPECT_NEAR(slope(1.5), 1.5, 1e-9);
+  EXPECT_DOUBLE_EQ(impact_amplitude(1.0, 5e-4, 3.0), 5e-4);
+  EXPECT_DOUBLE_EQ(impact_amplitude(2.0, 5e-4, 3.0), 4e-3);
+}
+
+TEST(ImpactVoice, IsTheSameInAllBlocks) {
+  const auto whole = burst(1.0, 9, 20000, 20000);
+  EXPECT_EQ(burst(1.0, 9, 20000, 1), whole);
+  EXPECT_EQ(burst(1.0, 9, 20000, 37), whole);
+  EXPECT_NE(burst(1.0, 10, 20000, 37), whole);
+}
+
+TEST(ImpactVoice, HasTheVarianceOfFilteredEnvelopedNoise) {
+  // Of white noise through e(n) and h: sum of h(k)^2 e(n - k)^2. Mean of 600 bursts: within 26 %
+  // (4.5 standard deviations of a mean of squares of Gaussians).
+  constexpr int kLength = 9600;
+  constexpr int kBursts = 600;
+  Resonator resonator(kImpactFrequency, kImpactQ, kRate);
+  std::vector<double> h(4800);
+  for (std::size_t n = 0; n < h.size(); ++n) h[n] = resonator.process(n == 0 ? 1.0 : 0.0);
+  std::vector<double> power(kLength, 0.0);
+  for (std::uint64_t id = 0; id < kBursts; ++id) {
+    const auto out = burst(1.0, id, kLength, kLength);
+    for (std::size_t n = 0; n < out.size(); ++n) power[n] += out[n] * out[n] / kBursts;
+  }
+  for (const std::size_t n : {100U, 300U, 1000U, 3000U, 9000U}) {
+    double expected = 0.0;
+    for (std::size_t k = 0; k <= std::min<std::size_t>(n, h.size() - 1); ++k) {
+      const double e = impact_envelope(static_cast<double>(n - k) / kRate);
+      expected += h[k] * h[k] * e * e;
+    }
+    EXPECT_NEAR(power[n] / expected, 1.0, 0.26) << "sample " << n;
+  }
+}
+
+TEST(ImpactLife, EndsWhereTheEnvelopeMeetsTheFloor) {
+  const VoiceLife life = impact_life(1e-3, kRate, 1e-8);
+  const double end = static_cast<double>(life.length) / kRate;
+  EXPECT_NEAR(1e-3 * impact_envelope(end), 1e-8, 1e-11);
+  EXPECT_NEAR(std::exp(life.log_amplitude_at(end)), 1e-8, 1e-11);
+  const auto out = burst(1e-3, 5, static_cast<int>(life.length), 64);
+  EXPECT_LT(std::abs(out.back()), 1e-7);
+  EXPECT_EQ(impact_life(0.0, kRate, 1e-8).length, 0) << "an impact without speed is none";
+}
+
+}  // namespace
+}  // namespace splash::synth
