@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <stdexcept>
+
+#include "protocol/control.hpp"
+#include "protocol/limits.hpp"
+#include "synth-server/exit_codes.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// The options whose text becomes something else.
+struct Texts {
+  std::string listen = "127.0.0.1:" + std::to_string(protocol::kSynthPort);
+  std::vector<std::string> allow;
+  std::string chirp = "literal";
+  double latency_ms = 0.0;
+  double late_ms = 50.0;
+};
+
+void add_sources(CLI::App& app, Options& options, Texts& texts) {
+  app.add_option("--rig", options.rig, "What to drive: a rig file (configs/rigs)")
+      ->type_name("FILE");
+  app.add_option("--listen", texts.listen,
+                 "Address and port for events and control; 0.0.0.0 for other hosts")
+      ->type_name("HOST:PORT")
+      ->capture_default_str();
+  app.add_option("--allow", texts.allow, "A further host that may control (repeatable)")
+      ->type_name("HOST");
+  auto* replay =
+      app.add_option("--replay", options.replay, "Render this event log instead of playing live")
+          ->type_name("LOG");
+  auto* render =
+      app.add_option("--render", options.render, "The replay's WAV file")->type_name("WAV");
+  replay->needs(render);
+  render->needs(replay);
+  app.add_flag("--stems", options.stems,
+               "With --render: also WAV-impacts, WAV-bubbles and WAV-cavities")
+      ->needs(render);
+}
+
+void add_output(CLI::App& app, Options& options) {
+  app.add_option("--device", options.device,
+                 "Sound device by name or a part of it; null: none, paced by the clock")
+      ->type_name("NAME");
+  app.add_option("--api", options.api, "Audio API (default: the first that has a device)")
+      ->check(CLI::IsMember({"jack", "alsa", "pulse"}));
+  app.add_flag("--list-devices", options.list_devices, "List the sound devices and end");
+  app.add_option("--record-audio", options.record_audio, "Also write the live output to this file")
+      ->type_name("WAV");
+  app.add_option("--sample-rate", options.sample_rate,
+                 "Samples per second (default: the device's, 48000 without one)")
+      ->check(CLI::Range(8000, 384000))
+      ->type_name("HZ");
+  app.add_option("--block", options.block, "Frames per callback; a JACK server has its own")
+      ->check(CLI::Range(16, 4096))
+      ->type_name("FRAMES")
+      ->capture_default_str();
+}
+
+void add_playing(CLI::App& app, Options& options, Texts& texts) {
+  app.add_option("--latency-ms", texts.latency_ms,
+                 "Added to each event's moment; at least one block (default: 1.5 blocks, 5 ms or "
+                 "more)")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("MS");
+  app.add_option("--late-ms", texts.late_ms,
+                 "What is later than this is dropped, what is less late plays at once")
+      ->check(CLI::Range(0.0, 10000.0))
+      ->type_name("MS")
+      ->capture_default_str();
+  app.add_option("--chirp", texts.chirp,
+                 "Bubbles as sin(2 pi t f(t)), as the paper prints it, or with integrated f")
+      ->check(CLI::IsMember({"literal", "integrated"}))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Of the impacts' noise")
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--duration", options.duration, "End after so many seconds (default: never)")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name("S");
+  app.add_flag("--verbose", options.verbose, "A line on the state every second");
+}
+
+void check(const Options& options) {
+  if (options.list_devices) return;
+  if (options.rig.empty()) {
+    throw std::invalid_argument("--rig is missing: name a rig file, e.g. configs/rigs/stereo.yaml");
+  }
+  if (!options.replay.empty() && !options.record_audio.empty()) {
+    throw std::invalid_argument(
+        "--record-audio is for live playing: --render is the replay's file");
+  }
+}
+
+void apply(const Texts& texts, Options& options) {
+  options.listen = protocol::parse_endpoint(texts.listen, protocol::kSynthPort);
+  for (const auto& host : texts.allow) {
+    options.allow.push_back(protocol::parse_endpoint(host, 0).address);
+  }
+  options.literal_chirp = texts.chirp == "literal";
+  options.latency = 1e-3 * texts.latency_ms;
+  options.late_window = 1e-3 * texts.late_ms;
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  Options options;
+  Texts texts;
+  CLI::App app("Plays the sounds and vibrations of water: events over OSC to a rig of transducers.",
+               "synth-server");
+  app.set_version_flag("--version", "synth-server " + protocol::version());
+  add_sources(app, options, texts);
+  add_output(app, options);
+  add_playing(app, options, texts);
+  try {
+    app.parse(argc, argv);
+    check(options);
+    apply(texts, options);
+  } catch (const CLI::ParseError& error) {
+    return {std::nullopt, app.exit(error) == 0 ? kExitOk : kExitUsage};
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "synth-server: " << error.what() << '\n';
+    return {std::nullopt, kExitUsage};
+  }
+  return {options, kExitOk};
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The command line.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/udp_socket.hpp"
+
+namespace splash::synth {
+
+struct Options {
+  std::filesystem::path rig;
+  protocol::Endpoint listen;
+  std::vector<std::uint32_t> allow;  ///< hosts besides loopback that may control (IPv4)
+
+  std::filesystem::path replay;  ///< a log; empty: play live
+  std::filesystem::path render;  ///< the WAV file of a replay
+  bool stems = false;            ///< also one file for each of the three components
+
+  bool list_devices = false;
+  std::string device;                  ///< empty: the default one
+  std::string api;                     ///< empty: the first that has a device
+  std::filesystem::path record_audio;  ///< the live output; empty: not recorded
+  int sample_rate = 0;                 ///< [Hz]; 0: the device's, 48000 without one
+  int block = 256;                     ///< wanted frames per callback
+
+  double latency = 0.0;        ///< added to each event's moment [s]; 0: from the block size
+  double late_window = 0.050;  ///< [s]
+  bool literal_chirp = true;
+  std::uint64_t seed = 1;
+  double duration = 0.0;  ///< [s]; 0: until it is stopped
+  bool verbose = false;
+};
+
+/// What the command line says: options, or the code to exit with (help and errors are printed).
+struct ParsedOptions {
+  std::optional<Options> options;
+  int exit_code = 0;
+};
+[[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);
+
+}  // namespace splash::synth

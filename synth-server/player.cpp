@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/player.hpp"
+
+#include <algorithm>
+
+#include "protocol/time_tag.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// The load is averaged over this [s].
+constexpr double kLoadSpan = 1.0;
+constexpr double kPartsPerMillion = 1e6;
+
+}  // namespace
+
+Player::Player(Engine& engine, CommandQueue& queue, Recorder* recorder, double sample_rate,
+               int max_block, const ScheduleSettings& settings)
+    : engine_(engine),
+      queue_(queue),
+      recorder_(recorder),
+      sample_rate_(sample_rate),
+      max_block_(max_block),
+      settings_(settings),
+      clock_(sample_rate),
+      part_(static_cast<std::size_t>(engine.channels())) {}
+
+void Player::render(const AudioBlock& block) noexcept {
+  const double start = protocol::monotonic_now();
+  if (block.xrun) xruns_.add();
+  if (block.xrun || block.restart) clock_.reset();
+  clock_.update(block.time, engine_.clock(), block.frames);
+  clock_resets_.set(clock_.resets());
+  queue_.consume_all([this](const Command& command) { obey(command); });
+  if (finishing_.load(std::memory_order_relaxed)) engine_.silence(true);
+  render_parts(block);
+  voices_peak_.set(std::max(voices_peak_.get(), engine_.counters().voices));
+  blocks_.add();
+  note_load(protocol::monotonic_now() - start, block.frames / sample_rate_);
+}
+
+void Player::obey(const Command& command) noexcept {
+  switch (command.kind) {
+    case Command::Kind::play:
+      return play(command);
+    case Command::Kind::clear_scheduled:
+      return engine_.clear();
+    case Command::Kind::silence:
+      engine_.clear();
+      return set_silent(true);
+    case Command::Kind::resume:
+      return set_silent(false);
+  }
+}
+
+void Player::set_silent(bool silent) noexcept {
+  silent_ = silent;
+  engine_.silence(silent);
+}
+
+void Player::play(const Command& command) noexcept {
+  if (silent_) set_silent(false);  // from a sender without frames, whose presence nobody watches
+  const Placement placement =
+      place(command.moment, command.by_arrival, clock_, engine_.clock(), settings_);
+  switch (placement.timing) {
+    case Timing::too_late:
+      return too_late_.add();
+    case Timing::late:
+      late_.add();
+      break;
+    case Timing::early:
+      early_.add();
+      break;
+    case Timing::on_time:
+      break;
+  }
+  (void)engine_.schedule({command.event, placement.sample});  // the engine counts what it refuses
+}
+
+void Player::render_parts(const AudioBlock& block) noexcept {
+  for (int done = 0; done < block.frames;) {
+    const int frames = std::min(max_block_, block.frames - done);
+    for (std::size_t c = 0; c < part_.size(); ++c) part_[c] = block.channels[c] + done;
+    engine_.render(part_.data(), frames);
+    if (recorder_ != nullptr) recorder_->push(part_.data(), frames);
+    done += frames;
+  }
+}
+
+void Player::note_load(double seconds, double block_seconds) noexcept {
+  const double load = seconds / block_seconds;
+  load_ += (load - load_) * std::min(1.0, block_seconds / kLoadSpan);
+  load_average_ppm_.set(static_cast<std::uint64_t>(load_ * kPartsPerMillion));
+  const auto ppm = static_cast<std::uint64_t>(load * kPartsPerMillion);
+  if (ppm > load_peak_ppm_.get()) load_peak_ppm_.set(ppm);
+}
+
+PlayerCounters Player::counters() const noexcept {
+  return {blocks_.get(),
+          xruns_.get(),
+          late_.get(),
+          too_late_.get(),
+          early_.get(),
+          clock_resets_.get(),
+          voices_peak_.get(),
+          static_cast<double>(load_average_ppm_.get()) / kPartsPerMillion,
+          static_cast<double>(load_peak_ppm_.get()) / kPartsPerMillion};
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/replay_file.hpp"
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "protocol/event_log.hpp"
+#include "synth-server/failure.hpp"
+#include "synth-server/output/wav_file.hpp"
+#include "synth-server/render/replay.hpp"
+
+namespace splash::synth {
+namespace {
+
+constexpr int kDefaultRate = 48000;
+
+struct Stem {
+  const char* name;
+  unsigned components;
+};
+constexpr std::array kStems = {Stem{"impacts", kImpacts}, Stem{"bubbles", kBubbles},
+                               Stem{"cavities", kCavities}};
+
+/// out.wav -> out-impacts.wav
+std::filesystem::path stem_path(const std::filesystem::path& path, const char* name) {
+  auto stem = path;
+  return stem.replace_filename(path.stem().string() + '-' + name + path.extension().string());
+}
+
+ReplayReport render_to(const std::filesystem::path& path,
+                       const std::vector<protocol::LogEntry>& log, const Rig& rig,
+                       const ReplaySettings& settings) {
+  const auto rate = static_cast<int>(settings.engine.sample_rate);
+  WavFile file(path, channel_count(rig), rate);
+  const auto report = replay(log, rig, settings, [&](const float* const* channels, int frames) {
+    file.write(channels, frames);
+  });
+  file.close();
+  return report;
+}
+
+void print(const ReplayReport& report, const std::filesystem::path& path, const Rig& rig,
+           int rate) {
+  const auto& c = report.counters;
+  std::printf("%s: %.3f s, %d channels of rig '%s' at %d Hz\n", path.c_str(),
+              static_cast<double>(report.frames) / rate, channel_count(rig), rig.name.c_str(),
+              rate);
+  std::printf(
+      "events: %llu in the log; played %llu impacts, %llu bubbles, %llu cavities\n",
+      static_cast<unsigned long long>(report.events), static_cast<unsigned long long>(c.impacts),
+      static_cast<unsigned long long>(c.bubbles), static_cast<unsigned long long>(c.cavities));
+  std::printf(
+      "left out: %llu above every output's band, %llu unheard or out of reach, %llu without a "
+      "voice, %llu out of range\n",
+      static_cast<unsigned long long>(c.dropped_band),
+      static_cast<unsigned long long>(c.dropped_unheard),
+      static_cast<unsigned long long>(c.dropped_pool + c.dropped_queue),
+      static_cast<unsigned long long>(c.dropped_refused));
+}
+
+}  // namespace
+
+void render_log(const Options& options, const Rig& rig) {
+  const auto log = failing_with(kExitData, [&] { return protocol::read_log(options.replay); });
+  ReplaySettings settings;
+  settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
+  settings.engine.seed = options.seed;
+  settings.engine.literal_chirp = options.literal_chirp;
+  const auto report =
+      failing_with(kExitIo, [&] { return render_to(options.render, log, rig, settings); });
+  print(report, options.render, rig, static_cast<int>(settings.engine.sample_rate));
+  if (!options.stems) return;
+  for (const Stem& stem : kStems) {
+    settings.engine.components = stem.components;
+    const auto path = stem_path(options.render, stem.name);
+    failing_with(kExitIo, [&] { return render_to(path, log, rig, settings); });
+    std::printf("%s: %s alone\n", path.c_str(), stem.name);
+  }
+}
+
+}  // namespace splash::synth

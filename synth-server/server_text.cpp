@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/server_text.hpp"
+
+#include <cstdio>
+#include <sstream>
+
+namespace splash::synth {
+namespace {
+
+constexpr std::size_t kNamesPerLine = 6;
+
+std::string decimal(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+std::string percent(double part) {
+  return decimal(100.0 * part, 1) + " %";
+}
+
+}  // namespace
+
+std::string milliseconds_text(double seconds) {
+  return decimal(1e3 * seconds, 1) + " ms";
+}
+
+std::string to_text(const AudioFormat& format) {
+  const double block = static_cast<double>(format.block) / format.sample_rate;
+  const std::string name = format.api == "null" ? "none (paced by the clock)"
+                                                : format.api + " device '" + format.device + "'";
+  return name + ", " + std::to_string(format.channels) + " channels at " +
+         std::to_string(format.sample_rate) + " Hz, blocks of " + std::to_string(format.block) +
+         " (" + milliseconds_text(block) + ")";
+}
+
+std::string channel_map(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += i % kNamesPerLine == 0 ? (i == 0 ? "channels: " : "\n          ") : ", ";
+    text += std::to_string(i + 1) + ' ' + names[i];
+  }
+  return text + '\n';
+}
+
+std::uint64_t dropped(const EngineCounters& engine) noexcept {
+  return engine.dropped_queue + engine.dropped_pool + engine.dropped_refused;
+}
+
+std::string summary(const Totals& t) {
+  std::ostringstream out;
+  out << "ran " << decimal(t.seconds, 1) << " s: played " << t.engine.impacts << " impacts, "
+      << t.engine.bubbles << " bubbles, " << t.engine.cavities << " cavities; at most "
+      << t.player.voices_peak << " voices at once\n";
+  out << "not played: " << t.player.too_late << " too late, "
+      << dropped(t.engine) + t.taken.queue_full << " without a voice or place, "
+      << t.engine.dropped_band << " above the band, " << t.engine.dropped_unheard
+      << " unheard or out of reach, " << t.engine.dropped_cleared << " cleared\n";
+  out << "bundles: " << t.taken.sequence.received << " received, " << t.taken.sequence.lost
+      << " lost, " << t.taken.sequence.duplicates << " duplicates, " << t.taken.sequence.reordered
+      << " reordered, " << t.taken.corrected << " from a clock that was off; "
+      << t.taken.sequence.sessions << " sessions, " << t.taken.departures << " departures\n";
+  out << "datagrams: " << t.taken.datagrams << " received, " << refused(t.taken) << " refused, "
+      << t.taken.forbidden << " forbidden, " << t.dropped_by_kernel << " dropped by the kernel\n";
+  out << "time: " << t.player.late << " events late, " << t.player.early << " too early, "
+      << t.player.xruns << " xruns, " << t.device_losses << " device losses, "
+      << t.player.clock_resets << " clock resets\n";
+  out << "rendering: " << percent(t.player.load_average) << " of a block's time, at most "
+      << percent(t.player.load_peak) << "; " << t.scheduling << '\n';
+  return out.str();
+}
+
+std::string state_line(const IntakeCounters& taken, bool sender_present,
+                       const PlayerCounters& player, const EngineCounters& engine) {
+  std::ostringstream out;
+  out << (sender_present ? "sender there" : "no sender") << ", events " << taken.events
+      << ", voices " << engine.voices << ", late " << player.late + player.too_late << ", early "
+      << player.early << ", lost " << taken.sequence.lost << ", refused " << refused(taken)
+      << ", xruns " << player.xruns << ", load " << percent(player.load_average);
+  return out.str();
+}
+
+}  // namespace splash::synth
