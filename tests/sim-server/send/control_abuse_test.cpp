@@ -59,7 +59,7 @@ TEST_F(ControlAbuse, KillersOfTheLibrariesAreRefusedByName) {
       {"/x\0\0,b\0\0"s, Refusal::bad_tags},                   // liblo: size of a blob not there
       {"/x\0\0,b\0\0\x7F\xFF\xFF\xFF"s, Refusal::bad_tags},
       {"/x\0\0,[[[[[["s + "\0"s, Refusal::bad_tags},
-      {"/*?*?*?*?*?*?*?*?*?*?*?*?*?q\0,\0\0\0"s, Refusal::bad_address},  // liblo: backtracks
+      {"/*?*?*?*?*?*?*?*?*?*?*?*?*q\0,\0\0\0"s, Refusal::bad_address},  // liblo: backtracks
       {"/x\0\0,i\0\0"s, Refusal::truncated},
       {"/x\0\0,f\0\0\x7F\xC0\0\0"s, Refusal::not_finite},
       {nested(70), Refusal::nested},
