@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// splash-figure: draws a plunge's signal by component, and its spectrogram.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "synth-server/figure/components.hpp"
+#include "synth-server/figure/gnuplot.hpp"
+#include "synth-server/figure/plunge_figure.hpp"
+
+namespace {
+
+// sysexits.h
+constexpr int kUsage = 64;
+constexpr int kBadData = 65;
+constexpr int kUnavailable = 69;
+
+struct Options {
+  std::string impact;
+  std::string bubble;
+  std::string cavity;
+  std::string out;
+  splash::synth::FigureSettings figure;
+};
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("--impact", options.impact, "WAV file of the impacts")->required();
+  app.add_option("--bubble", options.bubble, "WAV file of the bubbles")->required();
+  app.add_option("--cavity", options.cavity, "WAV file of the cavities")->required();
+  app.add_option("--out", options.out, "PNG file to write")->required();
+  app.add_option("--title", options.figure.title, "headline")->capture_default_str();
+  app.add_option("--from", options.figure.from, "first moment to draw [s]")->capture_default_str();
+  app.add_option("--to", options.figure.to, "last moment to draw [s]; the end, if not given");
+  app.add_option("--lowest", options.figure.lowest, "lowest frequency [Hz]")->capture_default_str();
+  app.add_option("--highest", options.figure.highest, "highest frequency [Hz]")
+      ->capture_default_str();
+  app.add_option("--range", options.figure.range_db, "span of the colours [dB]")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 200.0));
+}
+
+void draw(const Options& options) {
+  const splash::synth::Components components =
+      splash::synth::read_components(options.impact, options.bubble, options.cavity);
+  splash::synth::draw_plunge(components, options.figure, options.out);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"splash-figure: a plunge's signal by component, and its spectrogram"};
+  Options options;
+  declare(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  draw(options);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const splash::synth::GnuplotError& error) {
+    std::cerr << "splash-figure: " << error.what() << '\n';
+    return kUnavailable;
+  } catch (const std::exception& error) {
+    std::cerr << "splash-figure: " << error.what() << '\n';
+    return kBadData;
+  }
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The paper's Figure 3: a plunge's signal in its three components, and its spectrogram under it.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "synth-server/figure/components.hpp"
+
+namespace splash::synth {
+
+struct FigureSettings {
+  std::string title = "Plunge: vibrotactile signal";
+  double from = 0.0;                                    ///< first moment drawn [s]
+  double to = std::numeric_limits<double>::infinity();  ///< last one, or the signal's end [s]
+  double range_db = 60.0;   ///< colours reach this far below the loudest point [dB]
+  double lowest = 10.0;     ///< of the spectrogram [Hz]
+  double highest = 1000.0;  ///< of the spectrogram [Hz]
+};
+
+/// Draws a PNG. Throws GnuplotError, or std::runtime_error when the picture cannot be written.
+void draw_plunge(const Components& components, const FigureSettings& settings,
+                 const std::filesystem::path& png);
+
+}  // namespace splash::synth

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/figure/plunge_figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "synth-server/figure/gnuplot.hpp"
+#include "tests/figure/wav_text.hpp"
+
+namespace splash::synth {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
+
+Components decaying_sines() {
+  Components components{8000.0, 0.0, 1, {}, {}, {}};
+  for (int i = 0; i < 8000; ++i) {
+    const double t = i / 8000.0;
+    components.impact.push_back(static_cast<float>(std::exp(-20.0 * t) * std::sin(2000.0 * t)));
+    components.bubble.push_back(static_cast<float>(0.2 * std::sin(4000.0 * t)));
+    components.cavity.push_back(static_cast<float>(0.4 * std::sin(200.0 * t)));
+  }
+  return components;
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST(PlungeFigure, DrawsAPngOfTheStatedSize) {
+  const std::filesystem::path folder = testing::fresh_folder("plunge-figure");
+  FigureSettings settings;
+  settings.title = "a \"quoted\" title with a \\backslash";
+  draw_plunge(decaying_sines(), settings, folder / "a.png");
+  const std::string bytes = read_bytes(folder / "a.png");
+  EXPECT_THAT(bytes, StartsWith("\x89PNG"));
+  ASSERT_GT(bytes.size(), 20000U);  // an empty frame is smaller
+  EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\x05\xDC\0\0\x04\x24", 8));  // 1500 x 1060
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PlungeFigure, SilenceIsDrawnToo) {
+  const std::filesystem::path folder = testing::fresh_folder("plunge-silence");
+  const std::vector<float> silence(4000, 0.0F);
+  draw_plunge({8000.0, 0.0, 1, silence, silence, silence}, {}, folder / "a.png");
+  EXPECT_THAT(read_bytes(folder / "a.png"), StartsWith("\x89PNG"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PlungeFigure, SaysThatThePictureCannotBeWritten) {
+  EXPECT_THROW(draw_plunge(decaying_sines(), {}, "/nonexistent/folder/a.png"), GnuplotError);
+}
+
+TEST(Gnuplot, SaysWhatIsMissing) {
+  EXPECT_THAT([] { run_gnuplot("script.gp", "gnuplot-that-is-not-there"); },
+              ThrowsMessage<GnuplotError>(
+                  AllOf(HasSubstr("not installed"), HasSubstr("apt-get install gnuplot-nox"))));
+}
+
+TEST(Gnuplot, ReportsWhatItsScriptDidWrong) {
+  const std::filesystem::path folder = testing::fresh_folder("gnuplot");
+  testing::write(folder / "bad.gp", "plot nonsense(\n");
+  EXPECT_THAT([&] { run_gnuplot(folder / "bad.gp"); },
+              ThrowsMessage<GnuplotError>(HasSubstr("bad.gp")));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Gnuplot, ScratchFolderIsRemoved) {
+  std::filesystem::path path;
+  {
+    const ScratchFolder folder;
+    path = folder.path();
+    testing::write(path / "a", "content");
+    EXPECT_TRUE(std::filesystem::exists(path / "a"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+}  // namespace
+}  // namespace splash::synth
