@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 
@@ -15,9 +17,7 @@ namespace {
 using Counts = std::array<int, 3>;
 
 Vector3 edges(const WaterBlock& block) {
-  Vector3 edge;
-  for (std::size_t i = 0; i < 3; ++i) edge[i] = block.upper[i] - block.lower[i];
-  return edge;
+  return block.upper - block.lower;
 }
 
 /// How far a lattice is from a cube of side `spacing` per particle: the number of particles counts
@@ -54,23 +54,6 @@ Counts lattice(const Vector3& edge, double spacing) {
   return best;
 }
 
-/// A world point in the frame of a body.
-Vector3 to_body(const Keyframe& pose, const Vector3& point) {
-  // v' = q* v q for a unit q: v + 2 u x (u x v) - 2 w (u x v), u the vector part.
-  const auto& q = pose.rotation;
-  const Vector3 v = {point[0] - pose.position[0], point[1] - pose.position[1],
-                     point[2] - pose.position[2]};
-  const auto cross = [](const Vector3& a, const Vector3& b) -> Vector3 {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  const Vector3 u = {q[0], q[1], q[2]};
-  const Vector3 uv = cross(u, v);
-  const Vector3 uuv = cross(u, uv);
-  Vector3 result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = v[i] + 2.0 * (uuv[i] - q[3] * uv[i]);
-  return result;
-}
-
 /// Appends one block. On the slope each column of particles begins half a layer above it, so that
 /// none is too close to the floor and the water's volume is kept within half a layer.
 void fill(const Scene& scene, const WaterBlock& block, double spacing, std::vector<Vector3>& out) {
@@ -91,34 +74,7 @@ void fill(const Scene& scene, const WaterBlock& block, double spacing, std::vect
   }
 }
 
-double box_distance(const Vector3& half, const Vector3& point) {
-  Vector3 over;
-  for (std::size_t i = 0; i < 3; ++i) over[i] = std::abs(point[i]) - half[i];
-  const double inside = std::min(0.0, std::max({over[0], over[1], over[2]}));
-  for (double& part : over) part = std::max(part, 0.0);
-  return std::hypot(over[0], over[1], over[2]) + inside;
-}
-
-double cylinder_distance(double radius, double half_length, const Vector3& point) {
-  const double side = std::hypot(point[0], point[1]) - radius;
-  const double cap = std::abs(point[2]) - half_length;
-  return std::hypot(std::max(side, 0.0), std::max(cap, 0.0)) + std::min(0.0, std::max(side, cap));
-}
-
 }  // namespace
-
-double distance_to(const Shape& shape, const Vector3& point) {
-  const Vector3 half = {0.5 * shape.size[0], 0.5 * shape.size[1], 0.5 * shape.size[2]};
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return std::hypot(point[0], point[1], point[2]) - half[0];
-    case ShapeKind::cylinder:
-      return cylinder_distance(half[0], half[2], point);
-    case ShapeKind::box:
-      break;
-  }
-  return box_distance(half, point);
-}
 
 std::vector<Vector3> initial_particles(const Scene& scene) {
   std::vector<Keyframe> poses;
@@ -135,7 +91,7 @@ std::vector<Vector3> initial_particles(const Scene& scene, std::span<const Keyfr
   for (const auto& block : scene.water) fill(scene, block, spacing, particles);
   std::erase_if(particles, [&](const Vector3& particle) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Vector3 local = to_body(poses[i], particle);
+      const Vector3 local = rotate(inverse(poses[i].rotation), particle - poses[i].position);
       if (distance_to(scene.bodies[i].shape, local) < 0.5 * spacing) return true;
     }
     return false;

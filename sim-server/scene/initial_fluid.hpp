@@ -17,8 +17,4 @@ namespace splash::sim {
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene,
                                                      std::span<const Keyframe> poses);
 
-/// Distance from a body's surface [m], negative inside; exact outside up to the rocker, which
-/// counts as part of the box. `point` in the body's own frame.
-[[nodiscard]] double distance_to(const Shape& shape, const Vector3& point);
-
 }  // namespace splash::sim

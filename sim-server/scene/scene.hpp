@@ -59,6 +59,8 @@ struct Shape {
   Vector3 size = {0.1, 0.1, 0.1};  ///< box: edges; sphere: diameters (equal); cylinder: diameter,
                                    ///< diameter, length along z [m]
   double rocker = 0.0;             ///< box only: the sole curves up at both x ends by this [m]
+  double flat = 0.0;               ///< box only: this share of the sole's length, in the middle,
+                                   ///< does not curve [1]
 };
 
 struct Keyframe {

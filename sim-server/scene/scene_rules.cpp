@@ -100,8 +100,8 @@ void check_shape(const ConfigMap& map, const Shape& shape) {
   if (shape.kind == ShapeKind::sphere && shape.size[0] != shape.size[2]) {
     throw map.error("size", "a sphere's three diameters must be equal");
   }
-  if (round && shape.rocker > 0.0) {
-    throw map.error("rocker", "only a box can have one");
+  for (const char* key : {"rocker", "flat"}) {
+    if (round && map.has(key)) throw map.error(key, "only a box has a sole");
   }
   if (shape.rocker >= shape.size[2]) {
     throw map.error("rocker", text(shape.rocker) + " is not below the box's height (" +

@@ -184,6 +184,12 @@ const Fields<ShapeEntry>& shape_fields() {
         .min = 0,
         .max = 1},
        &S::rocker},
+      {{.key = "flat",
+        .unit = "1",
+        .meaning = "box only: this share of the underside's length, in the middle, stays flat.",
+        .min = 0,
+        .max = 0.95},
+       &S::flat},
   };
   return kFields;
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Unit quaternions as rotations, and their logarithm: the few formulas every moving body needs.
+#pragma once
+
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+[[nodiscard]] Vector3 operator+(const Vector3& a, const Vector3& b) noexcept;
+[[nodiscard]] Vector3 operator-(const Vector3& a, const Vector3& b) noexcept;
+[[nodiscard]] Vector3 operator*(double factor, const Vector3& a) noexcept;
+[[nodiscard]] Vector3 cross(const Vector3& a, const Vector3& b) noexcept;
+[[nodiscard]] double dot(const Vector3& a, const Vector3& b) noexcept;
+[[nodiscard]] double length(const Vector3& a) noexcept;
+
+/// First `b`, then `a`.
+[[nodiscard]] Quaternion compose(const Quaternion& a, const Quaternion& b) noexcept;
+/// The opposite rotation of a unit quaternion.
+[[nodiscard]] Quaternion inverse(const Quaternion& q) noexcept;
+/// `v` turned by the unit quaternion `q`.
+[[nodiscard]] Vector3 rotate(const Quaternion& q, const Vector3& v) noexcept;
+/// To unit length; no rotation when it has (almost) none or is not finite.
+[[nodiscard]] Quaternion unit(const Quaternion& q) noexcept;
+/// Rotation about the direction of `turn` by its length [rad], and back: the shortest turn.
+[[nodiscard]] Quaternion from_turn(const Vector3& turn) noexcept;
+[[nodiscard]] Vector3 to_turn(const Quaternion& q) noexcept;
+
+}  // namespace splash::sim

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/tracking/make_motion.hpp"
+
+#include <stdexcept>
+
+#include "protocol/config.hpp"
+#include "sim-server/tracking/live_motion.hpp"
+#include "sim-server/tracking/marker_motion.hpp"
+#include "sim-server/tracking/path_motion.hpp"
+#include "sim-server/tracking/pose_file.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+/// Adds file and body to what is wrong with a motion's numbers.
+template <class Make>
+std::unique_ptr<Motion> with_names(const BodySettings& body, const std::filesystem::path& file,
+                                   Make make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& problem) {
+    throw protocol::ConfigError(
+        protocol::Place{.file = file.empty() ? "scene" : file.string(), .line = 1, .column = 1},
+        "body '" + body.name + "': " + problem.what());
+  }
+}
+
+std::unique_ptr<Motion> from_markers(const BodySettings& body, const std::filesystem::path& file) {
+  if (file.empty()) {
+    throw std::invalid_argument(
+        "is moved by a marker recording, but the scene names none; give "
+        "one with --tracker FILE.trc");
+  }
+  const MarkerRecording recording = read_markers(file);
+  const auto& motion = body.motion;
+  auto poses = marker_poses(recording, motion.markers, body.shape, motion.sole);
+  return std::make_unique<PathMotion>(std::move(poses), Between::through, motion.repeat,
+                                      recording.times.front() + motion.start);
+}
+
+}  // namespace
+
+std::unique_ptr<Motion> make_motion(const BodySettings& body,
+                                    const std::filesystem::path& tracker_override) {
+  const MotionSettings& motion = body.motion;
+  switch (motion.kind) {
+    case MotionKind::script:
+      return with_names(body, {}, [&] {
+        const Between between = motion.smooth ? Between::monotone : Between::straight;
+        return std::make_unique<PathMotion>(motion.keyframes, between, motion.repeat);
+      });
+    case MotionKind::csv:
+      return with_names(body, motion.file, [&] {
+        auto poses = read_poses(motion.file);
+        const double start = poses.front().time + motion.start;
+        return std::make_unique<PathMotion>(std::move(poses), Between::through, motion.repeat,
+                                            start);
+      });
+    case MotionKind::trc: {
+      const auto& file = tracker_override.empty() ? motion.file : tracker_override;
+      return with_names(body, file, [&] { return from_markers(body, file); });
+    }
+    case MotionKind::osc:
+      return std::make_unique<LiveMotion>(body.rest);
+    case MotionKind::fixed:
+      break;
+  }
+  return std::make_unique<PathMotion>(std::vector<Keyframe>{body.rest}, Between::straight);
+}
+
+}  // namespace splash::sim
