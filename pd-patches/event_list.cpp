@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "pd-patches/event_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+namespace splash::pd {
+namespace {
+
+constexpr double kLongest = 7.0 * 24.0 * 3600.0;  // [s]
+
+struct Start {
+  protocol::Event event;
+  std::int64_t sample = 0;
+};
+
+/// The rounding of synth-server/render/replay.
+std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
+  const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
+  if (!(start <= kLongest)) {
+    throw std::invalid_argument("event log: an event at " + std::to_string(start) +
+                                " s; a log may last 7 days");
+  }
+  return std::max<std::int64_t>(0, std::llround(start * sample_rate));
+}
+
+std::vector<Start> collect(const std::vector<protocol::LogEntry>& log, double sample_rate,
+                           EventListReport& report) {
+  std::vector<Start> starts;
+  for (const protocol::LogEntry& entry : log) {
+    for (const protocol::Message& message : entry.messages) {
+      const std::optional<protocol::Event> event = protocol::to_event(message);
+      if (!event) {
+        ++report.not_events;
+        continue;
+      }
+      const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
+      starts.push_back({*event, start_sample(entry.seconds, offset, sample_rate)});
+    }
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.sample < b.sample; });
+  return starts;
+}
+
+/// Nine digits carry a float exactly.
+void print(std::ostream& out, float value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), " %.9g", static_cast<double>(value));
+  out << text.data();
+}
+
+void print(std::ostream& out, const char* kind, std::int32_t id, std::int32_t body, float first,
+           float second, const protocol::Vec3& place) {
+  out << ' ' << kind << ' ' << id << ' ' << body;
+  for (const float value : {first, second, place.x, place.y, place.z}) print(out, value);
+}
+
+struct Line {
+  std::ostream& out;
+  void operator()(const protocol::Impact& e) const {
+    print(out, "impact", e.id, e.body, e.speed, e.approach, e.position);
+  }
+  void operator()(const protocol::Bubble& e) const {
+    print(out, "bubble", e.id, e.body, e.radius, e.epsilon, e.position);
+  }
+  void operator()(const protocol::Cavity& e) const {
+    print(out, "cavity", e.id, e.body, e.radius, e.epsilon, e.position);
+  }
+};
+
+}  // namespace
+
+EventListReport write_event_list(const std::vector<protocol::LogEntry>& log, double sample_rate,
+                                 std::ostream& out) {
+  if (!(sample_rate >= 8000.0 && sample_rate <= 384000.0)) {
+    throw std::invalid_argument("event list: sample_rate = " + std::to_string(sample_rate) +
+                                " Hz: must be 8000 to 384000");
+  }
+  EventListReport report;
+  double pd_now = 0.0;  // [ms], the sum of what Pd has read so far
+  for (const Start& start : collect(log, sample_rate, report)) {
+    const double due = 1000.0 * static_cast<double>(start.sample) / sample_rate;
+    // Pd holds a delta as a float: what it rounds away, the next delta makes good.
+    const auto delta = static_cast<float>(std::max(0.0, due - pd_now));
+    pd_now += static_cast<double>(delta);
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(delta));
+    out << text.data();
+    std::visit(Line{out}, start.event);
+    out << ";\n";
+    ++report.events;
+    report.last_sample = start.sample;
+  }
+  return report;
+}
+
+}  // namespace splash::pd
