@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The table itself, and what it says of a message.
+// The table itself. New addresses and arguments go here and nowhere else.
 #include "protocol/address.hpp"
 
 #include <array>
-#include <cstdio>
 
 #include "protocol/limits.hpp"
 
@@ -171,96 +170,10 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/status.reply", Direction::reply, "Answers /status: the simulator", kSimStatus},
 });
 
-constexpr std::string_view kTypes = "ifst";  // in the order of Argument's types
-
-std::size_t required_count(const AddressRow& row) {
-  std::size_t count = 0;
-  for (const auto& argument : row.arguments) count += argument.optional ? 0U : 1U;
-  return count;
-}
-
-bool has_types(const Message& message, const AddressRow& row) {
-  const auto& arguments = message.arguments;
-  if (arguments.size() > row.arguments.size() || arguments.size() < required_count(row)) {
-    return false;
-  }
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (kTypes[arguments[i].index()] != row.arguments[i].type) return false;
-  }
-  return true;
-}
-
-// Bounds are compared as floats: 1e-4 sent as a float lies under the double 1e-4.
-bool in_range(const Argument& argument, const ArgumentRow& row) {
-  if (const auto* value = std::get_if<std::int32_t>(&argument)) {
-    return *value >= row.min && *value <= row.max;
-  }
-  if (const auto* value = std::get_if<float>(&argument)) {
-    return *value >= static_cast<float>(row.min) && *value <= static_cast<float>(row.max);
-  }
-  const auto* value = std::get_if<std::string>(&argument);
-  return value == nullptr || row.fixed.empty() || *value == row.fixed;
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
-std::string describe_range(const Argument& argument, const ArgumentRow& row) {
-  std::string got = "'" + std::string(row.fixed) + "' expected";
-  if (const auto* value = std::get_if<std::int32_t>(&argument)) got = std::to_string(*value);
-  if (const auto* value = std::get_if<float>(&argument)) got = number(static_cast<double>(*value));
-  const std::string unit = row.unit == "1" || row.unit.empty() ? "" : " " + std::string(row.unit);
-  std::string reason = std::string(row.name) + ' ' + got;
-  if (row.fixed.empty()) {
-    reason += unit + ", allowed " + number(row.min) + " to " + number(row.max);
-  }
-  return reason;
-}
-
 }  // namespace
 
 std::span<const AddressRow> address_table() noexcept {
   return kTable;
-}
-
-std::string type_tags(const AddressRow& row) {
-  std::string tags = ",";
-  for (const auto& argument : row.arguments) tags += argument.type;
-  return tags;
-}
-
-const AddressRow* find_address(std::string_view address) noexcept {
-  for (const auto& row : kTable) {
-    if (row.address == address) return &row;
-  }
-  return nullptr;
-}
-
-bool conforms(const Message& message, const AddressRow& row) noexcept {
-  if (message.address != row.address || !has_types(message, row)) return false;
-  for (std::size_t i = 0; i < message.arguments.size(); ++i) {
-    if (!in_range(message.arguments[i], row.arguments[i])) return false;
-  }
-  return true;
-}
-
-std::optional<std::string> violation(const Message& message) {
-  std::optional<std::string> reason = "unknown address";
-  for (const auto& row : kTable) {
-    if (row.address != message.address) continue;
-    if (conforms(message, row)) return std::nullopt;
-    reason = "types are " + type_tags(message) + ", expected " + type_tags(row);
-    if (!has_types(message, row)) continue;
-    for (std::size_t i = 0; i < message.arguments.size(); ++i) {
-      if (in_range(message.arguments[i], row.arguments[i])) continue;
-      reason = describe_range(message.arguments[i], row.arguments[i]);
-      break;
-    }
-  }
-  return reason;
 }
 
 }  // namespace splash::protocol

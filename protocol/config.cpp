@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Reads values of a configuration's tree by their rows; every refusal names place, key, what was
-// found and what is allowed.
+// Walks a configuration's tree by its rows: which keys may be there, which must, where they are.
 #include "protocol/config.hpp"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <utility>
 
-#include "protocol/config_number.hpp"
 #include "protocol/config_tree.hpp"
+#include "protocol/config_value.hpp"
 #include "protocol/nearest_name.hpp"
 
 namespace splash::protocol {
@@ -30,129 +28,11 @@ std::string joined(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + '.' + key;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
-std::string with_unit(const std::string& text, const Row& row) {
-  return row.unit.empty() || row.unit == "1" ? text : text + ' ' + row.unit;
-}
-
-std::string range_of(const Row& row) {
-  const bool low = row.min > -std::numeric_limits<double>::infinity();
-  const bool high = row.max < std::numeric_limits<double>::infinity();
-  if (low && high) return with_unit(number(row.min) + ".." + number(row.max), row);
-  if (low) return "at least " + with_unit(number(row.min), row);
-  if (high) return "at most " + with_unit(number(row.max), row);
-  return row.unit.empty() || row.unit == "1" ? "" : "in " + row.unit;
-}
-
-std::string with_range(const std::string& expected, const Row& row) {
-  const auto range = range_of(row);
-  return range.empty() ? expected : expected + ", " + range;
-}
-
-/// One value of the tree and how errors call it.
-struct Value {
-  const ConfigTree& tree;
-  const Row& row;
-  std::string key;  // full, with an index for an item of a list
-
-  [[nodiscard]] ConfigError error(const std::string& reason, const std::string& expected) const {
-    return {tree.place, "key '" + key + "': " + reason + " (got " + describe_kind(tree) +
-                            ", expected " + expected + ")"};
-  }
-
-  [[nodiscard]] ConfigError wrong(const std::string& expected) const {
-    if (tree.kind == Kind::null) return error("has no value", expected);
-    const bool scalar = tree.kind == Kind::scalar;
-    if (scalar && tree.quoted) return error("text in quotes is no number", expected);
-    const auto advice = scalar ? number_advice(tree.text) : std::string();
-    return error(advice.empty() ? "wrong kind of value" : advice, expected);
-  }
-
-  void check_range(double number) const {
-    if (number >= row.min && number <= row.max) return;
-    throw error("out of range", range_of(row));
-  }
-
-  [[nodiscard]] bool plain() const { return tree.kind == Kind::scalar && !tree.quoted; }
-
-  [[nodiscard]] Value item(std::size_t index) const {
-    return {tree.items[index], row, key + '[' + std::to_string(index) + ']'};
-  }
-};
-
-void convert(const Value& value, double& out) {
-  const auto parsed = value.plain() ? parse_number(value.tree.text) : std::nullopt;
-  if (!parsed) throw value.wrong(with_range("a number", value.row));
-  value.check_range(*parsed);
-  out = *parsed;
-}
-
-void convert(const Value& value, int& out) {
-  const auto parsed = value.plain() ? parse_whole(value.tree.text) : std::nullopt;
-  if (!parsed) throw value.wrong(with_range("a whole number", value.row));
-  value.check_range(*parsed);
-  out = *parsed;
-}
-
-void convert(const Value& value, bool& out) {
-  const auto parsed = value.plain() ? parse_truth(value.tree.text) : std::nullopt;
-  if (!parsed) throw value.error("wrong kind of value", "true or false");
-  out = *parsed;
-}
-
-void convert(const Value& value, std::string& out) {
-  const auto& choices = value.row.choices;
-  if (value.tree.kind != Kind::scalar) {
-    throw value.error(value.tree.kind == Kind::null ? "has no value" : "wrong kind of value",
-                      "text");
-  }
-  const auto& text = value.tree.text;
-  bool known = choices.empty();
-  std::string listed;
-  for (const auto& choice : choices) {
-    known = known || choice == text;
-    listed += (listed.empty() ? "" : ", ") + choice;
-  }
-  if (!known) {
-    const auto error = value.error("unknown choice", "one of " + listed);
-    const auto nearest = nearest_name(text, choices);
-    if (nearest.empty()) throw error;
-    throw ConfigError::with_suggestion(error, nearest);
-  }
-  out = text;
-}
-
-template <std::size_t Count>
-void convert(const Value& value, std::array<double, Count>& out) {
-  if (value.tree.kind != Kind::list || value.tree.items.size() != Count) {
-    const auto expected = "a list of " + std::to_string(Count) + " numbers";
-    throw value.error("wrong kind of value", with_range(expected, value.row));
-  }
-  std::array<double, Count> numbers{};
-  for (std::size_t i = 0; i < Count; ++i) convert(value.item(i), numbers[i]);
-  out = numbers;
-}
-
-template <class Item>
-void convert(const Value& value, std::vector<Item>& out) {
-  if (value.tree.kind != Kind::list) {
-    throw value.error("wrong kind of value", "a list, such as [a, b]");
-  }
-  std::vector<Item> items(value.tree.items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) convert(value.item(i), items[i]);
-  out = std::move(items);
-}
-
 template <class Out>
 bool convert_entry(const ConfigTree& tree, const std::string& path, const Row& row, Out& out) {
   const auto* found = tree.find(row.key);
   if (found == nullptr) return false;
-  convert(Value{*found, row, joined(path, row.key)}, out);
+  convert(ConfigValue{*found, row, joined(path, row.key)}, out);
   return true;
 }
 
@@ -262,7 +142,8 @@ std::optional<ConfigMap> ConfigMap::optional_child(const std::string& key) const
   const Row row{key, "", ""};
   const auto path = joined(node_->path, key);
   if (found->kind != Kind::mapping) {
-    throw Value{*found, row, path}.error("wrong kind of value", "a mapping of keys to values");
+    throw ConfigValue{*found, row, path}.error("wrong kind of value",
+                                               "a mapping of keys to values");
   }
   return ConfigMap(std::make_shared<const Node>(Node{node_->root, found, path}));
 }
@@ -272,7 +153,7 @@ std::vector<ConfigMap> ConfigMap::list(const std::string& key) const {
   const auto* found = node_->tree->find(key);
   if (found == nullptr) return maps;
   const Row row{key, "", ""};
-  const Value value{*found, row, joined(node_->path, key)};
+  const ConfigValue value{*found, row, joined(node_->path, key)};
   if (found->kind != Kind::list) throw value.error("wrong kind of value", "a list of mappings");
   for (std::size_t i = 0; i < found->items.size(); ++i) {
     const auto item = value.item(i);
