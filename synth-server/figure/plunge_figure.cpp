@@ -19,7 +19,8 @@ constexpr std::size_t kPlotColumns = 1280;  // width of the plots in the picture
 
 // Colours that people with colour blindness tell apart: Okabe and Ito 2008.
 constexpr std::string_view kSetup = R"gp(
-set terminal pngcairo size 1500,1060 enhanced font "DejaVu Sans,15" linewidth 1.4 background "#ffffff"
+set terminal pngcairo size 1500,1060 enhanced font "DejaVu Sans,15" linewidth 1.4 \
+  background "#ffffff"
 set encoding utf8
 set minussign
 impact_colour = "#d55e00"
@@ -42,7 +43,8 @@ set format x ""
 set format y "%g"
 set yrange [-peak:peak]
 set grid ytics linecolor rgb "#cbd0d8" linewidth 0.6
-set key at screen 0.915,0.9525 right center horizontal Left reverse samplen 1.1 width 1 textcolor rgb ink
+set key at screen 0.915,0.9525 right center horizontal Left reverse samplen 1.1 width 1 \
+  textcolor rgb ink
 set style fill solid 0.62 noborder
 plot "impact.dat" using 1:2:3 with filledcurves linecolor rgb impact_colour title "impact", \
      1/0 with filledcurves y=0 linecolor rgb bubble_colour title "bubbles", \
@@ -77,8 +79,8 @@ set colorbox user origin screen 0.928,0.080 size screen 0.013,0.480 noborder
 set cbtics out scale 0.4
 set palette defined (0 "#000004", 1 "#2c115f", 2 "#721f81", 3 "#b73779", 4 "#f1605d", \
   5 "#feb078", 6 "#fcfdbf")
-plot "spectrogram.bin" binary array=(columns,rows) format="%float" origin=(first_time,log10(lowest)) \
-     dx=dx dy=dy using 1 with image notitle
+plot "spectrogram.bin" binary array=(columns,rows) format="%float" \
+     origin=(first_time,log10(lowest)) dx=dx dy=dy using 1 with image notitle
 )gp";
 
 void write_envelope(const std::filesystem::path& file, const std::vector<float>& signal,

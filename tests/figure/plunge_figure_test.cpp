@@ -60,7 +60,8 @@ TEST(PlungeFigure, SaysThatThePictureCannotBeWritten) {
 }
 
 TEST(Gnuplot, SaysWhatIsMissing) {
-  EXPECT_THAT([] { run_gnuplot("script.gp", "gnuplot-that-is-not-there"); },
+  const ScratchFolder folder;
+  EXPECT_THAT([&] { run_gnuplot(folder.path() / "a.gp", "gnuplot-that-is-not-there"); },
               ThrowsMessage<GnuplotError>(
                   AllOf(HasSubstr("not installed"), HasSubstr("apt-get install gnuplot-nox"))));
 }

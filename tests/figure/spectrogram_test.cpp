@@ -40,7 +40,7 @@ std::size_t nearest_row(const Spectrogram& spectrum, double frequency) {
 TEST(Spectrogram, FullScaleSineReadsZeroDecibels) {
   SpectrogramSettings settings;
   settings.columns = 9;
-  for (const double frequency : {25.0, 100.0, 420.0, 900.0}) {
+  for (const double frequency : {60.0, 100.0, 420.0, 900.0}) {
     const Spectrogram spectrum = spectrogram(sine(frequency, 1.0, 2.0), kRate, settings);
     EXPECT_NEAR(ridge(spectrum, 4) / frequency, 1.0, 0.01) << frequency;
     SpectrogramSettings exact = settings;  // whose first row is the sine's own frequency
