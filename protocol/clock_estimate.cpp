@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Least squares through the quarter of the samples with the shortest round trips.
+// Weighted least squares through the quarter of the samples with the shortest round trips.
 #include "protocol/clock_estimate.hpp"
 
 #include <algorithm>
@@ -9,9 +9,10 @@ namespace splash::protocol {
 namespace {
 
 constexpr std::size_t kLeastSamples = 4;
-constexpr double kDriftSpan = 10.0;     // shorter spans say more about jitter than drift [s]
+constexpr double kDriftSpread = 3.0;  // closer together, samples say more of jitter than drift [s]
+constexpr double kLeastError = 5e-5;  // of a sample: interrupts, time slices [s]
 constexpr double kLargestDrift = 5e-4;  // crystals stay within 1e-4; adjtime slews 5e-4 [s/s]
-constexpr double kSlack = 1e-3;         // for rounding and asymmetry of the fit itself [s]
+constexpr double kSlack = 1e-3;         // for rounding of the stamps [s]
 
 }  // namespace
 
@@ -40,40 +41,48 @@ bool ClockEstimate::add(double t0, double t1, double t2, double t3) {
   return true;
 }
 
-// A sample bounds the true offset to within half its round trip, and so did the shortest one.
+// Each sample bounds the true offset to within half its round trip; two of them must agree.
 bool ClockEstimate::contradicts(const Sample& sample) const noexcept {
-  const double age = std::abs(sample.time - samples_.back().time);
-  const double bound = 0.5 * (sample.round_trip + shortest_) + kLargestDrift * age + kSlack;
-  return std::abs(sample.offset - offset_at(sample.time)) > bound;
+  return std::any_of(samples_.begin(), samples_.end(), [&sample](const Sample& known) {
+    const double bound = 0.5 * (sample.round_trip + known.round_trip) +
+                         kLargestDrift * std::abs(sample.time - known.time) + kSlack;
+    return std::abs(sample.offset - known.offset) > bound;
+  });
 }
 
 void ClockEstimate::fit() {
   std::vector<Sample> best = samples_;
   const auto shorter = [](const Sample& a, const Sample& b) { return a.round_trip < b.round_trip; };
   std::stable_sort(best.begin(), best.end(), shorter);
-  shortest_ = best.front().round_trip;
   best.resize(std::min(best.size(), std::max(kLeastSamples, best.size() / 4)));
+  const Sample origin = best.front();  // differences to it: Unix times are large
+  shortest_ = origin.round_trip;
 
-  const auto earlier = [](const Sample& a, const Sample& b) { return a.time < b.time; };
-  const auto [first, last] = std::minmax_element(best.begin(), best.end(), earlier);
-  const double span = last->time - first->time;
-  const auto count = static_cast<double>(best.size());
+  // What a round trip has over the shortest may all lie on one way: half of it is the error.
+  const auto weight = [&origin](const Sample& sample) {
+    const double error = kLeastError + 0.5 * (sample.round_trip - origin.round_trip);
+    return 1.0 / (error * error);
+  };
+  double weights = 0.0;
   double time = 0.0;
   double offset = 0.0;
   for (const auto& sample : best) {
-    time += (sample.time - first->time) / count;  // differences: Unix times are large
-    offset += (sample.offset - first->offset) / count;
+    weights += weight(sample);
+    time += weight(sample) * (sample.time - origin.time);
+    offset += weight(sample) * (sample.offset - origin.offset);
   }
-  centre_ = first->time + time;
-  offset_ = first->offset + offset;
+  centre_ = origin.time + time / weights;
+  offset_ = origin.offset + offset / weights;
 
   double across = 0.0;
   double along = 0.0;
   for (const auto& sample : best) {
-    across += (sample.time - centre_) * (sample.offset - offset_);
-    along += (sample.time - centre_) * (sample.time - centre_);
+    const double away = sample.time - centre_;
+    across += weight(sample) * away * (sample.offset - offset_);
+    along += weight(sample) * away * away;
   }
-  drift_ = span < kDriftSpan ? 0.0 : std::clamp(across / along, -kLargestDrift, kLargestDrift);
+  const double spread = std::sqrt(along / weights);
+  drift_ = spread < kDriftSpread ? 0.0 : std::clamp(across / along, -kLargestDrift, kLargestDrift);
 }
 
 double ClockEstimate::offset_at(double local_time) const noexcept {

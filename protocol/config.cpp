@@ -73,8 +73,10 @@ ConfigMap ConfigMap::load(const std::filesystem::path& path) {
 ConfigMap ConfigMap::parse(const std::string& text, const std::string& file_name) {
   auto root = std::make_shared<const ConfigTree>(parse_config_tree(text, file_name));
   if (root->kind != Kind::mapping) {
-    throw ConfigError(root->place, "the file must be a mapping of keys to values (got " +
-                                       describe_kind(*root) + ", expected 'key: value')");
+    const bool empty = root->kind == Kind::null;
+    throw ConfigError(empty ? Place{file_name} : root->place,
+                      "the file must be a mapping of keys to values (got " + describe_kind(*root) +
+                          ", expected 'key: value')");
   }
   const auto* tree = root.get();
   return ConfigMap(std::make_shared<const Node>(Node{std::move(root), tree, ""}));

@@ -166,12 +166,16 @@ ConfigTree parse_config_tree(const std::string& text, const std::string& file_na
   TreeBuilder builder(file_name);
   builder.root().place = {file_name, 1, 1};
   try {
-    std::istringstream stream(text);
+    // The end mark makes yaml-cpp see quotes that are never closed; without it, it closes them.
+    const bool closed = text.empty() || text.back() == '\n';
+    std::istringstream stream(text + (closed ? "...\n" : "\n...\n"));
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& exception) {
-    throw ConfigError(to_place(file_name, exception.mark), "not YAML: " + exception.msg);
+    const bool open = exception.msg == YAML::ErrorMsg::DOC_IN_SCALAR;
+    throw ConfigError(to_place(file_name, exception.mark),
+                      "not YAML: " + (open ? "a quote is opened and not closed" : exception.msg));
   }
   return std::move(builder.root());
 }

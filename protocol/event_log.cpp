@@ -73,7 +73,7 @@ LogWriter::LogWriter(const std::filesystem::path& path) : path_(path) {
 }
 
 void LogWriter::append(double seconds, const std::vector<Message>& messages) {
-  const double time = std::max(seconds, last_seconds_);  // NaN keeps the last time
+  const double time = std::max(last_seconds_, seconds);  // in this order NaN keeps the last time
   const auto packet = encode(to_score_tag(time), messages);
   last_seconds_ = time;
   std::array<char, 4> size{};

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The table against the gate's rules, against itself, and against the README that is made of it.
+#include "protocol/address.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "protocol/limits.hpp"
+
+namespace splash::protocol {
+namespace {
+
+Message example(const AddressRow& row, bool largest) {
+  Message message{std::string(row.address), {}};
+  for (const auto& argument : row.arguments) {
+    const double value = largest ? argument.max : argument.min;
+    if (argument.type == 'i') message.arguments.emplace_back(static_cast<std::int32_t>(value));
+    if (argument.type == 'f') message.arguments.emplace_back(static_cast<float>(value));
+    if (argument.type == 's') message.arguments.emplace_back(std::string(argument.fixed));
+    if (argument.type == 't') message.arguments.emplace_back(TimeTag{1});
+  }
+  return message;
+}
+
+TEST(AddressTable, EveryRowKeepsTheWiresLimits) {
+  for (const auto& row : address_table()) {
+    SCOPED_TRACE(row.address);
+    EXPECT_LE(row.arguments.size(), kMaxArguments);
+    EXPECT_FALSE(row.meaning.empty());
+    for (const bool largest : {false, true}) {
+      const auto message = example(row, largest);
+      EXPECT_EQ(decode(encode(message)).packet.messages.at(0), message);
+      EXPECT_TRUE(conforms(message, row));
+      EXPECT_FALSE(violation(message)) << *violation(message);
+    }
+    std::set<std::string_view> names;
+    for (const auto& argument : row.arguments) {
+      EXPECT_TRUE(names.insert(argument.name).second) << argument.name;
+      EXPECT_FALSE(argument.meaning.empty()) << argument.name;
+      EXPECT_LE(argument.min, argument.max) << argument.name;
+    }
+  }
+}
+
+// Vanilla Pd, Unity and others know no time tags as arguments: only control has them.
+TEST(AddressTable, EventsUseOnlyIntegersAndFloats) {
+  for (const auto& row : address_table()) {
+    if (row.direction != Direction::to_synth && row.direction != Direction::to_sim) continue;
+    EXPECT_EQ(type_tags(row).find_first_not_of(",if"), std::string::npos) << row.address;
+  }
+}
+
+TEST(AddressTable, OneStepOutsideEachBoundIsAViolation) {
+  int tried = 0;
+  for (const auto& row : address_table()) {
+    for (std::size_t i = 0; i < row.arguments.size(); ++i) {
+      if (row.arguments[i].type != 'f') continue;
+      for (const bool largest : {false, true}) {
+        auto message = example(row, largest);
+        const auto bound = std::get<float>(message.arguments[i]);
+        const float beyond = largest ? 1e30F : -1e30F;
+        message.arguments[i] = std::nextafter(bound, beyond);
+        EXPECT_FALSE(conforms(message, row)) << row.address << ' ' << row.arguments[i].name;
+        EXPECT_TRUE(violation(message)) << row.address << ' ' << row.arguments[i].name;
+        ++tried;
+      }
+    }
+  }
+  EXPECT_GT(tried, 60);
+}
+
+TEST(Violation, SaysWhatIsAllowed) {
+  auto message = to_message(Impact{1, 0, 120.0F, 1.0F, {}, 0.0F});
+  EXPECT_EQ(violation(message), "speed 120 m/s, allowed 0 to 100");
+  message.arguments[2] = 5;
+  EXPECT_EQ(violation(message), "types are ,iiifffff, expected ,iiffffff");
+  EXPECT_EQ(violation({"/impakt", {}}), "unknown address");
+  EXPECT_EQ(violation({"/dumpOSC", {7}}), "level 7, allowed 0 to 3");
+  EXPECT_FALSE(violation({"/done", {std::string("/quit")}}));
+  EXPECT_FALSE(violation({"/done", {std::string("/notify"), 1}}));
+  EXPECT_TRUE(violation({"/done", {}}));
+}
+
+TEST(Readme, HoldsTheReferenceAsThePrograms) {
+  const std::string path = std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md";
+  std::ifstream file(path);
+  ASSERT_TRUE(file) << path;
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string begin = "<!-- begin: protocol-reference -->\n";
+  const std::string end = "<!-- end: protocol-reference -->\n";
+  const auto from = text.str().find(begin);
+  const auto to = text.str().find(end);
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  const auto start = from + begin.size();
+  EXPECT_EQ(text.str().substr(start, to - start), "\n" + address_reference() + "\n")
+      << "run protocol-reference and put its output between the markers of " << path;
+}
+
+}  // namespace
+}  // namespace splash::protocol

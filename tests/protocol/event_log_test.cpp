@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "protocol/event_log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "protocol/limits.hpp"
+#include "tests/protocol/raw_packet.hpp"
+
+namespace splash::protocol::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class EventLog : public ::testing::Test {
+ protected:
+  EventLog() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "splash-log-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~EventLog() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::filesystem::path path() const { return folder_ / "test.osc"; }
+
+  void write(const Raw& content) const {
+    std::ofstream file(path(), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(content.data()),
+               static_cast<std::streamsize>(content.size()));
+  }
+
+  [[nodiscard]] std::string refusal(const Raw& content) const {
+    write(content);
+    try {
+      (void)read_log(path());
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+};
+
+const Message kImpact = to_message(Impact{1, 0, 2.0F, 1.0F, {0.1F, 0.2F, 0.3F}, 0.5F});
+const Message kFrame = to_message(Frame{9, 1, 2, 3.0F});
+
+TEST_F(EventLog, ComesBack) {
+  {
+    LogWriter log(path());
+    log.append(0.0, {});
+    log.append(0.25, {kFrame, kImpact});
+    log.append(3600.5, {kFrame});
+    log.flush();
+  }
+  const auto entries = read_log(path());
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(entries[0].seconds, 0.0);
+  EXPECT_TRUE(entries[0].messages.empty());
+  EXPECT_EQ(entries[1].seconds, 0.25);
+  EXPECT_EQ(entries[1].messages, (std::vector<Message>{kFrame, kImpact}));
+  EXPECT_EQ(entries[2].seconds, 3600.5);
+}
+
+TEST_F(EventLog, FramedAsAScoreOfScsynth) {
+  {
+    LogWriter log(path());
+    log.append(1.5, {{"/a", {7}}});
+  }
+  std::ifstream file(path(), std::ios::binary);
+  const std::string content((std::istreambuf_iterator<char>(file)), {});
+  const Raw bundle = bundle_head(0x180000000ULL) + element(message("/a", ",i", word(7)));
+  EXPECT_EQ(bytes(content), element(bundle));
+}
+
+TEST_F(EventLog, TimeNeverRunsBackwards) {
+  {
+    LogWriter log(path());
+    log.append(2.0, {kFrame});
+    log.append(1.0, {kFrame});
+    log.append(std::numeric_limits<double>::quiet_NaN(), {kFrame});
+    log.append(3.0, {kFrame});
+  }
+  const auto entries = read_log(path());
+  ASSERT_EQ(entries.size(), 4U);
+  EXPECT_EQ(entries[1].seconds, 2.0);
+  EXPECT_EQ(entries[2].seconds, 2.0);
+  EXPECT_EQ(entries[3].seconds, 3.0);
+}
+
+TEST_F(EventLog, EmptyLogIsALog) {
+  { const LogWriter log(path()); }
+  EXPECT_TRUE(read_log(path()).empty());
+}
+
+TEST_F(EventLog, ABundleThatIsNoneIsNotWritten) {
+  {
+    LogWriter log(path());
+    EXPECT_THROW(log.append(0.0, std::vector<Message>(65, kFrame)), std::length_error);
+    log.append(1.0, {kFrame});
+  }
+  EXPECT_EQ(read_log(path()).size(), 1U);
+}
+
+TEST_F(EventLog, RefusesEveryTruncation) {
+  const Raw entry = element(bundle_head(1ULL << 32U) + element(message("/a", ",i", word(1))));
+  const Raw whole = entry + entry;
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    if (size == entry.size()) continue;
+    const auto reason = refusal(Raw(whole.begin(), whole.begin() + static_cast<long>(size)));
+    EXPECT_THAT(reason, HasSubstr("the file ends inside a packet")) << size;
+    EXPECT_THAT(reason, AllOf(HasSubstr(path().string()),
+                              HasSubstr(size < entry.size() ? ", byte 0:" : ", byte 36:")));
+  }
+}
+
+TEST_F(EventLog, RefusesHostileSizes) {
+  const Raw head = bundle_head();
+  for (const std::uint32_t size :
+       {0U, 4U, 12U, 17U, 18U, 1476U, 0x7fffffffU, 0x80000000U, 0xfffffffcU, 0xffffffffU}) {
+    EXPECT_THAT(refusal(word(size) + head),
+                HasSubstr("byte 0: packet size " + std::to_string(size) + ", expected"));
+  }
+}
+
+TEST_F(EventLog, RefusesWhatTheGateRefusesAndSaysWhere) {
+  const Raw good = element(bundle_head());
+  EXPECT_EQ(refusal(good + element(bundle_head() + word(0xfffffffc))),
+            "event log '" + path().string() +
+                "', byte 20: the packet is refused: bundle element's size is zero, no multiple of "
+                "four or passes the end");
+  EXPECT_THAT(refusal(good + element(message("/impact", ",iii", word(1) + word(2) + word(3)))),
+              HasSubstr("byte 20: a bare message, expected a bundle"));
+  EXPECT_THAT(refusal(element(bundle_head(2ULL << 32U)) + element(bundle_head(1ULL << 32U))),
+              HasSubstr("byte 20: its time 1.000000 s lies before the 2.000000 s"));
+}
+
+TEST_F(EventLog, RefusesALogThatWouldFillTheMemory) {
+  write(element(bundle_head()));
+  std::filesystem::resize_file(path(), (256U << 20U) + 1);  // sparse
+  try {
+    (void)read_log(path());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("at most 268435456"));
+  }
+}
+
+TEST_F(EventLog, SaysWhyAFileCannotBeOpened) {
+  try {
+    (void)read_log(folder_ / "none.osc");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("none.osc"), HasSubstr("No such file")));
+  }
+  try {
+    const LogWriter log(folder_ / "no" / "folder.osc");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("cannot create"), HasSubstr("No such file")));
+  }
+  EXPECT_THROW((void)read_log(folder_), std::runtime_error);
+}
+
+TEST_F(EventLog, AFullDiskIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  LogWriter log("/dev/full");
+  log.append(0.0, {kFrame});
+  try {
+    log.flush();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("/dev/full"), HasSubstr("No space left")));
+  }
+}
+
+}  // namespace
+}  // namespace splash::protocol::test

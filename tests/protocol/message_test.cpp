@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Messages to bytes and back; events, frames and poses to messages and back.
+#include "protocol/message.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "protocol/limits.hpp"
+#include "tests/protocol/raw_packet.hpp"
+
+namespace splash::protocol::test {
+namespace {
+
+const Impact kImpact{16777215, 1, 2.5F, 1.25F, {0.1F, -0.2F, 0.3F}, 3.5F};
+const Bubble kBubble{42, -1, 0.0031F, 0.05F, {-1.0F, 2.0F, 0.0F}, 0.0F};
+const Cavity kCavity{7, 0, 0.05F, 0.1F, {0.0F, 0.0F, 0.2F}, 9.0F};
+const Frame kFrame{123456, 16777215, 77, 12.5F};
+const BodyPose kPose{3, {1.0F, 2.0F, 3.0F}, 0.0F, 0.6F, 0.0F, 0.8F};
+
+TEST(Encode, BytesOfAnImpact) {
+  const Raw expected = padded("/impact") + padded(",iiffffff") + word(1) + word(2) +
+                       word(0x3f800000) + word(0x3f000000) + word(0) + word(0x80000000) +
+                       word(0x40000000) + word(0x3e800000);
+  EXPECT_EQ(encode(to_message(Impact{1, 2, 1.0F, 0.5F, {0.0F, -0.0F, 2.0F}, 0.25F})), expected);
+}
+
+TEST(Encode, SizesAreToldBeforehand) {
+  for (const std::size_t length : {0U, 1U, 3U, 4U, 7U, 64U}) {
+    const Message one{"/a/bc", {1, 2.0F, std::string(length, 'x'), TimeTag{5}}};
+    EXPECT_EQ(encode(one).size(), encoded_size(one)) << length;
+    EXPECT_EQ(encode(TimeTag{9}, {one, one}).size(), 16 + 2 * (4 + encoded_size(one)));
+  }
+}
+
+TEST(Encode, BundleComesBack) {
+  const std::vector<Message> sent = {to_message(kFrame),
+                                     to_message(kImpact),
+                                     to_message(kBubble),
+                                     {"/mixed", {1, -2.5F, std::string("text"), TimeTag{77}}}};
+  const auto result = decode(encode(TimeTag{0x123456789abcdef0ULL}, sent));
+  ASSERT_EQ(result.refusal, Refusal::none);
+  EXPECT_EQ(result.packet.time, TimeTag{0x123456789abcdef0ULL});
+  EXPECT_EQ(result.packet.messages, sent);
+}
+
+TEST(Encode, BareMessageAndEmptyBundleComeBack) {
+  const auto bare = decode(encode(to_message(kPose)));
+  EXPECT_FALSE(bare.packet.time);
+  EXPECT_EQ(bare.packet.messages, std::vector<Message>{to_message(kPose)});
+  const auto empty = decode(encode(kImmediately, {}));
+  EXPECT_EQ(empty.refusal, Refusal::none);
+  EXPECT_EQ(empty.packet.time, kImmediately);
+  EXPECT_TRUE(empty.packet.messages.empty());
+}
+
+TEST(Encode, RefusesWhatTheGateWould) {
+  const auto nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Message> wrong = {
+      {"impact", {}},
+      {"/im pact", {}},
+      {"/impact*", {}},
+      {"/" + std::string(64, 'a'), {}},
+      {"/a", {nan}},
+      {"/a", {std::numeric_limits<float>::infinity()}},
+      {"/a", {std::string(65, 'x')}},
+      {"/a", {std::string("\n")}},
+      {"/a", {std::string("x\0y", 3), 1}},
+      {"/a", std::vector<Argument>(17, Argument{1})},
+  };
+  for (const auto& one : wrong) {
+    EXPECT_THROW((void)encode(one), std::length_error) << one.address;
+    EXPECT_THROW((void)encode(kImmediately, {one}), std::length_error) << one.address;
+  }
+  EXPECT_THROW((void)encode(kImmediately, std::vector<Message>(65, {"/a", {}})), std::length_error);
+  EXPECT_THROW((void)encode(kImmediately, std::vector<Message>(27, to_message(kBubble))),
+               std::length_error);
+}
+
+TEST(Encode, TwentyFiveBubblesAndAFrameFitADatagram) {
+  std::vector<Message> messages(25, to_message(kBubble));
+  messages.insert(messages.begin(), to_message(kFrame));
+  EXPECT_LE(encode(kImmediately, messages).size(), kMaxDatagram);
+}
+
+TEST(Encode, ErrorSaysWhatAndWhy) {
+  try {
+    (void)encode(Message{"/a", {std::numeric_limits<float>::infinity()}});
+    FAIL();
+  } catch (const std::length_error& error) {
+    EXPECT_STREQ(error.what(), "cannot send message '/a' (12 bytes): a number is NaN or infinite");
+  }
+}
+
+TEST(Decode, SaysWhyAndGivesNothing) {
+  const auto result = decode(bytes("hello"));
+  EXPECT_EQ(result.refusal, Refusal::not_aligned);
+  EXPECT_TRUE(result.packet.messages.empty());
+  EXPECT_FALSE(result.packet.time);
+}
+
+TEST(EventMessage, EventsComeBack) {
+  for (const Event& event : {Event{kImpact}, Event{kBubble}, Event{kCavity}}) {
+    const auto decoded = decode(encode(to_message(event)));
+    ASSERT_EQ(decoded.packet.messages.size(), 1U);
+    EXPECT_EQ(to_event(decoded.packet.messages[0]), event);
+    EXPECT_FALSE(to_frame(decoded.packet.messages[0]));
+    EXPECT_FALSE(to_body_pose(decoded.packet.messages[0]));
+  }
+  EXPECT_EQ(to_frame(to_message(kFrame)), kFrame);
+  EXPECT_EQ(to_body_pose(to_message(kPose)), kPose);
+  EXPECT_FALSE(to_event(to_message(kFrame)));
+}
+
+TEST(EventMessage, WrongTypesAndCountsAreRefused) {
+  const Message right = to_message(kBubble);
+  for (std::size_t i = 0; i < right.arguments.size(); ++i) {
+    Message wrong = right;
+    if (std::holds_alternative<float>(wrong.arguments[i])) {
+      wrong.arguments[i] = 1;
+    } else {
+      wrong.arguments[i] = 1.0F;
+    }
+    EXPECT_FALSE(to_event(wrong)) << i;
+  }
+  Message shorter = right;
+  shorter.arguments.pop_back();
+  EXPECT_FALSE(to_event(shorter));
+  Message longer = right;
+  longer.arguments.emplace_back(1.0F);
+  EXPECT_FALSE(to_event(longer));
+  Message other = right;
+  other.address = "/bubbles";
+  EXPECT_FALSE(to_event(other));
+}
+
+TEST(EventMessage, ValuesOutOfRangeAreRefused) {
+  const auto refused = [](auto change, auto record) {
+    change(record);
+    return !to_event(to_message(record));
+  };
+  EXPECT_TRUE(refused([](Impact& i) { i.id = kCounterWrap; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.id = -1; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.body = 256; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.body = -2; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.speed = 100.1F; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.approach = -0.1F; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.position.x = 1001.0F; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.offset_ms = -0.1F; }, kImpact));
+  EXPECT_TRUE(refused([](Bubble& b) { b.radius = 0.99e-4F; }, kBubble));
+  EXPECT_TRUE(refused([](Bubble& b) { b.radius = 0.0F; }, kBubble));
+  EXPECT_TRUE(refused([](Bubble& b) { b.epsilon = 1.1F; }, kBubble));
+  EXPECT_TRUE(refused([](Cavity& c) { c.radius = 1.1F; }, kCavity));
+  EXPECT_TRUE(
+      refused([](Cavity& c) { c.position.z = std::numeric_limits<float>::quiet_NaN(); }, kCavity));
+  EXPECT_FALSE(refused([](Bubble& b) { b.radius = 1e-4F; }, kBubble));
+  EXPECT_FALSE(refused([](Impact& i) { i.speed = 100.0F; }, kImpact));
+}
+
+TEST(EventMessage, AFrameOfSessionZeroIsRefused) {
+  EXPECT_FALSE(to_frame(to_message(Frame{0, 1, 1, 0.0F})));
+  EXPECT_FALSE(to_frame(to_message(Frame{1, 1, 1, 10001.0F})));
+}
+
+TEST(EventMessage, AQuaternionThatIsNoRotationIsRefused) {
+  BodyPose pose = kPose;
+  pose.qw = 0.0F;
+  EXPECT_FALSE(to_body_pose(to_message(pose)));
+  pose = {1, {}, 0.0F, 0.0F, 0.0F, 0.0F};
+  EXPECT_FALSE(to_body_pose(to_message(pose)));
+  pose = {1, {}, 0.0F, 0.0F, 0.0F, 1.005F};
+  EXPECT_TRUE(to_body_pose(to_message(pose)));
+  pose = {1, {}, 0.5F, 0.5F, 0.5F, 0.7F};
+  EXPECT_FALSE(to_body_pose(to_message(pose)));
+}
+
+}  // namespace
+}  // namespace splash::protocol::test

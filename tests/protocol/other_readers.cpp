@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "tests/protocol/other_readers.hpp"
+
+#include <lo/lo.h>
+#include <lo/lo_lowlevel.h>
+#include <oscpack/osc/OscReceivedElements.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+namespace splash::protocol::test {
+namespace {
+
+Message from_oscpack(const osc::ReceivedMessage& received) {
+  Message message{received.AddressPattern(), {}};
+  for (auto it = received.ArgumentsBegin(); it != received.ArgumentsEnd(); ++it) {
+    if (it->IsInt32()) {
+      message.arguments.emplace_back(static_cast<std::int32_t>(it->AsInt32()));
+    } else if (it->IsFloat()) {
+      message.arguments.emplace_back(it->AsFloat());
+    } else if (it->IsString()) {
+      message.arguments.emplace_back(std::string(it->AsString()));
+    } else {
+      message.arguments.emplace_back(TimeTag{it->AsTimeTag()});
+    }
+  }
+  return message;
+}
+
+TimeTag from_liblo(lo_timetag tag) {
+  return {static_cast<std::uint64_t>(tag.sec) << 32U | tag.frac};
+}
+lo_timetag to_liblo(TimeTag tag) {
+  return {static_cast<std::uint32_t>(tag.value >> 32U), static_cast<std::uint32_t>(tag.value)};
+}
+
+int on_bundle(lo_timetag time, void* packet) {
+  static_cast<Packet*>(packet)->time = from_liblo(time);
+  return 0;
+}
+
+int on_message(const char* path, const char* types, lo_arg** values, int count, lo_message,
+               void* packet) {
+  Message message{path, {}};
+  for (int i = 0; i < count; ++i) {
+    switch (types[i]) {
+      case 'i':
+        message.arguments.emplace_back(values[i]->i);
+        break;
+      case 'f':
+        message.arguments.emplace_back(values[i]->f);
+        break;
+      case 's':
+        message.arguments.emplace_back(std::string(&values[i]->s));
+        break;
+      default:
+        message.arguments.emplace_back(from_liblo(values[i]->t));
+    }
+  }
+  static_cast<Packet*>(packet)->messages.push_back(std::move(message));
+  return 0;
+}
+
+using LoMessage = std::unique_ptr<void, decltype(&lo_message_free)>;
+
+LoMessage to_lo_message(const Message& message) {
+  LoMessage out(lo_message_new(), &lo_message_free);
+  for (const auto& argument : message.arguments) {
+    if (const auto* whole = std::get_if<std::int32_t>(&argument)) {
+      lo_message_add_int32(out.get(), *whole);
+    } else if (const auto* real = std::get_if<float>(&argument)) {
+      lo_message_add_float(out.get(), *real);
+    } else if (const auto* text = std::get_if<std::string>(&argument)) {
+      lo_message_add_string(out.get(), text->c_str());
+    } else {
+      lo_message_add_timetag(out.get(), to_liblo(std::get<TimeTag>(argument)));
+    }
+  }
+  return out;
+}
+
+std::vector<std::byte> take_bytes(void* data, std::size_t size) {
+  const std::unique_ptr<void, decltype(&std::free)> guard(data, &std::free);
+  std::vector<std::byte> out(size);
+  std::memcpy(out.data(), data, size);
+  return out;
+}
+
+}  // namespace
+
+std::optional<Packet> read_with_oscpack(Bytes packet) {
+  try {
+    const osc::ReceivedPacket received(reinterpret_cast<const char*>(packet.data()),
+                                       static_cast<osc::osc_bundle_element_size_t>(packet.size()));
+    Packet out;
+    if (!received.IsBundle()) {
+      out.messages.push_back(from_oscpack(osc::ReceivedMessage(received)));
+      return out;
+    }
+    const osc::ReceivedBundle bundle(received);
+    out.time = TimeTag{bundle.TimeTag()};
+    for (auto it = bundle.ElementsBegin(); it != bundle.ElementsEnd(); ++it) {
+      out.messages.push_back(from_oscpack(osc::ReceivedMessage(*it)));
+    }
+    return out;
+  } catch (const osc::Exception&) {
+    return std::nullopt;
+  }
+}
+
+LibloReader::LibloReader() {
+  folder_ = (std::filesystem::temp_directory_path() / "splash-liblo-XXXXXX").string();
+  if (mkdtemp(folder_.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  server_ = lo_server_new_with_proto((folder_ + "/socket").c_str(), LO_UNIX, nullptr);
+  if (server_ == nullptr) throw std::runtime_error("liblo opens no UNIX socket");
+  auto* server = static_cast<lo_server>(server_);
+  lo_server_enable_queue(server, 0, 0);  // bundles of the future are read at once
+  lo_server_add_bundle_handlers(server, on_bundle, nullptr, &packet_);
+  lo_server_add_method(server, nullptr, nullptr, on_message, &packet_);
+}
+
+LibloReader::~LibloReader() {
+  lo_server_free(static_cast<lo_server>(server_));
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+std::optional<Packet> LibloReader::read(Bytes packet) {
+  packet_ = {};
+  std::vector<std::byte> copy(packet.begin(), packet.end());  // liblo swaps bytes in place
+  const int used =
+      lo_server_dispatch_data(static_cast<lo_server>(server_), copy.data(), copy.size());
+  if (used < 0) return std::nullopt;
+  return packet_;
+}
+
+std::vector<std::byte> build_with_liblo(const Message& message) {
+  const auto built = to_lo_message(message);
+  std::size_t size = 0;
+  void* data = lo_message_serialise(built.get(), message.address.c_str(), nullptr, &size);
+  return take_bytes(data, size);
+}
+
+std::vector<std::byte> build_with_liblo(TimeTag time, const std::vector<Message>& messages) {
+  const std::unique_ptr<void, decltype(&lo_bundle_free)> bundle(lo_bundle_new(to_liblo(time)),
+                                                                &lo_bundle_free);
+  std::vector<LoMessage> kept;
+  for (const auto& message : messages) {
+    kept.push_back(to_lo_message(message));
+    lo_bundle_add_message(bundle.get(), message.address.c_str(), kept.back().get());
+  }
+  std::size_t size = 0;
+  void* data = lo_bundle_serialise(bundle.get(), nullptr, &size);
+  return take_bytes(data, size);
+}
+
+}  // namespace splash::protocol::test

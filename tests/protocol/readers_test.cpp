@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What the gate lets pass, our decoder, oscpack and liblo read alike; and what liblo builds is,
+// byte for byte, what our encoder builds.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "protocol/limits.hpp"
+#include "tests/protocol/other_readers.hpp"
+#include "tests/protocol/random_packets.hpp"
+
+namespace splash::protocol::test {
+namespace {
+
+// Of each kind; SPLASH_FUZZ_INPUTS=1000000 for a night.
+std::size_t inputs() {
+  const char* wanted = std::getenv("SPLASH_FUZZ_INPUTS");
+  return wanted == nullptr ? 40000 : std::strtoul(wanted, nullptr, 10);
+}
+
+std::string hex(Bytes packet) {
+  std::string out;
+  for (const auto byte : packet) {
+    char two[4];
+    std::snprintf(two, sizeof two, "%02x", std::to_integer<unsigned>(byte));
+    out += two;
+  }
+  return out;
+}
+
+void expect_alike(Bytes packet, LibloReader& liblo) {
+  const auto ours = decode(packet);
+  ASSERT_EQ(ours.refusal, Refusal::none) << hex(packet);
+  ASSERT_EQ(read_with_oscpack(packet), ours.packet) << hex(packet);
+  ASSERT_EQ(liblo.read(packet), ours.packet) << hex(packet);
+  // One packet has one form: this also compares the sign of zeros, which == does not.
+  const auto again = ours.packet.time ? encode(*ours.packet.time, ours.packet.messages)
+                                      : encode(ours.packet.messages.at(0));
+  ASSERT_TRUE(std::equal(again.begin(), again.end(), packet.begin(), packet.end())) << hex(packet);
+}
+
+TEST(Readers, ReadLegalPacketsAlike) {
+  RandomPackets random(1);
+  LibloReader liblo;
+  for (std::size_t i = 0; i < inputs() / 2 && !HasFatalFailure(); ++i) {
+    expect_alike(random.legal(), liblo);
+  }
+}
+
+TEST(Readers, ReadAlikeWhatPassesTheGateOfBrokenPackets) {
+  RandomPackets random(2);
+  LibloReader liblo;
+  std::size_t accepted = 0;
+  for (std::size_t i = 0; i < inputs() && !HasFatalFailure(); ++i) {
+    const auto packet = random.mutated();
+    const auto refusal = gate(packet);
+    ASSERT_EQ(decode(packet).refusal, refusal);
+    if (refusal != Refusal::none) continue;
+    ++accepted;
+    expect_alike(packet, liblo);
+  }
+  EXPECT_GT(accepted, inputs() / 10);      // enough to mean something,
+  EXPECT_LT(accepted, inputs() * 9 / 10);  // and the mutations do break packets
+}
+
+TEST(Readers, LibloBuildsTheSameBytes) {
+  RandomPackets random(3);
+  for (std::size_t i = 0; i < inputs() / 4; ++i) {
+    const auto message = random.message();
+    ASSERT_EQ(hex(build_with_liblo(message)), hex(encode(message)));
+    const auto time = random.time();
+    const auto messages = random.messages();
+    ASSERT_EQ(hex(build_with_liblo(time, messages)), hex(encode(time, messages)));
+  }
+}
+
+TEST(Readers, LibloBuildsTheSameEvents) {
+  const std::vector<Message> messages = {
+      to_message(Frame{1, 2, 3, 4.5F}),
+      to_message(Impact{1, 0, 2.0F, 1.5F, {0.1F, 0.2F, 0.3F}, 1.0F}),
+      to_message(Bubble{2, -1, 0.004F, 0.05F, {0.1F, 0.2F, 0.3F}, 2.0F}),
+      to_message(Cavity{3, 1, 0.05F, 0.1F, {0.1F, 0.2F, 0.3F}, 3.0F})};
+  const auto built = build_with_liblo(kImmediately, messages);
+  EXPECT_EQ(hex(built), hex(encode(kImmediately, messages)));
+  LibloReader liblo;
+  expect_alike(built, liblo);
+}
+
+}  // namespace
+}  // namespace splash::protocol::test
