@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The README speaks of commands, options and files that exist.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace splash::house {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::IsEmpty;
+
+std::string read_text(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string readme() {
+  return read_text(fs::path(SPLASH_SOURCE_DIR) / "README.md");
+}
+
+/// What a command prints; empty when it cannot be run.
+std::string output_of(const std::string& command) {
+  struct Close {
+    void operator()(FILE* pipe) const { pclose(pipe); }
+  };
+  const std::unique_ptr<FILE, Close> pipe(popen((command + " 2>&1").c_str(), "r"));
+  std::string text;
+  std::array<char, 4096> piece{};
+  while (pipe && std::fgets(piece.data(), piece.size(), pipe.get()) != nullptr)
+    text += piece.data();
+  return text;
+}
+
+std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
+  std::set<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) {
+    found.insert((*it)[1].str());
+  }
+  return found;
+}
+
+std::set<std::string> options_in(const std::string& text) {
+  static const std::regex kOption(R"((?:^|[\s,`\[])(--[a-z][a-z-]*))");
+  return matches(text, kOption);
+}
+
+/// Options that the README gives to a program, on lines that start it.
+std::set<std::string> options_given_to(const std::string& program, const std::string& text) {
+  std::set<std::string> options;
+  const std::regex start("(?:^|\n|`)" + program + "( [^\n`]*)");
+  for (const std::string& line : matches(text, start)) {
+    const std::set<std::string> here = options_in(line);
+    options.insert(here.begin(), here.end());
+  }
+  return options;
+}
+
+std::vector<std::string> missing_from(const std::set<std::string>& wanted,
+                                      const std::set<std::string>& known) {
+  std::vector<std::string> missing;
+  for (const std::string& name : wanted) {
+    if (!known.contains(name)) missing.push_back(name);
+  }
+  return missing;
+}
+
+void expect_options_known(const std::string& program) {
+  const std::string help = output_of(std::string(SPLASH_BINARY_DIR) + "/" + program + " --help");
+  ASSERT_THAT(help, testing::HasSubstr("--help")) << program << " is not built";
+  EXPECT_THAT(missing_from(options_given_to(program, readme()), options_in(help)), IsEmpty());
+}
+
+TEST(Readme, LauncherKnowsItsCommandsAndOptions) {
+  const std::string help = output_of(std::string(SPLASH_SOURCE_DIR) + "/splash --help");
+  static const std::regex kCommand(R"(\./splash ([a-z]+))");
+  const std::set<std::string> told = matches(readme(), kCommand);
+  EXPECT_THAT(told, Contains("demo"));
+  EXPECT_THAT(told, Contains("test"));
+  EXPECT_THAT(missing_from(told, matches(help, kCommand)), IsEmpty());
+  EXPECT_THAT(missing_from(options_given_to(R"(\./splash)", readme()), options_in(help)),
+              IsEmpty());
+}
+
+TEST(Readme, SynthKnowsItsOptions) {
+  expect_options_known("synth-server");
+}
+
+TEST(Readme, SimulatorKnowsItsOptions) {
+  expect_options_known("sim-server");
+}
+
+TEST(Readme, FilesItNamesExist) {
+  static const std::regex kFile(R"(((?:configs|pd-patches)/[A-Za-z0-9_+/-]+\.[a-z]+))");
+  const std::set<std::string> files = matches(readme(), kFile);
+  ASSERT_THAT(files, Contains("configs/scenes/pool.yaml"));
+  std::vector<std::string> missing;
+  for (const std::string& file : files) {
+    if (!fs::exists(fs::path(SPLASH_SOURCE_DIR) / file)) missing.push_back(file);
+  }
+  EXPECT_THAT(missing, IsEmpty());
+}
+
+TEST(Readme, TreeNamesEveryRoom) {
+  const std::string text = readme();
+  std::vector<std::string> missing;
+  for (const std::string top : {"sim-server", "synth-server"}) {
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(fs::path(SPLASH_SOURCE_DIR) / top)) {
+      const std::string name = entry.path().filename().string();
+      if (entry.is_directory() && text.find("\n  " + name + "/ ") == std::string::npos) {
+        missing.push_back(top + "/" + name);
+      }
+    }
+  }
+  EXPECT_THAT(missing, IsEmpty());
+}
+
+TEST(Readme, ChecksSeeWhatIsWrong) {
+  EXPECT_THAT(options_given_to("synth-server", "x\nsynth-server --rig a --nonsense 3\n"),
+              testing::ElementsAre("--nonsense", "--rig"));
+  EXPECT_THAT(missing_from({"--nonsense", "--rig"}, options_in("  --rig FILE  what")),
+              testing::ElementsAre("--nonsense"));
+}
+
+}  // namespace
+}  // namespace splash::house
