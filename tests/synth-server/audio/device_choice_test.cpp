@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/audio/device_choice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace splash::synth {
+namespace {
+
+const std::vector<DeviceDescription> kDevices = {
+    {"jack", "system", 36, false, 48000},
+    {"alsa", "hw:UMC1820,0", 12, true, 44100},
+    {"alsa", "hw:UMC404,0", 4, false, 44100},
+};
+
+TEST(ChooseDevice, FindsByNameByPartAndByDefault) {
+  EXPECT_EQ(choose_device(kDevices, "system"), 0U);
+  EXPECT_EQ(choose_device(kDevices, "UMC404"), 2U);
+  EXPECT_EQ(choose_device(kDevices, ""), 1U);
+}
+
+TEST(ChooseDevice, ListsTheNamesWhenItCannotTell) {
+  for (const char* wanted : {"UMC", "Fireface"}) {
+    try {
+      (void)choose_device(kDevices, wanted);
+      FAIL() << wanted;
+    } catch (const UnknownDevice& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(wanted));
+      EXPECT_THAT(error.what(), testing::HasSubstr("hw:UMC1820,0"));
+    }
+  }
+}
+
+TEST(ChooseDevice, HavingNoneIsNotTheUsersFault) {
+  try {
+    (void)choose_device({}, "system");
+    FAIL();
+  } catch (const UnknownDevice&) {
+    FAIL() << "waiting may help";
+  } catch (const DeviceError&) {
+  }
+}
+
+TEST(ListDevices, RefusesAnApiThatIsNotThere) {
+  EXPECT_THROW((void)list_devices("wavetable"), UnknownDevice);
+}
+
+}  // namespace
+}  // namespace splash::synth

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/receive/control.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "protocol/address.hpp"
+
+namespace splash::synth {
+namespace {
+
+using protocol::Message;
+
+constexpr protocol::Endpoint kLocal{INADDR_LOOPBACK, 9000};
+constexpr protocol::Endpoint kFriend{0x0A000005, 9000};
+constexpr protocol::Endpoint kStranger{0x0A000006, 9000};
+
+class ControlTest : public testing::Test {
+ protected:
+  ControlTest() : control_(actions(), {kFriend.address}) {}
+
+  ControlActions actions() {
+    return {[this](protocol::SynthStatus status) {
+              status.voices = 7;
+              return status;
+            },
+            [this] { ++cleared_; }, [this] { ++quits_; }};
+  }
+  /// The one reply; a new second for each command, so that the limit is not met.
+  Message ask(const Message& message, const protocol::Endpoint& from = kLocal) {
+    std::vector<Reply> replies;
+    now_ += 1.0;
+    protocol::SynthStatus status;
+    status.events = 42;
+    control_.handle(message, {from, now_, 1.8e9 + now_}, status, replies);
+    EXPECT_EQ(replies.size(), 1U) << message.address;
+    if (replies.empty()) return {};
+    EXPECT_EQ(replies.front().to, from);
+    EXPECT_EQ(protocol::violation(replies.front().message), std::nullopt) << message.address;
+    return replies.front().message;
+  }
+
+  int cleared_ = 0;
+  int quits_ = 0;
+  double now_ = 0.0;
+  Control control_;
+};
+
+TEST_F(ControlTest, AllowsLoopbackAndThoseNamed) {
+  EXPECT_TRUE(control_.allows(kLocal));
+  EXPECT_TRUE(control_.allows(kFriend));
+  EXPECT_FALSE(control_.allows(kStranger));
+}
+
+TEST_F(ControlTest, StatusJoinsBothSides) {
+  const auto status = protocol::to_synth_status(ask({"/status", {}}));
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->events, 42U);
+  EXPECT_EQ(status->voices, 7U);
+}
+
+TEST_F(ControlTest, AnswersLikeSuperCollider) {
+  EXPECT_EQ(ask({"/version", {}}).address, "/version.reply");
+  EXPECT_EQ(ask({"/sync", {77}}), (Message{"/synced", {77}}));
+  EXPECT_EQ(ask({"/error", {0}}), (Message{"/done", {std::string("/error")}}));
+  EXPECT_FALSE(control_.reports_failures());
+  EXPECT_EQ(ask({"/dumpOSC", {3}}).address, "/done");
+  EXPECT_EQ(control_.dump_level(), 3);
+  EXPECT_EQ(ask({"/clearSched", {}}), (Message{"/done", {std::string("/clearSched")}}));
+  EXPECT_EQ(cleared_, 1);
+}
+
+TEST_F(ControlTest, PongCarriesTheStamps) {
+  const protocol::TimeTag sent{0x1234567800000001};
+  const Message pong = ask({"/ping", {sent}});
+  ASSERT_EQ(pong.address, "/pong");
+  EXPECT_EQ(std::get<protocol::TimeTag>(pong.arguments[0]), sent);
+  EXPECT_NEAR(protocol::to_unix_seconds(std::get<protocol::TimeTag>(pong.arguments[1])),
+              1.8e9 + now_, 1e-5);
+  EXPECT_NEAR(protocol::to_unix_seconds(std::get<protocol::TimeTag>(pong.arguments[2])),
+              protocol::unix_now(), 1.0);
+}
+
+TEST_F(ControlTest, FailsWhatItDoesNotKnow) {
+  for (const Message& message :
+       {Message{"/unheard", {}}, Message{"/sync", {}}, Message{"/dumpOSC", {4}},
+        Message{"/body/pose", {1}}, Message{"/force", {}}}) {
+    const Message reply = ask(message);
+    EXPECT_EQ(reply.address, "/fail");
+    ASSERT_EQ(reply.arguments.size(), 2U);
+    EXPECT_EQ(std::get<std::string>(reply.arguments[0]), message.address);
+    EXPECT_FALSE(std::get<std::string>(reply.arguments[1]).empty());
+  }
+  EXPECT_EQ(control_.dump_level(), 0);
+}
+
+TEST_F(ControlTest, FailsCommandsForTheSimulator) {
+  const Message pose = protocol::to_message(protocol::BodyPose{});
+  EXPECT_EQ(ask(pose).address, "/fail");
+}
+
+TEST_F(ControlTest, QuitsOnlyForItsOwnHost) {
+  EXPECT_EQ(ask({"/quit", {}}, kFriend).address, "/fail");
+  EXPECT_EQ(quits_, 0);
+  EXPECT_EQ(ask({"/quit", {}}), (Message{"/done", {std::string("/quit")}}));
+  EXPECT_EQ(quits_, 1);
+}
+
+TEST_F(ControlTest, SaysGoodbyeToItsClients) {
+  EXPECT_EQ(ask({"/notify", {1}}), (Message{"/done", {std::string("/notify"), 1}}));
+  EXPECT_EQ(ask({"/notify", {1}}), (Message{"/done", {std::string("/notify"), 1}})) << "once each";
+  EXPECT_EQ(ask({"/notify", {1}}, kFriend), (Message{"/done", {std::string("/notify"), 2}}));
+  EXPECT_EQ(ask({"/notify", {0}}).address, "/done");
+  std::vector<Reply> replies;
+  control_.say_goodbye(replies);
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_EQ(replies[0].to, kFriend);
+  EXPECT_EQ(replies[0].message, (Message{"/done", {std::string("/quit")}}));
+}
+
+TEST_F(ControlTest, LimitsRepliesButNotPongs) {
+  std::vector<Reply> replies;
+  for (int i = 0; i < 100; ++i) control_.handle({"/version", {}}, {kLocal, 1.0, 1.0}, {}, replies);
+  EXPECT_EQ(replies.size(), 10U);
+  EXPECT_EQ(control_.withheld(), 90U);
+  for (int i = 0; i < 100; ++i) {
+    control_.handle({"/ping", {protocol::TimeTag{5}}}, {kLocal, 1.0, 1.0}, {}, replies);
+  }
+  EXPECT_EQ(replies.size(), 110U);
+}
+
+}  // namespace
+}  // namespace splash::synth

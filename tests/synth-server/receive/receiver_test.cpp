@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The receiving thread behind a real socket: killers and floods pass, valid events arrive.
+#include "synth-server/receive/receiver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <random>
+
+#include "tests/synth-server/receive/killers.hpp"
+
+namespace splash::synth {
+namespace {
+
+using protocol::Endpoint;
+using protocol::Message;
+
+constexpr Endpoint kAnyPort{INADDR_LOOPBACK, 0};
+
+class ReceiverTest : public testing::Test {
+ protected:
+  ReceiverTest()
+      : receiver_(protocol::UdpSocket(kAnyPort), queue_,
+                  Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {}}, {}),
+                  [this](const std::string&) { ++lines_; }) {}
+
+  void send(const std::vector<std::byte>& bytes) { socket_.send_to(receiver_.local(), bytes); }
+
+  static bool wait_for(const std::function<bool()>& condition) {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > limit) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return true;
+  }
+  /// The next datagram that comes to us.
+  Message reply() {
+    std::vector<std::byte> buffer(2048);
+    const auto received = socket_.receive(buffer.data(), buffer.size(), 20.0);
+    if (!received) return {"nothing", {}};
+    const auto decoded = protocol::decode({buffer.data(), received->size});
+    return decoded.packet.messages.empty() ? Message{} : decoded.packet.messages.front();
+  }
+
+  std::atomic<int> lines_{0};
+  CommandQueue queue_;
+  protocol::UdpSocket socket_{kAnyPort};
+  Receiver receiver_;
+};
+
+Message bubble(int id) {
+  return protocol::to_message(protocol::Bubble{id, 0, 0.005F, 0.1F, {0.0F, 0.0F, 0.0F}, 0.0F});
+}
+
+TEST_F(ReceiverTest, OutlivesEveryKillerAndCountsIt) {
+  const auto all = killers();
+  for (const Killer& killer : all) {
+    send(killer.bytes);
+    send(protocol::encode(bubble(1)));
+  }
+  ASSERT_TRUE(wait_for([&] { return receiver_.counters().datagrams == 2 * all.size(); }));
+  const IntakeCounters counters = receiver_.counters();
+  EXPECT_EQ(counters.events, all.size());
+  EXPECT_EQ(refused(counters), all.size());
+  EXPECT_EQ(counters.refusals[static_cast<std::size_t>(protocol::Refusal::none)], 0U);
+  EXPECT_GE(lines_, 1);
+  EXPECT_LE(lines_, 22) << "at most one a second";
+  send(protocol::encode(Message{"/sync", {5}}));
+  EXPECT_EQ(reply(), (Message{"/synced", {5}}));
+}
+
+TEST_F(ReceiverTest, PicksTheEventsOutOfAFlood) {
+  std::mt19937 random(1);
+  std::uint64_t sent = 0;
+  for (int burst = 0; burst < 20; ++burst) {
+    for (int i = 0; i < 100; ++i) {
+      std::vector<std::byte> noise(random() % 1500);
+      for (auto& byte : noise) byte = static_cast<std::byte>(random() & 0xFFU);
+      send(noise);
+    }
+    send(protocol::encode(bubble(burst)));
+    sent += 101;
+    ASSERT_TRUE(wait_for([&] { return receiver_.counters().datagrams == sent; }));
+  }
+  EXPECT_EQ(receiver_.counters().events, 20U);
+}
+
+TEST_F(ReceiverTest, SaysGoodbyeToItsClients) {
+  {
+    Receiver receiver(protocol::UdpSocket(kAnyPort), queue_,
+                      Control({[](protocol::SynthStatus s) { return s; }, [] {}, [] {}}, {}),
+                      [](const std::string&) {});
+    socket_.send_to(receiver.local(), protocol::encode(Message{"/notify", {1}}));
+    EXPECT_EQ(reply().address, "/done");
+  }
+  EXPECT_EQ(reply(), (Message{"/done", {std::string("/quit")}}));
+}
+
+TEST_F(ReceiverTest, DumpsPacketsWhenAsked) {
+  send(protocol::encode(Message{"/dumpOSC", {3}}));
+  ASSERT_EQ(reply().address, "/done");
+  ASSERT_TRUE(wait_for([&] { return lines_ == 2; })) << "the command itself, in both forms";
+  send(protocol::encode(bubble(1)));
+  EXPECT_TRUE(wait_for([&] { return lines_ == 4; }));
+}
+
+}  // namespace
+}  // namespace splash::synth

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/receive/sender.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/limits.hpp"
+
+namespace splash::synth {
+namespace {
+
+TEST(SenderTable, EndsALeaseOnceItHasRunOut) {
+  SenderTable table;
+  Sender& sender = table.at({INADDR_LOOPBACK, 1});
+  sender.present = true;
+  sender.heard = 10.0;
+  EXPECT_FALSE(table.expire(9.999 + protocol::kPeerLease)) << "three heartbeats may be missed";
+  EXPECT_TRUE(table.anybody_present());
+  EXPECT_TRUE(table.expire(10.001 + protocol::kPeerLease));
+  EXPECT_FALSE(table.anybody_present());
+  EXPECT_FALSE(table.expire(11.0)) << "said once";
+}
+
+TEST(SenderTable, WaitsForTheLastOfSeveral) {
+  SenderTable table;
+  for (const std::uint16_t port : {std::uint16_t{1}, std::uint16_t{2}}) {
+    Sender& sender = table.at({INADDR_LOOPBACK, port});
+    sender.present = true;
+    sender.heard = port;
+  }
+  EXPECT_FALSE(table.expire(1.5));
+  EXPECT_TRUE(table.expire(2.5));
+}
+
+TEST(SenderTable, KeepsTheCountsOfThoseItForgets) {
+  SenderTable table;
+  for (std::uint16_t port = 1; port <= 100; ++port) {
+    Sender& sender = table.at({INADDR_LOOPBACK, port});
+    sender.heard = port;
+    sender.sequence.observe({1, 0, 0, 0.0F});
+    sender.sequence.observe({1, 3, 0, 0.0F});
+  }
+  EXPECT_LE(table.all().size(), 16U);
+  EXPECT_EQ(table.find({INADDR_LOOPBACK, 1}), nullptr);
+  EXPECT_NE(table.find({INADDR_LOOPBACK, 100}), nullptr);
+  EXPECT_EQ(table.totals().received, 200U);
+  EXPECT_EQ(table.totals().lost, 200U);
+}
+
+TEST(IsLoopback, KnowsTheWholeBlock) {
+  EXPECT_TRUE(is_loopback({0x7F000001, 1}));
+  EXPECT_TRUE(is_loopback({0x7F123456, 1}));
+  EXPECT_FALSE(is_loopback({0x0A000001, 1}));
+}
+
+}  // namespace
+}  // namespace splash::synth
