@@ -70,7 +70,7 @@ Server::Server(const Options& options, const Rig& rig) {
   // Reopening asks for what was found: another device or rate would not be what the rig is for.
   DeviceChoice again = choice_of(options, channels);
   again.sample_rate = format_.sample_rate;
-  if (!wants_device_) {
+  if (missing_device_.empty()) {
     again.api = format_.api;
     again.device = format_.device;
   }
@@ -80,7 +80,8 @@ Server::Server(const Options& options, const Rig& rig) {
   }
   started_ = protocol::monotonic_now();
   output_ = failing_with(kExitUnavailable, [&] {
-    return std::make_unique<DeviceWatch>(*player_, std::move(opened_), wants_device_, reopen, log);
+    return std::make_unique<DeviceWatch>(*player_, std::move(opened_), missing_device_, reopen,
+                                         log);
   });
   start_receiver(options, std::move(socket));
   introduce(options, rig);
@@ -100,7 +101,7 @@ void Server::open_output(const Options& options, int channels) {
     } catch (const DeviceError& error) {
       log(std::string(error.what()) + ". Nothing will be heard until there is one; events are " +
           "played to the null output" + (options.record_audio.empty() ? "" : " and recorded"));
-      wants_device_ = true;
+      missing_device_ = error.what();
     }
   }
   if (opened_ == nullptr) {

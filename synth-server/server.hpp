@@ -48,7 +48,7 @@ class Server {
   double started_ = 0.0;  ///< [s, monotonic]
   CommandQueue queue_;
   std::unique_ptr<AudioOutput> opened_;  ///< until the watch takes it
-  bool wants_device_ = false;
+  std::string missing_device_;           ///< why there is none; empty: there is, or none is wanted
   AudioFormat format_;
   ScheduleSettings schedule_;
   std::unique_ptr<Engine> engine_;

@@ -26,14 +26,15 @@ std::string title(const AudioFormat& format) {
 }  // namespace
 
 DeviceWatch::DeviceWatch(BlockSource& source, std::unique_ptr<AudioOutput> output,
-                         bool wants_device, Open open, Report report, WatchSettings settings)
+                         std::string missing, Open open, Report report, WatchSettings settings)
     : source_(source),
       open_(std::move(open)),
       report_(std::move(report)),
       settings_(settings),
       needed_(output->format()),
       output_(std::move(output)),
-      standing_in_(wants_device) {
+      standing_in_(!missing.empty()),
+      last_refusal_(std::move(missing)) {
   output_->start(source_);
   restart_progress();
   next_try_ = Clock::now() + settings_.retry;

@@ -29,8 +29,9 @@ class DeviceWatch {
   using Report = std::function<void(const std::string&)>;
 
   /// Starts `output`, already open, with `source`. Without `open`, nothing is ever reopened.
-  /// `wants_device`: `output` only stands in for a device that could not be opened yet.
-  DeviceWatch(BlockSource& source, std::unique_ptr<AudioOutput> output, bool wants_device,
+  /// `missing`: why `output` only stands in for a device (that is known already and not reported
+  /// again); empty: it is the device.
+  DeviceWatch(BlockSource& source, std::unique_ptr<AudioOutput> output, std::string missing,
               Open open, Report report, WatchSettings settings = {});
   /// Stops the output; afterwards `source` is not called any more.
   ~DeviceWatch();

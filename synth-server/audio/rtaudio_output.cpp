@@ -33,7 +33,9 @@ struct RtAudioOutput::Stream {
   std::atomic<int> policy{kNotSeen};
   std::atomic<int> priority{0};
 
-  ~Stream() { rtaudio_port::close(*audio); }
+  ~Stream() {
+    if (audio != nullptr) rtaudio_port::close(*audio);
+  }
 
   /// Always 0: any other answer makes RtAudio start a thread from within the callback.
   static int called(void* output, void* /*input*/, unsigned int frames, double /*stream_time*/,
