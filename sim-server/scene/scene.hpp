@@ -20,8 +20,8 @@ struct FluidSettings {
   int particles = 0;            ///< wanted number of particles; 0: from `spacing`
   double density = 998.0;       ///< at rest [kg/m3]
   double sound_speed = 0.0;     ///< of the weakly compressible model [m/s]; 0: from the scene
-  double viscosity = 1.0e-2;    ///< kinematic [m2/s]
-  double artificial = 0.05;     ///< Monaghan's artificial viscosity alpha [1]
+  double viscosity = 1.0e-3;    ///< kinematic [m2/s]
+  double artificial = 0.1;      ///< Monaghan's artificial viscosity alpha [1]
   double time_step_factor = 1;  ///< multiplies the largest stable time step's safe share [1]
   Vector3 gravity = {0.0, 0.0, -9.81};  ///< [m/s2]
 };
