@@ -15,49 +15,57 @@ VoicePool::VoicePool(int max_voices, int max_routes, double sample_rate)
   // Fading voices keep their places for 5 ms: room for half as many as may sound.
   const std::size_t places = max_voices_ + max_voices_ / 2 + 16;
   voices_.resize(places);
+  loudness_.resize(places);
   routes_.resize(places * max_routes_);
   order_.reserve(places);
   free_.reserve(places);
   for (std::size_t place = places; place-- > 0;) free_.push_back(static_cast<std::uint32_t>(place));
 }
 
-double VoicePool::loudness(const Voice& voice, std::int64_t sample) const noexcept {
-  return voice.life.log_amplitude_at(static_cast<double>(sample - voice.start) / sample_rate_);
-}
-
-void VoicePool::fade_out(Voice& voice, std::int64_t sample) noexcept {
+void VoicePool::fade_out(std::uint32_t place, std::int64_t sample) noexcept {
+  Voice& voice = voices_[place];
   voice.fade = std::min(voice.fade, sample);
   voice.end = std::min(voice.end, voice.fade + fade_length_);
+  loudness_[place].until = static_cast<double>(std::min(voice.fade, voice.end));
+}
+
+VoicePool::Start VoicePool::make_room(double log_amplitude, std::int64_t sample) noexcept {
+  if (order_.size() < max_voices_) return Start::started;
+  // Some of these may be over or fading: only the others count.
+  const auto now = static_cast<double>(sample);
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t quietest = 0;
+  std::size_t sounding = 0;
+  for (const std::uint32_t place : order_) {
+    if (loudness_[place].until <= now) continue;
+    ++sounding;
+    const double level = loudness_[place].at(now);
+    if (level >= least) continue;
+    least = level;
+    quietest = place;
+  }
+  if (sounding < max_voices_) return Start::started;
+  if (least >= log_amplitude) return Start::refused;
+  fade_out(quietest, sample);
+  return Start::stole;
 }
 
 VoicePool::Start VoicePool::start(const Sound& sound, const VoiceLife& life,
                                   std::span<const Route> routes, std::int64_t sample) noexcept {
-  Start result = Start::started;
-  if (order_.size() >= max_voices_) {  // perhaps: some of these may be over or fading
-    Voice* quietest = nullptr;
-    std::size_t sounding = 0;
-    for (const std::uint32_t place : order_) {
-      Voice& voice = voices_[place];
-      if (!holds_place(voice, sample)) continue;
-      ++sounding;
-      if (quietest == nullptr || loudness(voice, sample) < loudness(*quietest, sample)) {
-        quietest = &voice;
-      }
-    }
-    if (sounding >= max_voices_) {
-      if (loudness(*quietest, sample) >= life.log_amplitude) return Start::refused;
-      fade_out(*quietest, sample);
-      result = Start::stole;
-    }
-  }
+  const Start result = make_room(life.log_amplitude, sample);
+  if (result == Start::refused) return result;
   const std::uint32_t place = free_.back();
   free_.pop_back();
   order_.push_back(place);
-  Voice& voice = voices_[place];
-  voice = {sound, life, sample, sample + life.length, kNever, static_cast<int>(routes.size())};
+  const std::int64_t end = sample + life.length;
+  voices_[place] = {sound, sample, end, kNever, static_cast<int>(routes.size())};
+  const double decay = life.decay / sample_rate_;
+  const double decay_start = static_cast<double>(sample) + life.hold * sample_rate_;
+  loudness_[place] = {life.log_amplitude, decay, life.log_amplitude + decay * decay_start,
+                      static_cast<double>(end)};
   if (life.fold < life.length) {
-    fade_out(voice, sample + std::max<std::int64_t>(0, life.fold - fade_length_));
-    voice.end = std::min(voice.end, sample + life.fold);
+    fade_out(place, sample + std::max<std::int64_t>(0, life.fold - fade_length_));
+    voices_[place].end = std::min(voices_[place].end, sample + life.fold);
   }
   std::copy(routes.begin(), routes.end(),
             routes_.begin() + static_cast<std::ptrdiff_t>(place * max_routes_));
@@ -107,7 +115,7 @@ void VoicePool::release(std::int64_t sample) noexcept {
 
 void VoicePool::fade_all(std::int64_t sample) noexcept {
   for (const std::uint32_t place : order_) {
-    if (holds_place(voices_[place], sample)) fade_out(voices_[place], sample);
+    if (loudness_[place].until > static_cast<double>(sample)) fade_out(place, sample);
   }
 }
 

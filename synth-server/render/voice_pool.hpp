@@ -4,6 +4,7 @@
 // form, so none depends on how rendering is cut into blocks.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -52,17 +53,25 @@ class VoicePool {
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
   struct Voice {
     Sound sound;
-    VoiceLife life;
     std::int64_t start = 0;      ///< first sample
     std::int64_t end = 0;        ///< behind the last sample
     std::int64_t fade = kNever;  ///< first sample of its fade-out
     int routes = 0;
   };
-  [[nodiscard]] bool holds_place(const Voice& voice, std::int64_t sample) const noexcept {
-    return voice.fade > sample && voice.end > sample;
-  }
-  [[nodiscard]] double loudness(const Voice& voice, std::int64_t sample) const noexcept;
-  void fade_out(Voice& voice, std::int64_t sample) noexcept;
+  /// What choosing the quietest needs to know of a voice, close together in memory: a flood of
+  /// events asks for it of all voices again and again.
+  struct Loudness {
+    double top = 0.0;        ///< natural logarithm of its amplitude at first [ln m]
+    double decay = 0.0;      ///< per sample
+    double intercept = 0.0;  ///< of the decay's line at sample 0 of the clock [ln m]
+    double until = 0.0;      ///< sample at which it ends or begins to fade
+    [[nodiscard]] double at(double sample) const noexcept {
+      return std::min(top, intercept - decay * sample);
+    }
+  };
+  /// Makes room for a voice as loud as `log_amplitude` [ln m], if there is none.
+  Start make_room(double log_amplitude, std::int64_t sample) noexcept;
+  void fade_out(std::uint32_t place, std::int64_t sample) noexcept;
   void apply_fade(const Voice& voice, std::int64_t from, std::span<double> samples) const noexcept;
 
   double sample_rate_;
@@ -70,6 +79,7 @@ class VoicePool {
   std::size_t max_routes_;
   std::int64_t fade_length_;          ///< samples
   std::vector<Voice> voices_;         ///< by place
+  std::vector<Loudness> loudness_;    ///< by place
   std::vector<Route> routes_;         ///< by place, max_routes_ each
   std::vector<std::uint32_t> order_;  ///< taken places in the order of starting
   std::vector<std::uint32_t> free_;   ///< places that are not taken

@@ -21,7 +21,7 @@ BubbleVoice::BubbleVoice(double radius, double epsilon, double sample_rate, Chir
     const double phase = omega * (t + c * t * t);
     re_[k] = amplitude * std::cos(phase);
     im_[k] = amplitude * std::sin(phase);
-    // phase(n + 8) - phase(n) = omega (8 T + c T^2 (16 n + 64))
+    // phase(n + s) - phase(n) = omega (s T + c T^2 (2 s n + s^2)) for the stride s
     const double turn = omega * (kStride * step + c * step * step * kStride * (2.0 * n + kStride));
     turn_re_[k] = stride_decay * std::cos(turn);
     turn_im_[k] = stride_decay * std::sin(turn);
@@ -31,7 +31,7 @@ BubbleVoice::BubbleVoice(double radius, double epsilon, double sample_rate, Chir
   rise_im_ = std::sin(rise);
 }
 
-void BubbleVoice::advance() noexcept {
+inline void BubbleVoice::advance() noexcept {
   for (std::size_t k = 0; k < kLanes; ++k) {
     const double re = re_[k] * turn_re_[k] - im_[k] * turn_im_[k];
     im_[k] = re_[k] * turn_im_[k] + im_[k] * turn_re_[k];
@@ -43,17 +43,22 @@ void BubbleVoice::advance() noexcept {
 }
 
 void BubbleVoice::render(double* out, int count) noexcept {
-  auto left = static_cast<std::size_t>(std::max(count, 0));
-  while (left > 0) {
-    const std::size_t take = std::min(left, kLanes - next_);
-    std::copy_n(im_.begin() + static_cast<std::ptrdiff_t>(next_), take, out);
-    out += take;
-    left -= take;
-    next_ += take;
-    if (next_ == kLanes) {
-      advance();
-      next_ = 0;
-    }
+  double* const end = out + std::max(count, 0);
+  while (out < end && next_ != 0) write_one(out++);
+  BubbleVoice local = *this;  // what `out` may alias cannot stay in registers
+  for (; end - out >= static_cast<std::ptrdiff_t>(kLanes); out += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) out[k] = local.im_[k];
+    local.advance();
+  }
+  *this = local;
+  while (out < end) write_one(out++);
+}
+
+void BubbleVoice::write_one(double* out) noexcept {
+  *out = im_[next_++];
+  if (next_ == kLanes) {
+    advance();
+    next_ = 0;
   }
 }
 

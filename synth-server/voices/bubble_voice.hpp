@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A bubble or a cavity, sample by sample: a complex number that turns and shrinks, turned by a
 // second one that itself turns at constant speed (a linear chirp needs no sine per sample).
-// Eight samples side by side, so that compilers vectorise; double precision, so that rounding stays
-// 165 dB down over the longest life without being re-seeded (in float, it can even grow).
+// Four samples side by side, so that compilers vectorise; double precision, so that rounding stays
+// 145 dB down over the longest life without being re-seeded (in float, it can even grow).
 #pragma once
 
 #include <array>
@@ -22,13 +22,14 @@ class BubbleVoice {
   void render(double* out, int count) noexcept;
 
  private:
-  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kLanes = 4;
   using Lanes = std::array<double, kLanes>;
   void advance() noexcept;
+  void write_one(double* out) noexcept;
 
-  alignas(64) Lanes re_{};       ///< lane k: p at sample k of the current eight, as e^(i phase)
+  alignas(64) Lanes re_{};       ///< lane k: p at sample k of the current four, as e^(i phase)
   alignas(64) Lanes im_{};       ///< its imaginary part is the sound
-  alignas(64) Lanes turn_re_{};  ///< factor from sample k to sample k + 8
+  alignas(64) Lanes turn_re_{};  ///< factor from sample k to sample k + 4
   alignas(64) Lanes turn_im_{};
   double rise_re_ = 1.0;  ///< factor of the factors: the chirp
   double rise_im_ = 0.0;
