@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The shipped rigs are what they say; broken ones are answered with place, key, limit and cure.
+#include "synth-server/output/rig_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "protocol/config.hpp"
+
+namespace splash::synth {
+namespace {
+
+using testing::HasSubstr;
+
+Rig shipped(const std::string& name) {
+  return read_rig(std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/rigs" / (name + ".yaml"));
+}
+
+TEST(ShippedRigs, FloorOf36Tiles) {
+  const Rig rig = shipped("tiles36");
+  ASSERT_EQ(channel_count(rig), 36);
+  const Output& floor = rig.outputs.at(0);
+  EXPECT_EQ(floor.kind, OutputKind::tiles);
+  EXPECT_DOUBLE_EQ(floor.tile_size, 0.305);
+  EXPECT_DOUBLE_EQ(floor.band.low, 20.0);
+  EXPECT_DOUBLE_EQ(floor.band.high, 750.0);
+  const auto names = channel_names(rig);
+  EXPECT_EQ(names.front(), "floor/tile/00");
+  EXPECT_EQ(names.back(), "floor/tile/35");
+}
+
+TEST(ShippedRigs, HandheldAndStereoAndBoth) {
+  EXPECT_EQ(channel_names(shipped("handheld")), std::vector<std::string>{"hand"});
+  const Rig stereo = shipped("stereo");
+  EXPECT_EQ(channel_names(stereo), (std::vector<std::string>{"speakers/left", "speakers/right"}));
+  EXPECT_DOUBLE_EQ(stereo.outputs.at(0).band.low, 12.0);
+  EXPECT_DOUBLE_EQ(stereo.outputs.at(0).band.high, 20000.0);
+  const Rig both = shipped("handheld+stereo");
+  EXPECT_EQ(channel_names(both),
+            (std::vector<std::string>{"hand", "speakers/left", "speakers/right"}));
+  EXPECT_DOUBLE_EQ(both.outputs.at(0).band.high, 750.0);
+  EXPECT_DOUBLE_EQ(both.outputs.at(1).band.high, 20000.0);
+}
+
+TEST(ShippedRigs, AllOfThemRead) {
+  int count = 0;
+  const std::filesystem::path folder = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/rigs";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".yaml") continue;
+    EXPECT_NO_THROW(static_cast<void>(read_rig(entry.path()))) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+}
+
+const std::string kBegin = "name: x\noutputs:\n  - name: hand\n    band: {low: 20, high: 750}\n";
+
+struct Broken {
+  std::string text;
+  std::string place;
+  std::string words;
+};
+
+class BrokenRig : public testing::TestWithParam<Broken> {};
+INSTANTIATE_TEST_SUITE_P(
+    All, BrokenRig,
+    testing::Values(
+        Broken{kBegin + "    kind: single\n    celing: 0.5\n", "rig.yaml:6:5", "ceiling"},
+        Broken{kBegin + "    kind: single\n    ceiling: 1.5\n", "rig.yaml:6:", "ceiling"},
+        Broken{kBegin + "    kind: tile\n", "rig.yaml:5:", "tiles"},
+        Broken{kBegin, "rig.yaml:3:", "kind"},
+        Broken{kBegin + "    kind: single\n    tiles: {columns: 2}\n", "rig.yaml:6:", "kind"},
+        Broken{kBegin + "    kind: single\n    trims_db: [1, 2]\n",
+               "rig.yaml:3:", "one per channel"},
+        Broken{kBegin + "    kind: single\n    body: 1.5\n", "rig.yaml:6:", "body"},
+        Broken{kBegin + "    kind: tiles\n    tiles: {reach: 0.1}\n", "rig.yaml:3:", "reach"},
+        Broken{
+            "name: x\noutputs:\n  - name: a\n    kind: single\n    band: {low: 800, high: 750}\n",
+            "rig.yaml:3:", "band.high"},
+        Broken{"name: x\n", "rig.yaml:", "outputs"},
+        Broken{"name: x\noutputs: []\n", "rig.yaml:", "outputs"}));
+
+TEST_P(BrokenRig, IsAnsweredWithItsPlaceAndTheReason) {
+  try {
+    static_cast<void>(parse_rig(GetParam().text, "rig.yaml"));
+    FAIL() << "accepted:\n" << GetParam().text;
+  } catch (const protocol::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(GetParam().place));
+    EXPECT_THAT(error.what(), HasSubstr(GetParam().words));
+  }
+}
+
+TEST(Rig, RefusesTwoOutputsOfOneName) {
+  Rig rig;
+  rig.outputs.resize(2);
+  rig.outputs[0].name = rig.outputs[1].name = "hand";
+  EXPECT_THROW(check(rig), std::invalid_argument);
+  rig.outputs[1].name = "foot";
+  EXPECT_NO_THROW(check(rig));
+}
+
+TEST(RigKeys, AreDescribedWithUnitsDefaultsAndSources) {
+  const std::string text = describe_rig_keys();
+  EXPECT_THAT(text, HasSubstr("| `size` | m | 0.305 |"));
+  EXPECT_THAT(text, HasSubstr("| `full_scale` | m | 0.01 |"));
+  EXPECT_THAT(text, HasSubstr("paper, section 6"));
+}
+
+}  // namespace
+}  // namespace splash::synth

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// The engine as its users see it: exact starts, the same bits in any blocks, honest counters.
+#include "synth-server/render/engine.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "synth-server/voices/bubble_formula.hpp"
+#include "tests/synth-server/render/rendering.hpp"
+
+namespace splash::synth {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Engine, StartsEventsOnTheirExactSample) {
+  for (const std::int64_t start : {0, 1, 63, 64, 65, 500, 511, 512, 1000}) {
+    Engine engine(open_rig(), file_settings());
+    engine.schedule({bubble(0.005F), start});
+    const auto out = render(engine, 2000).front();
+    // The formula is nil at t = 0: sample `start` is the last zero.
+    for (std::int64_t n = 0; n <= start; ++n) ASSERT_EQ(out[static_cast<std::size_t>(n)], 0.0F);
+    EXPECT_GT(out[static_cast<std::size_t>(start + 1)], 0.0F) << start;
+  }
+}
+
+TEST(Engine, RendersTheFormulaAtFullScale) {
+  Engine engine(open_rig(), file_settings());
+  engine.schedule({bubble(0.005F), 100});
+  const auto out = render(engine, 9600).front();
+  double worst = 0.0;
+  for (std::size_t n = 100; n < out.size(); ++n) {
+    const double t = static_cast<double>(n - 100) / kRate;
+    const double p =
+        bubble_pressure(static_cast<double>(0.005F), static_cast<double>(0.05F), t, Chirp::literal);
+    worst = std::max(worst, std::abs(static_cast<double>(out[n]) - p / 0.01));
+  }
+  // A0 is 0.025 of full scale; the 1 Hz high-pass turns 600 Hz by 0.25 degrees, and swings in.
+  EXPECT_LT(worst, 0.025 * 0.01);
+  EXPECT_GT(worst, 0.0);
+}
+
+TEST(Engine, FollowsTheChirpSetting) {
+  auto settings = file_settings();
+  Engine literal(open_rig(), settings);
+  settings.literal_chirp = false;
+  Engine integrated(open_rig(), settings);
+  literal.schedule({bubble(0.005F), 0});
+  integrated.schedule({bubble(0.005F), 0});
+  EXPECT_NE(render(literal, 4800), render(integrated, 4800));
+}
+
+TEST(Engine, GivesTheSameBitsInAnyBlocks) {
+  const auto events = splashes(3000, 40000);
+  auto settings = file_settings();
+  settings.max_voices = 200;  // some have to be stolen
+  settings.max_block = 65536;
+  Channels reference;
+  EngineCounters first;
+  for (const std::vector<int>& blocks : std::vector<std::vector<int>>{
+           {48000}, {1}, {37}, {64}, {63, 65, 2}, {512}, {4096, 1, 1000}}) {
+    Engine engine(floor_rig(), settings);
+    for (const TimedEvent& event : events) ASSERT_TRUE(engine.schedule(event));
+    const auto out = render(engine, 48000, blocks);
+    const auto counters = engine.counters();
+    if (reference.empty()) {
+      reference = out;
+      first = counters;
+      EXPECT_GT(counters.stolen, 100U);
+      EXPECT_GT(counters.dropped_band, 100U);
+      continue;
+    }
+    EXPECT_EQ(out, reference) << "first block of " << blocks.front();
+    EXPECT_EQ(counters.stolen, first.stolen);
+    EXPECT_EQ(counters.dropped_pool, first.dropped_pool);
+    EXPECT_EQ(counters.channels_skipped, first.channels_skipped);
+  }
+}
+
+TEST(Engine, SkipsSilentChannelsWithoutChangingASample) {
+  const TimedEvent events[] = {{bubble(0.006F, 0.05F, {0.2F, 0.2F, 0.0F}), 1000},
+                               {impact(1.0F, 1, {1.5F, 1.5F, 0.0F}), 90000}};
+  auto settings = file_settings();
+  Engine skipping(floor_rig(), settings);
+  settings.skip_silent = false;
+  Engine diligent(floor_rig(), settings);
+  for (const TimedEvent& event : events) {
+    skipping.schedule(event);
+    diligent.schedule(event);
+  }
+  EXPECT_EQ(render(skipping, 192000, {480}), render(diligent, 192000, {480}));
+  const auto counters = skipping.counters();
+  EXPECT_EQ(counters.cells, 3000U);
+  EXPECT_GT(counters.channels_skipped, counters.cells * 36 / 2);
+  EXPECT_EQ(diligent.counters().channels_skipped, 0U);
+}
+
+TEST(Engine, ComponentsAddUpToTheWhole) {
+  const auto events = splashes(60, 20000);
+  const auto render_of = [&](unsigned components) {
+    auto settings = file_settings();
+    settings.components = components;
+    Engine engine(floor_rig(), settings);
+    for (const TimedEvent& event : events) engine.schedule(event);
+    auto out = render(engine, 48000);
+    EXPECT_EQ(engine.counters().limited, 0U) << "too loud for this comparison";
+    return out;
+  };
+  const auto all = render_of(kAllComponents);
+  const auto impacts = render_of(kImpacts);
+  const auto bubbles = render_of(kBubbles);
+  const auto cavities = render_of(kCavities);
+  EXPECT_NE(impacts, bubbles);
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    for (std::size_t n = 0; n < all[c].size(); ++n) {
+      ASSERT_NEAR(all[c][n], impacts[c][n] + bubbles[c][n] + cavities[c][n], 1e-6F);
+    }
+  }
+}
+
+TEST(Engine, MovesTheTilesAtTheEventMost) {
+  Engine engine(floor_rig(), file_settings());
+  engine.schedule({bubble(0.008F, 0.1F, {2.5F * 0.305F, 1.4F * 0.305F, 0.1F}), 0});
+  const auto out = render(engine, 9600);
+  std::vector<double> energy;
+  for (const auto& channel : out) {
+    double sum = 0.0;
+    for (const float v : channel) sum += static_cast<double>(v) * static_cast<double>(v);
+    energy.push_back(sum);
+  }
+  EXPECT_EQ(std::max_element(energy.begin(), energy.end()) - energy.begin(), 1 * 6 + 2);
+  EXPECT_EQ(energy[35], 0.0);
+}
+
+TEST(Engine, LeavesOutBubblesAboveTheBandOfEachOutput) {
+  Rig rig = floor_rig();
+  rig.outputs.push_back(open_rig().outputs.front());
+  Engine engine(rig, file_settings());
+  engine.schedule({bubble(0.0039F), 0});  // 769 Hz: heard, not felt
+  const auto out = render(engine, 4800);
+  for (std::size_t tile = 0; tile < 36; ++tile) {
+    for (const float v : out[tile]) ASSERT_EQ(v, 0.0F);
+  }
+  EXPECT_GT(*std::max_element(out[36].begin(), out[36].end()), 0.01F);
+  EXPECT_EQ(engine.counters().bubbles, 1U);
+
+  Engine floor(floor_rig(), file_settings());
+  floor.schedule({bubble(0.0039F), 0});
+  floor.schedule({bubble(0.0041F), 0});
+  render(floor, 4800);
+  EXPECT_EQ(floor.counters().dropped_band, 1U);
+  EXPECT_EQ(floor.counters().bubbles, 1U);
+}
+
+TEST(Engine, NeverStartsWhatNyquistForbids) {
+  Engine engine(open_rig(), file_settings());
+  engine.schedule({bubble(0.00012F, 0.1F), 0});  // 25 kHz at 48 kHz
+  const auto out = render(engine, 480).front();
+  EXPECT_EQ(out, std::vector<float>(480, 0.0F));
+  EXPECT_EQ(engine.counters().dropped_band, 1U);
+}
+
+TEST(Engine, RendersAnImpactLouderWithTheCubeOfItsSpeed) {
+  const auto peak = [](float speed) {
+    Engine engine(open_rig(), file_settings());
+    engine.schedule({impact(speed, 4), 0});
+    double most = 0.0;
+    const auto out = render(engine, 9600);
+    for (const float v : out.front()) {
+      most = std::max(most, std::abs(static_cast<double>(v)));
+    }
+    return most;
+  };
+  const double slope = std::log(peak(1.5F) / peak(0.25F)) / std::log(6.0);
+  EXPECT_NEAR(slope, 3.0, 0.001);
+}
+
+TEST(Engine, KeepsBodiesApart) {
+  Rig rig = open_rig();
+  rig.outputs.push_back(rig.outputs.front());
+  rig.outputs[0].name = "left hand";
+  rig.outputs[0].body = 0;
+  rig.outputs[1].name = "right hand";
+  rig.outputs[1].body = 1;
+  Engine engine(rig, file_settings());
+  engine.schedule({impact(1.0F), 0});    // body 0
+  engine.schedule({bubble(0.005F), 0});  // of no body
+  const auto out = render(engine, 480);
+  EXPECT_NE(out[0], std::vector<float>(480, 0.0F));
+  EXPECT_EQ(out[1], std::vector<float>(480, 0.0F));
+  EXPECT_EQ(engine.counters().dropped_unheard, 1U);
+}
+
+TEST(Engine, RefusesAndCountsWhatItCannotRender) {
+  auto settings = file_settings();
+  settings.max_scheduled = 2;
+  settings.components = kBubbles | kImpacts;
+  Engine engine(open_rig(), settings);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(engine.schedule({bubble(kNan), 0}));
+  EXPECT_FALSE(engine.schedule({bubble(0.0F), 0}));
+  EXPECT_FALSE(engine.schedule({bubble(2.0F), 0}));
+  EXPECT_FALSE(engine.schedule({bubble(0.01F, -0.1F), 0}));
+  EXPECT_FALSE(engine.schedule({impact(std::numeric_limits<float>::infinity()), 0}));
+  EXPECT_FALSE(engine.schedule({impact(1.0F, 0, {0.0F, kNan, 0.0F}), 0}));
+  EXPECT_EQ(engine.counters().dropped_refused, 6U);
+  EXPECT_FALSE(engine.schedule({cavity(0.05F), 0}));
+  EXPECT_EQ(engine.counters().dropped_muted, 1U);
+  EXPECT_TRUE(engine.schedule({bubble(0.01F), 0}));
+  EXPECT_TRUE(engine.schedule({bubble(0.01F), 0}));
+  EXPECT_FALSE(engine.schedule({bubble(0.01F), 0}));
+  EXPECT_EQ(engine.counters().dropped_queue, 1U);
+  EXPECT_EQ(engine.counters().scheduled, 2U);
+  render(engine, 64);
+  EXPECT_EQ(engine.counters().scheduled, 0U);
+  EXPECT_EQ(engine.counters().voices, 2U);
+  EXPECT_EQ(engine.counters().bubbles, 2U);
+}
+
+TEST(Engine, StartsLateEventsAtOnceAndCountsThem) {
+  Engine engine(open_rig(), file_settings());
+  render(engine, 1000);
+  engine.schedule({bubble(0.005F), 400});
+  const auto out = render(engine, 100).front();
+  EXPECT_EQ(out[0], 0.0F);
+  EXPECT_GT(out[1], 0.0F);
+  EXPECT_EQ(engine.counters().late, 1U);
+  EXPECT_EQ(engine.clock(), 1100);
+}
+
+TEST(Engine, SurvivesAFloodOfSimultaneousEvents) {
+  auto settings = file_settings();
+  settings.max_scheduled = 20000;
+  Engine engine(floor_rig(), settings);
+  for (int i = 0; i < 20000; ++i) {
+    engine.schedule({bubble(0.01F, 0.1F, {0.9F, 0.9F, 0.0F}), 100});
+  }
+  const auto out = render(engine, 9600);
+  const auto counters = engine.counters();
+  EXPECT_EQ(counters.bubbles + counters.dropped_pool, 20000U);
+  EXPECT_LE(counters.voices, 1024U);
+  for (const auto& channel : out) {
+    for (const float v : channel) ASSERT_LE(std::abs(v), 0.9F);
+  }
+}
+
+TEST(Engine, RefusesSettingsBeyondTheirLimits) {
+  const auto refused = [](auto change, const std::string& name) {
+    auto settings = file_settings();
+    change(settings);
+    try {
+      const Engine engine(open_rig(), settings);
+      ADD_FAILURE() << name << " was accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+  };
+  refused([](auto& s) { s.sample_rate = 0.0; }, "sample_rate");
+  refused([](auto& s) { s.sample_rate = std::numeric_limits<double>::quiet_NaN(); }, "sample_rate");
+  refused([](auto& s) { s.max_block = 0; }, "max_block");
+  refused([](auto& s) { s.max_voices = 0; }, "max_voices");
+  refused([](auto& s) { s.max_scheduled = 0; }, "max_scheduled");
+  refused([](auto& s) { s.impact_exponent = 20.0; }, "impact_exponent");
+  refused([](auto& s) { s.start_ramp = -1.0; }, "start_ramp");
+  EXPECT_THROW(Engine(Rig{}, file_settings()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace splash::synth

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/render/event_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/synth-server/render/rendering.hpp"
+
+namespace splash::synth {
+namespace {
+
+TEST(EventQueue, GivesEventsByTimeAndOfOneTimeByArrival) {
+  EventQueue queue(100);
+  const std::int64_t samples[] = {50, 10, 50, 10, 30, 50};
+  for (int i = 0; i < 6; ++i) ASSERT_TRUE(queue.push(impact(1.0F, i), samples[i]));
+  EXPECT_FALSE(queue.due(10));
+  EXPECT_TRUE(queue.due(11));
+  std::vector<int> ids;
+  while (queue.size() > 0) ids.push_back(std::get<protocol::Impact>(queue.pop().event).id);
+  EXPECT_EQ(ids, (std::vector<int>{1, 3, 4, 0, 2, 5}));
+}
+
+TEST(EventQueue, RefusesWhatItCannotHold) {
+  EventQueue queue(2);
+  EXPECT_TRUE(queue.push(impact(1.0F), 1));
+  EXPECT_TRUE(queue.push(impact(1.0F), 1));
+  EXPECT_FALSE(queue.push(impact(1.0F), 1));
+  queue.pop();
+  EXPECT_TRUE(queue.push(impact(1.0F), 1));
+  queue.clear();
+  EXPECT_EQ(queue.size(), 0U);
+}
+
+}  // namespace
+}  // namespace splash::synth

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Scheduling and rendering neither allocate nor lock, under all the load they may meet.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <mutex>
+
+#include "tests/synth-server/render/forbidden_calls.hpp"
+#include "tests/synth-server/render/rendering.hpp"
+
+namespace splash::synth {
+namespace {
+
+struct Calls {
+  int allocations = 0;
+  int locks = 0;
+};
+
+Calls count(const std::function<void()>& work) {
+  const RealtimeScope scope;
+  work();
+  return {RealtimeScope::allocations(), RealtimeScope::locks()};
+}
+
+TEST(ForbiddenCalls, AreSeen) {
+  std::vector<int> list;
+  std::mutex mutex;
+  EXPECT_GT(count([&] { list.resize(1000); }).allocations, 0);
+  EXPECT_GT(count([&] { const std::lock_guard lock(mutex); }).locks, 0);
+  double sum = 0.0;
+  const Calls none = count([&] { sum += 1.0; });
+  EXPECT_EQ(none.allocations + none.locks, 0);
+}
+
+TEST(Realtime, ScheduleAndRenderNeitherAllocateNorLock) {
+  auto settings = file_settings();
+  settings.max_voices = 100;
+  settings.max_scheduled = 500;
+  settings.max_block = 256;
+  Rig rig = floor_rig();
+  rig.outputs.push_back(open_rig().outputs.front());
+  Engine engine(rig, settings);
+  const auto events = splashes(4000, 48000);
+  Channels out(37, std::vector<float>(256));
+  std::vector<float*> pointers;
+  for (auto& channel : out) pointers.push_back(channel.data());
+  std::size_t next = 0;
+  const Calls calls = count([&] {
+    for (int block = 0; block < 400; ++block) {
+      for (int i = 0; i < 10; ++i) engine.schedule(events[next++ % events.size()]);
+      if (block == 200) engine.clear();
+      engine.silence(block % 50 == 49);
+      engine.render(pointers.data(), block % 3 == 0 ? 256 : 100);
+    }
+  });
+  EXPECT_EQ(calls.allocations, 0);
+  EXPECT_EQ(calls.locks, 0);
+  const auto counters = engine.counters();
+  EXPECT_GT(counters.stolen, 0U) << "the load was too light to prove anything";
+  EXPECT_GT(counters.impacts, 0U);
+  EXPECT_GT(counters.cavities, 0U);
+  EXPECT_GT(counters.late, 0U);
+}
+
+}  // namespace
+}  // namespace splash::synth

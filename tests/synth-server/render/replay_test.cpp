@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// A log rendered twice is the same twice, in any blocks; its events start where it says.
+#include "synth-server/render/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/synth-server/render/rendering.hpp"
+
+namespace splash::synth {
+namespace {
+
+std::vector<protocol::LogEntry> log_of_splashes() {
+  std::vector<protocol::LogEntry> log;
+  std::int32_t step = 0;
+  for (const TimedEvent& timed : splashes(300, 48000)) {
+    protocol::LogEntry entry;
+    entry.seconds = static_cast<double>(timed.sample) / kRate;
+    entry.messages.push_back(protocol::to_message(protocol::Frame{1, step, step, 0.0F}));
+    entry.messages.push_back(protocol::to_message(timed.event));
+    log.push_back(entry);
+    ++step;
+  }
+  std::stable_sort(log.begin(), log.end(),
+                   [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  return log;
+}
+
+Channels play(const std::vector<protocol::LogEntry>& log, const Rig& rig, ReplaySettings settings,
+              ReplayReport* report = nullptr) {
+  Channels out(static_cast<std::size_t>(channel_count(rig)));
+  const auto result = replay(log, rig, settings, [&](const float* const* channels, int frames) {
+    for (std::size_t c = 0; c < out.size(); ++c) {
+      out[c].insert(out[c].end(), channels[c], channels[c] + frames);
+    }
+  });
+  if (report != nullptr) *report = result;
+  return out;
+}
+
+TEST(Replay, IsBitIdenticalTwiceAndInAnyBlocks) {
+  const auto log = log_of_splashes();
+  ReplaySettings settings;
+  ReplayReport report;
+  const auto first = play(log, floor_rig(), settings, &report);
+  EXPECT_EQ(report.events, 300U);
+  EXPECT_EQ(report.not_events, 300U);
+  EXPECT_EQ(report.counters.late, 0U);
+  EXPECT_EQ(report.frames, static_cast<std::int64_t>(first[0].size()));
+  EXPECT_EQ(play(log, floor_rig(), settings), first);
+  for (const int block : {1, 100, 4096}) {
+    settings.block = block;
+    EXPECT_EQ(play(log, floor_rig(), settings), first) << block;
+  }
+  settings.engine.seed = 2;
+  EXPECT_NE(play(log, floor_rig(), settings), first) << "the impacts' noise follows the seed";
+}
+
+TEST(Replay, StartsEventsAtTheirTimeAndOffsetAndLastsForTheTail) {
+  protocol::Bubble event = bubble(0.005F);
+  event.offset_ms = 2.5F;
+  const std::vector<protocol::LogEntry> log = {{0.5, {protocol::to_message(event)}}};
+  ReplaySettings settings;
+  settings.tail = 0.25;
+  const auto out = play(log, open_rig(), settings).front();
+  const std::size_t start = 24000 + 120;
+  EXPECT_EQ(out.size(), start + 12000);
+  for (std::size_t n = 0; n <= start; ++n) ASSERT_EQ(out[n], 0.0F);
+  EXPECT_GT(out[start + 1], 0.0F);
+}
+
+TEST(Replay, EndsInSilence) {
+  const std::vector<protocol::LogEntry> log = {{0.0, {protocol::to_message(cavity(0.1F))}}};
+  ReplaySettings settings;
+  settings.tail = 0.5;
+  const auto out = play(log, open_rig(), settings).front();
+  EXPECT_NEAR(out.back(), 0.0F, 1e-4F);
+  EXPECT_GT(std::abs(*std::max_element(out.end() - 4800, out.end() - 1000)), 0.05F);
+}
+
+TEST(Replay, OfALongLogNeedsNoLongQueue) {
+  std::vector<protocol::LogEntry> log;
+  for (int i = 0; i < 5000; ++i) {
+    log.push_back({i * 1e-3, {protocol::to_message(bubble(0.005F))}});
+  }
+  ReplaySettings settings;
+  settings.engine.max_scheduled = 100;
+  ReplayReport report;
+  play(log, open_rig(), settings, &report);
+  EXPECT_EQ(report.counters.bubbles, 5000U);
+  EXPECT_EQ(report.counters.dropped_queue, 0U);
+}
+
+TEST(Replay, OfAnEmptyLogIsTheTail) {
+  ReplaySettings settings;
+  settings.tail = 0.1;
+  EXPECT_EQ(play({}, open_rig(), settings).front(), std::vector<float>(4800, 0.0F));
+}
+
+TEST(Replay, RefusesAbsurdTimes) {
+  const std::vector<protocol::LogEntry> log = {{1e9, {protocol::to_message(bubble(0.005F))}}};
+  EXPECT_THROW(play(log, open_rig(), {}), std::invalid_argument);
+  ReplaySettings settings;
+  settings.tail = -1.0;
+  EXPECT_THROW(play({}, open_rig(), settings), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace splash::synth
