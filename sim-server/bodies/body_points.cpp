@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/bodies/body_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/scene/shape.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Points with less than this part of an unbounded lattice's colour lie at the surface. A flat
+/// face leaves 0.87 of it at support 2 spacings, two layers deep it is 1.
+constexpr double kSurfaceColour = 0.95;
+
+struct Lattice {
+  std::array<int, 3> count = {1, 1, 1};
+  Vector3 step = {0.0, 0.0, 0.0};  ///< [m]
+};
+
+/// Whole layers that fill the box: the first and last lie half a step below its faces.
+Lattice fit_lattice(const Vector3& size, double spacing) {
+  Lattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double layers = std::ceil(size[axis] / spacing - 1e-9);
+    lattice.count[axis] = std::max(static_cast<int>(layers), 1);
+    lattice.step[axis] = size[axis] / lattice.count[axis];
+  }
+  return lattice;
+}
+
+double along(const Lattice& lattice, std::size_t axis, int k, double size) {
+  return (k + 0.5) * lattice.step[axis] - size / 2.0;
+}
+
+double distance(const Vector3& a, const Vector3& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+void mark_surface(std::vector<BodyPoint>& points, double support) {
+  for (BodyPoint& point : points) {
+    point.colour = 0.0;
+    for (const BodyPoint& other : points) {
+      point.colour += other.volume * kernel_value(distance(point.place, other.place), support);
+    }
+    point.surface = point.colour < kSurfaceColour;
+  }
+}
+
+}  // namespace
+
+double sole_rise(const Shape& shape, double x) {
+  return rocker_rise(shape, x);
+}
+
+bool is_inside(const Shape& shape, const Vector3& place) {
+  const double rx = shape.size[0] / 2.0;
+  const double ry = shape.size[1] / 2.0;
+  const double rz = shape.size[2] / 2.0;
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return std::hypot(place[0] / rx, place[1] / ry, place[2] / rz) <= 1.0;
+    case ShapeKind::cylinder:
+      return std::hypot(place[0] / rx, place[1] / ry) <= 1.0 && std::abs(place[2]) <= rz;
+    case ShapeKind::box:
+      break;
+  }
+  return std::abs(place[0]) <= rx && std::abs(place[1]) <= ry && place[2] <= rz &&
+         place[2] >= -rz + sole_rise(shape, place[0]);
+}
+
+double volume_of(const Shape& shape) {
+  const double box = shape.size[0] * shape.size[1] * shape.size[2];
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return box * std::numbers::pi / 6.0;
+    case ShapeKind::cylinder:
+      return box * std::numbers::pi / 4.0;
+    case ShapeKind::box:
+      break;
+  }
+  // The parabola of the sole takes a third of the rocker on average where it curves.
+  return box - shape.size[0] * shape.size[1] * shape.rocker * (1.0 - shape.flat) / 3.0;
+}
+
+std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing, double support) {
+  const Lattice lattice = fit_lattice(shape.size, spacing);
+  std::vector<BodyPoint> points;
+  for (int kz = 0; kz < lattice.count[2]; ++kz) {
+    for (int ky = 0; ky < lattice.count[1]; ++ky) {
+      for (int kx = 0; kx < lattice.count[0]; ++kx) {
+        BodyPoint point;
+        point.place = {along(lattice, 0, kx, shape.size[0]), along(lattice, 1, ky, shape.size[1]),
+                       along(lattice, 2, kz, shape.size[2])};
+        // A curved sole squeezes the layers instead of cutting them off.
+        const double rise = sole_rise(shape, point.place[0]);
+        const double height = point.place[2] + shape.size[2] / 2.0;
+        point.place[2] += rise * (1.0 - height / shape.size[2]);
+        if (shape.kind != ShapeKind::box && !is_inside(shape, point.place)) continue;
+        point.owner = owner;
+        point.inset = lattice.step[2] / 2.0 * (1.0 - rise / shape.size[2]);
+        points.push_back(point);
+      }
+    }
+  }
+  for (BodyPoint& point : points) {
+    point.volume = volume_of(shape) / static_cast<double>(points.size());
+  }
+  mark_surface(points, support);
+  return points;
+}
+
+std::vector<BodyPoint> sample_bodies(const std::vector<BodySettings>& bodies, double spacing,
+                                     double support) {
+  std::vector<BodyPoint> all;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto points = sample_shape(bodies[b].shape, static_cast<int>(b), spacing, support);
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  return all;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A rigid body as points: a lattice that fills its shape as the water it displaces would, so that
+// density and pressure at its surface are those of the fluid. Its surface are the points in the
+// lowest levels of its own colour field c_r (paper, section 5.1.2).
+#pragma once
+
+#include <vector>
+
+#include "sim-server/fluid/boundary_point.hpp"
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+struct BodyPoint : BoundaryPoint {
+  double inset = 0.0;   ///< depth below the body's true surface: half a lattice
+                        ///< spacing [m]
+  double colour = 0.0;  ///< c_r: 1 deep inside, less towards the surface [1]
+  bool surface = false;
+};
+
+/// The points of one shape, none farther from its neighbour than `spacing` [m], with colour and
+/// surface marked for a kernel of support `support` [m]. A shape thinner than the spacing keeps
+/// one layer.
+[[nodiscard]] std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing,
+                                                  double support);
+
+/// The points of all bodies of a scene, body after body.
+[[nodiscard]] std::vector<BodyPoint> sample_bodies(const std::vector<BodySettings>& bodies,
+                                                   double spacing, double support);
+
+/// Whether a place in body axes is inside the shape [m].
+[[nodiscard]] bool is_inside(const Shape& shape, const Vector3& place);
+
+/// Height of a box's lower face above its flat middle at x, for soles that curve up [m].
+[[nodiscard]] double sole_rise(const Shape& shape, double x);
+
+/// Volume of the shape [m3].
+[[nodiscard]] double volume_of(const Shape& shape);
+
+}  // namespace splash::sim

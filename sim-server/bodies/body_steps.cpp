@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/bodies/body_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splash::sim {
+namespace {
+
+double length(const Vector3& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+float as_float(double value) {
+  return static_cast<float>(value);
+}
+
+}  // namespace
+
+Vector3 rotate(const Quaternion& q, const Vector3& v) {
+  const auto cross = [](const Vector3& a, const Vector3& b) {
+    return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const Vector3 axis = {q[0], q[1], q[2]};
+  Vector3 t = cross(axis, v);
+  for (double& part : t) part *= 2.0;
+  const Vector3 turned = cross(axis, t);
+  return {v[0] + q[3] * t[0] + turned[0], v[1] + q[3] * t[1] + turned[1],
+          v[2] + q[3] * t[2] + turned[2]};
+}
+
+Bodies::Bodies(std::vector<BodyPoint> points, std::vector<std::unique_ptr<Motion>> motions,
+               double support)
+    : points_(std::move(points)),
+      motions_(std::move(motions)),
+      reach_(motions_.size(), 0.0),
+      support_(support) {
+  for (const BodyPoint& point : points_) {
+    double& reach = reach_[static_cast<std::size_t>(point.owner)];
+    reach = std::max(reach, length(point.place));
+  }
+}
+
+BodyState Bodies::state(std::size_t body, double seconds) const {
+  return motions_[body]->at(seconds);
+}
+
+std::vector<BodyStep> Bodies::at(double seconds) const {
+  std::vector<BodyStep> steps(motions_.size());
+  for (std::size_t b = 0; b < motions_.size(); ++b) {
+    const BodyState s = motions_[b]->at(seconds);
+    BodyStep& step = steps[b];
+    step.px = as_float(s.position[0]);
+    step.py = as_float(s.position[1]);
+    step.pz = as_float(s.position[2]);
+    step.qx = as_float(s.rotation[0]);
+    step.qy = as_float(s.rotation[1]);
+    step.qz = as_float(s.rotation[2]);
+    step.qw = as_float(s.rotation[3]);
+    step.vx = as_float(s.velocity[0]);
+    step.vy = as_float(s.velocity[1]);
+    step.vz = as_float(s.velocity[2]);
+    step.wx = as_float(s.spin[0]);
+    step.wy = as_float(s.spin[1]);
+    step.wz = as_float(s.spin[2]);
+    step.lower_x = step.upper_x = step.px;
+    step.lower_y = step.upper_y = step.py;
+    step.lower_z = step.upper_z = step.pz;
+  }
+  for (const BodyPoint& point : points_) {
+    BodyStep& step = steps[static_cast<std::size_t>(point.owner)];
+    const Quaternion q = {static_cast<double>(step.qx), static_cast<double>(step.qy),
+                          static_cast<double>(step.qz), static_cast<double>(step.qw)};
+    const Vector3 arm = rotate(q, point.place);
+    const float x = step.px + as_float(arm[0]);
+    const float y = step.py + as_float(arm[1]);
+    const float z = step.pz + as_float(arm[2]);
+    step.lower_x = std::min(step.lower_x, x);
+    step.lower_y = std::min(step.lower_y, y);
+    step.lower_z = std::min(step.lower_z, z);
+    step.upper_x = std::max(step.upper_x, x);
+    step.upper_y = std::max(step.upper_y, y);
+    step.upper_z = std::max(step.upper_z, z);
+  }
+  const float grown = as_float(support_);
+  for (BodyStep& step : steps) {
+    step.lower_x -= grown;
+    step.lower_y -= grown;
+    step.lower_z -= grown;
+    step.upper_x += grown;
+    step.upper_y += grown;
+    step.upper_z += grown;
+  }
+  return steps;
+}
+
+double Bodies::fastest(double seconds) const {
+  double fastest = 0.0;
+  for (std::size_t b = 0; b < motions_.size(); ++b) {
+    const BodyState s = motions_[b]->at(seconds);
+    fastest = std::max(fastest, length(s.velocity) + length(s.spin) * reach_[b]);
+  }
+  return fastest;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/device/cache.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+namespace splash::sim {
+namespace {
+
+std::filesystem::path default_cache() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') {
+    return std::filesystem::path(cache) / "splash";
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+    return std::filesystem::path(home) / ".cache" / "splash";
+  }
+  return std::filesystem::temp_directory_path() / "splash-cache";
+}
+
+void try_to_write(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const auto probe = folder / (".probe-" + std::to_string(getpid()));
+  const bool written = std::ofstream(probe).put('x').flush().good();
+  std::filesystem::remove(probe, error);
+  if (!written) {
+    throw std::runtime_error("the folder for compiled kernels, " + folder.string() +
+                             ", cannot be written; set POCL_CACHE_DIR to one that can");
+  }
+}
+
+}  // namespace
+
+std::filesystem::path prepare_kernel_cache() {
+  const char* chosen = std::getenv("POCL_CACHE_DIR");
+  const std::filesystem::path folder =
+      chosen != nullptr && *chosen != '\0' ? std::filesystem::path(chosen) : default_cache();
+  try_to_write(folder);
+  setenv("POCL_CACHE_DIR", folder.c_str(), 1);
+  // Without it Linux often keeps all of PoCL's workers on one core for seconds.
+  setenv("POCL_AFFINITY", "1", 0);
+  return folder;
+}
+
+void refuse_slow_settings() {
+  if (std::getenv("POCL_WORK_GROUP_METHOD") != nullptr) {
+    std::cerr << "warning: POCL_WORK_GROUP_METHOD is set and ignored: it slows kernels up to four "
+                 "times\n";
+    unsetenv("POCL_WORK_GROUP_METHOD");
+  }
+}
+
+}  // namespace splash::sim

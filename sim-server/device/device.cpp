@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/device/device.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "sim-server/device/cache.hpp"
+
+namespace splash::sim {
+namespace {
+
+struct Found {
+  DeviceFacts facts;
+  cl::Device handle;
+};
+
+std::vector<cl::Platform> platforms() {
+  std::vector<cl::Platform> found;
+  try {
+    cl::Platform::get(&found);
+  } catch (const cl::Error&) {
+    found.clear();  // no loader entry at all (-1001): answered below like an empty list
+  }
+  if (found.empty()) {
+    throw std::runtime_error(
+        "no OpenCL platform found (searched /etc/OpenCL/vendors or $OCL_ICD_VENDORS); install one, "
+        "for example: apt install pocl-opencl-icd");
+  }
+  return found;
+}
+
+DeviceFacts facts_of(const cl::Platform& platform, const cl::Device& device, int index) {
+  DeviceFacts facts;
+  facts.index = index;
+  facts.name = device.getInfo<CL_DEVICE_NAME>();
+  facts.platform = platform.getInfo<CL_PLATFORM_NAME>();
+  facts.driver = device.getInfo<CL_DRIVER_VERSION>();
+  facts.is_cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+  facts.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  facts.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  facts.allocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  return facts;
+}
+
+std::vector<Found> find_devices() {
+  prepare_kernel_cache();
+  refuse_slow_settings();
+  std::vector<Found> found;
+  for (const cl::Platform& platform : platforms()) {
+    std::vector<cl::Device> devices;
+    try {
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    } catch (const cl::Error&) {
+      continue;  // a platform without devices is not an error
+    }
+    for (const cl::Device& device : devices) {
+      found.push_back({facts_of(platform, device, static_cast<int>(found.size())), device});
+    }
+  }
+  if (found.empty()) throw std::runtime_error("the OpenCL platforms found have no device");
+  return found;
+}
+
+Found choose(int index) {
+  auto found = find_devices();
+  if (index >= static_cast<int>(found.size())) {
+    throw std::runtime_error("device " + std::to_string(index) + " asked for, but there are only " +
+                             std::to_string(found.size()) + " (see --list-devices)");
+  }
+  if (index >= 0) return found[static_cast<std::size_t>(index)];
+  const auto better = [](const Found& a, const Found& b) {
+    if (a.facts.is_cpu != b.facts.is_cpu) return b.facts.is_cpu;
+    return a.facts.compute_units < b.facts.compute_units;
+  };
+  return *std::max_element(found.begin(), found.end(), better);
+}
+
+}  // namespace
+
+std::vector<DeviceFacts> list_devices() {
+  std::vector<DeviceFacts> list;
+  for (const Found& found : find_devices()) list.push_back(found.facts);
+  return list;
+}
+
+std::string describe(const DeviceFacts& facts) {
+  std::ostringstream line;
+  line << facts.index << ": " << facts.name << " (" << (facts.is_cpu ? "CPU" : "GPU") << ", "
+       << facts.compute_units << " compute units, " << facts.memory / (1024 * 1024) << " MiB, "
+       << facts.platform << ", driver " << facts.driver << ")";
+  return line.str();
+}
+
+Device::Device(int index, bool profiling) {
+  const Found found = choose(index);
+  facts_ = found.facts;
+  handle_ = found.handle;
+  context_ = cl::Context(handle_);
+  queue_ = cl::CommandQueue(context_, handle_, profiling ? CL_QUEUE_PROFILING_ENABLE : 0);
+}
+
+int Device::sort_chunks() const noexcept {
+  return facts_.is_cpu ? static_cast<int>(std::clamp(facts_.compute_units, 1U, 64U)) : 256;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// An OpenCL device: which there are, which was chosen and why, and its queue.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim-server/device/opencl.hpp"
+
+namespace splash::sim {
+
+struct DeviceFacts {
+  int index = 0;  ///< as --device counts them
+  std::string name;
+  std::string platform;
+  std::string driver;
+  bool is_cpu = false;
+  unsigned compute_units = 0;
+  std::size_t memory = 0;      ///< [B]
+  std::size_t allocation = 0;  ///< largest single buffer [B]
+};
+
+/// All devices of all platforms. Throws std::runtime_error with the package to install when
+/// there is no OpenCL platform.
+[[nodiscard]] std::vector<DeviceFacts> list_devices();
+
+/// One line for people: index, name, kind, units, memory.
+[[nodiscard]] std::string describe(const DeviceFacts& facts);
+
+/// A chosen device with its context and in-order queue.
+class Device {
+ public:
+  /// `index` as list_devices counts; -1: the CPU device with most units, else the first device
+  /// (the default runs everywhere; a GPU is used when asked for).
+  explicit Device(int index = -1, bool profiling = false);
+
+  [[nodiscard]] const DeviceFacts& facts() const noexcept { return facts_; }
+  [[nodiscard]] const cl::Context& context() const noexcept { return context_; }
+  [[nodiscard]] const cl::Device& handle() const noexcept { return handle_; }
+  [[nodiscard]] cl::CommandQueue& queue() noexcept { return queue_; }
+  /// Particles per vector in kernels: 16 on CPUs, 1 on GPUs (see kernels/lanes.h).
+  [[nodiscard]] int lanes() const noexcept { return facts_.is_cpu ? 16 : 1; }
+  /// Independent runs of a sort: one per CPU core; enough to fill a GPU.
+  [[nodiscard]] int sort_chunks() const noexcept;
+
+ private:
+  DeviceFacts facts_;
+  cl::Device handle_;
+  cl::Context context_;
+  cl::CommandQueue queue_;
+};
+
+}  // namespace splash::sim

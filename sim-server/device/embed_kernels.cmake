@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+# splash_embed_kernels(target out_name FILES...): compiles OpenCL C files into `target` as text, so
+# that a program is one file and finds its kernels wherever it is installed.
+# Gives `splash::sim::kernels::<out_name>()`: the files in the given order, as KernelSource.
+set(SPLASH_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/write_kernel_text.cmake)
+
+function(splash_embed_kernels target out_name)
+  set(files "")
+  foreach(file ${ARGN})
+    list(APPEND files ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${out_name}_kernels.cpp)
+  string(REPLACE ";" "|" joined "${files}")
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DNAME=${out_name} -DOUTPUT=${output} "-DFILES=${joined}"
+            -DROOT=${PROJECT_SOURCE_DIR} -P ${SPLASH_EMBED_SCRIPT}
+    DEPENDS ${files} ${SPLASH_EMBED_SCRIPT}
+    COMMENT "Embedding kernels of ${out_name}")
+  target_sources(${target} PRIVATE ${output})
+endfunction()

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Kernel sources to programs, with build errors that name the kernel's own file and line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim-server/device/device.hpp"
+
+namespace splash::sim {
+
+struct KernelSource {
+  std::string name;  ///< the file's path in the source tree
+  std::string text;
+};
+
+/// Builds `sources` as one program. `defines`: "NAME=VALUE" build constants; keep them few, each
+/// combination is compiled and cached apart. `relaxed`: allow -cl-fast-relaxed-math, for programs
+/// whose error the double-precision twins bound; guards are built without it.
+/// Throws std::runtime_error with the compiler's log.
+[[nodiscard]] cl::Program build_program(const Device& device,
+                                        const std::vector<KernelSource>& sources,
+                                        const std::vector<std::string>& defines, bool relaxed);
+
+/// A kernel, run over `count` work-items padded to whole groups; kernels return at once for
+/// indices past the end.
+class Kernel {
+ public:
+  Kernel() = default;
+  Kernel(const cl::Program& program, const std::string& name) : kernel_(program, name.c_str()) {}
+
+  template <class... Args>
+  void run(cl::CommandQueue& queue, std::size_t count, const Args&... args) {
+    cl_uint index = 0;
+    (kernel_.setArg(index++, args), ...);
+    const std::size_t group = count >= kGroup ? kGroup : 1;
+    const std::size_t padded = (count + group - 1) / group * group;
+    queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(padded), cl::NDRange(group));
+  }
+
+ private:
+  static constexpr std::size_t kGroup = 64;
+  cl::Kernel kernel_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/fluid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "sim-server/fluid/kernel_sources.hpp"
+
+namespace splash::sim {
+namespace {
+
+static_assert(sizeof(FluidParams) == 4 * 26 + 16 * SPLASH_MAX_WALLS);
+static_assert(sizeof(BodyStep) == 4 * 19);
+
+/// Partial results of the survey; host and kernel agree on the layout (kernels/survey.cl).
+struct SurveyPart {
+  float speed2;
+  float acceleration2;
+  float excess_sum;
+  float excess_max;
+  int not_finite;
+  int first_bad;
+  int runaway;
+  int unused;
+};
+static_assert(sizeof(SurveyPart) == 32);
+
+float as_float(double value) {
+  return static_cast<float>(value);
+}
+
+}  // namespace
+
+Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
+             const std::vector<BoundaryPoint>& boundary, int bodies, bool relaxed)
+    : device_(device), params_(params), body_count_(bodies) {
+  load_particles(particles);
+  params_.capacity = sorted_.stride;
+  params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
+  load_boundary(boundary);
+  build_kernels(relaxed);
+}
+
+void Fluid::load_particles(const std::vector<Vector3>& particles) {
+  const std::size_t count = particles.size();
+  sorted_ = PointArrays(device_, count);
+  unsorted_ = PointArrays(device_, count);
+  const auto stride = static_cast<std::size_t>(sorted_.stride);
+  std::vector<float> part(count);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::transform(particles.begin(), particles.end(), part.begin(),
+                   [axis](const Vector3& x) { return as_float(x[axis]); });
+    sorted_.position.write(device_, part, axis * stride);
+  }
+  std::vector<int> ids(count);
+  std::iota(ids.begin(), ids.end(), 0);
+  sorted_.id.write(device_, ids);
+  density_ = Buffer<float>(device_, stride + kReadAhead);
+  pressure_term_ = Buffer<float>(device_, stride + kReadAhead);
+  acceleration_ = Buffer<float>(device_, 3 * stride);
+}
+
+void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary) {
+  boundary_count_ = static_cast<int>(boundary.size());
+  body_points_ = PointArrays(device_, boundary.size());
+  body_sorted_ = PointArrays(device_, boundary.size());
+  const auto stride = static_cast<std::size_t>(body_points_.stride);
+  std::vector<float> sample(3 * stride, 0.0F);
+  std::vector<int> owner(stride, 0);
+  std::vector<float> volume(stride, 0.0F);
+  // A body is weighed like the fluid it displaces: a particle's mass differs from rho0 spacing^3.
+  const float weight = params_.layer_weight / params_.spacing;
+  std::vector<int> ids(boundary.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sample[axis * stride + i] = as_float(boundary[i].place[axis]);
+    }
+    owner[i] = boundary[i].owner;
+    volume[i] = weight * as_float(boundary[i].volume);
+  }
+  body_sample_ = Buffer<float>(device_, sample);
+  body_owner_ = Buffer<int>(device_, owner);
+  body_sample_volume_ = Buffer<float>(device_, volume);
+  body_points_.id.write(device_, ids);
+  body_volume_ = Buffer<float>(device_, stride + kReadAhead);
+}
+
+void Fluid::build_kernels(bool relaxed) {
+  const cl::Program program = build_program(device_, fluid_sources(), {}, relaxed);
+  const cl::Program guard = build_program(device_, survey_sources(), {}, false);
+  const auto particles = static_cast<std::size_t>(params_.count);
+  grid_ = NeighbourGrid(device_, program, params_, particles, device_.sort_chunks());
+  body_grid_ =
+      NeighbourGrid(device_, program, params_, static_cast<std::size_t>(boundary_count_), 1);
+  place_bodies_ = Kernel(program, "place_bodies");
+  gather_body_volumes_ = Kernel(program, "gather_body_volumes");
+  compute_density_ = Kernel(program, "compute_density");
+  compute_acceleration_ = Kernel(program, "compute_acceleration");
+  integrate_ = Kernel(program, "integrate");
+  survey_ = Kernel(guard, "survey");
+}
+
+void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
+  if (steps.size() > body_steps_.size() || body_steps_.size() == 0) {
+    body_steps_ = Buffer<BodyStep>(device_, std::max<std::size_t>(2 * steps.size(), 1));
+  }
+  body_steps_.write(device_, steps);
+}
+
+void Fluid::prepare(const Step& step) {
+  place_bodies(step);
+  sort_particles();
+  compute_density(step);
+}
+
+void Fluid::advance(const Step& step) {
+  compute_acceleration(step);
+  integrate(step);
+}
+
+void Fluid::place_bodies(const Step& step) {
+  if (boundary_count_ == 0) return;
+  cl::CommandQueue& queue = device_.queue();
+  const auto points = static_cast<std::size_t>(boundary_count_);
+  place_bodies_.run(queue, points, boundary_count_, body_points_.stride, body_sample_.memory(),
+                    body_owner_.memory(), body_steps_.memory(), step.first_body,
+                    body_points_.position.memory(), body_points_.velocity.memory());
+  body_grid_.sort(queue, params_buffer_, boundary_count_, body_points_, body_sorted_);
+  gather_body_volumes_.run(queue, points, boundary_count_, body_sorted_.id.memory(),
+                           body_sample_volume_.memory(), body_volume_.memory());
+}
+
+void Fluid::sort_particles() {
+  std::swap(sorted_, unsorted_);
+  grid_.sort(device_.queue(), params_buffer_, params_.count, unsorted_, sorted_);
+}
+
+std::size_t Fluid::groups() const {
+  const int targets = device_.lanes() > 1 ? 4 : 1;  // TARGETS of kernels/lanes.h
+  return static_cast<std::size_t>((params_.count + targets - 1) / targets);
+}
+
+void Fluid::compute_density(const Step& step) {
+  compute_density_.run(device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
+                       sorted_.position.memory(), body_grid_.cell_start(),
+                       body_sorted_.position.memory(), body_volume_.memory(), body_sorted_.stride,
+                       body_steps_.memory(), step.first_body, body_count_, as_float(step.piston),
+                       density_.memory(), pressure_term_.memory());
+}
+
+void Fluid::compute_acceleration(const Step& step) {
+  compute_acceleration_.run(
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
+      sorted_.position.memory(), sorted_.velocity.memory(), pressure_term_.memory(),
+      body_grid_.cell_start(), body_sorted_.position.memory(), body_sorted_.velocity.memory(),
+      body_volume_.memory(), body_sorted_.stride, body_steps_.memory(), step.first_body,
+      body_count_, as_float(step.piston), acceleration_.memory());
+}
+
+void Fluid::integrate(const Step& step) {
+  integrate_.run(device_.queue(), static_cast<std::size_t>(params_.count), params_buffer_.memory(),
+                 as_float(step.dt), as_float(step.piston), as_float(step.piston_speed),
+                 acceleration_.memory(), sorted_.position.memory(), sorted_.velocity.memory());
+}
+
+Survey Fluid::survey() {
+  constexpr int kParts = 64;
+  const Buffer<SurveyPart> parts(device_, kParts);
+  survey_.run(device_.queue(), kParts, params_buffer_.memory(), kParts, sorted_.position.memory(),
+              sorted_.velocity.memory(), acceleration_.memory(), density_.memory(),
+              sorted_.id.memory(), parts.memory());
+  Survey total;
+  int first_bad = std::numeric_limits<int>::max();
+  for (const SurveyPart& part : parts.read(device_, kParts)) {
+    total.speed = std::max(total.speed, std::sqrt(static_cast<double>(part.speed2)));
+    total.acceleration =
+        std::max(total.acceleration, std::sqrt(static_cast<double>(part.acceleration2)));
+    total.mean_excess += static_cast<double>(part.excess_sum);
+    total.max_excess = std::max(total.max_excess, static_cast<double>(part.excess_max));
+    total.not_finite += part.not_finite;
+    total.runaway += part.runaway;
+    first_bad = std::min(first_bad, part.first_bad);
+  }
+  total.mean_excess /= std::max(params_.count, 1);
+  if (total.not_finite > 0) total.first_bad = first_bad;
+  return total;
+}
+
+Snapshot Fluid::snapshot() {
+  const auto stride = static_cast<std::size_t>(sorted_.stride);
+  return {sorted_.position.read(device_, 3 * stride), sorted_.velocity.read(device_, 3 * stride),
+          sorted_.id.read(device_, static_cast<std::size_t>(params_.count))};
+}
+
+void Fluid::restore(const Snapshot& snapshot) {
+  sorted_.position.write(device_, snapshot.position);
+  sorted_.velocity.write(device_, snapshot.velocity);
+  sorted_.id.write(device_, snapshot.id);
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The water: its particles on the device and the stages of a time step.
+#pragma once
+
+#include <vector>
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/program.hpp"
+#include "sim-server/fluid/boundary_point.hpp"
+#include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/neighbour_grid.hpp"
+
+namespace splash::sim {
+
+/// One step of a frame.
+struct Step {
+  double dt = 0.0;            ///< [s]
+  double piston = 0.0;        ///< offset of the wave maker [m]
+  double piston_speed = 0.0;  ///< [m/s]
+  int first_body = 0;         ///< where this step's bodies begin among those of the frame
+};
+
+/// Health and limits of the whole fluid.
+struct Survey {
+  double speed = 0.0;         ///< fastest particle [m/s]
+  double acceleration = 0.0;  ///< largest [m/s2]
+  double mean_excess = 0.0;   ///< mean of max(rho / rho0 - 1, 0) [1]
+  double max_excess = 0.0;
+  int not_finite = 0;  ///< particles that are no numbers any more
+  int first_bad = -1;  ///< smallest id of such a particle, -1: none
+  int runaway = 0;     ///< particles at the speed limit
+};
+
+/// A copy of the state that can be put back.
+struct Snapshot {
+  std::vector<float> position;
+  std::vector<float> velocity;
+  std::vector<int> id;
+};
+
+/// Everything is enqueued on the device's in-order queue; only survey, snapshot and the reads
+/// wait for it.
+class Fluid {
+ public:
+  /// `particles`: initial places [m]; `boundary`: points of `bodies` rigid bodies.
+  /// `relaxed`: kernels with relaxed mathematics (a fifth faster on CPUs, see the twins' bounds).
+  Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
+        const std::vector<BoundaryPoint>& boundary, int bodies, bool relaxed = false);
+
+  /// Bodies of all steps of the coming frame, step after step.
+  void set_bodies(const std::vector<BodyStep>& steps);
+
+  /// First half of a step: neighbours and density, for the state before it.
+  void prepare(const Step& step);
+  /// Second half: forces, and the state moves on by step.dt.
+  void advance(const Step& step);
+
+  [[nodiscard]] Survey survey();
+  [[nodiscard]] Snapshot snapshot();
+  void restore(const Snapshot& snapshot);
+
+  // What detectors read between prepare and advance.
+  [[nodiscard]] Device& device() noexcept { return device_; }
+  [[nodiscard]] const FluidParams& params() const noexcept { return params_; }
+  [[nodiscard]] const Buffer<FluidParams>& params_buffer() const noexcept { return params_buffer_; }
+  [[nodiscard]] const PointArrays& particles() const noexcept { return sorted_; }
+  [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
+  [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
+  [[nodiscard]] const Buffer<float>& pressure_term() const noexcept { return pressure_term_; }
+  [[nodiscard]] const Buffer<float>& acceleration() const noexcept { return acceleration_; }
+  [[nodiscard]] const PointArrays& boundary() const noexcept { return body_sorted_; }
+  [[nodiscard]] const PointArrays& boundary_by_sample() const noexcept { return body_points_; }
+  [[nodiscard]] const NeighbourGrid& body_grid() const noexcept { return body_grid_; }
+  [[nodiscard]] const Buffer<float>& boundary_volume() const noexcept { return body_volume_; }
+  [[nodiscard]] const Buffer<BodyStep>& body_steps() const noexcept { return body_steps_; }
+  [[nodiscard]] int boundary_count() const noexcept { return boundary_count_; }
+  [[nodiscard]] int body_count() const noexcept { return body_count_; }
+
+ private:
+  void load_particles(const std::vector<Vector3>& particles);
+  void load_boundary(const std::vector<BoundaryPoint>& boundary);
+  void build_kernels(bool relaxed);
+  void place_bodies(const Step& step);
+  void sort_particles();
+  void compute_density(const Step& step);
+  void compute_acceleration(const Step& step);
+  void integrate(const Step& step);
+  /// Work-items of the stages that search neighbours.
+  [[nodiscard]] std::size_t groups() const;
+
+  Device& device_;
+  FluidParams params_;
+  int boundary_count_ = 0;
+  int body_count_ = 0;
+
+  Buffer<FluidParams> params_buffer_;
+  PointArrays sorted_;    ///< the state, in cell order after prepare
+  PointArrays unsorted_;  ///< the state before the sort
+  Buffer<float> density_;
+  Buffer<float> pressure_term_;
+  Buffer<float> acceleration_;
+  NeighbourGrid grid_;
+
+  Buffer<float> body_sample_;
+  Buffer<int> body_owner_;
+  Buffer<float> body_sample_volume_;
+  Buffer<BodyStep> body_steps_;
+  PointArrays body_points_;
+  PointArrays body_sorted_;
+  Buffer<float> body_volume_;
+  NeighbourGrid body_grid_;
+
+  Kernel place_bodies_;
+  Kernel gather_body_volumes_;
+  Kernel compute_density_;
+  Kernel compute_acceleration_;
+  Kernel integrate_;
+  Kernel survey_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Numbers that stay the same for a whole run, shared by host and kernels word for word.
+// Only 4-byte members, so that both sides lay them out alike; the host asserts the size.
+#ifndef SPLASH_FLUID_PARAMS_H
+#define SPLASH_FLUID_PARAMS_H
+
+#define SPLASH_MAX_WALLS 8
+
+#ifdef __cplusplus
+namespace splash::sim {
+#endif
+
+// A half-space of solid: the fluid is where normal . x > offset.
+typedef struct {
+  float nx, ny, nz;  // unit normal, into the fluid
+  float offset;      // [m]
+} WallPlane;
+
+typedef struct {
+  int count;       // fluid particles
+  int capacity;    // stride between the x, y and z parts of a vector array
+  int cells_x;     // grid cells per axis, an empty margin on each side included
+  int cells_y;
+  int cells_z;
+  float origin_x;  // lower corner of the grid [m]
+  float origin_y;
+  float origin_z;
+  float inverse_cell;   // 1 / edge of a cell, the support radius [1/m]
+  float support;        // H [m]
+  float inverse_support;
+  float kernel_norm;    // sigma = 21 / (2 pi H^3) [1/m3]; Wendland C2 in three dimensions
+  float mass;           // of a fluid particle [kg]
+  float rest_density;   // [kg/m3]
+  float sound_speed;    // [m/s]
+  float viscous;        // 10 nu: factor of the physical viscosity, Monaghan 2005 [m2/s]
+  float artificial;     // alpha c0 h: factor of the artificial one, pairs that approach [m2/s]
+  float gravity_x;      // [m/s2]
+  float gravity_y;
+  float gravity_z;
+  float spacing;        // [m]
+  float layer_weight;   // mass of a particle per rho0 and area spacing^2: weighs a layer of it [m]
+  float speed_limit;    // no particle moves faster [m/s]
+  int wall_count;
+  int piston;           // index of the wall that moves along its normal, -1: none
+  int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
+                        // is the nearer, -1: none
+  WallPlane walls[SPLASH_MAX_WALLS];
+} FluidParams;
+
+// Where a body is during one step.
+typedef struct {
+  float px, py, pz;              // centre [m]
+  float qx, qy, qz, qw;          // body to world
+  float vx, vy, vz;              // [m/s]
+  float wx, wy, wz;              // angular velocity in the world [rad/s]
+  float lower_x, lower_y, lower_z;  // box around its points, grown by the support radius [m]
+  float upper_x, upper_y, upper_z;
+} BodyStep;
+
+#ifdef __cplusplus
+}  // namespace splash::sim
+#endif
+
+#endif

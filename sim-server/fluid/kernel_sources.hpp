@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The fluid's kernels as they are built: the stages of a step, and apart from them the survey.
+#pragma once
+
+#include <vector>
+
+#include "sim-server/device/program.hpp"
+
+namespace splash::sim {
+
+[[nodiscard]] std::vector<KernelSource> fluid_sources();
+[[nodiscard]] std::vector<KernelSource> survey_sources();
+/// The headers that other rooms' kernels need: parameters, lanes, smoothing, grid, walls, bodies.
+[[nodiscard]] std::vector<KernelSource> shared_sources();
+
+}  // namespace splash::sim

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Rigid bodies: their points carried to where the body is in this step.
+//   x = c + R s,   v = u + w x (R s)
+
+static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
+  const float3 axis = (float3)(qx, qy, qz);
+  const float3 t = 2.0f * cross(axis, s);
+  return s + qw * t + cross(axis, t);
+}
+
+// `sample`: points in body axes; `owner`: which body each belongs to; `bodies`: one entry per body
+// of this step.
+kernel void place_bodies(int points, int stride, global const float* sample,
+                         global const int* owner, global const BodyStep* bodies, int first_body,
+                         global float* position, global float* velocity) {
+  const int i = get_global_id(0);
+  if (i >= points) return;
+  const BodyStep b = bodies[first_body + owner[i]];
+  const float3 s = (float3)(sample[i], sample[stride + i], sample[2 * stride + i]);
+  const float3 arm = rotate_by(s, b.qx, b.qy, b.qz, b.qw);
+  const float3 x = (float3)(b.px, b.py, b.pz) + arm;
+  const float3 v = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
+  position[i] = x.x;
+  position[stride + i] = x.y;
+  position[2 * stride + i] = x.z;
+  velocity[i] = v.x;
+  velocity[stride + i] = v.y;
+  velocity[2 * stride + i] = v.z;
+}
+
+// Volumes in the order of the sorted points; `id`: sorted, counts the samples.
+kernel void gather_body_volumes(int points, global const int* id, global const float* volume,
+                                global float* sorted_volume) {
+  const int i = get_global_id(0);
+  if (i < points) sorted_volume[i] = volume[id[i]];
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Sort, second half: every point to its place, cells in order, x fastest.
+
+kernel void sort_points(constant FluidParams* p, int points, int stride, int chunks,
+                        global const int* cells, global int* place,
+                        global const float* position, global const float* velocity,
+                        global const int* id, global float* position_out,
+                        global float* velocity_out, global int* id_out) {
+  const int chunk = get_global_id(0);
+  if (chunk >= chunks) return;
+  const int cell_count = p->cells_x * p->cells_y * p->cells_z;
+  global int* mine = place + (size_t)chunk * cell_count;
+  const int size = (points + chunks - 1) / chunks;
+  const int last = min((chunk + 1) * size, points);
+  for (int i = chunk * size; i < last; ++i) {
+    const int to = mine[cells[i]]++;
+    for (int axis = 0; axis < 3; ++axis) {
+      position_out[axis * stride + to] = position[axis * stride + i];
+      velocity_out[axis * stride + to] = velocity[axis * stride + i];
+    }
+    id_out[to] = id[i];
+  }
+}

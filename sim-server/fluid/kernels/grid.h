@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Which cell a point is in, and which runs of sorted points its neighbours are in. Cells are as
+// wide as the support and sorted x fastest, so the 27 cells around a point are nine runs. Points
+// beyond the grid count to its outermost inner cells: nobody is lost, no index leaves the arrays.
+
+static int cell_along(float x, float origin, float inverse_cell, int cells) {
+  // Clamped before it becomes an integer: NaN and infinity land in the grid, too.
+  return (int)fmin(fmax((x - origin) * inverse_cell, 1.0f), (float)(cells - 2));
+}
+
+static int cell_x(constant FluidParams* p, float x) {
+  return cell_along(x, p->origin_x, p->inverse_cell, p->cells_x);
+}
+
+// Row of cells along x that a point is in.
+static int cell_row(constant FluidParams* p, float y, float z) {
+  return cell_along(z, p->origin_z, p->inverse_cell, p->cells_z) * p->cells_y +
+         cell_along(y, p->origin_y, p->inverse_cell, p->cells_y);
+}
+
+// Run number `k` (0..8) around cells `from` to `to` of a row: first point and the one past the
+// last.
+static int2 neighbour_run(constant FluidParams* p, global const int* cell_start, int row, int from,
+                          int to, int k) {
+  const int base = (row + (k / 3 - 1) * p->cells_y + k % 3 - 1) * p->cells_x;
+  return (int2)(cell_start[base + from - 1], cell_start[base + to + 2]);
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// A vector of neighbours: LANES of them are handled at once by one work-item. On CPUs this is what
+// makes SPH fast (explicit vectors; the compiler finds none by itself); on GPUs LANES is 1 and the
+// same source is plain scalar code.
+
+#define FAR_AWAY 1.0e6f  // [m]: beyond every support, its square still finite
+
+#if LANES == 16
+typedef float16 lanes;
+#define LOAD(array, index) vload16(0, (array) + (index))
+static float total(lanes a) {
+  const float8 b = a.lo + a.hi;
+  const float4 c = b.lo + b.hi;
+  const float2 d = c.lo + c.hi;
+  return d.x + d.y;
+}
+#elif LANES == 8
+typedef float8 lanes;
+#define LOAD(array, index) vload8(0, (array) + (index))
+static float total(lanes a) {
+  const float4 c = a.lo + a.hi;
+  const float2 d = c.lo + c.hi;
+  return d.x + d.y;
+}
+#elif LANES == 1
+typedef float lanes;
+#define LOAD(array, index) (array)[index]
+static float total(lanes a) { return a; }
+#else
+#error "LANES must be 1, 8 or 16"
+#endif
+
+// Particles handled together by one work-item: next to each other in the sorted arrays, they share
+// the search of their neighbours and each load of one.
+#if LANES > 1
+#define TARGETS 4
+#else
+#define TARGETS 1
+#endif
+
+// LOAD of x coordinates of a run that ends before `end`: lanes past it are sent far away, for the
+// arrays go on there with particles of other runs, which may be neighbours in their own right.
+static lanes load_x(global const float* array, int index, int end) {
+#if LANES == 16
+  const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  return select((float16)(FAR_AWAY), LOAD(array, index), lane < (int16)(end - index));
+#elif LANES == 8
+  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  return select((float8)(FAR_AWAY), LOAD(array, index), lane < (int8)(end - index));
+#else
+  return LOAD(array, index);
+#endif
+}
+
+// 1 / sqrt(a). AVX-512 has an estimate good to 2^-14; one Newton step brings it to float accuracy
+// at a third of the cost of a square root and a division.
+static lanes inverse_root(lanes a) {
+#if LANES == 16 && defined(__AVX512F__)
+  typedef float native __attribute__((__vector_size__(64)));
+  union { lanes f; native n; } in, out;
+  in.f = a;
+  out.n = __builtin_ia32_rsqrt14ps512_mask(in.n, in.n, (unsigned short)0xFFFF);
+  return out.f * (1.5f - 0.5f * a * out.f * out.f);
+#else
+  return native_rsqrt(a);
+#endif
+}
+
+// 1 / a for a > 0, likewise.
+static lanes inverse(lanes a) {
+#if LANES == 16 && defined(__AVX512F__)
+  typedef float native __attribute__((__vector_size__(64)));
+  union { lanes f; native n; } in, out;
+  in.f = a;
+  out.n = __builtin_ia32_rcp14ps512_mask(in.n, in.n, (unsigned short)0xFFFF);
+  return out.f * (2.0f - a * out.f);
+#else
+  return native_recip(a);
+#endif
+}

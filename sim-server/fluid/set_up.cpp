@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/set_up.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/scene/resolution.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Spray may rise this far above the tank before it shares the topmost cells [m].
+constexpr double kHeadroom = 0.5;
+
+WallPlane wall(double nx, double ny, double nz, double offset) {
+  return {static_cast<float>(nx), static_cast<float>(ny), static_cast<float>(nz),
+          static_cast<float>(offset)};
+}
+
+/// Distance of neighbouring lattice layers along one axis: the spacing, squeezed or stretched so
+/// that whole layers fill the water.
+double layer_distance(const std::vector<Vector3>& particles, std::size_t axis, double spacing) {
+  std::vector<double> places;
+  places.reserve(particles.size());
+  for (const Vector3& x : particles) places.push_back(x[axis]);
+  std::sort(places.begin(), places.end());
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double gap = places[i] - places[i - 1];
+    if (gap > 0.5 * spacing) return gap;
+  }
+  return spacing;
+}
+
+/// Sum of W over an unbounded lattice [1/m3].
+double lattice_sum(const Vector3& step, double support) {
+  const auto reach = [&](std::size_t axis) {
+    return static_cast<int>(std::ceil(support / step[axis]));
+  };
+  double sum = 0.0;
+  for (int kx = -reach(0); kx <= reach(0); ++kx) {
+    for (int ky = -reach(1); ky <= reach(1); ++ky) {
+      for (int kz = -reach(2); kz <= reach(2); ++kz) {
+        sum += kernel_value(std::hypot(kx * step[0], ky * step[1], kz * step[2]), support);
+      }
+    }
+  }
+  return sum;
+}
+
+/// Cells over the tank and its headroom, with a margin cell on each side.
+void lay_grid(const Scene& scene, double support, FluidParams& params) {
+  const Vector3 lower = scene.tank.lower;
+  Vector3 upper = scene.tank.upper;
+  upper[2] += kHeadroom;
+  const auto cells = [&](std::size_t axis) {
+    return static_cast<int>(std::ceil((upper[axis] - lower[axis]) / support)) + 2;
+  };
+  params.cells_x = cells(0);
+  params.cells_y = cells(1);
+  params.cells_z = cells(2);
+  const double total = static_cast<double>(params.cells_x) * params.cells_y * params.cells_z;
+  if (total > 64.0e6) {
+    throw std::runtime_error("the tank needs " + std::to_string(static_cast<long long>(total)) +
+                             " grid cells, 64 million are allowed; make the tank smaller or the "
+                             "particle spacing larger");
+  }
+  params.origin_x = static_cast<float>(lower[0] - support);
+  params.origin_y = static_cast<float>(lower[1] - support);
+  params.origin_z = static_cast<float>(lower[2] - support);
+}
+
+}  // namespace
+
+double support_radius(const Scene& scene) {
+  return kSupportSpacings * particle_spacing(scene);
+}
+
+std::vector<WallPlane> tank_walls(const Scene& scene) {
+  const Vector3& a = scene.tank.lower;
+  const Vector3& b = scene.tank.upper;
+  std::vector<WallPlane> walls = {wall(0, 0, 1, a[2]), wall(1, 0, 0, a[0]), wall(-1, 0, 0, -b[0]),
+                                  wall(0, 1, 0, a[1]), wall(0, -1, 0, -b[1])};
+  if (scene.slope.present) {
+    // The plane z = lower.z + gradient (x - foot).
+    const double scale = 1.0 / std::hypot(scene.slope.gradient, 1.0);
+    walls.push_back(wall(-scene.slope.gradient * scale, 0.0, scale,
+                         (a[2] - scene.slope.gradient * scene.slope.foot) * scale));
+  }
+  return walls;
+}
+
+FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles) {
+  const double spacing = particle_spacing(scene);
+  const double support = support_radius(scene);
+  const double sound = scene_sound_speed(scene);
+  FluidParams p = {};
+  p.count = static_cast<int>(particles.size());
+  lay_grid(scene, support, p);
+  p.support = static_cast<float>(support);
+  p.inverse_support = static_cast<float>(1.0 / support);
+  p.inverse_cell = p.inverse_support;
+  p.kernel_norm = static_cast<float>(kernel_norm(support));
+  const Vector3 step = {layer_distance(particles, 0, spacing),
+                        layer_distance(particles, 1, spacing),
+                        layer_distance(particles, 2, spacing)};
+  p.mass = static_cast<float>(scene.fluid.density / lattice_sum(step, support));
+  p.rest_density = static_cast<float>(scene.fluid.density);
+  p.sound_speed = static_cast<float>(sound);
+  p.viscous = static_cast<float>(10.0 * scene.fluid.viscosity);
+  p.artificial = static_cast<float>(scene.fluid.artificial * sound * support / 2.0);
+  p.gravity_x = static_cast<float>(scene.fluid.gravity[0]);
+  p.gravity_y = static_cast<float>(scene.fluid.gravity[1]);
+  p.gravity_z = static_cast<float>(scene.fluid.gravity[2]);
+  p.spacing = static_cast<float>(spacing);
+  p.layer_weight =
+      static_cast<float>(static_cast<double>(p.mass) / (scene.fluid.density * spacing * spacing));
+  p.speed_limit = static_cast<float>(sound);
+  const auto walls = tank_walls(scene);
+  p.wall_count = static_cast<int>(walls.size());
+  std::copy(walls.begin(), walls.end(), p.walls);
+  p.piston = scene.wave_maker.present ? 1 : -1;
+  p.slope = scene.slope.present ? p.wall_count - 1 : -1;
+  return p;
+}
+
+PistonState piston_at(const WaveMaker& maker, double seconds) {
+  if (!maker.present || seconds <= 0.0) return {};
+  const double omega = 2.0 * std::numbers::pi / maker.period;
+  return {maker.stroke / 2.0 * (1.0 - std::cos(omega * seconds)),
+          maker.stroke / 2.0 * omega * std::sin(omega * seconds)};
+}
+
+}  // namespace splash::sim

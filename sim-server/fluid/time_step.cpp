@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splash::sim {
+namespace {
+
+constexpr double kAcoustic = 0.6;
+constexpr double kPush = 0.25;
+constexpr double kViscous = 0.125;
+/// Violent moments do not stretch a frame beyond this many steps: the push limit, which is about
+/// accuracy, gives way; the acoustic one, which is about stability, never does.
+constexpr double kLeastShare = 0.25;
+
+}  // namespace
+
+double largest_time_step(const FluidParams& params, double speed, double acceleration,
+                         double factor) {
+  const double support = static_cast<double>(params.support);
+  const double h = support / 2.0;
+  const double sound = static_cast<double>(params.sound_speed);
+  const double acoustic = kAcoustic * support / (sound + speed);
+  const double push = kPush * std::sqrt(h / std::max(acceleration, 1.0e-9));
+  const double nu = static_cast<double>(params.viscous + params.artificial) / 10.0;
+  const double viscous = kViscous * h * h / std::max(nu, 1.0e-12);
+  return factor * std::min({acoustic, viscous, std::max(push, kLeastShare * acoustic)});
+}
+
+FrameSteps steps_of_frame(double frame, double largest) {
+  const int count = std::max(1, static_cast<int>(std::lround(frame / largest)));
+  return {count, largest};
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// How long a step may be: the sound, the fastest thing, the strongest push and the viscosity each
+// set a limit.
+#pragma once
+
+#include "sim-server/fluid/fluid_params.h"
+
+namespace splash::sim {
+
+/// Largest step that is used [s].
+///   acoustic  dt <= C H / (c0 + v)        C = 0.6: dam breaks stay whole up to 0.75
+///   push      dt <= 0.25 sqrt(h / a)      Monaghan 1992
+///   viscous   dt <= 0.125 h^2 / nu        Morris et al. 1997
+/// with h = H / 2, `speed` the fastest particle or body point [m/s], `acceleration` the largest
+/// [m/s2] and `factor` the scene's own (1: as above).
+[[nodiscard]] double largest_time_step(const FluidParams& params, double speed, double acceleration,
+                                       double factor);
+
+/// A frame's worth of equal steps.
+struct FrameSteps {
+  int count = 1;
+  double dt = 0.0;  ///< [s]
+};
+
+/// As many steps of at most `largest` as come nearest to `frame` seconds: the frame stretches
+/// rather than the step, so no step is shorter than it must.
+[[nodiscard]] FrameSteps steps_of_frame(double frame, double largest);
+
+}  // namespace splash::sim
