@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// The patches and synth-server render the same log: bubbles and cavities sample by sample.
+// Pd computes in single precision with a table of 512 cosines; hence the tolerance.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+
+#include "protocol/message.hpp"
+#include "tests/pd-patches/child_process.hpp"
+#include "tests/pd-patches/rendering.hpp"
+
+namespace splash::pd {
+namespace {
+
+constexpr double kTolerance = -75.0;  ///< largest difference re A0, radius from 5 mm [dB]
+
+protocol::Vec3 middle_of(int column, int row) {
+  constexpr float kTile = 0.305F;
+  return {(static_cast<float>(column) + 0.5F) * kTile, (static_cast<float>(row) + 0.5F) * kTile,
+          0.1F};
+}
+
+std::size_t channel_of(int column, int row) {
+  return static_cast<std::size_t>(row) * 6U + static_cast<std::size_t>(column);
+}
+
+protocol::Bubble bubble(float radius, float epsilon, const protocol::Vec3& place) {
+  return {1, -1, radius, epsilon, place, 0.0F};
+}
+
+double peak(const std::vector<float>& channel) {
+  float largest = 0.0F;
+  for (const float sample : channel) largest = std::max(largest, std::abs(sample));
+  return static_cast<double>(largest);
+}
+
+struct Size {
+  float radius = 0.0F;
+  float epsilon = 0.0F;
+};
+
+class OneBubble : public testing::TestWithParam<Size> {};
+
+void compare(const Size& size, const RigPair& rig, const protocol::Vec3& place) {
+  const double damping = 0.13 / static_cast<double>(size.radius) +
+                         0.0072 * std::pow(static_cast<double>(size.radius), -1.5);
+  const std::int64_t onset = 4801;  // not on a block of Pd
+  const auto frames = onset + static_cast<std::int64_t>(std::min(11.0 / damping, 6.0) * kRate);
+  const auto log =
+      make_log({{static_cast<double>(onset) / kRate, bubble(size.radius, size.epsilon, place)}});
+  const Channels pd = render_with_pd(log, rig, frames);
+  const Channels synth = render_with_synth(log, rig, frames);
+  const double a0 = static_cast<double>(size.radius) * static_cast<double>(size.epsilon);
+  // synth-server's replay fades out at the end of its file, not within these frames
+  const double difference = decibels(largest_difference(pd, synth, 0, frames) / (a0 / kFullScale));
+  std::cout << rig.rig << ": r = " << size.radius << " m: " << difference << " dB re A0\n";
+  EXPECT_LT(difference, kTolerance);
+}
+
+TEST_P(OneBubble, SoundsAlikeOnTheFloor) {
+  compare(GetParam(), kTiles, {0.7F, 1.1F, 0.2F});
+}
+TEST_P(OneBubble, SoundsAlikeFromLoudspeakers) {
+  compare(GetParam(), kStereo, {0.3F, 0.0F, 0.0F});
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, OneBubble,
+                         testing::Values(Size{0.005F, 0.1F}, Size{0.0123F, 0.03F},
+                                         Size{0.03F, 0.05F}, Size{0.08F, 0.1F}));
+
+TEST(Offline, OnsetsAreOnTheSample) {
+  const std::vector<std::int64_t> samples = {0, 1, 63, 64, 65, 1000, 4799, 4800, 24001};
+  std::vector<EventAt> events;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const protocol::Vec3 place =
+        middle_of(static_cast<int>(k % 3) * 2, static_cast<int>(k / 3) * 2);
+    protocol::Event event = bubble(0.006F, 0.1F, place);
+    if (k % 3 == 1) event = protocol::Impact{1, 0, 1.0F, 1.0F, place, 0.0F};
+    if (k % 3 == 2) event = protocol::Cavity{1, 0, 0.02F, 0.1F, place, 0.0F};
+    events.push_back({static_cast<double>(samples[k]) / kRate, event});
+  }
+  const auto log = make_log(events);
+  const Channels pd = render_with_pd(log, kTiles, 26000);
+  const Channels synth = render_with_synth(log, kTiles, 26000);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const std::size_t c = channel_of(static_cast<int>(k % 3) * 2, static_cast<int>(k / 3) * 2);
+    if (k % 3 == 1) {  // noise: both start from nil, the second sample is the first to be heard
+      EXPECT_EQ(first_beyond(pd[c], 1e-12), samples[k] + 1) << "event " << k;
+      EXPECT_EQ(first_beyond(synth[c], 1e-12), samples[k] + 1) << "event " << k;
+    } else {  // same waveform: both leave nil on the same sample; Pd's sine of nil is at -117 dB
+      const double level = 1e-4 * peak(synth[c]);
+      EXPECT_EQ(first_beyond(pd[c], level), first_beyond(synth[c], level)) << "event " << k;
+      EXPECT_GT(first_beyond(pd[c], level), samples[k]);
+      EXPECT_LT(first_beyond(pd[c], level), samples[k] + 24);
+    }
+  }
+}
+
+TEST(Offline, AHundredBubblesOverTheFloorAndBesideIt) {
+  std::vector<EventAt> events;
+  for (int k = 0; k < 100; ++k) {
+    const auto spot = static_cast<float>(k);
+    const protocol::Vec3 place = {-0.3F + std::fmod(spot * 0.377F, 2.4F),
+                                  -0.3F + std::fmod(spot * 0.611F, 2.4F), -1e-5F};
+    const float radius = 0.005F + 0.0004F * static_cast<float>(k % 41);
+    events.push_back({0.01 + 0.0137 * k, bubble(radius, 0.02F + 0.0007F * spot, place)});
+  }
+  const auto log = make_log(events);
+  constexpr std::int64_t kFrames = 96000;
+  const Channels pd = render_with_pd(log, kTiles, kFrames);
+  const Channels synth = render_with_synth(log, kTiles, kFrames);
+  const double a0 = 0.09 * 0.021;
+  EXPECT_LT(decibels(largest_difference(pd, synth, 0, kFrames) / (a0 / kFullScale)), kTolerance);
+}
+
+TEST(Offline, SmallBubblesAreLeftOutWhereTheRigEnds) {
+  const auto log = make_log({{0.0, bubble(0.0039F, 0.1F, middle_of(0, 0))},
+                             {0.0, bubble(0.0041F, 0.1F, middle_of(5, 5))}});
+  const Channels pd = render_with_pd(log, kTiles, 9600);
+  const Channels synth = render_with_synth(log, kTiles, 9600);
+  EXPECT_EQ(first_beyond(pd[0], 0.0), -1);
+  EXPECT_EQ(first_beyond(synth[0], 0.0), -1);
+  EXPECT_GT(first_beyond(pd[35], 1e-3), 0);
+  EXPECT_GT(first_beyond(synth[35], 1e-3), 0);
+}
+
+TEST(Offline, RenderingTwiceGivesTheSameBits) {
+  const auto log = make_log({{0.1, protocol::Impact{1, 0, 1.5F, 1.5F, middle_of(2, 2), 0.0F}},
+                             {0.2, bubble(0.01F, 0.1F, middle_of(3, 2))}});
+  EXPECT_EQ(render_with_pd(log, kTiles, 48000), render_with_pd(log, kTiles, 48000));
+}
+
+TEST(Offline, TheProgramConvertsALogFile) {
+  const ScratchFolder folder;
+  const auto osc = folder.path() / "log.osc";
+  const auto list = folder.path() / "list.txt";
+  {
+    protocol::LogWriter writer(osc);
+    for (const auto& entry : make_log({{0.25, bubble(0.0078125F, 0.0625F, {1.0F, 0.5F, 0.0F})}})) {
+      writer.append(entry.seconds, entry.messages);
+    }
+    writer.flush();
+  }
+  const std::string program = std::string(SPLASH_BINARY_DIR) + "/log-to-pd";
+  ChildProcess good({program, osc.string(), list.string()}, {}, folder.path() / "good.txt");
+  EXPECT_EQ(good.wait(30.0), 0) << good.output();
+  EXPECT_THAT(good.output(), testing::HasSubstr("1 events in 1 bundles, 108000 frames"));
+  std::string line;
+  std::ifstream text(list);
+  std::getline(text, line);
+  EXPECT_EQ(line, "250 bubble 1 -1 0.0078125 0.0625 1 0.5 0;");
+  ChildProcess bad({program, "missing.osc", list.string()}, {}, folder.path() / "bad.txt");
+  EXPECT_EQ(bad.wait(30.0), 1);
+  EXPECT_THAT(bad.output(), testing::HasSubstr("missing.osc"));
+}
+
+}  // namespace
+}  // namespace splash::pd

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "tests/pd-patches/rendering.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+#include "pd-patches/event_list.hpp"
+#include "synth-server/output/rig_reader.hpp"
+#include "synth-server/render/replay.hpp"
+#include "tests/pd-patches/child_process.hpp"
+
+namespace splash::pd {
+namespace {
+
+constexpr double kPatience = 120.0;  ///< for one rendering on a busy machine [s]
+
+std::filesystem::path source(const std::string& folder, const std::string& file) {
+  return std::filesystem::path(SPLASH_SOURCE_DIR) / folder / file;
+}
+
+}  // namespace
+
+ScratchFolder::ScratchFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "splash-pd-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
+  path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::vector<protocol::LogEntry> make_log(const std::vector<EventAt>& events) {
+  std::vector<protocol::LogEntry> log;
+  for (const EventAt& at : events) {
+    const auto number = static_cast<std::int32_t>(log.size());
+    const protocol::Frame frame{1, number, number, 0.0F};
+    log.push_back({at.seconds, {protocol::to_message(frame), protocol::to_message(at.event)}});
+  }
+  return log;
+}
+
+Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
+                        std::int64_t frames) {
+  const ScratchFolder folder;
+  const auto list = folder.path() / "events.txt";
+  const auto wav = folder.path() / "out.wav";
+  std::ofstream file(list);
+  write_event_list(log, kRate, file);
+  file.close();
+  ChildProcess pd(
+      {"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr", "-r",
+       std::to_string(static_cast<int>(kRate)), "-open", source("pd-patches", rig.patch).string(),
+       "-send",
+       "splash-render " + list.string() + " " + wav.string() + " " + std::to_string(frames)},
+      {}, folder.path() / "pd.txt");
+  const std::optional<int> status = pd.wait(kPatience);
+  if (status != 0 || pd.output().find("error") != std::string::npos) {
+    throw std::runtime_error("pd ended with " + std::to_string(status.value_or(-1)) + ": " +
+                             pd.output());
+  }
+  return read_float_wav(wav).channels;
+}
+
+Channels render_with_synth(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
+                           std::int64_t frames) {
+  const synth::Rig read = synth::read_rig(source("configs/rigs", rig.rig));
+  synth::ReplaySettings settings;
+  settings.engine.sample_rate = kRate;
+  settings.tail = static_cast<double>(frames) / kRate;  // the last event is never before 0
+  Channels channels(static_cast<std::size_t>(synth::channel_count(read)));
+  synth::replay(log, read, settings, [&](const float* const* blocks, int count) {
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      channels[c].insert(channels[c].end(), blocks[c], blocks[c] + count);
+    }
+  });
+  for (auto& channel : channels) channel.resize(static_cast<std::size_t>(frames));
+  return channels;
+}
+
+double decibels(double ratio) {
+  return 20.0 * std::log10(std::max(ratio, 1e-15));
+}
+
+double largest_difference(const Channels& a, const Channels& b, std::int64_t begin,
+                          std::int64_t end) {
+  if (a.size() != b.size()) throw std::invalid_argument("renderings differ in channels");
+  double largest = 0.0;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const double difference = static_cast<double>(a[c].at(i)) - static_cast<double>(b[c].at(i));
+      largest = std::max(largest, std::abs(difference));
+    }
+  }
+  return largest;
+}
+
+std::int64_t first_beyond(const std::vector<float>& channel, double level) {
+  const auto found = std::find_if(channel.begin(), channel.end(), [level](float sample) {
+    return std::abs(static_cast<double>(sample)) > level;
+  });
+  return found == channel.end() ? -1 : found - channel.begin();
+}
+
+}  // namespace splash::pd

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// One event log, two renderings: by the patches in the real pd, and by synth-server's engine.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "protocol/event_log.hpp"
+#include "tests/pd-patches/float_wav.hpp"
+
+namespace splash::pd {
+
+inline constexpr double kRate = 48000.0;    ///< of all renderings [Hz]
+inline constexpr double kFullScale = 0.01;  ///< of the rigs: amplitude of sample value 1 [m]
+
+/// What a rig is called on both sides.
+struct RigPair {
+  std::string rig;    ///< file below configs/rigs
+  std::string patch;  ///< file below pd-patches
+};
+inline const RigPair kTiles = {"tiles36.yaml", "offline.pd"};
+inline const RigPair kStereo = {"stereo.yaml", "offline-stereo.pd"};
+
+/// A folder of its own for one test; gone with it.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// An event at a time from the log's start [s].
+struct EventAt {
+  double seconds = 0.0;
+  protocol::Event event;
+};
+/// A log of one bundle per event, as sim-server records it: /frame first.
+[[nodiscard]] std::vector<protocol::LogEntry> make_log(const std::vector<EventAt>& events);
+
+/// `frames` samples of each channel. Throws std::runtime_error with pd's output when it fails.
+[[nodiscard]] Channels render_with_pd(const std::vector<protocol::LogEntry>& log,
+                                      const RigPair& rig, std::int64_t frames);
+[[nodiscard]] Channels render_with_synth(const std::vector<protocol::LogEntry>& log,
+                                         const RigPair& rig, std::int64_t frames);
+
+/// 20 log10 [dB].
+[[nodiscard]] double decibels(double ratio);
+/// Largest |a - b| in samples [begin, end) of all channels.
+[[nodiscard]] double largest_difference(const Channels& a, const Channels& b, std::int64_t begin,
+                                        std::int64_t end);
+/// First sample of a channel beyond `level`; -1: none.
+[[nodiscard]] std::int64_t first_beyond(const std::vector<float>& channel, double level);
+
+}  // namespace splash::pd
