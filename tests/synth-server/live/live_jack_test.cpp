@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// The real program on a real JACK server with 36 channels and no hardware: what each channel plays
+// live is what the offline rendering of the same events says, and a server's death is survived.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <thread>
+
+#include "synth-server/output/rig_reader.hpp"
+#include "synth-server/render/replay.hpp"
+#include "tests/synth-server/live/daemon.hpp"
+#include "tests/synth-server/live/jack_capture.hpp"
+#include "tests/synth-server/live/recording.hpp"
+
+namespace splash::synth {
+namespace {
+
+using protocol::Message;
+
+constexpr int kChannels = 36;
+/// The dummy driver has no interrupt, only sleep: a long period makes it steady [frames].
+constexpr int kPeriod = 1024;
+constexpr double kOpening = 2.2;  ///< the engine opens slowly at its start [s]
+constexpr double kTake = 2.5;     ///< [s]
+constexpr int kMostTakes = 6;
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+/// All at the same moment, so that the rate a live clock estimates does not matter: a bubble over
+/// tile 0, a bubble over tile 35, an impact over tile 14, each alone in its corner of the floor.
+std::vector<Message> events() {
+  const auto over = [](int column, int row) {
+    return protocol::Vec3{0.305F * (static_cast<float>(column) + 0.5F),
+                          0.305F * (static_cast<float>(row) + 0.5F), 0.0F};
+  };
+  return {protocol::to_message(protocol::Bubble{1, 0, 0.010F, 0.05F, over(0, 0), 0.0F}),
+          protocol::to_message(protocol::Bubble{2, 0, 0.020F, 0.02F, over(5, 5), 0.0F}),
+          protocol::to_message(protocol::Impact{3, 0, 2.0F, 2.0F, over(2, 2), 0.0F})};
+}
+
+std::vector<std::vector<float>> rendered_offline() {
+  std::vector<std::vector<float>> channels(kChannels);
+  ReplaySettings settings;
+  settings.tail = 1.0;
+  (void)replay({{0.1, events()}}, read_rig(rig_path("tiles36.yaml")), settings,
+               [&](const float* const* block, int frames) {
+                 for (std::size_t c = 0; c < kChannels; ++c) {
+                   channels[c].insert(channels[c].end(), block[c], block[c] + frames);
+                 }
+               });
+  return channels;
+}
+
+std::vector<std::string> arguments() {
+  return {"--rig", rig_path("tiles36.yaml"), "--api", "jack"};
+}
+
+std::string server_name(const std::string& name) {
+  return "splash-" + name + "-" + std::to_string(getpid());
+}
+
+/// Records one take of the events; empty when the server was late and samples are missing.
+std::vector<std::vector<float>> take(Synth& synth) {
+  JackCapture capture("synth-server", kChannels, kTake);
+  sleep(0.5);
+  const int before = capture.xruns();
+  synth.send(protocol::encode(protocol::to_time_tag(protocol::unix_now() + 0.3), events()));
+  if (!capture.wait(20.0)) throw std::runtime_error("JACK stopped while it was recorded");
+  if (capture.xruns() != before) return {};
+  return capture.channels();
+}
+
+/// First sample of any channel that passes a hundredth of the loudest.
+std::int64_t start_of(const std::vector<std::vector<float>>& channels, float loudest) {
+  std::int64_t first = -1;
+  for (const auto& channel : channels) {
+    const std::int64_t at = onset(channel, 0.01F * loudest);
+    if (at >= 0 && (first < 0 || at < first)) first = at;
+  }
+  return first;
+}
+
+float loudest_of(const std::vector<std::vector<float>>& channels) {
+  float loudest = 0.0F;
+  for (const auto& channel : channels) loudest = std::max(loudest, peak(channel));
+  return loudest;
+}
+
+TEST(LiveJack, PlaysEachChannelAsTheOfflineRendering) {
+  const JackServer server(server_name("channels"), kChannels, kPeriod);
+  Synth synth(arguments());
+  EXPECT_THAT(synth.daemon().output(),
+              testing::HasSubstr("output: jack device 'system', 36 channels at 48000 Hz"));
+  sleep(kOpening);
+  std::vector<std::vector<float>> live;
+  for (int i = 0; i < kMostTakes && live.empty(); ++i) live = take(synth);
+  ASSERT_FALSE(live.empty()) << "each take had xruns: the machine is too busy to record";
+
+  const auto offline = rendered_offline();
+  const float loudest = loudest_of(offline);
+  ASSERT_GT(loudest, 0.01F);
+  const std::int64_t lag = start_of(live, loudest) - start_of(offline, loudest);
+  ASSERT_GT(start_of(live, loudest), 0);
+  int sounding = 0;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    sounding += peak(offline[c]) > 0.0F ? 1 : 0;
+    float worst = 0.0F;
+    for (std::int64_t i = 0; i < 24000; ++i) {  // half a second from 1000 samples before the start
+      const auto at = static_cast<std::size_t>(start_of(offline, loudest) - 1000 + i);
+      const auto live_at = static_cast<std::size_t>(static_cast<std::int64_t>(at) + lag);
+      worst = std::max(worst, std::abs(live[c].at(live_at) - offline[c].at(at)));
+    }
+    EXPECT_LT(worst, 1e-6F) << "channel " << c + 1;
+    if (peak(offline[c]) == 0.0F) {
+      EXPECT_EQ(peak(live[c]), 0.0F) << "channel " << c + 1 << " has nothing to play";
+    }
+  }
+  EXPECT_GE(sounding, 3);
+  EXPECT_LE(sounding, kChannels - 6) << "else the test does not tell channels apart";
+  for (const std::size_t c : {0U, 14U, 35U}) EXPECT_GT(peak(offline[c]), 0.0F);
+}
+
+TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
+  const std::string name = server_name("death");
+  auto server = std::make_unique<JackServer>(name, kChannels, kPeriod);
+  Synth synth(arguments());
+  sleep(0.5);
+  server->kill();
+  ASSERT_TRUE(synth.daemon().wait_for_text("has stopped asking for sound", 20.0));
+  ASSERT_TRUE(synth.daemon().running());
+  EXPECT_EQ(synth.ask({"/sync", {1}}, "/synced").address, "/synced") << "it still answers";
+  server = std::make_unique<JackServer>(name, kChannels, kPeriod);
+  ASSERT_TRUE(synth.daemon().wait_for_text("'system' plays", 20.0)) << synth.daemon().output();
+  sleep(kOpening);
+  float heard = 0.0F;
+  for (int i = 0; i < kMostTakes && heard == 0.0F; ++i) heard = loudest_of(take(synth));
+  EXPECT_GT(heard, 0.01F);
+  synth.daemon().signal(SIGTERM);
+  EXPECT_EQ(synth.daemon().wait_for_end(), 0);
+  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("1 device losses"));
+}
+
+}  // namespace
+}  // namespace splash::synth

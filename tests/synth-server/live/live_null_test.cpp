@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// The real program without a device: what goes in over loopback comes out of its recording.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "protocol/status.hpp"
+#include "tests/synth-server/live/daemon.hpp"
+#include "tests/synth-server/live/recording.hpp"
+#include "tests/synth-server/receive/killers.hpp"
+
+namespace splash::synth {
+namespace {
+
+using protocol::Message;
+using protocol::TimeTag;
+
+constexpr int kRate = 48000;
+/// The engine opens slowly at its start [s].
+constexpr double kOpening = 2.1;
+
+Message bubble(int id, float radius = 0.01F) {
+  return protocol::to_message(protocol::Bubble{id, 0, radius, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F});
+}
+
+Message frame(int session, int sequence) {
+  return protocol::to_message(protocol::Frame{session, sequence, sequence, 0.0F});
+}
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+/// A time tag `samples` of 48 kHz after another, exactly: 2^32 / 48000 is no whole number, so only
+/// multiples of 375 samples (1/128 s) are asked for.
+TimeTag after(TimeTag tag, std::uint64_t samples) {
+  return {tag.value + samples / 375U * (std::uint64_t{1} << 25U)};
+}
+
+class LiveNull : public testing::Test {
+ protected:
+  ~LiveNull() override { std::filesystem::remove(wav_); }
+  std::vector<std::string> arguments(const std::string& rig = "stereo.yaml") {
+    return {"--rig", rig_path(rig), "--device", "null", "--record-audio", wav_};
+  }
+  std::string wav_ = temporary_path("live.wav");
+};
+
+TEST_F(LiveNull, PlaysTimeTagsExactToTheSample) {
+  Synth synth(arguments());
+  sleep(kOpening);
+  const TimeTag first = protocol::to_time_tag(protocol::unix_now() + 1.0);
+  const std::vector<std::uint64_t> steps{0, 9000, 21000, 30000};
+  for (std::size_t i = 0; i < steps.size(); ++i) {  // bundles of their own, at different moments
+    synth.send(protocol::encode(after(first, steps[i]), {bubble(static_cast<int>(i), 0.004F)}));
+    sleep(0.1);
+  }
+  sleep(2.0);
+  synth.daemon().signal(SIGTERM);
+  ASSERT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
+  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("played 0 impacts, 4 bubbles"));
+
+  const Recording recording = read_recording(wav_);
+  ASSERT_EQ(recording.channels.size(), 2U);
+  const auto& left = recording.channels[0];
+  const float threshold = 0.02F * peak(left);
+  std::vector<std::int64_t> onsets;
+  for (std::int64_t at = onset(left, threshold); at >= 0; at = onset(left, threshold, at + 7000)) {
+    onsets.push_back(at);
+  }
+  ASSERT_EQ(onsets.size(), steps.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(onsets[i] - onsets[0], static_cast<std::int64_t>(steps[i]));
+  }
+  for (std::int64_t i = 0; i < 3000; ++i) {  // and not only the onsets are alike
+    const auto at = [&](std::size_t k) { return left[static_cast<std::size_t>(onsets[k] + i)]; };
+    ASSERT_NEAR(at(0), at(3), 1e-3F * peak(left)) << i;
+  }
+}
+
+TEST_F(LiveNull, IsSilentWhileTheSenderIsGoneAndComesBack) {
+  Synth synth(arguments());
+  sleep(kOpening);
+  int sequence = 0;
+  const auto beat = [&](int session, double seconds) {
+    for (double t = 0.0; t < seconds; t += 0.05) {  // a cavity that would sound for seconds
+      synth.send(protocol::encode(TimeTag{1}, {frame(session, sequence), bubble(sequence, 0.1F)}));
+      ++sequence;
+      sleep(0.05);
+    }
+  };
+  beat(5, 0.5);
+  sleep(1.5);  // gone: lease 300 ms, fade 20 ms
+  beat(6, 0.5);
+  synth.daemon().signal(SIGTERM);
+  ASSERT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
+  EXPECT_THAT(synth.daemon().output(), testing::ContainsRegex("2 sessions, [1-9]+ departures"));
+
+  const Recording recording = read_recording(wav_);
+  const auto& left = recording.channels[0];
+  const float threshold = 0.01F * peak(left);
+  const std::int64_t first = onset(left, threshold);
+  ASSERT_GE(first, 0);
+  // The longest run without sound after the first event: the pause less lease and fade.
+  std::int64_t longest = 0;
+  std::int64_t last_sound = first;
+  for (std::int64_t at = first; at < static_cast<std::int64_t>(left.size()); ++at) {
+    if (left[static_cast<std::size_t>(at)] == 0.0F) continue;
+    if (at - last_sound > longest) longest = at - last_sound;
+    last_sound = at;
+  }
+  EXPECT_GT(longest, kRate / 2) << "exact zeros for at least half a second of the 1.5 s";
+  EXPECT_GT(peak(left, static_cast<std::int64_t>(left.size()) - kRate / 4), threshold)
+      << "it sounds again at the end";
+}
+
+TEST_F(LiveNull, FadesOutWhenItIsTerminated) {
+  Synth synth(arguments());
+  sleep(kOpening);
+  synth.send(protocol::encode(bubble(1, 0.1F)));
+  sleep(0.5);
+  synth.daemon().signal(SIGINT);
+  ASSERT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
+  const Recording recording = read_recording(wav_);
+  const auto& left = recording.channels[0];
+  const float loudest = peak(left);
+  ASSERT_GT(loudest, 0.0F);
+  EXPECT_EQ(left.back(), 0.0F);
+  float step = 0.0F;  // a 30 Hz cavity, faded: no click
+  const auto end = static_cast<std::size_t>(onset(left, 0.5F * loudest));
+  for (std::size_t i = end + 1; i < left.size(); ++i) {
+    step = std::max(step, std::abs(left[i] - left[i - 1]));
+  }
+  EXPECT_LT(step, 0.02F * loudest);
+}
+
+TEST_F(LiveNull, OutlivesKillersAndAnswersControl) {
+  Synth synth(arguments());
+  for (const Killer& killer : killers()) synth.send(killer.bytes);
+  synth.send(protocol::encode(TimeTag{1}, {frame(1, 0), bubble(1)}));
+  synth.send(protocol::encode(TimeTag{1}, {frame(1, 0), bubble(1)}));
+  synth.send(protocol::encode(TimeTag{1}, {frame(1, 5), bubble(2)}));
+  EXPECT_EQ(synth.ask({"/sync", {9}}, "/synced"), (Message{"/synced", {9}}));
+  sleep(0.3);
+  const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->refused, killers().size());
+  EXPECT_EQ(status->events, 2U);
+  EXPECT_EQ(status->duplicates, 1U);
+  EXPECT_EQ(status->lost, 4U);
+  EXPECT_EQ(status->sample_rate, 48000.0F);
+  EXPECT_EQ(synth.ask({"/version", {}}, "/version.reply").arguments.size(), 6U);
+  EXPECT_EQ(synth.ask({"/wat", {}}, "/fail").address, "/fail");
+  EXPECT_EQ(synth.ask({"/ping", {TimeTag{99}}}, "/pong").arguments.size(), 3U);
+  EXPECT_TRUE(synth.daemon().running());
+  EXPECT_EQ(synth.ask({"/quit", {}}, "/done").address, "/done");
+  EXPECT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
+}
+
+TEST_F(LiveNull, CountsWhatComesTooLateAndTooEarly) {
+  Synth synth(arguments());
+  sleep(0.3);
+  const double now = protocol::unix_now();
+  synth.send(protocol::encode(protocol::to_time_tag(now - 0.5), {bubble(1)}));
+  synth.send(protocol::encode(protocol::to_time_tag(now + 3600.0), {bubble(2)}));
+  sleep(0.3);
+  synth.daemon().signal(SIGTERM);
+  ASSERT_EQ(synth.daemon().wait_for_end(), 0);
+  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("not played: 1 too late"));
+  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("0 events late, 1 too early"));
+  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("played 0 impacts, 1 bubbles"));
+}
+
+}  // namespace
+}  // namespace splash::synth

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Events on simulated callbacks: each starts at its sample, whatever the callbacks' jitter.
+#include "synth-server/player.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "synth-server/output/rig_reader.hpp"
+
+namespace splash::synth {
+namespace {
+
+constexpr double kRate = 48000.0;
+constexpr int kBlock = 256;
+constexpr double kStart = 1000.0;  // [s, monotonic]
+constexpr double kLatency = 0.010;
+
+class PlayerTest : public testing::Test {
+ protected:
+  PlayerTest()
+      : rig_(read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml")),
+        engine_(rig_, settings()),
+        player_(engine_, queue_, nullptr, kRate, 4096, {kLatency, 0.050, 2.0}) {}
+
+  static EngineSettings settings() {
+    EngineSettings settings;
+    settings.sample_rate = kRate;
+    settings.start_ramp = 0.0;
+    return settings;
+  }
+  /// One callback, `late` after the moment at which its samples are due; keeps the left channel.
+  void call(double late = 0.0, int frames = kBlock, bool xrun = false) {
+    std::vector<float> left(static_cast<std::size_t>(frames));
+    std::vector<float> right(left.size());
+    std::vector<float*> channels{left.data(), right.data()};
+    const double due = kStart + shift_ + static_cast<double>(samples_.size()) / kRate;
+    player_.render({channels.data(), frames, due + late, xrun});
+    samples_.insert(samples_.end(), left.begin(), left.end());
+  }
+  void play(double moment, float radius = 0.001F, double by_arrival = 0.0) {
+    Command command;
+    command.event = protocol::Bubble{next_id_++, 0, radius, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F};
+    command.moment = moment;
+    command.by_arrival = by_arrival;
+    ASSERT_TRUE(queue_.push(command));
+  }
+  void say(Command::Kind kind) {
+    Command command;
+    command.kind = kind;
+    ASSERT_TRUE(queue_.push(command));
+  }
+  [[nodiscard]] std::int64_t onset_after(std::size_t from) const {
+    for (std::size_t i = from; i < samples_.size(); ++i) {
+      if (std::abs(samples_[i]) > 1e-6F) return static_cast<std::int64_t>(i);
+    }
+    return -1;
+  }
+
+  Rig rig_;
+  Engine engine_;
+  CommandQueue queue_;
+  Player player_;
+  double shift_ = 0.0;  ///< by which the device's samples have moved [s]
+  int next_id_ = 0;
+  std::vector<float> samples_;
+};
+
+TEST_F(PlayerTest, StartsEventsAtTheirSampleDespiteJitter) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> jitter(-20e-6, 20e-6);
+  for (int i = 0; i < 1500; ++i) call(jitter(random));  // 8 s: the clock has settled
+  // The first sample of a bubble is sin(0): it is heard one or two after its start.
+  std::vector<std::int64_t> errors;
+  for (int event = 0; event < 40; ++event) {
+    const std::size_t now = samples_.size();
+    const double moment = kStart + static_cast<double>(now) / kRate + 0.011 + 0.000123 * event;
+    play(moment);
+    for (int i = 0; i < 40; ++i) call(jitter(random));
+    const std::int64_t ideal = std::llround((moment + kLatency - kStart) * kRate);
+    const std::int64_t heard = onset_after(now);
+    ASSERT_GT(heard, 0);
+    errors.push_back(heard - ideal);
+  }
+  const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
+  EXPECT_GE(*least, 0);
+  EXPECT_LE(*most, 2);
+  EXPECT_LE(*most - *least, 1) << "samples between the earliest and the latest";
+  EXPECT_EQ(player_.counters().late, 0U);
+  EXPECT_EQ(player_.counters().clock_resets, 0U);
+}
+
+TEST_F(PlayerTest, CountsAndPlaysTheLateDropsTheTooLate) {
+  for (int i = 0; i < 100; ++i) call();
+  const double now = kStart + static_cast<double>(samples_.size()) / kRate;
+  play(now - 0.030);
+  play(now - 0.500);
+  play(now + 3600.0, 0.001F, now + 0.005);
+  for (int i = 0; i < 10; ++i) call();
+  EXPECT_EQ(player_.counters().late, 1U);
+  EXPECT_EQ(player_.counters().too_late, 1U);
+  EXPECT_EQ(player_.counters().early, 1U);
+  EXPECT_EQ(engine_.counters().bubbles, 2U);
+}
+
+TEST_F(PlayerTest, AnXrunMovesTheSamplesAndTheClockFollows) {
+  for (int i = 0; i < 1000; ++i) call();
+  shift_ = 0.012;  // the device repeated what it had for 12 ms: too little to notice by itself
+  call(0.0, kBlock, true);
+  const std::size_t before = samples_.size();
+  const double moment = kStart + shift_ + static_cast<double>(before) / kRate + 0.015;
+  play(moment);
+  for (int i = 0; i < 20; ++i) call();
+  const std::int64_t ideal = std::llround((moment + kLatency - kStart - shift_) * kRate);
+  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+  EXPECT_EQ(player_.counters().xruns, 1U);
+  EXPECT_EQ(player_.counters().clock_resets, 1U);
+}
+
+TEST_F(PlayerTest, CutsBlocksThatAreLargerThanTheEngines) {
+  call(0.0, 10000);
+  play(kStart + 10000.0 / kRate);
+  call(0.0, 10000);
+  const std::int64_t heard = onset_after(0);
+  EXPECT_GE(heard, 10480);
+  EXPECT_LE(heard, 10482);
+}
+
+TEST_F(PlayerTest, SilenceEndsVoicesAndWhatWaits) {
+  for (int i = 0; i < 10; ++i) call();
+  const double now = kStart + static_cast<double>(samples_.size()) / kRate;
+  play(now, 0.1F);        // sounds for seconds
+  play(now + 0.5, 0.1F);  // waits
+  for (int i = 0; i < 20; ++i) call();
+  ASSERT_GE(onset_after(samples_.size() - kBlock), 0);
+  say(Command::Kind::silence);
+  for (int i = 0; i < 12; ++i) call();  // 64 ms
+  const std::size_t silent_from = samples_.size();
+  for (int i = 0; i < 200; ++i) call();
+  EXPECT_EQ(onset_after(silent_from), -1) << "the waiting one neither";
+  say(Command::Kind::resume);
+  for (int i = 0; i < 10; ++i) call();
+  EXPECT_EQ(onset_after(silent_from), -1) << "nothing old comes back";
+  play(kStart + static_cast<double>(samples_.size()) / kRate);
+  for (int i = 0; i < 10; ++i) call();
+  EXPECT_GE(onset_after(silent_from), 0);
+}
+
+TEST_F(PlayerTest, AnEventWithoutASenderIsHeardAllTheSame) {
+  say(Command::Kind::silence);
+  for (int i = 0; i < 20; ++i) call();
+  play(kStart + static_cast<double>(samples_.size()) / kRate, 0.01F);
+  for (int i = 0; i < 20; ++i) call();
+  EXPECT_GE(onset_after(0), 0);
+}
+
+TEST_F(PlayerTest, FinishingFadesOutForGood) {
+  play(kStart, 0.1F);
+  for (int i = 0; i < 20; ++i) call();
+  player_.finish();
+  for (int i = 0; i < 10; ++i) call();
+  EXPECT_TRUE(engine_.silenced());
+  say(Command::Kind::resume);
+  for (int i = 0; i < 10; ++i) call();
+  EXPECT_TRUE(engine_.silenced()) << "a returning sender does not open it again";
+}
+
+}  // namespace
+}  // namespace splash::synth
