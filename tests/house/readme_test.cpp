@@ -3,16 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "tests/house/shell.hpp"
 
 namespace splash::house {
 namespace {
@@ -28,19 +27,6 @@ std::string read_text(const fs::path& path) {
 
 std::string readme() {
   return read_text(fs::path(SPLASH_SOURCE_DIR) / "README.md");
-}
-
-/// What a command prints; empty when it cannot be run.
-std::string output_of(const std::string& command) {
-  struct Close {
-    void operator()(FILE* pipe) const { pclose(pipe); }
-  };
-  const std::unique_ptr<FILE, Close> pipe(popen((command + " 2>&1").c_str(), "r"));
-  std::string text;
-  std::array<char, 4096> piece{};
-  while (pipe && std::fgets(piece.data(), piece.size(), pipe.get()) != nullptr)
-    text += piece.data();
-  return text;
 }
 
 std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
@@ -77,13 +63,14 @@ std::vector<std::string> missing_from(const std::set<std::string>& wanted,
 }
 
 void expect_options_known(const std::string& program) {
-  const std::string help = output_of(std::string(SPLASH_BINARY_DIR) + "/" + program + " --help");
+  const std::string help =
+      run_command(std::string(SPLASH_BINARY_DIR) + "/" + program + " --help").output;
   ASSERT_THAT(help, testing::HasSubstr("--help")) << program << " is not built";
   EXPECT_THAT(missing_from(options_given_to(program, readme()), options_in(help)), IsEmpty());
 }
 
 TEST(Readme, LauncherKnowsItsCommandsAndOptions) {
-  const std::string help = output_of(std::string(SPLASH_SOURCE_DIR) + "/splash --help");
+  const std::string help = run_command(std::string(SPLASH_SOURCE_DIR) + "/splash --help").output;
   static const std::regex kCommand(R"(\./splash ([a-z]+))");
   const std::set<std::string> told = matches(readme(), kCommand);
   EXPECT_THAT(told, Contains("demo"));

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// What the launcher does before anything is built, on a machine whose dpkg and apt are played by
+// scripts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/house/shell.hpp"
+
+namespace splash::house {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class Launcher : public testing::Test {
+ protected:
+  Launcher() {
+    fs::create_directories(folder_);
+    // Nothing is installed but what a test says; apt-get notes how it was called and gives up.
+    write_program("dpkg-query", "cat '" + (folder_ / "installed").string() + "' 2>/dev/null");
+    write_program("apt-get", "echo \"$@\" >>'" + (folder_ / "apt").string() + "'; exit 100");
+    write_program("sudo", "\"$@\"");
+  }
+  ~Launcher() override { fs::remove_all(folder_); }
+
+  void write_program(const std::string& name, const std::string& body) const {
+    const fs::path path = folder_ / name;
+    std::ofstream(path) << "#!/bin/sh\n" << body << '\n';
+    fs::permissions(path, fs::perms::owner_all);
+  }
+
+  void pretend_installed(const std::string& dpkg_lines) const {
+    std::ofstream(folder_ / "installed") << dpkg_lines;
+  }
+
+  CommandResult launch(const std::string& arguments) const {
+    return run_command("PATH='" + folder_.string() + "':$PATH " + SPLASH_SOURCE_DIR + "/splash " +
+                       arguments + " --build-dir '" + (folder_ / "build").string() + "'");
+  }
+
+  std::string apt_calls() const {
+    std::ifstream in(folder_ / "apt");
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+
+ private:
+  fs::path folder_ =
+      fs::temp_directory_path() / ("splash-launcher-test-" + std::to_string(getpid()));
+};
+
+TEST_F(Launcher, NamesWhatIsMissingAndWhyAndStopsWhenTold) {
+  const CommandResult result = launch("build --no-install");
+  EXPECT_EQ(result.exit_code, 69);
+  EXPECT_THAT(result.output,
+              AllOf(HasSubstr("liblo-dev             sim-server sends OSC with it"),
+                    HasSubstr("--no-install was given"),
+                    HasSubstr("apt-get install --no-install-recommends cmake ninja-build")));
+  EXPECT_THAT(result.output, Not(HasSubstr("clang-tidy")));
+  EXPECT_THAT(apt_calls(), IsEmpty());
+}
+
+TEST_F(Launcher, TestsNeedMorePackages) {
+  EXPECT_THAT(launch("test --no-install").output,
+              AllOf(HasSubstr("libgtest-dev"), HasSubstr("clang-tidy"), HasSubstr("liblo-dev")));
+}
+
+TEST_F(Launcher, InstallsOnlyWhatIsMissing) {
+  pretend_installed("ii cmake\nii liblo-dev\nrc ninja-build\nhi pkg-config\n");
+  const CommandResult result = launch("build");
+  EXPECT_EQ(result.exit_code, 69);  // apt-get gave up
+  EXPECT_THAT(result.output, HasSubstr("apt could not install the packages"));
+  const std::string calls = apt_calls();
+  EXPECT_THAT(calls, AllOf(HasSubstr("update"), HasSubstr("install -y"), HasSubstr("ninja-build"),
+                           HasSubstr("pocl-opencl-icd")));
+  EXPECT_THAT(calls, AllOf(Not(HasSubstr("cmake")), Not(HasSubstr("liblo-dev")),
+                           Not(HasSubstr("pkg-config"))));
+}
+
+TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
+  const CommandResult command = launch("dmeo");
+  EXPECT_EQ(command.exit_code, 64);
+  EXPECT_THAT(command.output, AllOf(HasSubstr("dmeo"), HasSubstr("demo, run, test")));
+  EXPECT_EQ(launch("demo --no-instal").exit_code, 64);
+  EXPECT_EQ(run_command(std::string(SPLASH_SOURCE_DIR) + "/splash test --filter").exit_code, 64);
+  EXPECT_EQ(launch("run").exit_code, 64);
+}
+
+TEST_F(Launcher, HelpAndVersionNeedNothing) {
+  EXPECT_EQ(launch("--help").exit_code, 0);
+  EXPECT_THAT(launch("--version").output, HasSubstr("splash 0."));
+}
+
+}  // namespace
+}  // namespace splash::house
