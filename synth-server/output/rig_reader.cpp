@@ -14,7 +14,7 @@ using protocol::ConfigMap;
 using protocol::Field;
 using protocol::Row;
 
-const char* const kPaper = "paper, section 6";
+constexpr const char* kPaper = "paper, section 6";
 
 /// What the YAML says of an output beside Output's own members.
 struct OutputEntry : Output {
@@ -208,10 +208,10 @@ Rig parse_rig(const std::string& text, const std::string& file_name) {
 }
 
 std::string describe_rig_keys() {
-  return "A rig\n\n" + describe_fields(rig_fields()) + "\nEach of `outputs`\n\n" +
-         describe_fields(output_fields()) + "\n`band` of an output\n\n" +
-         describe_fields(band_fields()) + "\n`tiles` of an output of that kind\n\n" +
-         describe_fields(tile_fields()) + "\n`stereo` of an output of that kind\n\n" +
+  return "### A rig\n\n" + describe_fields(rig_fields()) + "\n### Each of `outputs`\n\n" +
+         describe_fields(output_fields()) + "\n### `band` of an output\n\n" +
+         describe_fields(band_fields()) + "\n### `tiles` of an output of that kind\n\n" +
+         describe_fields(tile_fields()) + "\n### `stereo` of an output of that kind\n\n" +
          describe_fields(stereo_fields());
 }
 

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "protocol/config.hpp"
 
 namespace splash::synth {
@@ -104,6 +107,13 @@ TEST(RigKeys, AreDescribedWithUnitsDefaultsAndSources) {
   EXPECT_THAT(text, HasSubstr("| `size` | m | 0.305 |"));
   EXPECT_THAT(text, HasSubstr("| `full_scale` | m | 0.01 |"));
   EXPECT_THAT(text, HasSubstr("paper, section 6"));
+}
+
+TEST(RigKeys, AreWhatTheReadmeOfTheRigsSays) {
+  std::ifstream file(std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/rigs/README.md");
+  const std::string readme((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_THAT(readme, HasSubstr(describe_rig_keys()))
+      << "put the output of rig-reference behind the README's text";
 }
 
 }  // namespace
