@@ -35,8 +35,9 @@ OutputGuard::OutputGuard(const Output& output, double sample_rate)
       slew_(2.0 * 2.0 * std::numbers::pi * std::min(output.band.high, 0.5 * sample_rate) *
             output.ceiling / sample_rate) {}
 
-double OutputGuard::checked(double in) noexcept {
-  if (is_finite(in)) return std::clamp(in, -kMostInput, kMostInput);
+/// `value`, or nil and a fresh start when it is no number.
+double OutputGuard::checked(double value) noexcept {
+  if (is_finite(value)) return value;
   band_.reset();
   limiter_.reset();
   ++resets_;
@@ -45,7 +46,9 @@ double OutputGuard::checked(double in) noexcept {
 
 void OutputGuard::process(const double* in, const double* fade, float* out, int count) noexcept {
   for (int i = 0; i < count; ++i) {
-    const double limited = limiter_.process(band_.process(checked(in[i])));
+    const double tame = std::clamp(checked(in[i]), -kMostInput, kMostInput);
+    // Checked again: no filter of ours is unstable, but this is the place to be sure.
+    const double limited = limiter_.process(checked(band_.process(tame)));
     if (limiter_.limiting()) ++limited_;
     last_ += std::clamp(limited - last_, -slew_, slew_);
     out[i] = static_cast<float>(std::clamp(last_ * fade[i], -ceiling_, ceiling_));

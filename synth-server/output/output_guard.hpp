@@ -33,7 +33,7 @@ class OutputGuard {
   [[nodiscard]] std::uint64_t limited() const noexcept { return limited_; }  ///< samples
 
  private:
-  double checked(double in) noexcept;
+  double checked(double value) noexcept;
 
   BandFilter band_;
   Limiter limiter_;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "synth-server/output/fade.hpp"
 #include "synth-server/output/output_guard.hpp"
@@ -25,8 +27,14 @@ constexpr double kFloor = 1.0e-6;
 /// flood of events can take from a block.
 constexpr int kMostStarts = 256;
 
-const Rig& checked(const Rig& rig) {
+const Rig& checked(const Rig& rig, double sample_rate) {
   check(rig);
+  for (const Output& output : rig.outputs) {
+    if (output.band.low < 0.45 * sample_rate) continue;  // a high-pass beyond Nyquist blows up
+    throw std::invalid_argument(
+        "output '" + output.name + "': band.low = " + std::to_string(output.band.low) +
+        " Hz: must be under 0.45 of the sample rate, " + std::to_string(sample_rate) + " Hz");
+  }
   return rig;
 }
 
@@ -77,7 +85,7 @@ Engine::State::State(const Rig& rig, const EngineSettings& s)
       sample_rate(s.sample_rate),
       floor(0.0),
       chirp(s.literal_chirp ? Chirp::literal : Chirp::integrated),
-      routing(checked(rig)),
+      routing(checked(rig, s.sample_rate)),
       pool(s.max_voices, routing.max_routes(), s.sample_rate),
       queue(s.max_scheduled),
       routes(static_cast<std::size_t>(routing.max_routes())),

@@ -268,6 +268,9 @@ TEST(Engine, RefusesSettingsBeyondTheirLimits) {
   refused([](auto& s) { s.impact_exponent = 20.0; }, "impact_exponent");
   refused([](auto& s) { s.start_ramp = -1.0; }, "start_ramp");
   EXPECT_THROW(Engine(Rig{}, file_settings()), std::invalid_argument);
+  Rig beyond_nyquist = open_rig();
+  beyond_nyquist.outputs[0].band = {22000.0, 24000.0};
+  EXPECT_THROW(Engine(beyond_nyquist, file_settings()), std::invalid_argument);
 }
 
 }  // namespace
