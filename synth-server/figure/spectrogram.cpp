@@ -15,10 +15,7 @@ namespace splash::synth {
 namespace {
 
 struct FreePlan {
-  // KissFFT's own way to give a plan back is a macro for free().
-  void operator()(kiss_fftr_state* plan) const {
-    kiss_fftr_free(plan);  // NOLINT(cppcoreguidelines-no-malloc)
-  }
+  void operator()(kiss_fftr_state* plan) const { kiss_fftr_free(plan); }
 };
 
 /// The transform is this many times longer than the window: enough points between the lines of the
