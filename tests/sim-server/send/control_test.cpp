@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -94,6 +95,22 @@ TEST_F(Control, NotifySubscribesTheSenderAndEndsIt) {
   EXPECT_FALSE(targets_.list()[0].fixed);
   EXPECT_EQ(ask({"/notify", {0}}), protocol::done("/notify", 0));
   EXPECT_TRUE(targets_.list().empty());
+}
+
+TEST_F(Control, AnyPacketRenewsASubscription) {
+  server_ = nullptr;
+  std::atomic<double> now = 0.0;  // read on the control's thread
+  Targets targets({}, [&now] { return now.load(); });
+  ControlServer server({.listen = {}}, {}, targets);
+  const auto ask_server = [&](const Message& message) {
+    peer_.send(server.local(), message);
+    return peer_.message().address;
+  };
+  ASSERT_EQ(ask_server({"/notify", {1}}), "/done");
+  now = 0.9 * kSubscriptionLease;
+  ASSERT_EQ(ask_server({"/sync", {1}}), "/synced");
+  ASSERT_EQ(targets.list().size(), 1U);
+  EXPECT_NEAR(targets.list()[0].expires, 1.9 * kSubscriptionLease, 1.0e-9);
 }
 
 TEST_F(Control, NotifyRefusesStreamsThatAreNotSent) {

@@ -117,6 +117,22 @@ TEST(EventLog, TheEndIsNotBeforeTheLastSound) {
   EXPECT_NEAR(protocol::read_log(folder / "log.osc").back().seconds, 2.5, 1.0e-9);
 }
 
+TEST(EventLog, AnEventThatSoundsSoonerThanAnEarlierFramesEventIsNotHeldBack) {
+  const test::TemporaryFolder folder;
+  Targets nobody({});
+  protocol::UdpSocket socket{protocol::Endpoint{}};
+  protocol::LogWriter log(folder / "log.osc");
+  EventSender sender(nobody, socket, &log);
+  sender.send_step({.seconds = 1.0, .unix_origin = 0.0}, {test::bubble(0, 1.050)});
+  sender.send_step({.seconds = 1.004, .unix_origin = 0.0}, {test::impact(0, 1.006)});
+  sender.close(1.1);
+  const auto entry = protocol::read_log(folder / "log.osc").at(1);
+  const auto event = protocol::to_event(entry.messages.at(1)).value();
+  EXPECT_NEAR(
+      entry.seconds + 1.0e-3 * static_cast<double>(std::get<protocol::Impact>(event).offset_ms),
+      1.006, 1.0e-8);
+}
+
 TEST(EventLog, AFullDiskIsToldAndNotSwallowed) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   EXPECT_THROW(run("/dev/full", {}), std::runtime_error);
