@@ -37,8 +37,6 @@ class ConfigError : public std::runtime_error {
   std::string reason_;
 };
 
-inline constexpr int kExitConfig = 78;
-
 struct Row {
   std::string key;
   std::string unit;                                       ///< "m", "1", "" for text

@@ -139,6 +139,7 @@ TEST(NearestName, FindsTyposAndOnlyTypos) {
   EXPECT_EQ(nearest_name("Spacing", names), "spacing");
   EXPECT_EQ(nearest_name("sound-speed", names), "sound_speed");
   EXPECT_EQ(nearest_name("densty", names), "density");
+  EXPECT_EQ(nearest_name("sede", {"seed"}), "seed");  // neighbours swapped: one slip, not two
   EXPECT_EQ(nearest_name("gravity", names), "");
   EXPECT_EQ(nearest_name("", names), "");
   EXPECT_EQ(nearest_name(std::string(100000, 'x'), names), "");

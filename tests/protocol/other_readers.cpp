@@ -42,22 +42,30 @@ int on_bundle(lo_timetag time, void* packet) {
   return 0;
 }
 
+// liblo's arguments point into the packet, which is aligned to four bytes, not to eight.
+template <class Value>
+Value copied(const lo_arg* argument) {
+  Value value{};
+  std::memcpy(&value, argument, sizeof value);
+  return value;
+}
+
 int on_message(const char* path, const char* types, lo_arg** values, int count, lo_message,
                void* packet) {
   Message message{path, {}};
   for (int i = 0; i < count; ++i) {
     switch (types[i]) {
       case 'i':
-        message.arguments.emplace_back(values[i]->i);
+        message.arguments.emplace_back(copied<std::int32_t>(values[i]));
         break;
       case 'f':
-        message.arguments.emplace_back(values[i]->f);
+        message.arguments.emplace_back(copied<float>(values[i]));
         break;
       case 's':
-        message.arguments.emplace_back(std::string(&values[i]->s));
+        message.arguments.emplace_back(std::string(reinterpret_cast<const char*>(values[i])));
         break;
       default:
-        message.arguments.emplace_back(from_liblo(values[i]->t));
+        message.arguments.emplace_back(from_liblo(copied<lo_timetag>(values[i])));
     }
   }
   static_cast<Packet*>(packet)->messages.push_back(std::move(message));
@@ -145,12 +153,11 @@ std::vector<std::byte> build_with_liblo(const Message& message) {
 }
 
 std::vector<std::byte> build_with_liblo(TimeTag time, const std::vector<Message>& messages) {
-  const std::unique_ptr<void, decltype(&lo_bundle_free)> bundle(lo_bundle_new(to_liblo(time)),
-                                                                &lo_bundle_free);
-  std::vector<LoMessage> kept;
-  for (const auto& message : messages) {
-    kept.push_back(to_lo_message(message));
-    lo_bundle_add_message(bundle.get(), message.address.c_str(), kept.back().get());
+  // lo_bundle_free would leak its copies of the addresses (liblo 0.31).
+  const std::unique_ptr<void, decltype(&lo_bundle_free_recursive)> bundle(
+      lo_bundle_new(to_liblo(time)), &lo_bundle_free_recursive);
+  for (const auto& message : messages) {  // the bundle owns its messages
+    lo_bundle_add_message(bundle.get(), message.address.c_str(), to_lo_message(message).release());
   }
   std::size_t size = 0;
   void* data = lo_bundle_serialise(bundle.get(), nullptr, &size);
