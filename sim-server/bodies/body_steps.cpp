@@ -2,32 +2,18 @@
 #include "sim-server/bodies/body_steps.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
+
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 namespace {
-
-double length(const Vector3& v) {
-  return std::hypot(v[0], v[1], v[2]);
-}
 
 float as_float(double value) {
   return static_cast<float>(value);
 }
 
 }  // namespace
-
-Vector3 rotate(const Quaternion& q, const Vector3& v) {
-  const auto cross = [](const Vector3& a, const Vector3& b) {
-    return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  const Vector3 axis = {q[0], q[1], q[2]};
-  Vector3 t = cross(axis, v);
-  for (double& part : t) part *= 2.0;
-  const Vector3 turned = cross(axis, t);
-  return {v[0] + q[3] * t[0] + turned[0], v[1] + q[3] * t[1] + turned[1],
-          v[2] + q[3] * t[2] + turned[2]};
-}
 
 Bodies::Bodies(std::vector<BodyPoint> points, std::vector<std::unique_ptr<Motion>> motions,
                double support)

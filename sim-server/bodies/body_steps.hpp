@@ -32,7 +32,4 @@ class Bodies {
   double support_ = 0.0;
 };
 
-/// `v` carried from body to world axes by the unit quaternion `q`.
-[[nodiscard]] Vector3 rotate(const Quaternion& q, const Vector3& v);
-
 }  // namespace splash::sim

@@ -2,6 +2,7 @@
 // A typed array on the device.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 #include <string>

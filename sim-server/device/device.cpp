@@ -64,7 +64,7 @@ std::vector<Found> find_devices() {
 
 Found choose(int index) {
   auto found = find_devices();
-  if (index >= static_cast<int>(found.size())) {
+  if (index < -1 || index >= static_cast<int>(found.size())) {
     throw std::runtime_error("device " + std::to_string(index) + " asked for, but there are only " +
                              std::to_string(found.size()) + " (see --list-devices)");
   }
@@ -92,9 +92,10 @@ std::string describe(const DeviceFacts& facts) {
   return line.str();
 }
 
-Device::Device(int index, bool profiling) {
+Device::Device(int index, bool profiling, int lanes) {
   const Found found = choose(index);
   facts_ = found.facts;
+  lanes_ = lanes != 0 ? lanes : facts_.is_cpu ? 16 : 1;
   handle_ = found.handle;
   context_ = cl::Context(handle_);
   queue_ = cl::CommandQueue(context_, handle_, profiling ? CL_QUEUE_PROFILING_ENABLE : 0);

@@ -32,19 +32,21 @@ class Device {
  public:
   /// `index` as list_devices counts; -1: the CPU device with most units, else the first device
   /// (the default runs everywhere; a GPU is used when asked for).
-  explicit Device(int index = -1, bool profiling = false);
+  /// `lanes`: 1, 8 or 16 particles per vector in kernels; 0: as suits the device.
+  explicit Device(int index = -1, bool profiling = false, int lanes = 0);
 
   [[nodiscard]] const DeviceFacts& facts() const noexcept { return facts_; }
   [[nodiscard]] const cl::Context& context() const noexcept { return context_; }
   [[nodiscard]] const cl::Device& handle() const noexcept { return handle_; }
   [[nodiscard]] cl::CommandQueue& queue() noexcept { return queue_; }
-  /// Particles per vector in kernels: 16 on CPUs, 1 on GPUs (see kernels/lanes.h).
-  [[nodiscard]] int lanes() const noexcept { return facts_.is_cpu ? 16 : 1; }
+  /// Particles per vector in kernels: 16 on CPUs, 1 on GPUs, unless chosen (see kernels/lanes.h).
+  [[nodiscard]] int lanes() const noexcept { return lanes_; }
   /// Independent runs of a sort: one per CPU core; enough to fill a GPU.
   [[nodiscard]] int sort_chunks() const noexcept;
 
  private:
   DeviceFacts facts_;
+  int lanes_ = 1;
   cl::Device handle_;
   cl::Context context_;
   cl::CommandQueue queue_;

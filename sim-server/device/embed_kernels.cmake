@@ -16,6 +16,7 @@ function(splash_embed_kernels target out_name)
     COMMAND ${CMAKE_COMMAND} -DNAME=${out_name} -DOUTPUT=${output} "-DFILES=${joined}"
             -DROOT=${PROJECT_SOURCE_DIR} -P ${SPLASH_EMBED_SCRIPT}
     DEPENDS ${files} ${SPLASH_EMBED_SCRIPT}
-    COMMENT "Embedding kernels of ${out_name}")
+    COMMENT "Embedding kernels of ${out_name}"
+    VERBATIM)  # or the shell takes the separators of FILES for pipes
   target_sources(${target} PRIVATE ${output})
 endfunction()

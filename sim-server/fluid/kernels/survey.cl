@@ -2,6 +2,10 @@
 // Health and limits of the whole fluid, once a frame, in a program of its own that is built
 // without relaxed mathematics: finiteness is read from the exponent bits.
 
+#ifdef __FAST_RELAXED_MATH__
+#error "the survey guards against infinities: build it without relaxed mathematics"
+#endif
+
 static bool is_finite(float a) { return (as_uint(a) & 0x7F800000u) != 0x7F800000u; }
 
 typedef struct {
