@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/exit_codes.hpp"
+
+namespace splash::synth {
+namespace {
+
+ParsedOptions parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "synth-server");
+  return parse_options(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(Options, HaveSafeDefaults) {
+  const auto parsed = parse({"--rig", "x.yaml"});
+  ASSERT_TRUE(parsed.options);
+  EXPECT_EQ(protocol::to_string(parsed.options->listen), "127.0.0.1:57310");
+  EXPECT_TRUE(parsed.options->allow.empty());
+  EXPECT_TRUE(parsed.options->literal_chirp);
+  EXPECT_DOUBLE_EQ(parsed.options->late_window, 0.050);
+}
+
+TEST(Options, ReadWhatIsGiven) {
+  const auto parsed = parse({"--rig", "x.yaml", "--listen", "0.0.0.0:9000", "--allow", "10.0.0.5",
+                             "--allow", "10.0.0.6", "--chirp", "integrated", "--latency-ms", "20",
+                             "--late-ms", "100", "--seed", "7", "--device", "null"});
+  ASSERT_TRUE(parsed.options);
+  EXPECT_EQ(protocol::to_string(parsed.options->listen), "0.0.0.0:9000");
+  EXPECT_EQ(parsed.options->allow, (std::vector<std::uint32_t>{0x0A000005, 0x0A000006}));
+  EXPECT_FALSE(parsed.options->literal_chirp);
+  EXPECT_DOUBLE_EQ(parsed.options->latency, 0.020);
+  EXPECT_DOUBLE_EQ(parsed.options->late_window, 0.100);
+  EXPECT_EQ(parsed.options->seed, 7U);
+}
+
+TEST(Options, RefuseNonsenseAsUsage) {
+  for (const std::vector<const char*>& bad : std::vector<std::vector<const char*>>{
+           {},
+           {"--bogus"},
+           {"--rig"},
+           {"--rig", "x", "--listen", "nowhere:99999"},
+           {"--rig", "x", "--listen", "127.0.0.1:x"},
+           {"--rig", "x", "--replay", "a.osc"},
+           {"--rig", "x", "--render", "a.wav"},
+           {"--rig", "x", "--stems"},
+           {"--rig", "x", "--block", "1"},
+           {"--rig", "x", "--sample-rate", "nan"},
+           {"--rig", "x", "--chirp", "up"},
+           {"--rig", "x", "--api", "oss"},
+           {"--rig", "x", "--late-ms", "-1"},
+           {"--rig", "x", "--replay", "a", "--render", "b", "--record-audio", "c"}}) {
+    const auto parsed = parse(bad);
+    EXPECT_FALSE(parsed.options);
+    EXPECT_EQ(parsed.exit_code, protocol::kExitUsage);
+  }
+}
+
+TEST(Options, HelpAndVersionAreNoErrors) {
+  for (const char* flag : {"--help", "--version"}) {
+    const auto parsed = parse({flag});
+    EXPECT_FALSE(parsed.options);
+    EXPECT_EQ(parsed.exit_code, protocol::kExitOk);
+  }
+}
+
+}  // namespace
+}  // namespace splash::synth
