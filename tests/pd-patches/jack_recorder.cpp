@@ -76,4 +76,14 @@ double JackRecorder::time_of(std::int64_t frame) const {
   return start + static_cast<double>(frame) / rate_;
 }
 
+double JackRecorder::lateness(std::int64_t from, std::int64_t to) const {
+  double latest = 0.0;
+  for (std::size_t k = 0; k < period_count_; ++k) {
+    const Period& period = periods_[k];
+    if (period.first < from || period.first > to) continue;
+    latest = std::max(latest, period.time - time_of(period.first));
+  }
+  return latest;
+}
+
 }  // namespace splash::pd

@@ -28,6 +28,8 @@ class JackRecorder {
   /// Monotonic time of a recorded sample [s]: callbacks are late, never early, so the earliest of
   /// the half second around it counts.
   [[nodiscard]] double time_of(std::int64_t frame) const;
+  /// The latest that a callback between two samples was [s].
+  [[nodiscard]] double lateness(std::int64_t from, std::int64_t to) const;
   [[nodiscard]] double rate() const noexcept { return rate_; }  ///< [Hz]
   [[nodiscard]] bool server_is_gone() const noexcept { return gone_; }
 
