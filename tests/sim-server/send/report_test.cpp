@@ -105,10 +105,15 @@ TEST(Report, RefusalsNameThePathAndTheCause) {
   EXPECT_THAT(refusal(folder.path()), HasSubstr("directory"));
 }
 
-TEST(Report, ADeviceFileIsWrittenInPlaceAndItsErrorTold) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  EXPECT_THAT(refusal("/dev/full"), HasSubstr("No space left"));
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+// By way of a link: if the report ever replaced what it should write into, run by root, this test
+// would cost the machine a link and not its device.
+TEST(Report, ADeviceIsWrittenInPlaceAndItsErrorTold) {
+  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const test::TemporaryFolder folder;
+  const auto link = folder / "full";
+  std::filesystem::create_symlink("/dev/full", link);
+  EXPECT_THAT(refusal(link), HasSubstr("No space left"));
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
 }
 
 TEST(Report, SummaryTellsThePersonTheSame) {
