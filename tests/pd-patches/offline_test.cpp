@@ -134,6 +134,19 @@ TEST(Offline, RenderingTwiceGivesTheSameBits) {
   EXPECT_EQ(render_with_pd(log, kTiles, 48000), render_with_pd(log, kTiles, 48000));
 }
 
+TEST(Offline, EveryPatchOpensWithoutAComplaint) {
+  const ScratchFolder folder;
+  for (const char* name : {"splash-tiles.pd", "splash-stereo.pd", "splash-synth-help.pd",
+                           "offline.pd", "offline-stereo.pd"}) {
+    const std::string patch = std::string(SPLASH_SOURCE_DIR) + "/pd-patches/" + name;
+    ChildProcess pd({"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr", "-open", patch,
+                     "-send", "pd quit"},
+                    {}, folder.path() / "pd.txt");
+    EXPECT_EQ(pd.wait(60.0), 0) << name;
+    EXPECT_EQ(pd.output(), "") << name;
+  }
+}
+
 TEST(Offline, TheProgramConvertsALogFile) {
   const ScratchFolder folder;
   const auto osc = folder.path() / "log.osc";
