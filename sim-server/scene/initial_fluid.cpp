@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sim-server/scene/resolution.hpp"
@@ -34,20 +35,34 @@ double lattice_cost(const Vector3& edge, const Counts& counts, double spacing) {
   return kNumberWeight * volume * volume + shape;
 }
 
-/// Layers along each axis that fill the block: the best of the roundings around the ideal.
+/// Whole numbers on both sides of `count`, none below one.
+std::array<int, 2> around(double count) {
+  const int below = std::max(1, static_cast<int>(std::floor(count)));
+  return {below, below + 1};
+}
+
+/// Layers along each axis that fill the block. What rounding a thin axis takes or gives, the next
+/// longer one makes up for, so that the number of particles is kept.
 Counts lattice(const Vector3& edge, double spacing) {
-  constexpr int kReach = 2;
-  Counts ideal;
-  for (std::size_t i = 0; i < 3; ++i) {
-    ideal[i] = std::max(1, static_cast<int>(std::lround(edge[i] / spacing)));
-  }
-  Counts best = ideal;
-  for (int dz = -kReach; dz <= kReach; ++dz) {
-    for (int dy = -kReach; dy <= kReach; ++dy) {
-      for (int dx = -kReach; dx <= kReach; ++dx) {
-        const Counts counts = {ideal[0] + dx, ideal[1] + dy, ideal[2] + dz};
-        if (*std::min_element(counts.begin(), counts.end()) < 1) continue;
-        if (lattice_cost(edge, counts, spacing) < lattice_cost(edge, best, spacing)) best = counts;
+  std::array<std::size_t, 3> axis = {0, 1, 2};
+  std::sort(axis.begin(), axis.end(),
+            [&](std::size_t a, std::size_t b) { return edge[a] < edge[b]; });
+  const auto [thin, middle, wide] = axis;
+  const double volume = spacing * spacing * spacing;
+  Counts best = {};
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const int thin_count : around(edge[thin] / spacing)) {
+    const double thin_step = edge[thin] / thin_count;
+    for (const int middle_count : around(edge[middle] / std::sqrt(volume / thin_step))) {
+      const double area = thin_step * edge[middle] / middle_count;
+      for (const int wide_count : around(edge[wide] * area / volume)) {
+        Counts counts;
+        counts[thin] = thin_count;
+        counts[middle] = middle_count;
+        counts[wide] = wide_count;
+        const double cost = lattice_cost(edge, counts, spacing);
+        if (cost < lowest) best = counts;
+        lowest = std::min(cost, lowest);
       }
     }
   }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kCoast = 0.025;      // a body goes on at full speed this long without a pose [s]
 constexpr double kFade = 0.050;       // and takes this long to stop [s]
-constexpr double kBlend = 0.050;      // a wrong prediction is gone after this [s]
-constexpr double kWindow = 0.060;     // velocities are fitted to the poses of this time [s]
+constexpr double kBlend = 0.035;      // a wrong prediction is gone after this [s]
+constexpr double kWindow = 0.040;     // velocities are fitted to the poses of this time [s]
 constexpr double kLeastStep = 0.010;  // poses closer in time are late or early arrivals [s]
 constexpr std::size_t kKept = 256;    // stretches kept for questions about the past
 

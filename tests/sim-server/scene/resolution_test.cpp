@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Volumes against a sum over thin slices; spacing and sound speed against their formulas.
+#include "sim-server/scene/resolution.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace splash::sim {
+namespace {
+
+Scene beach() {
+  Scene scene;
+  scene.tank = {{-1.0, 0.0, 0.1}, {2.0, 1.0, 1.0}};
+  scene.slope = {true, 0.25, 0.15};
+  scene.water = {{{-1.0, 0.0, 0.1}, {2.0, 0.5, 0.3}}, {{-1.0, 0.5, 0.2}, {2.0, 1.0, 0.4}}};
+  scene.fluid.particles = 5000;
+  return scene;
+}
+
+double volume_by_slices(const Scene& scene) {
+  constexpr int kSlices = 300000;
+  double volume = 0.0;
+  for (const auto& block : scene.water) {
+    const double dx = (block.upper[0] - block.lower[0]) / kSlices;
+    for (int i = 0; i < kSlices; ++i) {
+      const double x = block.lower[0] + (i + 0.5) * dx;
+      const double bottom = std::max(block.lower[2], floor_height(scene, x));
+      volume += std::max(0.0, block.upper[2] - bottom) * dx * (block.upper[1] - block.lower[1]);
+    }
+  }
+  return volume;
+}
+
+TEST(Resolution, VolumeIsCutByTheSlope) {
+  Scene scene = beach();
+  EXPECT_NEAR(water_volume(scene), volume_by_slices(scene), 1e-6);
+  scene.slope.foot = 1.9;  // ends below the level
+  EXPECT_NEAR(water_volume(scene), volume_by_slices(scene), 1e-6);
+  scene.slope.present = false;
+  EXPECT_NEAR(water_volume(scene), 3.0 * 0.5 * 0.2 + 3.0 * 0.5 * 0.2, 1e-12);
+}
+
+TEST(Resolution, FloorRisesFromTheFootOfTheSlope) {
+  const Scene scene = beach();
+  EXPECT_DOUBLE_EQ(floor_height(scene, 0.0), 0.1);
+  EXPECT_DOUBLE_EQ(floor_height(scene, 1.25), 0.25);
+}
+
+TEST(Resolution, SpacingFollowsFromTheNumberOfParticles) {
+  Scene scene = beach();
+  const double spacing = particle_spacing(scene);
+  EXPECT_NEAR(water_volume(scene) / (spacing * spacing * spacing), 5000.0, 1e-6);
+  scene.fluid.spacing = 0.07;
+  EXPECT_DOUBLE_EQ(particle_spacing(scene), 0.07);
+}
+
+TEST(Resolution, SoundIsTenTimesTheWaveSpeedButNeverTooSlow) {
+  Scene scene = beach();
+  EXPECT_DOUBLE_EQ(water_depth(scene), 0.4 - 0.1);
+  EXPECT_NEAR(scene_sound_speed(scene), 10.0 * std::sqrt(9.81 * 0.3), 1e-9);
+  scene.water[1].upper[2] = 0.12;
+  scene.water[0].upper[2] = 0.12;
+  EXPECT_GE(scene_sound_speed(scene), 15.0);
+  scene.fluid.sound_speed = 33.0;
+  EXPECT_DOUBLE_EQ(scene_sound_speed(scene), 33.0);
+}
+
+}  // namespace
+}  // namespace splash::sim

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// A good scene is read as written; each kind of mistake is refused at its place with its reason.
+#include "sim-server/scene/scene_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "protocol/config.hpp"
+
+namespace splash::sim {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kGood = R"(name: small
+seed: 7
+fluid:
+  particles: 1000
+tank:
+  lower: [0.0, 0.0, 0.0]
+  upper: [1.0, 1.0, 1.0]
+slope:
+  foot: 0.5
+  gradient: 0.2
+water:
+  - lower: [0.0, 0.0, 0.0]
+    upper: [1.0, 1.0, 0.5]
+bodies:
+  - name: ball
+    shape: {kind: sphere, size: [0.2, 0.2, 0.2]}
+    motion:
+      kind: script
+      keyframes:
+        - {time: 0.0, position: [0.5, 0.5, 0.9]}
+        - {time: 1.0, position: [0.5, 0.5, 0.3], rotation: [0.0, 0.0, 0.6, 0.6]}
+  - name: post
+    shape: {size: [0.1, 0.1, 0.4], rocker: 0.02, flat: 0.5}
+    rest: {position: [0.2, 0.2, 0.2]}
+detect:
+  radius_max: 0.02
+)";
+
+TEST(SceneReader, ReadsWhatIsWritten) {
+  const Scene scene = parse_scene(kGood, "small.yaml");
+  EXPECT_EQ(scene.name, "small");
+  EXPECT_EQ(scene.seed, 7);
+  EXPECT_EQ(scene.fluid.particles, 1000);
+  EXPECT_TRUE(scene.slope.present);
+  EXPECT_DOUBLE_EQ(scene.slope.gradient, 0.2);
+  EXPECT_FALSE(scene.wave_maker.present);
+  ASSERT_EQ(scene.water.size(), 1U);
+  EXPECT_DOUBLE_EQ(scene.water[0].upper[2], 0.5);
+  ASSERT_EQ(scene.bodies.size(), 2U);
+  const BodySettings& ball = scene.bodies[0];
+  EXPECT_EQ(ball.shape.kind, ShapeKind::sphere);
+  EXPECT_EQ(ball.motion.kind, MotionKind::script);
+  ASSERT_EQ(ball.motion.keyframes.size(), 2U);
+  EXPECT_DOUBLE_EQ(ball.rest.position[2], 0.9) << "a scripted body rests at its first keyframe";
+  EXPECT_NEAR(ball.motion.keyframes[1].rotation[3], std::sqrt(0.5), 1e-12) << "to unit length";
+  const BodySettings& post = scene.bodies[1];
+  EXPECT_EQ(post.motion.kind, MotionKind::fixed);
+  EXPECT_DOUBLE_EQ(post.shape.rocker, 0.02);
+  EXPECT_DOUBLE_EQ(post.shape.flat, 0.5);
+  EXPECT_DOUBLE_EQ(scene.detect.radius_max, 0.02);
+  EXPECT_DOUBLE_EQ(scene.detect.radius_min, DetectSettings{}.radius_min);
+}
+
+TEST(SceneReader, NamesANamelessSceneAfterItsFile) {
+  const std::string text = kGood.substr(kGood.find('\n') + 1);
+  EXPECT_EQ(parse_scene(text, "some/where/pond.yaml").name, "pond");
+}
+
+/// One change to the good scene, and what the error must say.
+struct Mistake {
+  std::string name;
+  std::string from;
+  std::string to;
+  std::string place;   ///< "line:"
+  std::string reason;  ///< part of the text
+};
+
+class SceneMistake : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(SceneMistake, IsRefusedWithPlaceAndReason) {
+  const Mistake& mistake = GetParam();
+  std::string text = kGood;
+  const auto at = text.find(mistake.from);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, mistake.from.size(), mistake.to);
+  try {
+    static_cast<void>(parse_scene(text, "bad.yaml"));
+    FAIL() << "accepted";
+  } catch (const protocol::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bad.yaml:" + mistake.place));
+    EXPECT_THAT(error.what(), HasSubstr(mistake.reason));
+  }
+}
+
+const std::vector<Mistake> kMistakes = {
+    {"upside_down_tank", "upper: [1.0, 1.0, 1.0]", "upper: [1.0, 1.0, -1.0]",
+     "7:", "z is -1, not above that of 'lower' (0)"},
+    {"water_outside_tank", "    upper: [1.0, 1.0, 0.5]", "    upper: [1.0, 1.5, 0.5]",
+     "13:", "y is 1.5, outside the tank, which ends at 1"},
+    {"overlapping_water", "bodies:\n",
+     "  - {lower: [0.5, 0.5, 0.4], upper: [0.9, 0.9, 0.9]}\nbodies:\n", "14:", "overlaps"},
+    {"no_water", "water:\n  - lower: [0.0, 0.0, 0.0]\n    upper: [1.0, 1.0, 0.5]\n", "",
+     "1:", "at least one block of water"},
+    {"both_resolutions", "  particles: 1000", "  particles: 1000\n  spacing: 0.05",
+     "5:", "exactly one of 'spacing' and 'particles'"},
+    {"no_resolution", "fluid:\n  particles: 1000", "fluid:\n  density: 998", "",
+     "exactly one of 'spacing' and 'particles'"},
+    {"too_few_particles", "particles: 1000", "particles: 99", "4:", "100"},
+    {"too_fine", "  particles: 1000", "  spacing: 0.002", "4:", "allowed are 100 to 4000000"},
+    {"too_coarse", "  particles: 1000", "  spacing: 0.2", "4:", "allowed are 100"},
+    {"slope_outside", "foot: 0.5", "foot: 1.5", "9:", "outside the tank"},
+    {"slope_too_high", "  upper: [1.0, 1.0, 1.0]\nslope:\n  foot: 0.5\n  gradient: 0.2",
+     "  upper: [1.0, 1.0, 0.6]\nslope:\n  foot: 0.5\n  gradient: 1.5",
+     "10:", "ends at a height of 0.75 m"},
+    {"long_stroke", "water:\n", "wave_maker:\n  stroke: 0.6\nwater:\n",
+     "12:", "not below half the tank's length"},
+    {"same_name", "name: post", "name: ball", "22:", "another body named 'ball'"},
+    {"unknown_key", "seed: 7", "sead: 7", "2:", "seed"},
+    {"times_run_back", "time: 1.0,", "time: 0.0,", "21:", "not later"},
+    {"no_rotation", "rotation: [0.0, 0.0, 0.6, 0.6]", "rotation: [0.0, 0.0, 0.0, 0.0]",
+     "21:", "length is zero"},
+    {"oval_ball", "size: [0.2, 0.2, 0.2]", "size: [0.2, 0.2, 0.3]",
+     "16:", "three diameters must be equal"},
+    {"ball_with_sole", "size: [0.2, 0.2, 0.2]", "size: [0.2, 0.2, 0.2], rocker: 0.01",
+     "16:", "only a box"},
+    {"deep_rocker", "rocker: 0.02", "rocker: 0.4", "23:", "not below the box's height"},
+    {"resting_script", "    motion:\n", "    rest: {position: [0.0, 0.0, 0.0]}\n    motion:\n",
+     "17:", "the motion already says"},
+    {"fixed_without_rest", "    rest: {position: [0.2, 0.2, 0.2]}\n", "", "22:", "rest"},
+    {"foreign_key", "      kind: script\n", "      kind: script\n      start: 1.0\n",
+     "19:", "no meaning for a motion of kind script"},
+    {"script_without_keyframes",
+     "      keyframes:\n        - {time: 0.0, position: [0.5, 0.5, "
+     "0.9]}\n        - {time: 1.0, position: [0.5, 0.5, 0.3], "
+     "rotation: [0.0, 0.0, 0.6, 0.6]}\n",
+     "", "18:", "at least one"},
+    {"missing_file", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    motion: {kind: csv, file: nowhere.csv}\n", "24:", "there is no file"},
+    {"csv_without_file", "    rest: {position: [0.2, 0.2, 0.2]}\n", "    motion: {kind: csv}\n",
+     "24:", "needs one"},
+    {"two_markers", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    motion: {kind: trc, markers: [a, b]}\n", "24:", "three or more (got 2)"},
+    {"marker_twice", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    motion: {kind: trc, markers: [a, b, a]}\n", "24:", "twice"},
+    {"empty_range", "radius_max: 0.02", "radius_max: 0.0002",
+     "26:", "radius_max is 0.0002, not above radius_min"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SceneMistake, ::testing::ValuesIn(kMistakes),
+                         [](const auto& mistake) { return mistake.param.name; });
+
+}  // namespace
+}  // namespace splash::sim

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Each kind of body gets its motion; what cannot be made says which body and why.
+#include "sim-server/tracking/make_motion.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "protocol/config.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/tracking/live_motion.hpp"
+
+namespace splash::sim {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path kWalk =
+    std::filesystem::path(SPLASH_SOURCE_DIR) / "tests" / "data" / "walk_feet.trc";
+
+BodySettings body(MotionKind kind) {
+  BodySettings settings;
+  settings.name = "probe";
+  settings.rest.position = {1.0, 2.0, 3.0};
+  settings.motion.kind = kind;
+  return settings;
+}
+
+std::string refusal(const BodySettings& settings, const std::filesystem::path& tracker = {}) {
+  try {
+    static_cast<void>(make_motion(settings, tracker));
+    return "";
+  } catch (const protocol::ConfigError& error) {
+    return error.what();
+  }
+}
+
+TEST(MakeMotion, FixedBodiesStay) {
+  const auto motion = make_motion(body(MotionKind::fixed), {});
+  EXPECT_EQ(motion->at(7.0).position, (Vector3{1.0, 2.0, 3.0}));
+}
+
+TEST(MakeMotion, OscBodiesAreLive) {
+  const auto motion = make_motion(body(MotionKind::osc), {});
+  auto* live = dynamic_cast<LiveMotion*>(motion.get());
+  ASSERT_NE(live, nullptr);
+  EXPECT_EQ(live->at(0.0).position, (Vector3{1.0, 2.0, 3.0}));
+}
+
+TEST(MakeMotion, ScriptsAreSmoothOrStraight) {
+  BodySettings settings = body(MotionKind::script);
+  settings.motion.keyframes = {{0.0, {0, 0, 1}, {0, 0, 0, 1}}, {1.0, {0, 0, 0}, {0, 0, 0, 1}}};
+  EXPECT_NEAR(make_motion(settings, {})->at(0.01).velocity[2], 0.0, 0.1) << "starts gently";
+  settings.motion.smooth = false;
+  EXPECT_NEAR(make_motion(settings, {})->at(0.01).velocity[2], -1.0, 1e-12);
+  settings.motion.repeat = true;
+  EXPECT_THAT(refusal(settings), HasSubstr("body 'probe': the motion cannot repeat"));
+}
+
+TEST(MakeMotion, MarkersComeFromTheTrackersFile) {
+  BodySettings settings = body(MotionKind::trc);
+  settings.motion.markers = {"R.Heel", "R.Toe.Tip", "R.Midfoot.Sup"};
+  EXPECT_THAT(refusal(settings), HasSubstr("--tracker FILE.trc"));
+  EXPECT_NE(make_motion(settings, kWalk), nullptr);
+  settings.motion.markers[1] = "Nose";
+  EXPECT_THAT(refusal(settings, kWalk), HasSubstr("no marker 'Nose'; it has R.Heel"));
+  settings.motion.markers[1] = "R.Toe.Tip";
+  settings.motion.start = 99.0;
+  EXPECT_THAT(refusal(settings, kWalk), HasSubstr("the recording ends at 2.5"));
+  EXPECT_THAT(refusal(settings, "/nowhere/walk.trc"), HasSubstr("/nowhere/walk.trc"));
+}
+
+TEST(MakeMotion, StartSkipsTheRecording) {
+  BodySettings settings = body(MotionKind::trc);
+  settings.motion.markers = {"R.Heel", "R.Toe.Tip", "R.Midfoot.Sup", "R.Toe.Lat"};
+  const auto whole = make_motion(settings, kWalk);
+  settings.motion.start = 0.75;
+  const auto cut = make_motion(settings, kWalk);
+  EXPECT_LT(length(cut->at(0.2).position - whole->at(0.95).position), 1e-12);
+}
+
+}  // namespace
+}  // namespace splash::sim
