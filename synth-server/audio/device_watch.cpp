@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/audio/device_watch.hpp"
 
+#include <exception>
 #include <utility>
 
 #include "synth-server/audio/device_choice.hpp"
@@ -113,7 +114,7 @@ void DeviceWatch::try_device() {
     exchange(std::move(device));
     standing_in_ = false;
     report_(title(output_->format()) + " plays");
-  } catch (const DeviceError& error) {
+  } catch (const std::exception& error) {  // nothing may end this thread
     standing_in_ = true;
     if (output_ == nullptr) {
       exchange(std::make_unique<NullOutput>(needed_.channels, needed_.sample_rate, needed_.block));

@@ -88,7 +88,8 @@ std::unique_ptr<RtAudio> create(const std::string& api) {
   auto audio = std::make_unique<RtAudio>(RtAudio::getCompiledApiByName(api),
                                          [](RtAudioErrorType, const std::string&) {});
 #else
-  auto audio = std::make_unique<RtAudio>(RtAudio::getCompiledApiByName(api));
+  std::unique_ptr<RtAudio> audio;
+  translate([&] { audio = std::make_unique<RtAudio>(RtAudio::getCompiledApiByName(api)); });
 #endif
   audio->showWarnings(false);
   return audio;

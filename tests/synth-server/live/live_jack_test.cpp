@@ -27,7 +27,7 @@ constexpr int kChannels = 36;
 constexpr int kPeriod = 1024;
 constexpr double kOpening = 2.2;  ///< the engine opens slowly at its start [s]
 constexpr double kTake = 2.5;     ///< [s]
-constexpr int kMostTakes = 6;
+constexpr int kMostTakes = 15;
 
 void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -126,6 +126,25 @@ TEST(LiveJack, PlaysEachChannelAsTheOfflineRendering) {
   EXPECT_GE(sounding, 3);
   EXPECT_LE(sounding, kChannels - 6) << "else the test does not tell channels apart";
   for (const std::size_t c : {0U, 14U, 35U}) EXPECT_GT(peak(offline[c]), 0.0F);
+}
+
+TEST(LiveJack, NamesTheDevicesWhenItIsAskedForAnother) {
+  const JackServer server(server_name("names"), kChannels, kPeriod);
+  const std::string program = std::string(SPLASH_BINARY_DIR) + "/synth-server";
+  Daemon list(program, {"--list-devices"});
+  EXPECT_EQ(list.wait_for_end(), 0);
+  EXPECT_THAT(list.output(), testing::HasSubstr("jack: 'system', 36 outputs, prefers 48000 Hz"));
+  Daemon other(program, {"--rig", rig_path("tiles36.yaml"), "--listen", "127.0.0.1:0", "--device",
+                         "Fireface"});
+  EXPECT_EQ(other.wait_for_end(), 69);
+  EXPECT_THAT(other.output(), testing::HasSubstr("jack: system"));
+}
+
+TEST(LiveJack, SaysThatADeviceHasTooFewChannels) {
+  const JackServer server(server_name("few"), 2, kPeriod);
+  Synth synth(arguments());
+  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("has 2 output channels"));
+  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("output: none"));
 }
 
 TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
