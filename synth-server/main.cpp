@@ -6,9 +6,9 @@
 #include <iostream>
 
 #include "protocol/config.hpp"
+#include "protocol/failure.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
-#include "synth-server/failure.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay_file.hpp"
@@ -49,7 +49,8 @@ void play(const Options& options, Server& server) {
 }
 
 void print_devices(const std::string& api) {
-  const auto devices = failing_with(kExitUnavailable, [&] { return list_devices(api); });
+  const auto devices =
+      protocol::failing_with(protocol::kExitUnavailable, [&] { return list_devices(api); });
   if (devices.empty()) std::printf("no sound device with outputs\n");
   for (const auto& device : devices) {
     std::printf("%s: '%s', %d outputs, prefers %d Hz%s\n", device.api.c_str(), device.name.c_str(),
@@ -59,9 +60,10 @@ void print_devices(const std::string& api) {
 
 Rig load_rig(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) {
-    throw Failure(kExitNoInput, "--rig " + path.string() + ": there is no such file");
+    throw protocol::Failure(protocol::kExitNoInput,
+                            "--rig " + path.string() + ": there is no such file");
   }
-  return failing_with(kExitConfig, [&] { return read_rig(path); });
+  return protocol::failing_with(protocol::kExitConfig, [&] { return read_rig(path); });
 }
 
 void run(const Options& options) {
@@ -69,8 +71,8 @@ void run(const Options& options) {
   const Rig rig = load_rig(options.rig);
   if (!options.replay.empty()) {
     if (!std::filesystem::is_regular_file(options.replay)) {
-      throw Failure(kExitNoInput,
-                    "--replay " + options.replay.string() + ": there is no such file");
+      throw protocol::Failure(protocol::kExitNoInput,
+                              "--replay " + options.replay.string() + ": there is no such file");
     }
     return render_log(options, rig);
   }
@@ -89,12 +91,12 @@ int main(int argc, char** argv) {
   if (!options) return exit_code;
   try {
     run(*options);
-    return kExitOk;
-  } catch (const Failure& failure) {
+    return protocol::kExitOk;
+  } catch (const protocol::Failure& failure) {
     std::cerr << "synth-server: " << failure.what() << '\n';
     return failure.code();
   } catch (const std::exception& error) {
     std::cerr << "synth-server: " << error.what() << '\n';
-    return kExitInternal;
+    return protocol::kExitInternal;
   }
 }

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "protocol/control.hpp"
+#include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
-#include "synth-server/exit_codes.hpp"
 
 namespace splash::synth {
 namespace {
@@ -122,12 +122,12 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     check(options);
     apply(texts, options);
   } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? kExitOk : kExitUsage};
+    return {std::nullopt, app.exit(error) == 0 ? protocol::kExitOk : protocol::kExitUsage};
   } catch (const std::invalid_argument& error) {
     std::cerr << "synth-server: " << error.what() << '\n';
-    return {std::nullopt, kExitUsage};
+    return {std::nullopt, protocol::kExitUsage};
   }
-  return {options, kExitOk};
+  return {options, protocol::kExitOk};
 }
 
 }  // namespace splash::synth

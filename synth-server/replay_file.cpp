@@ -6,7 +6,7 @@
 #include <string>
 
 #include "protocol/event_log.hpp"
-#include "synth-server/failure.hpp"
+#include "protocol/failure.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/render/replay.hpp"
 
@@ -62,19 +62,20 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
 }  // namespace
 
 void render_log(const Options& options, const Rig& rig) {
-  const auto log = failing_with(kExitData, [&] { return protocol::read_log(options.replay); });
+  const auto log = protocol::failing_with(protocol::kExitData,
+                                          [&] { return protocol::read_log(options.replay); });
   ReplaySettings settings;
   settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
   settings.engine.seed = options.seed;
   settings.engine.literal_chirp = options.literal_chirp;
-  const auto report =
-      failing_with(kExitIo, [&] { return render_to(options.render, log, rig, settings); });
+  const auto report = protocol::failing_with(
+      protocol::kExitIo, [&] { return render_to(options.render, log, rig, settings); });
   print(report, options.render, rig, static_cast<int>(settings.engine.sample_rate));
   if (!options.stems) return;
   for (const Stem& stem : kStems) {
     settings.engine.components = stem.components;
     const auto path = stem_path(options.render, stem.name);
-    failing_with(kExitIo, [&] { return render_to(path, log, rig, settings); });
+    protocol::failing_with(protocol::kExitIo, [&] { return render_to(path, log, rig, settings); });
     std::printf("%s: %s alone\n", path.c_str(), stem.name);
   }
 }

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "protocol/control.hpp"
+#include "protocol/failure.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/null_output.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"
-#include "synth-server/failure.hpp"
 #include "synth-server/server_text.hpp"
 
 namespace splash::synth {
@@ -57,14 +57,14 @@ EngineSettings engine_settings(const Options& options, const AudioFormat& format
 }  // namespace
 
 Server::Server(const Options& options, const Rig& rig) {
-  protocol::UdpSocket socket =
-      failing_with(kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
+  protocol::UdpSocket socket = protocol::failing_with(
+      protocol::kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
   const int channels = channel_count(rig);
-  failing_with(kExitUnavailable, [&] { open_output(options, channels); });
+  protocol::failing_with(protocol::kExitUnavailable, [&] { open_output(options, channels); });
   schedule_.latency = latency_of(options, format_);
   schedule_.late_window = options.late_window;
   engine_ = std::make_unique<Engine>(rig, engine_settings(options, format_));
-  failing_with(kExitIo, [&] { start_recorder(options, kMaxBlock); });
+  protocol::failing_with(protocol::kExitIo, [&] { start_recorder(options, kMaxBlock); });
   player_ = std::make_unique<Player>(*engine_, queue_, recorder_.get(), format_.sample_rate,
                                      kMaxBlock, schedule_);
   // Reopening asks for what was found: another device or rate would not be what the rig is for.
@@ -79,7 +79,7 @@ Server::Server(const Options& options, const Rig& rig) {
     reopen = [again] { return std::make_unique<RtAudioOutput>(again); };
   }
   started_ = protocol::monotonic_now();
-  output_ = failing_with(kExitUnavailable, [&] {
+  output_ = protocol::failing_with(protocol::kExitUnavailable, [&] {
     return std::make_unique<DeviceWatch>(*player_, std::move(opened_), missing_device_, reopen,
                                          log);
   });
@@ -188,7 +188,7 @@ void Server::finish() {
   output_.reset();
   if (recorder_ != nullptr) {
     recorder_->finish();
-    failing_with(kExitIo, [&] {
+    protocol::failing_with(protocol::kExitIo, [&] {
       recording_->close();
       if (!recorder_->error().empty()) throw std::runtime_error(recorder_->error());
     });
