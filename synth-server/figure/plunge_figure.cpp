@@ -38,7 +38,7 @@ set tmargin at screen 0.895
 set bmargin at screen 0.590
 set label 1 figure_title at screen 0.075, 0.958 left font "DejaVu Sans Bold,19" textcolor rgb ink
 set label 2 subtitle at screen 0.075, 0.922 left font ",13" textcolor rgb "#6b7280"
-set ylabel "amplitude  [full scale]" offset 0.8,0 textcolor rgb ink
+set ylabel "amplitude  [full scale]" offset 0.2,0 textcolor rgb ink
 set format x ""
 set format y "%g"
 set yrange [-peak:peak]
@@ -69,7 +69,7 @@ set bmargin at screen 0.080
 set border 15
 set format x "%g"
 set xlabel "time  [s]" offset 0,0.2 textcolor rgb ink
-set ylabel "frequency  [Hz]" offset 0.8,0 textcolor rgb ink
+set ylabel "frequency  [Hz]" offset 0.2,0 textcolor rgb ink
 set yrange [log10(lowest):log10(highest)]
 set ytics ("10" 1, "20" log10(20), "50" log10(50), "100" 2, "200" log10(200), "500" log10(500), \
   "1000" 3, "2000" log10(2000), "5000" log10(5000), "10000" 4, "20000" log10(20000))
