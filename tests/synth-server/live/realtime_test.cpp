@@ -1,92 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The audio callback under guard: while it runs, every allocation, release and lock is counted.
-// glibc's functions are replaced in this program only.
-#include <dlfcn.h>
 #include <gtest/gtest.h>
-#include <pthread.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <mutex>
 #include <vector>
 
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/player.hpp"
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* pointer, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void __libc_free(void* pointer);
-}
-
-namespace {
-
-thread_local bool guarded = false;
-thread_local int offences = 0;
-
-void note() noexcept {
-  if (guarded) ++offences;
-}
-
-}  // namespace
-
-extern "C" {
-void* malloc(std::size_t size) {
-  note();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  note();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* pointer, std::size_t size) {
-  note();
-  return __libc_realloc(pointer, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  note();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** pointer, std::size_t alignment, std::size_t size) {
-  note();
-  *pointer = __libc_memalign(alignment, size);
-  return *pointer == nullptr ? ENOMEM : 0;
-}
-void free(void* pointer) {
-  note();
-  __libc_free(pointer);
-}
-int pthread_mutex_lock(pthread_mutex_t* mutex) {
-  note();
-  using Lock = int (*)(pthread_mutex_t*);
-  static const Lock real = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
-  return real(mutex);
-}
-}
+#include "tests/synth-server/render/forbidden_calls.hpp"
 
 namespace splash::synth {
 namespace {
-
-/// What `action` does that a real-time thread must not.
-template <class Action>
-int offences_of(Action action) {
-  offences = 0;
-  guarded = true;
-  action();
-  guarded = false;
-  return offences;
-}
-
-TEST(Realtime, TheGuardSeesWhatItIsFor) {
-  std::vector<int> numbers;
-  EXPECT_GE(offences_of([&] { numbers.push_back(1); }), 1);
-  EXPECT_GE(offences_of([&] { std::vector<int>().swap(numbers); }), 1);
-  std::mutex mutex;
-  EXPECT_GE(offences_of([&] { const std::lock_guard lock(mutex); }), 1);
-  EXPECT_EQ(offences_of([&] { numbers.clear(); }), 0);
-}
 
 /// All that can happen in a callback: events of every kind, late and early, floods beyond pool and
 /// queue, clearing, silence, xruns, odd block sizes, recording into a ring that overflows.
@@ -121,12 +44,14 @@ TEST(Realtime, TheCallbackNeverAllocatesNorLocks) {
                                      : Command::Kind::resume;
     (void)queue.push(command);
     const int frames = call % 10 == 0 ? 8192 : 256;
-    total += offences_of([&] {
+    {
+      const RealtimeScope scope;
       player.render({channels.data(), frames, time, call % 40 == 3, call % 300 == 0});
-    });
+    }
+    total += RealtimeScope::allocations() + RealtimeScope::locks();
     time += frames / 48000.0;
   }
-  EXPECT_EQ(total, 0);
+  EXPECT_EQ(total, 0) << "allocations and locks";
   EXPECT_GT(engine.counters().impacts, 0U);
   EXPECT_GT(engine.counters().bubbles, 0U);
   EXPECT_GT(engine.counters().cavities, 0U);
