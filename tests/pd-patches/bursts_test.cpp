@@ -70,8 +70,9 @@ std::vector<protocol::LogEntry> salvos() {
   std::vector<EventAt> events;
   for (int salvo = 0; salvo < kSalvos; ++salvo) {
     for (int tile = 0; tile < 30; ++tile) {
+      const int row = tile / 6;
       const protocol::Vec3 place = {(static_cast<float>(tile % 6) + 0.5F) * 0.305F,
-                                    (static_cast<float>(tile / 6) + 0.5F) * 0.305F, 0.0F};
+                                    (static_cast<float>(row) + 0.5F) * 0.305F, 0.0F};
       events.push_back(
           {salvo * 0.7, protocol::Impact{salvo * 30 + tile, 0, 1.2F, 1.0F, place, 0.0F}});
     }

@@ -33,8 +33,10 @@ std::size_t channel_of(int spot) {
 }
 
 protocol::Vec3 place_of(int spot) {
-  return {(static_cast<float>(spot % 3) * 2.0F + 0.5F) * 0.305F,
-          (static_cast<float>(spot / 3) * 2.0F + 0.5F) * 0.305F, 0.1F};
+  const int column = spot % 3 * 2;
+  const int row = spot / 3 * 2;
+  return {(static_cast<float>(column) + 0.5F) * 0.305F, (static_cast<float>(row) + 0.5F) * 0.305F,
+          0.1F};
 }
 
 protocol::Event event_at(int number, float offset_ms) {

@@ -43,6 +43,10 @@ struct Size {
   float epsilon = 0.0F;
 };
 
+void PrintTo(const Size& size, std::ostream* out) {
+  *out << size.radius << "m";
+}
+
 class OneBubble : public testing::TestWithParam<Size> {};
 
 void compare(const Size& size, const RigPair& rig, const protocol::Vec3& place) {
