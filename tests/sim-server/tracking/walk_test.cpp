@@ -99,7 +99,7 @@ TEST_P(Walk, AStandingFootStaysOnTheFloor) {
   }
 }
 
-TEST_P(Walk, TheFitIsTightWhereTheFootIsStiff) {
+TEST_P(Walk, EveryFrameGivesAPose) {
   const auto recording = read_markers(kWalk);
   const auto poses = marker_poses(recording, foot_.motion.markers, foot_.shape, true);
   EXPECT_EQ(poses.size(), recording.frames.size());
