@@ -95,7 +95,6 @@ void DeviceWatch::stand_in(const std::string& why) {
   ++losses_;
   report_(title(output_->format()) + ' ' + why + ": going on without it until it is back");
   const int block = output_->format().block;
-  exchange(nullptr);  // RtAudio's object goes first: two of them must not render at once
   exchange(std::make_unique<NullOutput>(needed_.channels, needed_.sample_rate, block));
   standing_in_ = true;
   last_refusal_.clear();
@@ -130,8 +129,7 @@ void DeviceWatch::exchange(std::unique_ptr<AudioOutput> next) {
     const std::lock_guard lock(mutex_);
     output_.swap(next);
   }
-  next.reset();  // the old one is closed here, before the new one starts
-  if (output_ == nullptr) return;
+  next.reset();  // the old one is closed before the new one starts: never two at once
   try {
     output_->start(source_);
   } catch (...) {
