@@ -50,7 +50,7 @@ const std::vector<Room>& rooms() {
       {"sim-server/detect",
        {"protocol", "sim-server/scene", "sim-server/device", "sim-server/bodies",
         "sim-server/fluid"},
-       {"Eigen/", "CL/"}},
+       {"Eigen/", "CL/", "Random123/"}},
       {"sim-server/send", {"protocol"}, {"lo/", "nlohmann/"}},
       {"sim-server", {"protocol", "sim-server"}, {"CLI/", "nlohmann/", "Eigen/"}},
       {"synth-server/voices", {"protocol/event.hpp"}, {}},
