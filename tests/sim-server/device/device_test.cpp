@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Which devices there are, which is taken, and what buffers on it can hold.
+#include "sim-server/device/device.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "sim-server/device/buffer.hpp"
+
+namespace splash::sim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+TEST(Devices, AreListedWithTheirFacts) {
+  const auto list = list_devices();
+  ASSERT_FALSE(list.empty());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i].index, static_cast<int>(i));
+    EXPECT_FALSE(list[i].name.empty());
+    EXPECT_FALSE(list[i].platform.empty());
+    EXPECT_GT(list[i].compute_units, 0U);
+    EXPECT_GT(list[i].allocation, 1U << 20);
+    EXPECT_GE(list[i].memory, list[i].allocation);
+  }
+}
+
+TEST(Devices, AreDescribedOnOneLine) {
+  DeviceFacts facts;
+  facts.index = 3;
+  facts.name = "Abacus";
+  facts.platform = "Wood";
+  facts.driver = "1.5";
+  facts.is_cpu = true;
+  facts.compute_units = 7;
+  facts.memory = std::size_t{5} << 30;
+  EXPECT_EQ(describe(facts), "3: Abacus (CPU, 7 compute units, 5120 MiB, Wood, driver 1.5)");
+  facts.is_cpu = false;
+  EXPECT_THAT(describe(facts), HasSubstr("(GPU, "));
+}
+
+TEST(Devices, ADefaultIsTheLargestCpuIfThereIsOne) {
+  const auto list = list_devices();
+  const Device device;
+  const bool any_cpu =
+      std::any_of(list.begin(), list.end(), [](const DeviceFacts& f) { return f.is_cpu; });
+  EXPECT_EQ(device.facts().is_cpu, any_cpu);
+  for (const DeviceFacts& facts : list) {
+    if (facts.is_cpu != any_cpu) continue;
+    EXPECT_LE(facts.compute_units, device.facts().compute_units);
+  }
+  EXPECT_EQ(Device(device.facts().index).facts().name, device.facts().name);
+}
+
+TEST(Devices, OutOfRangeIsAnsweredWithTheirNumber) {
+  const auto count = static_cast<int>(list_devices().size());
+  for (const int index : {count, 1000, -2}) {
+    EXPECT_THAT([index] { Device device(index); },
+                ThrowsMessage<std::runtime_error>(AllOf(
+                    HasSubstr("device " + std::to_string(index) + " asked for"),
+                    HasSubstr("only " + std::to_string(count)), HasSubstr("--list-devices"))));
+  }
+}
+
+TEST(Devices, LanesSuitTheDeviceUnlessChosen) {
+  const Device device;
+  EXPECT_EQ(device.lanes(), device.facts().is_cpu ? 16 : 1);
+  EXPECT_EQ(Device(-1, false, 8).lanes(), 8);
+  EXPECT_GE(device.sort_chunks(), 1);
+}
+
+TEST(Buffers, BeginAsZerosAndKeepWhatIsWritten) {
+  Device device;
+  Buffer<int> buffer(device, 1000);
+  EXPECT_EQ(buffer.size(), 1000U);
+  EXPECT_EQ(buffer.read(device, 1000), std::vector<int>(1000, 0));
+  std::vector<int> values(100);
+  std::iota(values.begin(), values.end(), 5);
+  buffer.write(device, values, 300);
+  const std::vector<int> all = buffer.read(device, 1000);
+  EXPECT_EQ(all[299], 0);
+  EXPECT_EQ(all[300], 5);
+  EXPECT_EQ(all[399], 104);
+  EXPECT_EQ(all[400], 0);
+  std::vector<int> some(2);
+  buffer.read(device, std::span<int>(some), 398);
+  EXPECT_EQ(some, (std::vector<int>{103, 104}));
+}
+
+TEST(Buffers, OfNothingAreAllowed) {
+  Device device;
+  Buffer<float> buffer(device, 0);
+  EXPECT_EQ(buffer.size(), 0U);
+  EXPECT_TRUE(buffer.read(device, 0).empty());
+  EXPECT_NO_THROW(buffer.write(device, {}));
+}
+
+TEST(Buffers, TooLargeAreRefusedWithBothSizes) {
+  Device device;
+  const std::size_t allowed = device.facts().allocation;
+  const std::size_t wanted = allowed + (std::size_t{16} << 20);
+  EXPECT_THAT([&] { Buffer<char> buffer(device, wanted); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("buffer of " + std::to_string(wanted >> 20) + " MiB"),
+                        HasSubstr("allows " + std::to_string(allowed >> 20) + " MiB"),
+                        HasSubstr("raise the scene's particle spacing"))));
+}
+
+}  // namespace
+}  // namespace splash::sim

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Kernels are built from several files, and an error is one of the file it is in.
+#include "sim-server/device/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim-server/device/buffer.hpp"
+
+namespace splash::sim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+const KernelSource kHelper = {"some/helper.h", "static int twice(int a) {\n  return 2 * a;\n}\n"};
+
+TEST(Programs, JoinTheirFilesAndConstants) {
+  Device device;
+  const KernelSource kernel = {"some/fill.cl",
+                               "kernel void fill(int count, global int* out) {\n"
+                               "  const int i = get_global_id(0);\n"
+                               "  if (i < count) out[i] = twice(i) + OFFSET;\n}\n"};
+  const cl::Program program = build_program(device, {kHelper, kernel}, {"OFFSET=100"}, false);
+  Kernel fill(program, "fill");
+  // Fewer than a work-group, whole groups and a rest; never one past the end.
+  for (const int count : {1, 63, 64, 65, 1000}) {
+    const Buffer<int> out(device, 1100);
+    fill.run(device.queue(), static_cast<std::size_t>(count), count, out.memory());
+    const std::vector<int> values = out.read(device, 1100);
+    for (int i = 0; i < 1100; ++i) {
+      ASSERT_EQ(values[static_cast<std::size_t>(i)], i < count ? 2 * i + 100 : 0)
+          << i << " of " << count;
+    }
+  }
+}
+
+TEST(Programs, AnErrorNamesItsFileAndLine) {
+  const Device device;
+  const KernelSource broken = {"some/broken.cl",
+                               "// fine\nkernel void k(int a) {\n  a = wrong;\n}\n"};
+  EXPECT_THAT(
+      [&] {
+        static_cast<void>(build_program(device, {kHelper, broken}, {}, false));
+      },
+      ThrowsMessage<std::runtime_error>(
+          AllOf(HasSubstr("the kernels do not build on " + device.facts().name),
+                HasSubstr("some/broken.cl:3"), HasSubstr("wrong"))));
+}
+
+TEST(Programs, KnowHowTheyAreBuilt) {
+  const Device device(-1, false, 8);
+  const KernelSource check = {
+      "some/check.cl",
+      "#if LANES != 8\n#error lanes\n#endif\n"
+      "#if defined(__FAST_RELAXED_MATH__) != RELAXED\n#error maths\n#endif\n"
+      "kernel void k(int a) {}\n"};
+  EXPECT_NO_THROW(static_cast<void>(build_program(device, {check}, {"RELAXED=0"}, false)));
+  EXPECT_NO_THROW(static_cast<void>(build_program(device, {check}, {"RELAXED=1"}, true)));
+  EXPECT_THROW(static_cast<void>(build_program(device, {check}, {"RELAXED=1"}, false)),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace splash::sim

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Symplectic Euler, the speed limit and the walls, against their formulas in double precision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/fluid/situations.hpp"
+#include "tests/sim-server/fluid/twin.hpp"
+
+namespace splash::sim {
+namespace {
+
+struct Moved {
+  Vector3 x = {0.0, 0.0, 0.0};
+  Vector3 v = {0.0, 0.0, 0.0};
+  bool on_edge = false;  ///< of a wall's decision: rounding may take either side
+};
+
+Moved twin_integrate(const FluidParams& p, const Vector3& x0, const Vector3& v0, const Vector3& a,
+                     double dt, const PistonState& piston) {
+  Moved m;
+  m.v = v0 + dt * a;
+  const double limit = static_cast<double>(p.speed_limit);
+  if (length(m.v) > limit) m.v = (limit / length(m.v)) * m.v;
+  m.x = x0 + dt * m.v;
+  const double least = 0.05 * static_cast<double>(p.spacing);
+  for (int k = 0; k < p.wall_count; ++k) {
+    const double d = wall_distance(p, k, m.x, piston.offset);
+    m.on_edge = m.on_edge || std::abs(d - least) < 1.0e-6;
+    if (d >= least) continue;
+    const Vector3 normal = {static_cast<double>(p.walls[k].nx), static_cast<double>(p.walls[k].ny),
+                            static_cast<double>(p.walls[k].nz)};
+    m.x = m.x + (least - d) * normal;
+    const double into = dot(m.v, normal) - (k == p.piston ? piston.speed : 0.0);
+    m.v = m.v - std::min(into, 0.0) * normal;
+  }
+  return m;
+}
+
+class Integrate : public ::testing::Test {
+ protected:
+  /// Steps once and compares every particle; returns how many met a wall or the speed limit.
+  void compare(Water& water, double stir, double dt) {
+    water.start(device_);
+    water.stir(stir, 21);
+    FluidState state;
+    water.step(dt, [&](Fluid& fluid) { state = read_state(fluid); });
+    const std::vector<Vector3> a = read_acceleration(*water.fluid);
+    const Snapshot after = water.fluid->snapshot();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const Moved twin = twin_integrate(state.params, state.position[i], state.velocity[i], a[i],
+                                        dt, water.piston);
+      const Vector3 free = state.velocity[i] + dt * a[i];
+      limited_ += length(free) > static_cast<double>(state.params.speed_limit);
+      stopped_ += length(twin.v - free) > 1.0e-3;
+      if (twin.on_edge) continue;
+      const Vector3 x = vector_of(*water.fluid, after.position, i);
+      const Vector3 v = vector_of(*water.fluid, after.velocity, i);
+      ASSERT_LT(length(x - twin.x), 1.0e-6 * (1.0 + length(twin.x))) << "particle " << state.id[i];
+      // Far from rest an acceleration is large; its part of v rounds with it.
+      ASSERT_LT(length(v - twin.v), 1.0e-6 * (1.0 + length(free))) << "particle " << state.id[i];
+    }
+  }
+
+  Device device_;
+  int limited_ = 0;
+  int stopped_ = 0;
+};
+
+TEST_F(Integrate, IsTheFormulaInAFreeCrowd) {
+  std::vector<Water> all = situations();
+  compare(all.at(1), 0.5, 1.0e-4);
+}
+
+TEST_F(Integrate, StopsAtWallsSlopeAndPiston) {
+  std::vector<Water> all = situations();
+  Water& water = all.at(5);
+  ASSERT_EQ(water.name, "beach");
+  compare(water, 4.0, 3.0e-3);
+  EXPECT_GT(stopped_, 50);
+  const Snapshot after = water.fluid->snapshot();
+  for (std::size_t i = 0; i < after.id.size(); ++i) {
+    const Vector3 x = vector_of(*water.fluid, after.position, i);
+    EXPECT_GT(x[2], 0.0);
+    EXPECT_GT(x[1], 0.0);
+    EXPECT_LT(x[1], 0.2);
+  }
+}
+
+TEST_F(Integrate, KeepsTheSpeedLimit) {
+  std::vector<Water> all = situations();
+  compare(all.at(2), 14.0, 1.0e-4);
+  EXPECT_GT(limited_, 20);
+}
+
+}  // namespace
+}  // namespace splash::sim

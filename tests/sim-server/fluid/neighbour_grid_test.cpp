@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// The sort: every point in its cell, x fastest, in the order it came, however many chunks.
+#include "sim-server/fluid/neighbour_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sim-server/fluid/kernel_sources.hpp"
+#include "tests/sim-server/fluid/small_water.hpp"
+
+namespace splash::sim {
+namespace {
+
+struct Sorted {
+  std::vector<float> position;
+  std::vector<float> velocity;
+  std::vector<int> id;
+  std::vector<int> cell_start;
+  bool operator==(const Sorted&) const = default;
+};
+
+class NeighbourGrids : public ::testing::Test {
+ protected:
+  NeighbourGrids() {
+    scene_ = tank_scene(0.02, {0.3, 0.2, 0.2}, 0.1);
+    // Some far outside: they count to the outermost inner cells.
+    places_ = random_places(1234, {-0.2, -0.2, -0.2}, {0.5, 0.4, 1.0}, 11);
+    for (int i = 0; i < 50; ++i) places_.push_back({0.1, 0.1, 0.1});
+    params_ = make_params(scene_, places_);
+  }
+
+  [[nodiscard]] std::size_t cells() const {
+    return static_cast<std::size_t>(params_.cells_x * params_.cells_y * params_.cells_z);
+  }
+
+  /// In the floats of the device, so that rounding puts nobody into another cell.
+  [[nodiscard]] int cell_of(const Vector3& place) const {
+    const auto along = [&](double x, float origin, int cells) {
+      const float c = std::floor((static_cast<float>(x) - origin) * params_.inverse_cell);
+      return static_cast<int>(std::clamp(c, 1.0F, static_cast<float>(cells - 2)));
+    };
+    const int x = along(place[0], params_.origin_x, params_.cells_x);
+    const int y = along(place[1], params_.origin_y, params_.cells_y);
+    const int z = along(place[2], params_.origin_z, params_.cells_z);
+    return (z * params_.cells_y + y) * params_.cells_x + x;
+  }
+
+  Sorted sort(int chunks) {
+    const std::size_t n = places_.size();
+    PointArrays from(device_, n);
+    const PointArrays to(device_, n);
+    const auto stride = static_cast<std::size_t>(from.stride);
+    std::vector<float> position(3 * stride, 0.0F);
+    std::vector<float> velocity(3 * stride, 0.0F);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        position[axis * stride + i] = static_cast<float>(places_[i][axis]);
+        velocity[axis * stride + i] = static_cast<float>(10 * i + axis);
+      }
+    }
+    std::vector<int> ids(n);
+    std::iota(ids.begin(), ids.end(), 0);
+    from.position.write(device_, position);
+    from.velocity.write(device_, velocity);
+    from.id.write(device_, ids);
+    const Buffer<FluidParams> params(device_, std::span<const FluidParams>(&params_, 1));
+    NeighbourGrid grid(device_, program_, params_, n, chunks);
+    grid.sort(device_.queue(), params, static_cast<int>(n), from, to);
+    Sorted sorted = {to.position.read(device_, 3 * stride), to.velocity.read(device_, 3 * stride),
+                     to.id.read(device_, n), std::vector<int>(cells() + 1)};
+    device_.queue().enqueueReadBuffer(grid.cell_start(), CL_TRUE, 0,
+                                      sorted.cell_start.size() * sizeof(int),
+                                      sorted.cell_start.data());
+    return sorted;
+  }
+
+  Device device_;
+  cl::Program program_ = build_program(device_, fluid_sources(), {}, false);
+  Scene scene_;
+  std::vector<Vector3> places_;
+  FluidParams params_ = {};
+};
+
+TEST_F(NeighbourGrids, SortStablyByCell) {
+  const Sorted sorted = sort(2);
+  std::vector<int> expected(places_.size());
+  std::iota(expected.begin(), expected.end(), 0);
+  std::stable_sort(expected.begin(), expected.end(), [&](int a, int b) {
+    return cell_of(places_[static_cast<std::size_t>(a)]) <
+           cell_of(places_[static_cast<std::size_t>(b)]);
+  });
+  EXPECT_EQ(sorted.id, expected);
+}
+
+TEST_F(NeighbourGrids, CarryPlacesAndVelocitiesAlong) {
+  const Sorted sorted = sort(2);
+  const std::size_t stride = sorted.position.size() / 3;
+  for (std::size_t i = 0; i < sorted.id.size(); ++i) {
+    const auto id = static_cast<std::size_t>(sorted.id[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ASSERT_EQ(sorted.position[axis * stride + i], static_cast<float>(places_[id][axis]));
+      ASSERT_EQ(sorted.velocity[axis * stride + i], static_cast<float>(10 * id + axis));
+    }
+  }
+}
+
+TEST_F(NeighbourGrids, SayWhereEachCellBegins) {
+  const Sorted sorted = sort(3);
+  std::vector<int> expected(cells() + 1, 0);
+  for (const Vector3& place : places_) ++expected[static_cast<std::size_t>(cell_of(place)) + 1];
+  std::partial_sum(expected.begin(), expected.end(), expected.begin());
+  EXPECT_EQ(sorted.cell_start, expected);
+}
+
+// The margin stays empty, so that the 27 cells around any point exist.
+TEST_F(NeighbourGrids, LeaveTheMarginEmpty) {
+  const Sorted sorted = sort(1);
+  for (int z = 0; z < params_.cells_z; ++z) {
+    for (int y = 0; y < params_.cells_y; ++y) {
+      for (int x = 0; x < params_.cells_x; ++x) {
+        const bool margin = x == 0 || y == 0 || z == 0 || x == params_.cells_x - 1 ||
+                            y == params_.cells_y - 1 || z == params_.cells_z - 1;
+        const auto cell = static_cast<std::size_t>((z * params_.cells_y + y) * params_.cells_x + x);
+        if (!margin) continue;
+        ASSERT_EQ(sorted.cell_start[cell], sorted.cell_start[cell + 1]);
+      }
+    }
+  }
+}
+
+TEST_F(NeighbourGrids, AreTheSameOnEveryRunAndForAnyChunks) {
+  const Sorted one = sort(1);
+  EXPECT_EQ(sort(1), one);
+  EXPECT_EQ(sort(2), one);
+  EXPECT_EQ(sort(3), one);
+  EXPECT_EQ(sort(256), one);  // as on a GPU: most chunks are short or empty
+}
+
+}  // namespace
+}  // namespace splash::sim

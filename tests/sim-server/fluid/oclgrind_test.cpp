@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Every kernel of a step under oclgrind, which interprets them and sees each access: no data race,
+// no access out of bounds, no misuse of the interface.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+struct Ended {
+  int status = 0;
+  std::string output;
+};
+
+Ended run(const std::string& command) {
+  Ended ended;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return {-1, "cannot start " + command};
+  std::array<char, 4096> part;
+  std::size_t size = 0;
+  while ((size = fread(part.data(), 1, part.size(), pipe)) > 0) {
+    ended.output.append(part.data(), size);
+  }
+  ended.status = pclose(pipe);
+  return ended;
+}
+
+class Oclgrind : public ::testing::TestWithParam<int> {};
+
+TEST_P(Oclgrind, FindsNothing) {
+  if (run("oclgrind --version").status != 0) GTEST_SKIP() << "oclgrind is not installed";
+  // Its compiler's optimiser makes instructions that its interpreter does not know.
+  const Ended ended =
+      run("timeout 280 oclgrind --data-races --check-api --build-options -cl-opt-disable " +
+          std::string(SPLASH_BINARY_DIR) + "/sim_fluid_two_steps " + std::to_string(GetParam()));
+  EXPECT_EQ(ended.status, 0) << ended.output;
+  EXPECT_THAT(ended.output, ::testing::HasSubstr("Oclgrind: 251 particles"));
+  for (const char* report : {"Invalid", "race", "error", "ERROR", "CL_"}) {
+    EXPECT_THAT(ended.output, ::testing::Not(::testing::HasSubstr(report)));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, Oclgrind, ::testing::Values(1, 16));
+
+}  // namespace

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "tests/sim-server/fluid/small_water.hpp"
+
+#include <random>
+
+#include "sim-server/fluid/set_up.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+
+Scene tank_scene(double spacing, const Vector3& upper, double depth) {
+  Scene scene;
+  scene.name = "test";
+  scene.fluid.spacing = spacing;
+  scene.fluid.sound_speed = 15.0;
+  scene.tank.lower = {0.0, 0.0, 0.0};
+  scene.tank.upper = upper;
+  scene.water = {{scene.tank.lower, {upper[0], upper[1], depth}}};
+  return scene;
+}
+
+std::vector<Vector3> random_places(std::size_t count, const Vector3& lower, const Vector3& upper,
+                                   unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<Vector3> places(count);
+  for (Vector3& place : places) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Not std::uniform_real_distribution: its draws differ between libraries.
+      const double share = static_cast<double>(random()) / 4294967296.0;
+      place[axis] = lower[axis] + share * (upper[axis] - lower[axis]);
+    }
+  }
+  return places;
+}
+
+void Water::start(Device& device, bool relaxed) {
+  params = make_params(scene, particles);
+  const double support = support_radius(scene);
+  std::vector<std::unique_ptr<Motion>> moved;
+  for (const auto& motion : motions) moved.push_back(std::make_unique<FormulaMotion>(motion));
+  bodies = std::make_unique<Bodies>(sample_bodies(scene.bodies, scene.fluid.spacing, support),
+                                    std::move(moved), support);
+  const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
+  fluid = std::make_unique<Fluid>(device, params, settle ? settled(scene, particles) : particles,
+                                  boundary, static_cast<int>(bodies->count()), relaxed);
+  time = 0.0;
+}
+
+void Water::stir(double speed, unsigned seed) {
+  const auto velocities =
+      random_places(particles.size(), {-speed, -speed, -speed}, {speed, speed, speed}, seed);
+  Snapshot snapshot = fluid->snapshot();
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vector3& v = velocities[static_cast<std::size_t>(snapshot.id[i])];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      snapshot.velocity[part(*fluid, axis, i)] = static_cast<float>(v[axis]);
+    }
+  }
+  fluid->restore(snapshot);
+}
+
+Step Water::step_at(double dt) const {
+  return {dt, piston.offset, piston.speed, 0};
+}
+
+void Water::step(double dt, const std::function<void(Fluid&)>& between) {
+  const Step step = step_at(dt);
+  fluid->set_bodies(bodies->at(time));
+  fluid->prepare(step);
+  between(*fluid);
+  fluid->advance(step);
+  fluid->device().queue().finish();  // set_bodies writes without waiting: once a frame
+  time += dt;
+}
+
+std::size_t part(const Fluid& fluid, std::size_t axis, std::size_t i) {
+  return axis * static_cast<std::size_t>(fluid.params().capacity) + i;
+}
+
+Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size_t i) {
+  Vector3 v;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    v[axis] = static_cast<double>(parts[part(fluid, axis, i)]);
+  }
+  return v;
+}
+
+double kinetic_energy(Fluid& fluid) {
+  const Snapshot snapshot = fluid.snapshot();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
+    const Vector3 v = vector_of(fluid, snapshot.velocity, i);
+    sum += 0.5 * dot(v, v);
+  }
+  return sum / static_cast<double>(snapshot.id.size());
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Small bodies of water to test on: scenes, places, bodies and a fluid made of them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim-server/bodies/body_steps.hpp"
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/set_up.hpp"
+
+namespace splash::sim {
+
+/// A body that moves as a formula says.
+class FormulaMotion : public Motion {
+ public:
+  explicit FormulaMotion(std::function<BodyState(double)> formula) : formula_(std::move(formula)) {}
+  [[nodiscard]] BodyState at(double seconds) const override { return formula_(seconds); }
+
+ private:
+  std::function<BodyState(double)> formula_;
+};
+
+/// A tank from the origin to `upper`, filled up to `depth`; sound speed 15 m/s.
+[[nodiscard]] Scene tank_scene(double spacing, const Vector3& upper, double depth);
+
+/// `count` places in a box, the same for the same seed.
+[[nodiscard]] std::vector<Vector3> random_places(std::size_t count, const Vector3& lower,
+                                                 const Vector3& upper, unsigned seed);
+
+/// Everything a test needs of a running fluid.
+struct Water {
+  std::string name;
+  Scene scene;
+  std::vector<Vector3> particles;
+  std::vector<std::function<BodyState(double)>> motions;  ///< of scene.bodies
+  bool settle = false;      ///< start as the water stands under its own weight
+  PistonState piston = {};  ///< held there
+
+  /// Builds it all on `device`.
+  void start(Device& device, bool relaxed = false);
+  /// Gives each particle a velocity of up to `speed` along each axis, by its id.
+  void stir(double speed, unsigned seed);
+  /// One step: prepare, `between`, advance.
+  void step(
+      double dt, const std::function<void(Fluid&)>& between = [](Fluid&) {});
+  [[nodiscard]] Step step_at(double dt) const;
+
+  FluidParams params = {};
+  std::unique_ptr<Bodies> bodies;
+  std::unique_ptr<Fluid> fluid;
+  double time = 0.0;  ///< [s]
+};
+
+/// Index of the x, y, z parts of particle `i` in a snapshot of a fluid.
+[[nodiscard]] std::size_t part(const Fluid& fluid, std::size_t axis, std::size_t i);
+
+/// Velocity or place of one particle of a snapshot.
+[[nodiscard]] Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size_t i);
+
+/// Kinetic energy per mass [J/kg].
+[[nodiscard]] double kinetic_energy(Fluid& fluid);
+
+}  // namespace splash::sim

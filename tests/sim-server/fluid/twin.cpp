@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "tests/sim-server/fluid/twin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+namespace {
+
+std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, int stride,
+                                  std::size_t count) {
+  const auto n = static_cast<std::size_t>(stride);
+  const std::vector<float> parts = buffer.read(device, 3 * n);
+  std::vector<Vector3> vectors(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      vectors[i][axis] = static_cast<double>(parts[axis * n + i]);
+    }
+  }
+  return vectors;
+}
+
+std::vector<double> read_numbers(Device& device, const Buffer<float>& buffer, std::size_t count) {
+  const std::vector<float> read = buffer.read(device, count);
+  return {read.begin(), read.end()};
+}
+
+Vector3 normal_of(const FluidParams& params, int wall) {
+  const WallPlane& plane = params.walls[wall];
+  return {static_cast<double>(plane.nx), static_cast<double>(plane.ny),
+          static_cast<double>(plane.nz)};
+}
+
+/// Walls that count at a place: the floor or the slope, whichever is nearer, and all others.
+std::vector<int> open_walls(const FluidParams& params, const Vector3& place, double piston) {
+  std::vector<int> walls;
+  for (int k = 0; k < params.wall_count; ++k) walls.push_back(k);
+  if (params.slope < 0) return walls;
+  const bool slope_nearer =
+      wall_distance(params, params.slope, place, piston) < wall_distance(params, 0, place, piston);
+  std::erase(walls, slope_nearer ? 0 : params.slope);
+  return walls;
+}
+
+/// The fluid's mirror image behind a wall at distance `d`: layers one spacing apart, the first as
+/// deep as d is high. Their weight, and its fall with d: 2 pi z W(z) per layer and z, twice as z
+/// grows by 2 d.
+std::pair<double, double> layers_behind(const FluidParams& params, double d) {
+  const double support = static_cast<double>(params.support);
+  const double spacing = static_cast<double>(params.spacing);
+  const double weight = static_cast<double>(params.layer_weight);
+  double share = 0.0;
+  double fall = 0.0;
+  for (const double behind : {0.0, spacing}) {
+    const double z = 2.0 * std::max(d, 0.0) + behind;
+    share += weight * plane_marginal(z, support);
+    fall += weight * 2.0 * 2.0 * std::numbers::pi * z * kernel_value(z, support);
+  }
+  return {share, fall};
+}
+
+/// One term of the pair sums: the push of a neighbour at `from` with `weight` = m or rho0 V.
+Vector3 pair_push(const FluidState& s, std::size_t i, const Vector3& from, const Vector3& velocity,
+                  double weight, double theirs) {
+  const FluidParams& p = s.params;
+  const double support = static_cast<double>(p.support);
+  const Vector3 x = s.position[i] - from;
+  if (dot(x, x) >= support * support) return {0.0, 0.0, 0.0};
+  const double r = length(x);
+  const double closing = dot(s.velocity[i] - velocity, x);
+  const double h = support / 2.0;
+  double k = static_cast<double>(p.viscous);
+  if (closing < 0.0) k += static_cast<double>(p.artificial);
+  const double rub = k / static_cast<double>(p.rest_density) * closing / (r * r + 0.01 * h * h);
+  const double factor = -weight * (s.pressure_term[i] + theirs - rub) * kernel_gradient(r, support);
+  return factor * x;
+}
+
+}  // namespace
+
+FluidState read_state(Fluid& fluid, double piston) {
+  Device& device = fluid.device();
+  FluidState s;
+  s.params = fluid.params();
+  s.piston = piston;
+  const auto count = static_cast<std::size_t>(s.params.count);
+  const PointArrays& points = fluid.particles();
+  s.id = points.id.read(device, count);
+  s.position = read_vectors(device, points.position, points.stride, count);
+  s.velocity = read_vectors(device, points.velocity, points.stride, count);
+  s.density = read_numbers(device, fluid.density(), count);
+  s.pressure_term = read_numbers(device, fluid.pressure_term(), count);
+  const auto body_points = static_cast<std::size_t>(fluid.boundary_count());
+  const PointArrays& boundary = fluid.boundary();
+  s.body_position = read_vectors(device, boundary.position, boundary.stride, body_points);
+  s.body_velocity = read_vectors(device, boundary.velocity, boundary.stride, body_points);
+  s.body_volume = read_numbers(device, fluid.boundary_volume(), body_points);
+  return s;
+}
+
+std::vector<Vector3> read_acceleration(Fluid& fluid) {
+  return read_vectors(fluid.device(), fluid.acceleration(), fluid.params().capacity,
+                      static_cast<std::size_t>(fluid.params().count));
+}
+
+double wall_distance(const FluidParams& params, int wall, const Vector3& place, double piston) {
+  const double moved = wall == params.piston ? piston : 0.0;
+  return dot(normal_of(params, wall), place) - static_cast<double>(params.walls[wall].offset) -
+         moved;
+}
+
+TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double piston) {
+  TwinWalls result;
+  const std::vector<int> walls = open_walls(params, place, piston);
+  double open = 1.0;
+  for (const int k : walls) {
+    const auto [share, fall] = layers_behind(params, wall_distance(params, k, place, piston));
+    double others = 1.0;
+    for (const int l : walls) {
+      if (l == k) continue;
+      others *= 1.0 - layers_behind(params, wall_distance(params, l, place, piston)).first;
+    }
+    result.gradient = result.gradient - others * fall * normal_of(params, k);
+    open *= 1.0 - share;
+  }
+  result.share = 1.0 - open;
+  return result;
+}
+
+std::vector<double> twin_density(const FluidState& s) {
+  const double support = static_cast<double>(s.params.support);
+  const double mass = static_cast<double>(s.params.mass);
+  const double rest = static_cast<double>(s.params.rest_density);
+  std::vector<double> density(s.position.size(), 0.0);
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    for (const Vector3& other : s.position) {
+      const Vector3 x = s.position[i] - other;
+      if (dot(x, x) < support * support) density[i] += mass * kernel_value(length(x), support);
+    }
+    for (std::size_t b = 0; b < s.body_position.size(); ++b) {
+      density[i] += rest * s.body_volume[b] *
+                    kernel_value(length(s.position[i] - s.body_position[b]), support);
+    }
+    density[i] += rest * twin_walls(s.params, s.position[i], s.piston).share;
+  }
+  return density;
+}
+
+double twin_pressure_term(const FluidParams& params, double density) {
+  const double sound = static_cast<double>(params.sound_speed);
+  const double excess = density - static_cast<double>(params.rest_density);
+  return std::max(sound * sound * excess, 0.0) / (density * density);
+}
+
+std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
+  const FluidParams& p = s.params;
+  const double mass = static_cast<double>(p.mass);
+  const double rest = static_cast<double>(p.rest_density);
+  std::vector<TwinAcceleration> result(s.position.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const auto add = [&](const Vector3& term) {
+      result[i].value = result[i].value + term;
+      result[i].scale += length(term);
+    };
+    for (std::size_t j = 0; j < s.position.size(); ++j) {
+      add(pair_push(s, i, s.position[j], s.velocity[j], mass, s.pressure_term[j]));
+    }
+    for (std::size_t b = 0; b < s.body_position.size(); ++b) {
+      add(pair_push(s, i, s.body_position[b], s.body_velocity[b], rest * s.body_volume[b], 0.0));
+    }
+    const TwinWalls walls = twin_walls(p, s.position[i], s.piston);
+    add(-s.pressure_term[i] * rest * walls.gradient);
+    add({static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
+         static_cast<double>(p.gravity_z)});
+  }
+  return result;
+}
+
+}  // namespace splash::sim

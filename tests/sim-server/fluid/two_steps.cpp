@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Two steps of a small fluid with walls, slope, piston and bodies: every kernel once, small enough
+// for an OpenCL interpreter. Argument: particles per vector (1, 8 or 16).
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "tests/sim-server/fluid/situations.hpp"
+
+namespace {
+
+int two_steps(int lanes) {
+  using namespace splash::sim;
+  Device device(-1, false, lanes);
+  Water water = two_bodies();
+  water.particles = random_places(230, {0, 0, 0}, {0.4, 0.4, 0.14}, 51);
+  for (int i = 0; i < 21; ++i) water.particles.push_back({0.2, 0.1 + 0.01 * i, 0.3});
+  water.scene.slope = {true, 0.2, 0.3};
+  water.scene.wave_maker = {true, 0.1, 2.0};
+  water.piston = {0.01, 0.2};
+  water.start(device);
+  water.step(1.0e-3);
+  water.step(1.0e-3);
+  const Survey survey = water.fluid->survey();
+  std::printf("%s: %d particles, %d body points, fastest %.3f m/s, %d faulty\n",
+              device.facts().platform.c_str(), water.params.count, water.fluid->boundary_count(),
+              survey.speed, survey.not_finite);
+  return survey.not_finite == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return two_steps(argc > 1 ? std::atoi(argv[1]) : 0);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}
