@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 namespace splash::sim {
@@ -12,6 +13,11 @@ struct Build {
   int lanes = 1;
   bool relaxed = false;
 };
+
+/// Else GoogleTest prints the bytes, padding and all, into the tests' names.
+inline void PrintTo(const Build& build, std::ostream* out) {
+  *out << build.lanes << (build.relaxed ? " relaxed" : "");
+}
 
 inline const auto kBuilds =
     ::testing::Values(Build{1, false}, Build{8, false}, Build{16, false}, Build{16, true});
