@@ -36,7 +36,7 @@ class Buffer {
     write(device, values);
   }
 
-  /// Waits until the copy is made. `first`: index of the first element written.
+  /// These three wait until the copy is made. `first`: index of the first element written.
   void write(Device& device, std::span<const T> values, std::size_t first = 0) {
     if (values.empty()) return;
     device.queue().enqueueWriteBuffer(memory_, CL_TRUE, first * sizeof(T),
@@ -51,6 +51,22 @@ class Buffer {
     std::vector<T> values(count);
     read(device, std::span<T>(values));
     return values;
+  }
+
+  /// Without waiting: `values` must stay where they are until the queue is finished.
+  void enqueue_write(Device& device, std::span<const T> values, std::size_t first = 0) {
+    if (values.empty()) return;
+    device.queue().enqueueWriteBuffer(memory_, CL_FALSE, first * sizeof(T),
+                                      values.size() * sizeof(T), values.data());
+  }
+  void enqueue_read(Device& device, std::span<T> values, std::size_t first = 0) const {
+    if (values.empty()) return;
+    device.queue().enqueueReadBuffer(memory_, CL_FALSE, first * sizeof(T),
+                                     values.size() * sizeof(T), values.data());
+  }
+  /// Sets all bytes to zero, without waiting.
+  void enqueue_clear(Device& device) {
+    device.queue().enqueueFillBuffer(memory_, cl_uchar{0}, 0, size_ * sizeof(T));
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

@@ -15,18 +15,10 @@ namespace {
 static_assert(sizeof(FluidParams) == 4 * 26 + 16 * SPLASH_MAX_WALLS);
 static_assert(sizeof(BodyStep) == 4 * 19);
 
-/// Partial results of the survey; host and kernel agree on the layout (kernels/survey.cl).
-struct SurveyPart {
-  float speed2;
-  float acceleration2;
-  float excess_sum;
-  float excess_max;
-  int not_finite;
-  int first_bad;
-  int runaway;
-  int unused;
-};
 static_assert(sizeof(SurveyPart) == 32);
+
+/// Parts of the fluid that are surveyed side by side.
+constexpr int kParts = 64;
 
 float as_float(double value) {
   return static_cast<float>(value);
@@ -59,6 +51,7 @@ void Fluid::load_particles(const std::vector<Vector3>& particles) {
   std::iota(ids.begin(), ids.end(), 0);
   sorted_.id.write(device_, ids);
   density_ = Buffer<float>(device_, stride + kReadAhead);
+  water_density_ = Buffer<float>(device_, stride + kReadAhead);
   pressure_term_ = Buffer<float>(device_, stride + kReadAhead);
   acceleration_ = Buffer<float>(device_, 3 * stride);
 }
@@ -102,13 +95,16 @@ void Fluid::build_kernels(bool relaxed) {
   compute_acceleration_ = Kernel(program, "compute_acceleration");
   integrate_ = Kernel(program, "integrate");
   survey_ = Kernel(guard, "survey");
+  survey_parts_ = Buffer<SurveyPart>(device_, kParts);
+  survey_read_.resize(kParts);
 }
 
 void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
   if (steps.size() > body_steps_.size() || body_steps_.size() == 0) {
     body_steps_ = Buffer<BodyStep>(device_, std::max<std::size_t>(2 * steps.size(), 1));
   }
-  body_steps_.write(device_, steps);
+  uploaded_steps_ = steps;
+  body_steps_.enqueue_write(device_, uploaded_steps_);
 }
 
 void Fluid::prepare(const Step& step) {
@@ -149,7 +145,7 @@ void Fluid::compute_density(const Step& step) {
                        sorted_.position.memory(), body_grid_.cell_start(),
                        body_sorted_.position.memory(), body_volume_.memory(), body_sorted_.stride,
                        body_steps_.memory(), step.first_body, body_count_, as_float(step.piston),
-                       density_.memory(), pressure_term_.memory());
+                       density_.memory(), water_density_.memory(), pressure_term_.memory());
 }
 
 void Fluid::compute_acceleration(const Step& step) {
@@ -167,15 +163,27 @@ void Fluid::integrate(const Step& step) {
                  acceleration_.memory(), sorted_.position.memory(), sorted_.velocity.memory());
 }
 
-Survey Fluid::survey() {
-  constexpr int kParts = 64;
-  const Buffer<SurveyPart> parts(device_, kParts);
+void Fluid::still() {
+  sorted_.velocity.enqueue_clear(device_);
+}
+
+void Fluid::enqueue_survey() {
   survey_.run(device_.queue(), kParts, params_buffer_.memory(), kParts, sorted_.position.memory(),
               sorted_.velocity.memory(), acceleration_.memory(), density_.memory(),
-              sorted_.id.memory(), parts.memory());
+              sorted_.id.memory(), survey_parts_.memory());
+  survey_parts_.enqueue_read(device_, survey_read_);
+}
+
+Survey Fluid::survey() {
+  enqueue_survey();
+  device_.queue().finish();
+  return survey_result();
+}
+
+Survey Fluid::survey_result() const {
   Survey total;
   int first_bad = std::numeric_limits<int>::max();
-  for (const SurveyPart& part : parts.read(device_, kParts)) {
+  for (const SurveyPart& part : survey_read_) {
     total.speed = std::max(total.speed, std::sqrt(static_cast<double>(part.speed2)));
     total.acceleration =
         std::max(total.acceleration, std::sqrt(static_cast<double>(part.acceleration2)));

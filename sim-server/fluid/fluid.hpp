@@ -31,6 +31,18 @@ struct Survey {
   int runaway = 0;     ///< particles at the speed limit
 };
 
+/// Partial results of the survey; host and kernel agree on the layout (kernels/survey.cl).
+struct SurveyPart {
+  float speed2 = 0.0F;
+  float acceleration2 = 0.0F;
+  float excess_sum = 0.0F;
+  float excess_max = 0.0F;
+  int not_finite = 0;
+  int first_bad = 0;
+  int runaway = 0;
+  int unused = 0;
+};
+
 /// A copy of the state that can be put back.
 struct Snapshot {
   std::vector<float> position;
@@ -38,8 +50,8 @@ struct Snapshot {
   std::vector<int> id;
 };
 
-/// Everything is enqueued on the device's in-order queue; only survey, snapshot and the reads
-/// wait for it.
+/// Everything is enqueued on the device's in-order queue; only survey, snapshot and restore wait
+/// for it.
 class Fluid {
  public:
   /// `particles`: initial places [m]; `boundary`: points of `bodies` rigid bodies.
@@ -55,6 +67,13 @@ class Fluid {
   /// Second half: forces, and the state moves on by step.dt.
   void advance(const Step& step);
 
+  /// Stops all particles where they are.
+  void still();
+
+  /// Enqueues the survey; its result is there once the queue is finished.
+  void enqueue_survey();
+  [[nodiscard]] Survey survey_result() const;
+  /// Both, and waits.
   [[nodiscard]] Survey survey();
   [[nodiscard]] Snapshot snapshot();
   void restore(const Snapshot& snapshot);
@@ -66,6 +85,7 @@ class Fluid {
   [[nodiscard]] const PointArrays& particles() const noexcept { return sorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
+  [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
   [[nodiscard]] const Buffer<float>& pressure_term() const noexcept { return pressure_term_; }
   [[nodiscard]] const Buffer<float>& acceleration() const noexcept { return acceleration_; }
   [[nodiscard]] const PointArrays& boundary() const noexcept { return body_sorted_; }
@@ -97,6 +117,7 @@ class Fluid {
   PointArrays sorted_;    ///< the state, in cell order after prepare
   PointArrays unsorted_;  ///< the state before the sort
   Buffer<float> density_;
+  Buffer<float> water_density_;  ///< without the bodies' part
   Buffer<float> pressure_term_;
   Buffer<float> acceleration_;
   NeighbourGrid grid_;
@@ -105,6 +126,7 @@ class Fluid {
   Buffer<int> body_owner_;
   Buffer<float> body_sample_volume_;
   Buffer<BodyStep> body_steps_;
+  std::vector<BodyStep> uploaded_steps_;  ///< kept until the queue has read them
   PointArrays body_points_;
   PointArrays body_sorted_;
   Buffer<float> body_volume_;
@@ -116,6 +138,8 @@ class Fluid {
   Kernel compute_acceleration_;
   Kernel integrate_;
   Kernel survey_;
+  Buffer<SurveyPart> survey_parts_;
+  std::vector<SurveyPart> survey_read_;
 };
 
 }  // namespace splash::sim

@@ -72,6 +72,26 @@ void lay_grid(const Scene& scene, double support, FluidParams& params) {
   params.origin_z = static_cast<float>(lower[2] - support);
 }
 
+/// g / c0^2 [1/m]: relative growth of density per depth.
+double stratification(const Scene& scene) {
+  const double sound = scene_sound_speed(scene);
+  const Vector3& g = scene.fluid.gravity;
+  const bool downward = g[0] == 0.0 && g[1] == 0.0 && g[2] < 0.0;
+  return downward ? -g[2] / (sound * sound) : 0.0;
+}
+
+/// Height of the water's surface over x, y [m]; the floor's where there is none.
+double surface_height(const Scene& scene, const Vector3& place) {
+  double height = floor_height(scene, place[0]);
+  for (const WaterBlock& block : scene.water) {
+    if (place[0] >= block.lower[0] && place[0] <= block.upper[0] && place[1] >= block.lower[1] &&
+        place[1] <= block.upper[1]) {
+      height = std::max(height, block.upper[2]);
+    }
+  }
+  return height;
+}
+
 }  // namespace
 
 double support_radius(const Scene& scene) {
@@ -92,6 +112,17 @@ std::vector<WallPlane> tank_walls(const Scene& scene) {
   return walls;
 }
 
+std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles) {
+  const double growth = stratification(scene);
+  for (Vector3& x : particles) {
+    const double floor = floor_height(scene, x[0]);
+    const double z = x[2] - floor;
+    const double above = surface_height(scene, x) - x[2];
+    x[2] -= growth * std::max(z, 0.0) * std::max(above, 0.0) / 2.0;
+  }
+  return particles;
+}
+
 FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles) {
   const double spacing = particle_spacing(scene);
   const double support = support_radius(scene);
@@ -106,7 +137,9 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   const Vector3 step = {layer_distance(particles, 0, spacing),
                         layer_distance(particles, 1, spacing),
                         layer_distance(particles, 2, spacing)};
-  p.mass = static_cast<float>(scene.fluid.density / lattice_sum(step, support));
+  const double compression = stratification(scene) * water_depth(scene) / 2.0;
+  p.mass =
+      static_cast<float>((1.0 + compression) * scene.fluid.density / lattice_sum(step, support));
   p.rest_density = static_cast<float>(scene.fluid.density);
   p.sound_speed = static_cast<float>(sound);
   p.viscous = static_cast<float>(10.0 * scene.fluid.viscosity);
@@ -115,8 +148,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.gravity_y = static_cast<float>(scene.fluid.gravity[1]);
   p.gravity_z = static_cast<float>(scene.fluid.gravity[2]);
   p.spacing = static_cast<float>(spacing);
-  p.layer_weight =
-      static_cast<float>(static_cast<double>(p.mass) / (scene.fluid.density * spacing * spacing));
+  p.layer_weight = static_cast<float>(1.0 / (lattice_sum(step, support) * spacing * spacing));
   p.speed_limit = static_cast<float>(sound);
   const auto walls = tank_walls(scene);
   p.wall_count = static_cast<int>(walls.size());

@@ -19,9 +19,16 @@ inline constexpr double kSupportSpacings = 2.0;
 /// Walls: the floor first, then the sides (smallest x first: the piston), then the slope.
 [[nodiscard]] std::vector<WallPlane> tank_walls(const Scene& scene);
 
-/// `particles`: their initial places [m]. The mass of a particle is such that a block of the
-/// initial lattice has the density at rest.
+/// `particles`: their places in the initial lattice [m]. The mass of a particle is such that a
+/// block of the lattice has the density at rest, and more by the mean compression of the deepest
+/// column, g H / (2 c0^2), so that the water stands at the wanted level when it has settled.
 [[nodiscard]] FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles);
+
+/// The particles as they stand under their own weight: density grows with depth as the state
+/// equation asks, rho = rho0 (1 + g (H - z) / c0^2), so nothing falls in the first steps and the
+/// surface stays where the scene wants it. To first order z becomes z - g z (H - z) / (2 c0^2),
+/// with z from the floor. Needs gravity along -z; any other leaves the lattice as it is.
+[[nodiscard]] std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles);
 
 /// How far the piston stands in front of its rest place, and how fast it moves [m], [m/s].
 struct PistonState {

@@ -97,7 +97,7 @@ struct DetectSettings {
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
   double bubble_gradient = 0.3;     ///< least upward colour gradient, in that of a flat surface [1]
   double bubble_life = 0.5;         ///< a bubble particle is dropped after this [s]
-  double radius_min = 0.0005;       ///< bubble radii follow r^-radius_exponent [m]
+  double radius_min = 0.003;        ///< bubble radii follow r^-radius_exponent [m]
   double radius_max = 0.030;        ///< [m]
   double radius_exponent = 10.0 / 3.0;  ///< Deane & Stokes 2002, above the Hinze scale [1]
   double epsilon_min = 0.01;            ///< excitations follow epsilon^-epsilon_exponent [1]

@@ -4,6 +4,7 @@
 //   rho_i = sum_j m W_ij + sum_b rho0 V_b W_ib + rho0 (share of the kernel inside walls)
 //   p_i   = max(0, c0^2 (rho_i - rho0))
 // The force needs p / rho^2 only, so that is what is stored.
+// The part without bodies is kept, too: it tells water from the film that a body carries along.
 
 // Sum of W / sigma over the neighbours of each target.
 static void sum_fluid(constant FluidParams* p, global const int* cell_start,
@@ -58,7 +59,7 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
                             global const float* body_position, global const float* body_volume,
                             int body_stride, global const BodyStep* bodies, int first_body,
                             int body_count, float piston, global float* density,
-                            global float* pressure_term) {
+                            global float* water_density, global float* pressure_term) {
   const int first = get_global_id(0) * TARGETS;
   if (first >= p->count) return;
   const Targets at = load_targets(p, position, first);
@@ -66,15 +67,18 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
   sum_fluid(p, cell_start, position, &at, fluid);
 
   for (int t = 0; t < TARGETS && first + t < p->count; ++t) {
-    float rho = p->mass * fluid[t];
+    const float water =
+        p->kernel_norm * p->mass * fluid[t] +
+        p->rest_density * wall_field(p, at.x[t], at.y[t], at.z[t], piston).share;
+    float rho = water;
     if (near_bodies(bodies, first_body, body_count, at.x[t], at.y[t], at.z[t])) {
-      rho += p->rest_density * sum_bodies(p, body_start, body_position, body_volume, body_stride,
-                                          at.x[t], at.y[t], at.z[t]);
+      rho += p->kernel_norm * p->rest_density *
+             sum_bodies(p, body_start, body_position, body_volume, body_stride, at.x[t], at.y[t],
+                        at.z[t]);
     }
-    rho = p->kernel_norm * rho +
-          p->rest_density * wall_field(p, at.x[t], at.y[t], at.z[t], piston).share;
     const float pressure = fmax(p->sound_speed * p->sound_speed * (rho - p->rest_density), 0.0f);
     density[first + t] = rho;
+    water_density[first + t] = water;
     pressure_term[first + t] = pressure / (rho * rho);
   }
 }

@@ -84,8 +84,8 @@ TEST(InitialFluid, BodiesDisplaceWater) {
   const double gap = 0.5 * particle_spacing(scene);
   EXPECT_LT(particles.size(), all);
   for (const auto& p : particles) {
-    const bool inside = std::abs(p[0] - 0.25) < 0.04 + gap * 0.99 &&
-                        std::abs(p[1] - 0.25) < 0.05 && std::abs(p[2] - 0.25) < 0.15;
+    const bool inside = std::abs(p[0] - 0.25) < 0.04 + gap * 0.99 && std::abs(p[1] - 0.25) < 0.05 &&
+                        std::abs(p[2] - 0.25) < 0.15;
     EXPECT_FALSE(inside) << p[0] << ' ' << p[1] << ' ' << p[2];
   }
   const std::vector<Keyframe> away = {{0.0, {0.0, 0.0, 9.0}, {0.0, 0.0, 0.0, 1.0}}};

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Radius and excitation of a bubble, drawn from power laws (paper, section 5.2.2, after Moss et
+// al. 2010): p(r) ~ r^-alpha, p(epsilon) ~ epsilon^-mu between bounds.
+#pragma once
+
+#include <cstdint>
+
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+/// The value whose share of a power law x^-exponent on [low, high] is `share` in [0, 1]:
+/// the inverse of its cumulative distribution.
+[[nodiscard]] double power_law(double share, double low, double high, double exponent);
+
+/// Uniform numbers in [0, 1) from a counter-based generator (Philox, Salmon et al. 2011), keyed by
+/// what they are for: the same whatever is drawn besides.
+struct Draws {
+  double radius = 0.0;
+  double epsilon = 0.0;
+  double moment = 0.0;
+};
+[[nodiscard]] Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle);
+
+}  // namespace splash::sim

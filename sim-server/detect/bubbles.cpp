@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/detect/bubbles.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include "sim-server/detect/bubble_draw.hpp"
+
+namespace splash::sim {
+namespace {
+
+static_assert(sizeof(Spawn) == 32 && sizeof(BubbleState) == 24);
+
+/// Spawns read without asking how many there are: more in one frame are rare.
+constexpr std::size_t kReadAtOnce = 128;
+
+constexpr float kSlow = -8.0F;  ///< a particle's memory: it was slow (kernels/bubble_spawn.cl)
+
+float as_float(double value) {
+  return static_cast<float>(value);
+}
+
+}  // namespace
+
+Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings& settings, int seed,
+                 std::size_t room)
+    : fluid_(fluid),
+      settings_(settings),
+      seed_(static_cast<std::uint32_t>(seed)),
+      room_(room),
+      spawn_count_(fluid.device(), 1),
+      spawn_count_read_(1),
+      spawns_read_(room),
+      spawns_(fluid.device(), room),
+      points_(fluid.device(), room),
+      sorted_(fluid.device(), room),
+      grid_(fluid.device(), program, fluid.params(), room, 1),
+      state_buffer_(fluid.device(), room),
+      spawn_bubbles_(program, "spawn_bubbles"),
+      carry_bubbles_(program, "carry_bubbles") {
+  const auto particles = static_cast<std::size_t>(fluid.params().count);
+  memory_ = Buffer<float>(fluid.device(), std::vector<float>(particles, kSlow));
+  std::vector<int> slots(room);
+  std::iota(slots.begin(), slots.end(), 0);
+  points_.id.write(fluid.device(), slots);
+}
+
+void Bubbles::upload() {
+  const std::size_t count = pool_.size();
+  uploaded_.resize(3 * count);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto part = uploaded_.begin() + static_cast<std::ptrdiff_t>(axis * count);
+    std::transform(pool_.begin(), pool_.end(), part,
+                   [axis](const PoolBubble& b) { return as_float(b.position[axis]); });
+    points_.position.enqueue_write(fluid_.device(),
+                                   std::span<const float>(uploaded_).subspan(axis * count, count),
+                                   axis * static_cast<std::size_t>(points_.stride));
+  }
+}
+
+void Bubbles::enqueue(const Step& step, double frame) {
+  carried_ = static_cast<int>(pool_.size());
+  states_.clear();
+  if (carried_ > 0) {
+    upload();
+    grid_.sort(fluid_.device().queue(), fluid_.params_buffer(), carried_, points_, sorted_);
+    carry(step, frame);
+  }
+  look_for_spawns(step);
+}
+
+void Bubbles::look_for_spawns(const Step& step) {
+  Device& device = fluid_.device();
+  spawn_count_.enqueue_clear(device);
+  // A flat surface seen from its outermost particles half a spacing deep is 0.93 of one seen from
+  // the surface itself; the threshold is in units of the latter.
+  spawn_bubbles_.run(
+      device.queue(), static_cast<std::size_t>(fluid_.params().count),
+      fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
+      fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
+      fluid_.particles().id.memory(), fluid_.body_grid().cell_start(),
+      fluid_.boundary().position.memory(), fluid_.boundary_volume().memory(),
+      fluid_.boundary().stride, fluid_.body_steps().memory(), step.first_body, fluid_.body_count(),
+      grid_.cell_start(), sorted_.position.memory(), sorted_.stride, carried_,
+      as_float(step.piston), as_float(settings_.bubble_speed), as_float(settings_.bubble_gradient),
+      static_cast<int>(room_), memory_.memory(), spawn_count_.memory(), spawns_.memory());
+  spawn_count_.enqueue_read(device, spawn_count_read_);
+  spawns_.enqueue_read(device, std::span(spawns_read_).first(std::min(kReadAtOnce, room_)));
+}
+
+void Bubbles::carry(const Step& step, double frame) {
+  carry_bubbles_.run(fluid_.device().queue(), static_cast<std::size_t>(carried_),
+                     fluid_.params_buffer().memory(), as_float(frame), fluid_.grid().cell_start(),
+                     fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
+                     fluid_.body_grid().cell_start(), fluid_.boundary().position.memory(),
+                     fluid_.boundary_volume().memory(), fluid_.boundary().stride,
+                     fluid_.body_steps().memory(), step.first_body, fluid_.body_count(),
+                     grid_.cell_start(), sorted_.position.memory(), sorted_.id.memory(),
+                     sorted_.stride, carried_, as_float(step.piston), state_buffer_.memory());
+  states_.resize(static_cast<std::size_t>(carried_));
+  state_buffer_.enqueue_read(fluid_.device(), states_);
+}
+
+std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step) {
+  const auto found = static_cast<std::size_t>(spawn_count_read_.front());
+  const std::size_t kept = std::min(found, room_);
+  if (kept > kReadAtOnce) {
+    spawns_.read(fluid_.device(), std::span(spawns_read_).subspan(kReadAtOnce, kept - kReadAtOnce),
+                 kReadAtOnce);
+  }
+  std::vector<Spawn> spawns(spawns_read_.begin(),
+                            spawns_read_.begin() + static_cast<std::ptrdiff_t>(kept));
+  // Atomics give no order: particles do.
+  std::sort(spawns.begin(), spawns.end(),
+            [](const Spawn& a, const Spawn& b) { return a.id < b.id; });
+  dropped_ += found - spawns.size();
+
+  std::vector<DetectedBubble> fresh;
+  fresh.reserve(spawns.size());
+  for (const Spawn& spawn : spawns) {
+    const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
+    const double part = spawn.before >= 0.0F ? static_cast<double>(spawn.before) : draws.moment;
+    DetectedBubble bubble;
+    bubble.time = time - frame * (1.0 - std::min(part, 1.0));
+    bubble.particle = spawn.id;
+    bubble.radius = power_law(draws.radius, settings_.radius_min, settings_.radius_max,
+                              settings_.radius_exponent);
+    bubble.epsilon = power_law(draws.epsilon, settings_.epsilon_min, settings_.epsilon_max,
+                               settings_.epsilon_exponent);
+    bubble.position = {static_cast<double>(spawn.x), static_cast<double>(spawn.y),
+                       static_cast<double>(spawn.z)};
+    fresh.push_back(bubble);
+  }
+  return fresh;
+}
+
+void Bubbles::renew(double time, const std::vector<DetectedBubble>& fresh) {
+  std::vector<bool> lives(pool_.size(), false);
+  for (const BubbleState& state : states_) {
+    PoolBubble& bubble = pool_[static_cast<std::size_t>(state.id)];
+    bubble.position = {static_cast<double>(state.x), static_cast<double>(state.y),
+                       static_cast<double>(state.z)};
+    // One bubble at the very rim of the support gives a colour of 1e-7: that is null.
+    lives[static_cast<std::size_t>(state.id)] =
+        state.colour > 1e-6F && state.upward >= 0.0F && time - bubble.born <= settings_.bubble_life;
+  }
+  std::vector<PoolBubble> next;
+  for (std::size_t i = 0; i < pool_.size(); ++i) {
+    if (lives[i]) next.push_back(pool_[i]);
+  }
+  for (const DetectedBubble& bubble : fresh) {
+    if (next.size() >= room_) {
+      ++dropped_;
+      continue;
+    }
+    next.push_back({bubble.position, time, serial_++, -1});
+  }
+  pool_ = std::move(next);
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Bubble particles (paper, section 4): spawned by fast water with most of its matter above it,
+// carried by the water one way, deleted when alone (c_b null), when the matter around lies below,
+// or when old.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim-server/detect/detection.hpp"
+#include "sim-server/fluid/fluid.hpp"
+
+namespace splash::sim {
+
+/// As kernels/bubble_state.cl gives it.
+struct BubbleState {
+  float colour = 0.0F;                 ///< c_b [1]
+  float upward = 0.0F;                 ///< gradient of c_p, in that of a flat surface [1]
+  float x = 0.0F, y = 0.0F, z = 0.0F;  ///< [m]
+  int id = 0;                          ///< place in the pool
+};
+
+/// As kernels/bubble_spawn.cl gives it.
+struct Spawn {
+  int id = 0;
+  float x = 0.0F, y = 0.0F, z = 0.0F;
+  float u = 0.0F, v = 0.0F, w = 0.0F;
+  float before = 0.0F;
+};
+
+struct PoolBubble {
+  Vector3 position = {0.0, 0.0, 0.0};  ///< [m]
+  double born = 0.0;                   ///< [s]
+  int serial = 0;                      ///< counts all bubbles ever spawned
+  int cavity = -1;                     ///< serial of the cavity it is part of, -1: none
+};
+
+class Bubbles {
+ public:
+  /// No more than `room` bubbles live at once; spawns beyond it are counted and dropped.
+  Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings& settings, int seed,
+          std::size_t room);
+
+  /// Between prepare and advance of a frame's last step: looks for spawns and carries the living.
+  void enqueue(const Step& step, double frame);
+  /// What was found, once the queue is finished: new bubbles as events, in the order of their
+  /// particles' ids; the pool moves on to `time`. `frame`: seconds since the last call; `step`:
+  /// counts the steps.
+  [[nodiscard]] std::vector<DetectedBubble> collect(double time, double frame, std::uint32_t step);
+
+  [[nodiscard]] std::vector<PoolBubble>& pool() noexcept { return pool_; }
+  [[nodiscard]] std::size_t pool_size() const noexcept { return pool_.size(); }
+  /// State of the bubbles that were carried, in grid order; id: index in the pool before collect.
+  [[nodiscard]] const std::vector<BubbleState>& states() const noexcept { return states_; }
+  [[nodiscard]] const PointArrays& sorted() const noexcept { return sorted_; }
+  [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
+  [[nodiscard]] const Buffer<BubbleState>& state_buffer() const noexcept { return state_buffer_; }
+  [[nodiscard]] int carried() const noexcept { return carried_; }
+  [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
+
+  /// Drops the dead, keeps the order, and adds the new; called by collect's owner after cavities
+  /// have been searched among the states.
+  void renew(double time, const std::vector<DetectedBubble>& fresh);
+
+ private:
+  void upload();
+  void look_for_spawns(const Step& step);
+  void carry(const Step& step, double frame);
+
+  Fluid& fluid_;
+  DetectSettings settings_;
+  std::uint32_t seed_;
+  std::size_t room_;
+  std::vector<PoolBubble> pool_;
+  std::vector<BubbleState> states_;
+  int carried_ = 0;
+  int serial_ = 0;
+  std::uint64_t dropped_ = 0;
+
+  Buffer<float> memory_;
+  Buffer<int> spawn_count_;
+  std::vector<int> spawn_count_read_;
+  std::vector<Spawn> spawns_read_;
+  std::vector<float> uploaded_;  ///< kept until the queue has read it
+  Buffer<Spawn> spawns_;
+  PointArrays points_;
+  PointArrays sorted_;
+  NeighbourGrid grid_;
+  Buffer<BubbleState> state_buffer_;
+  Kernel spawn_bubbles_;
+  Kernel carry_bubbles_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What the detectors find in a frame, before it is numbered and sent.
+#pragma once
+
+#include <vector>
+
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+struct DetectedImpact {
+  double time = 0.0;  ///< when the surfaces meet: past, or up to the look-ahead in the future [s]
+  int body = 0;
+  double speed = 0.0;                  ///< of the touching point [m/s]
+  double approach = 0.0;               ///< its part into the water [m/s]
+  Vector3 position = {0.0, 0.0, 0.0};  ///< [m]
+};
+
+struct DetectedBubble {
+  double time = 0.0;    ///< [s]
+  int particle = 0;     ///< id of the fluid particle that entrapped it
+  double radius = 0.0;  ///< [m]
+  double epsilon = 0.0;
+  Vector3 position = {0.0, 0.0, 0.0};  ///< [m]
+};
+
+struct DetectedCavity {
+  double time = 0.0;                   ///< [s]
+  int bubbles = 0;                     ///< N_b
+  double radius = 0.0;                 ///< [m]
+  Vector3 position = {0.0, 0.0, 0.0};  ///< centre of its bubbles [m]
+};
+
+struct Detections {
+  std::vector<DetectedImpact> impacts;
+  std::vector<DetectedBubble> bubbles;
+  std::vector<DetectedCavity> cavities;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/detect/detector.hpp"
+
+#include <algorithm>
+
+#include "sim-server/fluid/kernel_sources.hpp"
+
+namespace splash::sim {
+namespace kernels {
+std::vector<KernelSource> detect();
+}  // namespace kernels
+
+namespace {
+
+static_assert(sizeof(Touch) == 64);
+
+/// Bubbles alive at once: the paper's scenes hold 1 to 6 per cent of the particles.
+std::size_t bubble_room(int particles) {
+  return std::clamp<std::size_t>(static_cast<std::size_t>(particles) / 4, 1024, 65536);
+}
+
+cl::Program build(Device& device) {
+  std::vector<KernelSource> sources = fluid_sources();
+  const std::vector<KernelSource> own = kernels::detect();
+  sources.insert(sources.end(), own.begin(), own.end());
+  return build_program(device, sources, {}, false);
+}
+
+std::vector<int> surface_indices(const std::vector<BodyPoint>& points) {
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].surface) indices.push_back(static_cast<int>(i));
+  }
+  return indices;
+}
+
+SurfaceDistance distance_of(const FluidParams& p) {
+  return {static_cast<double>(p.spacing), static_cast<double>(p.support),
+          static_cast<double>(p.layer_weight)};
+}
+
+}  // namespace
+
+Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
+                   const DetectSettings& settings, int seed)
+    : fluid_(fluid),
+      surface_(fluid.device(), surface_indices(points)),
+      touches_(fluid.device(), surface_.size()),
+      touches_read_(surface_.size()),
+      program_(build(fluid.device())),
+      touch_water_(program_, "touch_water"),
+      bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
+      cavities_(fluid, program_, settings, bubble_room(fluid.params().count)),
+      impacts_(static_cast<std::size_t>(fluid.body_count()), settings,
+               distance_of(fluid.params())) {
+  std::copy_if(points.begin(), points.end(), std::back_inserter(surface_points_),
+               [](const BodyPoint& point) { return point.surface; });
+}
+
+void Detector::enqueue(const Step& step, double frame) {
+  if (!surface_points_.empty()) {
+    touch_water_.run(fluid_.device().queue(), surface_points_.size(),
+                     fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
+                     fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
+                     fluid_.water_density().memory(), static_cast<int>(surface_points_.size()),
+                     surface_.memory(), fluid_.boundary_by_sample().stride,
+                     fluid_.boundary_by_sample().position.memory(),
+                     fluid_.boundary_by_sample().velocity.memory(), touches_.memory());
+    touches_.enqueue_read(fluid_.device(), touches_read_);
+  }
+  bubbles_.enqueue(step, frame);
+}
+
+std::vector<SurfacePoint> Detector::surface() const {
+  std::vector<SurfacePoint> points;
+  points.reserve(touches_read_.size());
+  for (std::size_t s = 0; s < touches_read_.size(); ++s) {
+    points.push_back({surface_points_[s].owner, surface_points_[s].inset, touches_read_[s]});
+  }
+  return points;
+}
+
+Detections Detector::collect(double time, double frame, std::uint32_t step) {
+  Detections found;
+  found.impacts = impacts_.observe(time, frame, surface());
+  found.bubbles = bubbles_.collect(time, frame, step);
+  found.cavities = cavities_.search(time, bubbles_);
+  bubbles_.renew(time, found.bubbles);
+  return found;
+}
+
+}  // namespace splash::sim

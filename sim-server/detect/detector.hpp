@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// All detectors of a scene, once a frame: between the two halves of its last step, when neighbours
+// and densities are fresh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim-server/bodies/body_points.hpp"
+#include "sim-server/detect/bubbles.hpp"
+#include "sim-server/detect/cavities.hpp"
+#include "sim-server/detect/impacts.hpp"
+
+namespace splash::sim {
+
+class Detector {
+ public:
+  /// `points`: all body points, in the order given to `fluid`.
+  Detector(Fluid& fluid, const std::vector<BodyPoint>& points, const DetectSettings& settings,
+           int seed);
+
+  /// Enqueues the search for the state at the beginning of `step`.
+  void enqueue(const Step& step, double frame);
+  /// Waits for it. `time`: of that state [s]; `frame`: since the last one [s]; `step`: steps so
+  /// far.
+  [[nodiscard]] Detections collect(double time, double frame, std::uint32_t step);
+
+  [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
+  [[nodiscard]] std::uint64_t bubbles_dropped() const noexcept { return bubbles_.dropped(); }
+
+ private:
+  [[nodiscard]] std::vector<SurfacePoint> surface() const;
+
+  Fluid& fluid_;
+  std::vector<BodyPoint> surface_points_;
+  Buffer<int> surface_;
+  Buffer<Touch> touches_;
+  std::vector<Touch> touches_read_;
+  cl::Program program_;
+  Kernel touch_water_;
+  Bubbles bubbles_;
+  Cavities cavities_;
+  ImpactWatch impacts_;
+};
+
+}  // namespace splash::sim

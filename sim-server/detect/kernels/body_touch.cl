@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What each surface point of a body sees of the water (paper, section 5.1.2):
+//   c_f = sum_j V_j W,   its gradient,   and the water's velocity  sum_j V_j W v_j / c_f
+// over particles that belong to a body of water. Spray and the film that a body carries along are no
+// surface that could be hit: their density, without the body's part of it, is lower.
+
+// Of the density at rest, on the lattice: a lone particle has 0.40, a film of one layer 0.75, the
+// top layer of a flat surface 0.88.
+#define LEAST_DENSITY 0.82f
+
+typedef struct {
+  float colour;                // c_f [1]
+  float gx, gy, gz;            // its gradient: points into the water [1/m]
+  float x, y, z;               // of the point [m]
+  float u, v, w;               // its velocity [m/s]
+  float water_u, water_v, water_w;  // the water's mean velocity [m/s]
+  float unused[3];
+} Touch;
+
+// `surface`: samples that lie at their body's surface; `points`, `motion`: all samples in order.
+kernel void touch_water(constant FluidParams* p, global const int* cell_start,
+                        global const float* position, global const float* velocity,
+                        global const float* density, int surface_count, global const int* surface, int stride,
+                        global const float* points, global const float* motion,
+                        global Touch* out) {
+  const int s = get_global_id(0);
+  if (s >= surface_count) return;
+  const int n = p->capacity;
+  const int i = surface[s];
+  const float x = points[i], y = points[stride + i], z = points[2 * stride + i];
+  const int row = cell_row(p, y, z);
+  const int cell = cell_x(p, x);
+  const float least = LEAST_DENSITY * p->rest_density;
+  lanes c = 0.0f, gx = 0.0f, gy = 0.0f, gz = 0.0f, u = 0.0f, v = 0.0f, w = 0.0f;
+  for (int k = 0; k < 9; ++k) {
+    const int2 run = neighbour_run(p, cell_start, row, cell, cell, k);
+    for (int j = run.x; j < run.y; j += LANES) {
+      const lanes dx = x - load_x(position, j, run.y);
+      const lanes dy = y - LOAD(position + n, j);
+      const lanes dz = z - LOAD(position + 2 * n, j);
+      const lanes dense = step((lanes)(least), LOAD(density, j));
+      const lanes q1 = dense * one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support);
+      const lanes weight = kernel_shape(q1);
+      const lanes slope = q1 * q1 * q1;
+      c += weight;
+      gx -= slope * dx;
+      gy -= slope * dy;
+      gz -= slope * dz;
+      u += weight * LOAD(velocity, j);
+      v += weight * LOAD(velocity + n, j);
+      w += weight * LOAD(velocity + 2 * n, j);
+    }
+  }
+  const float volume = p->mass / p->rest_density;
+  const float gradient = 20.0f * p->kernel_norm * p->inverse_support * p->inverse_support * volume;
+  const float sum = total(c);
+  const float share = 1.0f / fmax(sum, TINY);
+  const Touch touch = {volume * p->kernel_norm * sum, gradient * total(gx), gradient * total(gy),
+                       gradient * total(gz), x, y, z, motion[i], motion[stride + i],
+                       motion[2 * stride + i], share * total(u), share * total(v),
+                       share * total(w), {0.0f, 0.0f, 0.0f}};
+  out[s] = touch;
+}

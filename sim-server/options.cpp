@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <stdexcept>
+
+#include "protocol/control.hpp"
+#include "protocol/exit_codes.hpp"
+#include "protocol/limits.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// The options whose text becomes something else.
+struct Texts {
+  std::string listen = "127.0.0.1:" + std::to_string(protocol::kSimPort);
+  std::vector<std::string> targets;
+  std::vector<std::string> allow;
+  bool fast = false;
+};
+
+void add_scene(CLI::App& app, Options& options) {
+  app.add_option("--scene", options.scene, "What to simulate: a scene file (configs/scenes)")
+      ->type_name("FILE");
+  app.add_option("--tracker", options.tracker,
+                 "Recorded markers (TRC) that move the scene's bodies of motion kind trc")
+      ->type_name("FILE.trc");
+  app.add_option("--duration", options.duration,
+                 "End after so many simulated seconds (default: never)")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name("S");
+}
+
+void add_wire(CLI::App& app, Options& options, Texts& texts) {
+  app.add_option("--target", texts.targets,
+                 "Who gets the events (repeatable); without a port the synth's, " +
+                     std::to_string(protocol::kSynthPort))
+      ->type_name("HOST:PORT");
+  app.add_option("--listen", texts.listen,
+                 "Address and port for poses and control; 0.0.0.0 for other hosts")
+      ->type_name("HOST:PORT")
+      ->capture_default_str();
+  app.add_option("--allow", texts.allow,
+                 "A further host that may send poses and control (repeatable)")
+      ->type_name("HOST");
+  app.add_option("--record", options.record, "Write the events to this log")->type_name("LOG");
+  app.add_option("--report", options.report, "Write what the run achieved to this file")
+      ->type_name("FILE.json");
+  app.add_flag("--faster-than-real-time", texts.fast, "Do not wait for the wall clock");
+}
+
+void add_device(CLI::App& app, Options& options) {
+  app.add_flag("--list-devices", options.list_devices, "List the OpenCL devices and end");
+  app.add_option("--device", options.device,
+                 "OpenCL device by its number in that list (default: the CPU)")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
+}
+
+void check(const Options& options) {
+  if (options.list_devices) return;
+  if (options.scene.empty()) {
+    throw std::invalid_argument(
+        "--scene is missing: name a scene file, e.g. configs/scenes/basin.yaml");
+  }
+}
+
+void apply(const Texts& texts, Options& options) {
+  options.listen = protocol::parse_endpoint(texts.listen, protocol::kSimPort);
+  for (const auto& target : texts.targets) {
+    options.targets.push_back(protocol::parse_endpoint(target, protocol::kSynthPort));
+  }
+  for (const auto& host : texts.allow) {
+    options.allow.push_back(protocol::parse_endpoint(host, 0).address);
+  }
+  options.real_time = !texts.fast;
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  Options options;
+  Texts texts;
+  CLI::App app("Simulates water that bodies move in, and tells its impacts, bubbles and cavities.",
+               "sim-server");
+  app.set_version_flag("--version", "sim-server " + protocol::version());
+  add_scene(app, options);
+  add_wire(app, options, texts);
+  add_device(app, options);
+  try {
+    app.parse(argc, argv);
+    check(options);
+    apply(texts, options);
+  } catch (const CLI::ParseError& error) {
+    return {std::nullopt, app.exit(error) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "sim-server: " << error.what() << '\n';
+    return {std::nullopt, protocol::kExitUsage};
+  }
+  return {options, protocol::kExitOk};
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The command line of sim-server.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/udp_socket.hpp"
+
+namespace splash::sim {
+
+struct Options {
+  std::filesystem::path scene;
+  std::filesystem::path tracker;  ///< a marker file that replaces the scene's; empty: none
+  std::vector<protocol::Endpoint> targets;
+  protocol::Endpoint listen;
+  std::vector<std::uint32_t> allow;  ///< hosts besides loopback that may control (IPv4)
+
+  std::filesystem::path record;  ///< event log to write; empty: none
+  std::filesystem::path report;  ///< JSON to write; empty: none
+  double duration = 0.0;         ///< simulated seconds; 0: until it is stopped
+  bool real_time = true;
+
+  bool list_devices = false;
+  int device = -1;  ///< as --list-devices counts; -1: chosen
+};
+
+/// What the command line says: options, or the code to exit with (help and errors are printed).
+struct ParsedOptions {
+  std::optional<Options> options;
+  int exit_code = 0;
+};
+[[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);
+
+}  // namespace splash::sim

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/server.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "protocol/failure.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kLinePeriod = 2.0;     ///< between two lines on the state [s]
+constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this long are silent [s]
+
+std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
+  if (path.empty()) return std::nullopt;
+  return protocol::failing_with(protocol::kExitIo, [&] { return protocol::LogWriter(path); });
+}
+
+protocol::UdpSocket open_socket(const std::vector<protocol::Endpoint>& targets) {
+  return protocol::failing_with(protocol::kExitUnavailable,
+                                [&] { return protocol::UdpSocket(sending_endpoint(targets)); });
+}
+
+/// Poses of a body that no tracker may move are dropped without a word: the scene said so.
+Keyframe as_keyframe(const protocol::BodyPose& pose) {
+  Keyframe key;
+  key.position = {static_cast<double>(pose.position.x), static_cast<double>(pose.position.y),
+                  static_cast<double>(pose.position.z)};
+  key.rotation = {static_cast<double>(pose.qx), static_cast<double>(pose.qy),
+                  static_cast<double>(pose.qz), static_cast<double>(pose.qw)};
+  return key;
+}
+
+}  // namespace
+
+Server::Server(const Options& options, Simulation& simulation, const std::string& device)
+    : options_(options),
+      simulation_(simulation),
+      device_(device),
+      targets_(options.targets),
+      socket_(open_socket(options.targets)),
+      log_(open_log(options.record)),
+      sender_(
+          targets_, socket_, log_ ? &*log_ : nullptr,
+          {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),
+      pacer_({.real_time = options.real_time}),
+      target_status_(options.targets),
+      control_(protocol::failing_with(protocol::kExitUnavailable, [&] {
+        return ControlServer(
+            {.listen = options_.listen, .allowed = options_.allow},
+            {.pose = [this](const protocol::BodyPose& pose,
+                            double arrival) { take_pose(pose, arrival); },
+             .status =
+                 [this] {
+                   const std::lock_guard lock(status_mutex_);
+                   return status_;
+                 },
+             .quit = [this] { quit_ = true; },
+             .print = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }},
+            targets_);
+      })) {}
+
+void Server::take_pose(const protocol::BodyPose& pose, double arrival) {
+  LiveMotion* body = simulation_.live_body(pose.body);
+  if (body == nullptr) return;
+  const Keyframe key = as_keyframe(pose);
+  // Refused poses leave the body where its last good ones take it.
+  static_cast<void>(body->push(key.position, key.rotation, arrival - origin_.load()));
+}
+
+bool Server::is_over() const {
+  return quit_ || (options_.duration > 0.0 && simulation_.seconds() >= options_.duration - 1e-9);
+}
+
+void Server::run(const std::function<bool()>& ended) {
+  target_status_.begin(kAnswerTimeout);
+  pacer_.start(simulation_.seconds());
+  started_ = protocol::monotonic_now();
+  next_line_ = started_ + kLinePeriod;
+  origin_ = started_ - simulation_.seconds();
+  while (!ended() && !is_over()) {
+    const FrameResult frame = simulation_.advance();
+    pacer_.wait_until(frame.seconds);
+    origin_ = protocol::monotonic_now() - frame.seconds;
+    send(frame);
+    note_status(frame);
+    target_status_.poll();
+    if (protocol::monotonic_now() >= next_line_) print_progress();
+  }
+  wall_seconds_ = protocol::monotonic_now() - started_;
+}
+
+void Server::send(const FrameResult& frame) {
+  if (frame.restored) {
+    std::fprintf(stderr,
+                 "sim-server: at %.3f s particle %d was no number any more (%d in all); the water "
+                 "is taken back to its last good state, with shorter steps for a while\n",
+                 frame.seconds, frame.survey.first_bad, frame.survey.not_finite);
+  }
+  const FrameTime time = {simulation_.totals().steps, frame.seconds, pacer_.unix_origin()};
+  const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
+  auto events = number_events(frame.found, simulation_, latency, ids_);
+  protocol::failing_with(protocol::kExitIo, [&] { sender_.send_step(time, std::move(events)); });
+}
+
+void Server::note_status(const FrameResult& frame) {
+  const double wall = std::max(protocol::monotonic_now() - started_, 1e-9);
+  const SendCounts& sent = sender_.counts();
+  const RunTotals& totals = simulation_.totals();
+  const std::lock_guard lock(status_mutex_);
+  status_.particles = static_cast<std::uint64_t>(simulation_.particles());
+  status_.steps = static_cast<std::uint64_t>(totals.steps);
+  status_.impacts = sent.impacts;
+  status_.bubbles = sent.bubbles;
+  status_.cavities = sent.cavities;
+  status_.late = pacer_.counts().behind;
+  status_.unsent = sent.invalid + totals.bubbles_dropped;
+  status_.resets = totals.resets;
+  status_.real_time_factor = static_cast<float>(frame.seconds / wall);
+  status_.steps_per_second = static_cast<float>(static_cast<double>(totals.steps) / wall);
+  status_.density_error = static_cast<float>(frame.survey.mean_excess);
+}
+
+void Server::print_progress() {
+  const double now = protocol::monotonic_now();
+  next_line_ = now + kLinePeriod;
+  const double wall = std::max(now - started_, 1e-9);
+  const SendCounts& sent = sender_.counts();
+  std::printf(
+      "%7.1f s  %6.0f steps/s  real time x %.2f  impacts %llu  bubbles %llu  cavities %llu\n",
+      simulation_.seconds(), static_cast<double>(simulation_.totals().steps) / wall,
+      simulation_.seconds() / wall, static_cast<unsigned long long>(sent.impacts),
+      static_cast<unsigned long long>(sent.bubbles),
+      static_cast<unsigned long long>(sent.cavities));
+  std::fflush(stdout);
+}
+
+RunReport Server::finish() {
+  protocol::failing_with(protocol::kExitIo, [&] { sender_.close(simulation_.seconds()); });
+  target_status_.finish(kAnswerTimeout);
+  const RunTotals& totals = simulation_.totals();
+  const SendCounts& sent = sender_.counts();
+  RunReport report;
+  report.device = device_;
+  report.scene = simulation_.scene().name;
+  report.particles = simulation_.particles();
+  report.steps = totals.steps;
+  report.frames = totals.frames;
+  report.simulated_seconds = simulation_.seconds();
+  report.wall_seconds = wall_seconds_;
+  const auto healthy = totals.frames - static_cast<std::int64_t>(totals.resets);
+  report.mean_density_error =
+      totals.mean_excess_sum / static_cast<double>(std::max<std::int64_t>(healthy, 1));
+  report.maximum_density_error = totals.max_excess;
+  report.events = {sent.impacts, sent.bubbles, sent.cavities};
+  report.invalid_events = sent.invalid;
+  report.overdue_events = sent.overdue;
+  for (const Target& target : targets_.list()) report.send_failures += target.failed;
+  report.late = target_status_.late();
+  report.lost = target_status_.lost();
+  report.behind = pacer_.counts().behind;
+  report.slipped_seconds = pacer_.counts().slipped;
+  report.resets = totals.resets;
+  if (!options_.report.empty()) {
+    protocol::failing_with(protocol::kExitIo, [&] { write_report(options_.report, report); });
+  }
+  return report;
+}
+
+}  // namespace splash::sim

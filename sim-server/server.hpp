@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The running simulator: frames against the wall clock, events out, poses and control in.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "sim-server/numbered_events.hpp"
+#include "sim-server/options.hpp"
+#include "sim-server/send/control.hpp"
+#include "sim-server/send/event_sender.hpp"
+#include "sim-server/send/pacer.hpp"
+#include "sim-server/send/report.hpp"
+#include "sim-server/send/target_status.hpp"
+#include "sim-server/simulation.hpp"
+
+namespace splash::sim {
+
+class Server {
+ public:
+  /// Opens sockets and log. Throws protocol::Failure with the exit code.
+  Server(const Options& options, Simulation& simulation, const std::string& device);
+
+  /// Frame after frame, until `ended` says so, /quit comes or the duration is over. Prints a line
+  /// on the state now and then.
+  void run(const std::function<bool()>& ended);
+  /// Closes the log, asks the targets how they fared and writes the report.
+  [[nodiscard]] RunReport finish();
+
+ private:
+  void take_pose(const protocol::BodyPose& pose, double arrival);
+  void send(const FrameResult& frame);
+  void note_status(const FrameResult& frame);
+  void print_progress();
+  [[nodiscard]] bool is_over() const;
+
+  Options options_;
+  Simulation& simulation_;
+  std::string device_;
+  Targets targets_;
+  protocol::UdpSocket socket_;
+  std::optional<protocol::LogWriter> log_;
+  EventSender sender_;
+  Pacer pacer_;
+  TargetStatus target_status_;
+  EventIds ids_;
+  std::atomic<bool> quit_ = false;
+  std::atomic<double> origin_ = 0.0;  ///< monotonic time of simulated second 0 [s]
+  std::mutex status_mutex_;
+  protocol::SimStatus status_;
+  double started_ = 0.0;       ///< monotonic [s]
+  double wall_seconds_ = 0.0;  ///< of run()
+  double next_line_ = 0.0;     ///< monotonic [s]
+  ControlServer control_;      ///< last: its thread uses all of the above
+};
+
+}  // namespace splash::sim

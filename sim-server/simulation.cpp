@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim-server/fluid/set_up.hpp"
+#include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/resolution.hpp"
+#include "sim-server/tracking/make_motion.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Frames between two copies of the state: it is what a failure goes back to.
+constexpr std::int64_t kSnapshotFrames = 20;
+
+/// The lattice is no stable packing: the water finds a better one in the first second, and would
+/// be heard doing so. It is given this long before time begins [s].
+constexpr double kSettleSeconds = 1.0;
+
+Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
+                   std::vector<LiveMotion*>& live) {
+  std::vector<std::unique_ptr<Motion>> motions;
+  for (const BodySettings& body : scene.bodies) {
+    motions.push_back(make_motion(body, tracker));
+    live.push_back(dynamic_cast<LiveMotion*>(motions.back().get()));
+  }
+  const double support = support_radius(scene);
+  return {sample_bodies(scene.bodies, particle_spacing(scene), support), std::move(motions),
+          support};
+}
+
+std::vector<Vector3> particles_around(const Scene& scene, const Bodies& bodies) {
+  std::vector<Keyframe> poses;
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    const BodyState state = bodies.state(b, 0.0);
+    poses.push_back({0.0, state.position, state.rotation});
+  }
+  return initial_particles(scene, poses);
+}
+
+Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
+  const std::vector<Vector3> particles = particles_around(scene, bodies);
+  const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
+  return {device, make_params(scene, particles), settled(scene, particles), boundary,
+          static_cast<int>(bodies.count())};
+}
+
+}  // namespace
+
+Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker)
+    : scene_(scene),
+      bodies_(make_bodies(scene_, tracker, live_)),
+      fluid_(make_fluid(device, scene_, bodies_)),
+      detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed) {
+  largest_step_ =
+      largest_time_step(fluid_.params(), bodies_.fastest(0.0), std::abs(scene_.fluid.gravity[2]),
+                        scene_.fluid.time_step_factor);
+  settle();
+  good_ = fluid_.snapshot();
+}
+
+void Simulation::settle() {
+  const auto bodies = bodies_.at(0.0);
+  fluid_.set_bodies(bodies);
+  const int steps = static_cast<int>(kSettleSeconds / largest_step_);
+  for (int k = 0; k < steps; ++k) {
+    const Step step = {largest_step_, 0.0, 0.0, 0};
+    fluid_.prepare(step);
+    fluid_.advance(step);
+  }
+  fluid_.still();
+}
+
+std::vector<Step> Simulation::plan_frame(const FrameSteps& steps) {
+  std::vector<Step> plan;
+  std::vector<BodyStep> poses;
+  for (int k = 0; k < steps.count; ++k) {
+    const double time = seconds_ + k * steps.dt;
+    const PistonState piston = piston_at(scene_.wave_maker, time);
+    plan.push_back({steps.dt, piston.offset, piston.speed, static_cast<int>(poses.size())});
+    const std::vector<BodyStep> now = bodies_.at(time);
+    poses.insert(poses.end(), now.begin(), now.end());
+  }
+  fluid_.set_bodies(poses);
+  return plan;
+}
+
+FrameResult Simulation::advance() {
+  const FrameSteps steps =
+      steps_of_frame(1.0 / scene_.serve.frame_rate, step_share_ * largest_step_);
+  const std::vector<Step> plan = plan_frame(steps);
+  const double detect_time = seconds_ + (steps.count - 1) * steps.dt;
+  const double since = detect_time - detected_at_;
+  for (const Step& step : plan) {
+    fluid_.prepare(step);
+    if (&step == &plan.back()) detector_.enqueue(step, since);
+    fluid_.advance(step);
+  }
+  seconds_ += steps.count * steps.dt;
+  totals_.steps += steps.count;
+  ++totals_.frames;
+
+  fluid_.enqueue_survey();
+  fluid_.device().queue().finish();
+
+  FrameResult result;
+  result.seconds = seconds_;
+  result.found = detector_.collect(detect_time, since, static_cast<std::uint32_t>(totals_.steps));
+  result.survey = fluid_.survey_result();
+  detected_at_ = detect_time;
+  keep_healthy(result);
+  return result;
+}
+
+void Simulation::keep_healthy(FrameResult& result) {
+  totals_.bubbles_dropped = detector_.bubbles_dropped();
+  if (result.survey.not_finite > 0) {
+    // Nothing of a frame that went wrong is told; time goes on, with smaller steps for a while.
+    fluid_.restore(good_);
+    result.found = {};
+    result.restored = true;
+    ++totals_.resets;
+    step_share_ = std::max(step_share_ / 2.0, 0.125);
+    return;
+  }
+  step_share_ = std::min(step_share_ * 1.02, 1.0);
+  totals_.mean_excess_sum += result.survey.mean_excess;
+  totals_.max_excess = std::max(totals_.max_excess, result.survey.max_excess);
+  const double fastest = std::max(result.survey.speed, bodies_.fastest(seconds_));
+  largest_step_ = largest_time_step(fluid_.params(), fastest, result.survey.acceleration,
+                                    scene_.fluid.time_step_factor);
+  if (totals_.frames % kSnapshotFrames == 0) good_ = fluid_.snapshot();
+}
+
+LiveMotion* Simulation::live_body(int body) const noexcept {
+  const bool known = body >= 0 && static_cast<std::size_t>(body) < live_.size();
+  return known ? live_[static_cast<std::size_t>(body)] : nullptr;
+}
+
+int Simulation::nearest_body(const Vector3& place) const {
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < bodies_.count(); ++b) {
+    const Vector3 centre = bodies_.state(b, detected_at_).position;
+    const double distance =
+        std::hypot(place[0] - centre[0], place[1] - centre[1], place[2] - centre[2]);
+    if (distance < least) {
+      least = distance;
+      nearest = static_cast<int>(b);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace splash::sim
