@@ -7,7 +7,7 @@
 namespace splash::sim {
 namespace {
 
-constexpr double kAcoustic = 0.6;
+constexpr double kAcoustic = 0.75;
 constexpr double kPush = 0.25;
 constexpr double kViscous = 0.125;
 /// Violent moments do not stretch a frame beyond this many steps: the push limit, which is about

@@ -8,7 +8,8 @@
 namespace splash::sim {
 
 /// Largest step that is used [s].
-///   acoustic  dt <= C H / (c0 + v)        C = 0.6: dam breaks stay whole up to 0.75
+///   acoustic  dt <= C H / (c0 + v)        C = 0.75: still and breaking water stay calm to 0.9,
+///                                          and grow rough at 1.05
 ///   push      dt <= 0.25 sqrt(h / a)      Monaghan 1992
 ///   viscous   dt <= 0.125 h^2 / nu        Morris et al. 1997
 /// with h = H / 2, `speed` the fastest particle or body point [m/s], `acceleration` the largest

@@ -92,7 +92,7 @@ struct BodySettings {
 /// Thresholds of the detectors; paper sections 4 and 5.
 struct DetectSettings {
   double impact_speed = 0.05;       ///< a body approaching the water slower makes no impact [m/s]
-  double impact_lookahead = 0.010;  ///< an impact is announced this long before it happens [s]
+  double impact_lookahead = 0.015;  ///< an impact is announced this long before it happens [s]
   double impact_release = 0.006;    ///< gap at which a body may make its next impact [m]
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
   double bubble_gradient = 0.3;     ///< least upward colour gradient, in that of a flat surface [1]
@@ -112,8 +112,8 @@ struct DetectSettings {
 
 /// Pacing and sending.
 struct ServeSettings {
-  double frame_rate = 250.0;  ///< frames per second: detection, sending and pacing [1/s]
-  double latency_ms = 10.0;   ///< bubbles and cavities are played this long after they happened
+  double frame_rate = 160.0;  ///< frames per second: detection, sending and pacing [1/s]
+  double latency_ms = 15.0;   ///< bubbles and cavities are played this long after they happened
 };
 
 struct Scene {

@@ -6,7 +6,8 @@
 // as the particle does, the weight falls twice as fast as that of a fixed layer: the particle's own
 // pressure alone then balances the fluid's, and the wall's push is the gradient of an energy.
 // On a slope the water thins out to nothing, where an image at twice the height leaves a particle
-// no place to rest (a pool stayed at 0.35 m/s); there the layers stay where they are.
+// no place to rest (a pool stayed at 0.35 m/s): there, and on the floor that it continues, the layers
+// stay where they are.
 // Walls that meet at a right angle leave the fluid the product of what each leaves; the sloped
 // floor replaces the floor where it is nearer.
 
@@ -45,7 +46,7 @@ static WallField wall_field(constant FluidParams* p, float x, float y, float z, 
   for (int k = 0; k < p->wall_count; ++k) {
     const float d = wall_distance(p, k, x, y, z, piston);
     if (k == hidden || d >= p->support) continue;
-    const float2 behind = behind_wall(p, d, k != p->slope);
+    const float2 behind = behind_wall(p, d, p->slope < 0 || (k != 0 && k != p->slope));
     const float left = 1.0f - behind.x;
     field.gx -= behind.y / left * p->walls[k].nx;
     field.gy -= behind.y / left * p->walls[k].ny;

@@ -47,19 +47,22 @@ std::vector<int> open_walls(const FluidParams& params, const Vector3& place, dou
   return walls;
 }
 
-/// The fluid's mirror image behind a wall at distance `d`: layers one spacing apart, the first as
-/// deep as d is high. Their weight, and its fall with d: 2 pi z W(z) per layer and z, twice as z
-/// grows by 2 d.
-std::pair<double, double> layers_behind(const FluidParams& params, double d) {
+/// Layers of fluid behind wall k at distance `d`, one spacing apart: its mirror image, the first as
+/// deep as d is high; or, behind a slope and the floor it continues, fixed ones, the first half a
+/// spacing deep. Their weight, and its fall with d: 2 pi z W(z) per layer and z, twice for a
+/// mirror, as z grows by 2 d.
+std::pair<double, double> layers_behind(const FluidParams& params, int k, double d) {
+  const bool mirrors = params.slope < 0 || (k != 0 && k != params.slope);
   const double support = static_cast<double>(params.support);
   const double spacing = static_cast<double>(params.spacing);
   const double weight = static_cast<double>(params.layer_weight);
   double share = 0.0;
   double fall = 0.0;
   for (const double behind : {0.0, spacing}) {
-    const double z = 2.0 * std::max(d, 0.0) + behind;
+    const double z =
+        mirrors ? 2.0 * std::max(d, 0.0) + behind : std::max(d, 0.0) + spacing / 2.0 + behind;
     share += weight * plane_marginal(z, support);
-    fall += weight * 2.0 * 2.0 * std::numbers::pi * z * kernel_value(z, support);
+    fall += (mirrors ? 2.0 : 1.0) * weight * 2.0 * std::numbers::pi * z * kernel_value(z, support);
   }
   return {share, fall};
 }
@@ -119,11 +122,11 @@ TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double pis
   const std::vector<int> walls = open_walls(params, place, piston);
   double open = 1.0;
   for (const int k : walls) {
-    const auto [share, fall] = layers_behind(params, wall_distance(params, k, place, piston));
+    const auto [share, fall] = layers_behind(params, k, wall_distance(params, k, place, piston));
     double others = 1.0;
     for (const int l : walls) {
       if (l == k) continue;
-      others *= 1.0 - layers_behind(params, wall_distance(params, l, place, piston)).first;
+      others *= 1.0 - layers_behind(params, l, wall_distance(params, l, place, piston)).first;
     }
     result.gradient = result.gradient - others * fall * normal_of(params, k);
     open *= 1.0 - share;
