@@ -20,7 +20,7 @@ struct Start {
   std::int64_t sample = 0;
 };
 
-/// The rounding of synth-server/render/replay.
+/// The rounding of synth-server/replay/replay.
 std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
   const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
   if (!(start <= kLongest)) {

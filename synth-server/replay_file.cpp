@@ -8,7 +8,7 @@
 #include "protocol/event_log.hpp"
 #include "protocol/failure.hpp"
 #include "synth-server/output/wav_file.hpp"
-#include "synth-server/render/replay.hpp"
+#include "synth-server/replay/replay.hpp"
 
 namespace splash::synth {
 namespace {

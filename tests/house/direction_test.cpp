@@ -69,6 +69,9 @@ TEST(Direction, RenderingKnowsEventsVoicesAndOutputOnly) {
   EXPECT_THAT(complaint("synth-server/render", "synth-server/voices/bubble_voice.hpp"), IsEmpty());
   EXPECT_THAT(complaint("synth-server/render", "protocol/udp_socket.hpp"),
               HasSubstr("may not know"));
+  EXPECT_THAT(complaint("synth-server/render", "protocol/event_log.hpp"),
+              HasSubstr("may not know"));
+  EXPECT_THAT(complaint("synth-server/replay", "protocol/event_log.hpp"), IsEmpty());
   EXPECT_THAT(complaint("synth-server/render", "synth-server/audio/rtaudio_device.hpp"),
               HasSubstr("may not know"));
   EXPECT_THAT(complaint("synth-server/voices", "mutex"), HasSubstr("audio callback"));
@@ -79,6 +82,9 @@ TEST(Direction, RenderingKnowsEventsVoicesAndOutputOnly) {
 TEST(Direction, FluidDoesNotKnowWhatIsFoundInIt) {
   EXPECT_THAT(complaint("sim-server/detect", "sim-server/fluid/fluid.hpp"), IsEmpty());
   EXPECT_THAT(complaint("sim-server/fluid", "sim-server/detect/bubbles.hpp"),
+              HasSubstr("may not know"));
+  EXPECT_THAT(complaint("sim-server/bodies", "sim-server/fluid/wendland.hpp"), IsEmpty());
+  EXPECT_THAT(complaint("sim-server/bodies", "sim-server/fluid/fluid.hpp"),
               HasSubstr("may not know"));
   EXPECT_THAT(complaint("sim-server/send", "sim-server/fluid/fluid.hpp"),
               HasSubstr("may not know"));

@@ -35,13 +35,12 @@ LivePd::LivePd()
 }
 
 void LivePd::start_jack() {
-  jackd_ = std::make_unique<ChildProcess>(
+  jackd_ = std::make_unique<tests::ChildProcess>(
       std::vector<std::string>{"jackd", "--no-realtime", "-n", server_, "-d", "dummy", "-C", "0",
                                "-P", std::to_string(kTiles36), "-r",
                                std::to_string(static_cast<int>(kRate)), "-p",
                                std::to_string(kPeriod)},
-      std::vector<std::pair<std::string, std::string>>{{"JACK_NO_AUDIO_RESERVATION", "1"}},
-      folder_.path() / "jackd.txt");
+      tests::ChildProcess::Environment{{"JACK_NO_AUDIO_RESERVATION", "1"}});
   const double deadline = protocol::monotonic_now() + kPatience;
   while (recorder_ == nullptr) {
     try {
@@ -56,7 +55,7 @@ void LivePd::start_jack() {
 
 void LivePd::start_pd() {
   const std::string patch = std::string(SPLASH_SOURCE_DIR) + "/pd-patches/splash-tiles.pd";
-  pd_ = std::make_unique<ChildProcess>(
+  pd_ = std::make_unique<tests::ChildProcess>(
       std::vector<std::string>{"pd",           "-nogui",
                                "-noprefs",     "-stderr",
                                "-jack",        "-jackname",
@@ -68,9 +67,8 @@ void LivePd::start_pd() {
                                "-open",        patch,
                                "-send",        "splash-port " + std::to_string(patch_.port),
                                "-send",        "splash-gain 1"},
-      std::vector<std::pair<std::string, std::string>>{{"JACK_NO_AUDIO_RESERVATION", "1"},
-                                                       {"JACK_DEFAULT_SERVER", server_}},
-      folder_.path() / "pd.txt");
+      tests::ChildProcess::Environment{{"JACK_NO_AUDIO_RESERVATION", "1"},
+                                       {"JACK_DEFAULT_SERVER", server_}});
   const double deadline = protocol::monotonic_now() + kPatience;
   while (!recorder_->connect("splash-pd:output_") || !status(0.2)) {
     if (pd_->wait(0.05) || protocol::monotonic_now() > deadline) {

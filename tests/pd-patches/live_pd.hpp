@@ -8,9 +8,9 @@
 #include "protocol/message.hpp"
 #include "protocol/status.hpp"
 #include "protocol/udp_socket.hpp"
-#include "tests/pd-patches/child_process.hpp"
 #include "tests/pd-patches/jack_recorder.hpp"
 #include "tests/pd-patches/rendering.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace splash::pd {
 
@@ -34,13 +34,12 @@ class LivePd {
   void start_jack();
   void start_pd();
 
-  ScratchFolder folder_;
   protocol::UdpSocket socket_;
   protocol::Endpoint patch_;
   std::string server_;
-  std::unique_ptr<ChildProcess> jackd_;
+  std::unique_ptr<tests::ChildProcess> jackd_;
   std::unique_ptr<JackRecorder> recorder_;
-  std::unique_ptr<ChildProcess> pd_;
+  std::unique_ptr<tests::ChildProcess> pd_;
 };
 
 }  // namespace splash::pd

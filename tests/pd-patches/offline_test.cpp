@@ -10,8 +10,8 @@
 #include <iostream>
 
 #include "protocol/message.hpp"
-#include "tests/pd-patches/child_process.hpp"
 #include "tests/pd-patches/rendering.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace splash::pd {
 namespace {
@@ -139,13 +139,11 @@ TEST(Offline, RenderingTwiceGivesTheSameBits) {
 }
 
 TEST(Offline, EveryPatchOpensWithoutAComplaint) {
-  const ScratchFolder folder;
   for (const char* name : {"splash-tiles.pd", "splash-stereo.pd", "splash-synth-help.pd",
                            "offline.pd", "offline-stereo.pd"}) {
     const std::string patch = std::string(SPLASH_SOURCE_DIR) + "/pd-patches/" + name;
-    ChildProcess pd({"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr", "-open", patch,
-                     "-send", "pd quit"},
-                    {}, folder.path() / "pd.txt");
+    tests::ChildProcess pd({"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr", "-open",
+                            patch, "-send", "pd quit"});
     EXPECT_EQ(pd.wait(60.0), 0) << name;
     EXPECT_EQ(pd.output(), "") << name;
   }
@@ -163,14 +161,14 @@ TEST(Offline, TheProgramConvertsALogFile) {
     writer.flush();
   }
   const std::string program = std::string(SPLASH_BINARY_DIR) + "/log-to-pd";
-  ChildProcess good({program, osc.string(), list.string()}, {}, folder.path() / "good.txt");
+  tests::ChildProcess good({program, osc.string(), list.string()});
   EXPECT_EQ(good.wait(30.0), 0) << good.output();
   EXPECT_THAT(good.output(), testing::HasSubstr("1 events in 1 bundles, 108000 frames"));
   std::string line;
   std::ifstream text(list);
   std::getline(text, line);
   EXPECT_EQ(line, "250 bubble 1 -1 0.0078125 0.0625 1 0.5 0;");
-  ChildProcess bad({program, "missing.osc", list.string()}, {}, folder.path() / "bad.txt");
+  tests::ChildProcess bad({program, "missing.osc", list.string()});
   EXPECT_EQ(bad.wait(30.0), 1);
   EXPECT_THAT(bad.output(), testing::HasSubstr("missing.osc"));
 }

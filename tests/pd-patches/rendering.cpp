@@ -11,8 +11,8 @@
 
 #include "pd-patches/event_list.hpp"
 #include "synth-server/output/rig_reader.hpp"
-#include "synth-server/render/replay.hpp"
-#include "tests/pd-patches/child_process.hpp"
+#include "synth-server/replay/replay.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace splash::pd {
 namespace {
@@ -54,12 +54,11 @@ Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPai
   std::ofstream file(list);
   write_event_list(log, kRate, file);
   file.close();
-  ChildProcess pd(
+  tests::ChildProcess pd(
       {"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr", "-r",
        std::to_string(static_cast<int>(kRate)), "-open", source("pd-patches", rig.patch).string(),
        "-send",
-       "splash-render " + list.string() + " " + wav.string() + " " + std::to_string(frames)},
-      {}, folder.path() / "pd.txt");
+       "splash-render " + list.string() + " " + wav.string() + " " + std::to_string(frames)});
   const std::optional<int> status = pd.wait(kPatience);
   if (status != 0 || pd.output().find("error") != std::string::npos) {
     throw std::runtime_error("pd ended with " + std::to_string(status.value_or(-1)) + ": " +

@@ -7,21 +7,21 @@
 #include <fstream>
 
 #include "protocol/event_log.hpp"
-#include "tests/synth-server/live/daemon.hpp"
-#include "tests/synth-server/live/recording.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
 
 namespace splash::synth {
 namespace {
 
-struct End {
-  int code;
-  std::string text;
-};
+using tests::onset;
+using tests::peak;
+using tests::Recording;
+using tests::rig_path;
+using tests::temporary_path;
+using End = tests::Ended;
 
-End run(const std::vector<std::string>& arguments) {
-  Daemon daemon(std::string(SPLASH_BINARY_DIR) + "/synth-server", arguments);
-  const int code = daemon.wait_for_end();
-  return {code, daemon.output()};
+End run(const tests::Arguments& arguments) {
+  return tests::run_program("synth-server", arguments);
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -88,7 +88,7 @@ TEST(Exit, RendersAReplayAndItsStems) {
                                                           {base + "-bubbles.wav", 1.0},
                                                           {base + "-cavities.wav", 1.5}};
   for (const auto& [path, start] : stems) {
-    const Recording recording = read_recording(path);
+    const Recording recording = tests::read_recording(path);
     const auto& left = recording.channels.at(0);
     const std::int64_t first = onset(left, 0.001F * peak(left));
     EXPECT_NEAR(static_cast<double>(first), 48000.0 * start, 480.0) << path;

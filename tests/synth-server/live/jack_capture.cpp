@@ -38,10 +38,9 @@ JackServer::JackServer(const std::string& name, int channels, int period) {
   setenv("JACK_NO_START_SERVER", "1", 1);
   jack_set_error_function(ignore);
   jack_set_info_function(ignore);
-  jackd_ = std::make_unique<Daemon>(
-      "jackd", std::vector<std::string>{"--no-realtime", "-S", "-n", name, "-d", "dummy", "-C", "0",
-                                        "-P", std::to_string(channels), "-r", "48000", "-p",
-                                        std::to_string(period)});
+  jackd_ = std::make_unique<tests::ChildProcess>(std::vector<std::string>{
+      "jackd", "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C", "0", "-P",
+      std::to_string(channels), "-r", "48000", "-p", std::to_string(period)});
   if (wait_until([this] { return !jackd_->running() || reachable(); }, 20.0) && jackd_->running()) {
     return;
   }

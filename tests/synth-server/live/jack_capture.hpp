@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/synth-server/live/daemon.hpp"
+#include "tests/support/programs.hpp"
 
 namespace splash::synth {
 
@@ -28,7 +28,7 @@ class JackServer {
   void kill();
 
  private:
-  std::unique_ptr<Daemon> jackd_;
+  std::unique_ptr<tests::ChildProcess> jackd_;
 };
 
 /// Records ports "source:outport 0".. of another client from now on.

@@ -12,15 +12,18 @@
 #include <thread>
 
 #include "synth-server/output/rig_reader.hpp"
-#include "synth-server/render/replay.hpp"
-#include "tests/synth-server/live/daemon.hpp"
+#include "synth-server/replay/replay.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
 #include "tests/synth-server/live/jack_capture.hpp"
-#include "tests/synth-server/live/recording.hpp"
 
 namespace splash::synth {
 namespace {
 
 using protocol::Message;
+using tests::onset;
+using tests::peak;
+using tests::rig_path;
 
 constexpr int kChannels = 36;
 /// The dummy driver has no interrupt, only sleep: a long period makes it steady [frames].
@@ -67,7 +70,7 @@ std::string server_name(const std::string& name) {
 }
 
 /// Records one take of the events; empty when the server was late and samples are missing.
-std::vector<std::vector<float>> take(Synth& synth) {
+std::vector<std::vector<float>> take(tests::Synth& synth) {
   JackCapture capture("synth-server", kChannels, kTake);
   sleep(0.5);
   const int before = capture.xruns();
@@ -95,8 +98,8 @@ float loudest_of(const std::vector<std::vector<float>>& channels) {
 
 TEST(LiveJack, PlaysEachChannelAsTheOfflineRendering) {
   const JackServer server(server_name("channels"), kChannels, kPeriod);
-  Synth synth(arguments());
-  EXPECT_THAT(synth.daemon().output(),
+  tests::Synth synth(arguments());
+  EXPECT_THAT(synth.process().output(),
               testing::HasSubstr("output: jack device 'system', 36 channels at 48000 Hz"));
   sleep(kOpening);
   std::vector<std::vector<float>> live;
@@ -130,41 +133,41 @@ TEST(LiveJack, PlaysEachChannelAsTheOfflineRendering) {
 
 TEST(LiveJack, NamesTheDevicesWhenItIsAskedForAnother) {
   const JackServer server(server_name("names"), kChannels, kPeriod);
-  const std::string program = std::string(SPLASH_BINARY_DIR) + "/synth-server";
-  Daemon list(program, {"--list-devices"});
-  EXPECT_EQ(list.wait_for_end(), 0);
-  EXPECT_THAT(list.output(), testing::HasSubstr("jack: 'system', 36 outputs, prefers 48000 Hz"));
-  Daemon other(program, {"--rig", rig_path("tiles36.yaml"), "--listen", "127.0.0.1:0", "--device",
-                         "Fireface"});
-  EXPECT_EQ(other.wait_for_end(), 69);
-  EXPECT_THAT(other.output(), testing::HasSubstr("jack: system"));
+  const auto [code, list] = tests::run_program("synth-server", {"--list-devices"});
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(list, testing::HasSubstr("jack: 'system', 36 outputs, prefers 48000 Hz"));
+  const auto other = tests::run_program(
+      "synth-server",
+      {"--rig", rig_path("tiles36.yaml"), "--listen", "127.0.0.1:0", "--device", "Fireface"});
+  EXPECT_EQ(other.code, 69);
+  EXPECT_THAT(other.text, testing::HasSubstr("jack: system"));
 }
 
 TEST(LiveJack, SaysThatADeviceHasTooFewChannels) {
   const JackServer server(server_name("few"), 2, kPeriod);
-  Synth synth(arguments());
-  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("has 2 output channels"));
-  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("output: none"));
+  tests::Synth synth(arguments());
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("has 2 output channels"));
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("output: none"));
 }
 
 TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
   const std::string name = server_name("death");
   auto server = std::make_unique<JackServer>(name, kChannels, kPeriod);
-  Synth synth(arguments());
+  tests::Synth synth(arguments());
   sleep(0.5);
   server->kill();
-  ASSERT_TRUE(synth.daemon().wait_for_text("has stopped asking for sound", 20.0));
-  ASSERT_TRUE(synth.daemon().running());
+  ASSERT_TRUE(synth.process().wait_for_text("has stopped asking for sound", 20.0));
+  ASSERT_TRUE(synth.process().running());
   EXPECT_EQ(synth.ask({"/sync", {1}}, "/synced").address, "/synced") << "it still answers";
   server = std::make_unique<JackServer>(name, kChannels, kPeriod);
-  ASSERT_TRUE(synth.daemon().wait_for_text("'system' plays", 20.0)) << synth.daemon().output();
+  ASSERT_TRUE(synth.process().wait_for_text("'system' plays", 20.0)) << synth.process().output();
   sleep(kOpening);
   float heard = 0.0F;
   for (int i = 0; i < kMostTakes && heard == 0.0F; ++i) heard = loudest_of(take(synth));
   EXPECT_GT(heard, 0.01F);
-  synth.daemon().signal(SIGTERM);
-  EXPECT_EQ(synth.daemon().wait_for_end(), 0);
-  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("1 device losses"));
+  synth.process().signal(SIGTERM);
+  EXPECT_EQ(synth.process().wait_for_end(), 0);
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("1 device losses"));
 }
 
 }  // namespace

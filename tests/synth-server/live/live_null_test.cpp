@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "protocol/status.hpp"
-#include "tests/synth-server/live/daemon.hpp"
-#include "tests/synth-server/live/recording.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
 #include "tests/synth-server/receive/killers.hpp"
 
 namespace splash::synth {
@@ -19,6 +19,12 @@ namespace {
 
 using protocol::Message;
 using protocol::TimeTag;
+using tests::onset;
+using tests::peak;
+using tests::Recording;
+using tests::rig_path;
+using tests::Synth;
+using tests::temporary_path;
 
 constexpr int kRate = 48000;
 /// The engine opens slowly at its start [s].
@@ -61,11 +67,11 @@ TEST_F(LiveNull, PlaysTimeTagsExactToTheSample) {
     sleep(0.1);
   }
   sleep(2.0);
-  synth.daemon().signal(SIGTERM);
-  ASSERT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
-  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("played 0 impacts, 4 bubbles"));
+  synth.process().signal(SIGTERM);
+  ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("played 0 impacts, 4 bubbles"));
 
-  const Recording recording = read_recording(wav_);
+  const Recording recording = tests::read_recording(wav_);
   ASSERT_EQ(recording.channels.size(), 2U);
   const auto& left = recording.channels[0];
   const float threshold = 0.02F * peak(left);
@@ -97,11 +103,11 @@ TEST_F(LiveNull, IsSilentWhileTheSenderIsGoneAndComesBack) {
   beat(5, 0.5);
   sleep(1.5);  // gone: lease 300 ms, fade 20 ms
   beat(6, 0.5);
-  synth.daemon().signal(SIGTERM);
-  ASSERT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
-  EXPECT_THAT(synth.daemon().output(), testing::ContainsRegex("2 sessions, [1-9]+ departures"));
+  synth.process().signal(SIGTERM);
+  ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  EXPECT_THAT(synth.process().output(), testing::ContainsRegex("2 sessions, [1-9]+ departures"));
 
-  const Recording recording = read_recording(wav_);
+  const Recording recording = tests::read_recording(wav_);
   const auto& left = recording.channels[0];
   const float threshold = 0.01F * peak(left);
   const std::int64_t first = onset(left, threshold);
@@ -124,9 +130,9 @@ TEST_F(LiveNull, FadesOutWhenItIsTerminated) {
   sleep(kOpening);
   synth.send(protocol::encode(bubble(1, 0.1F)));
   sleep(0.5);
-  synth.daemon().signal(SIGINT);
-  ASSERT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
-  const Recording recording = read_recording(wav_);
+  synth.process().signal(SIGINT);
+  ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  const Recording recording = tests::read_recording(wav_);
   const auto& left = recording.channels[0];
   const float loudest = peak(left);
   ASSERT_GT(loudest, 0.0F);
@@ -157,9 +163,9 @@ TEST_F(LiveNull, OutlivesKillersAndAnswersControl) {
   EXPECT_EQ(synth.ask({"/version", {}}, "/version.reply").arguments.size(), 6U);
   EXPECT_EQ(synth.ask({"/wat", {}}, "/fail").address, "/fail");
   EXPECT_EQ(synth.ask({"/ping", {TimeTag{99}}}, "/pong").arguments.size(), 3U);
-  EXPECT_TRUE(synth.daemon().running());
+  EXPECT_TRUE(synth.process().running());
   EXPECT_EQ(synth.ask({"/quit", {}}, "/done").address, "/done");
-  EXPECT_EQ(synth.daemon().wait_for_end(), 0) << synth.daemon().output();
+  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
 }
 
 TEST_F(LiveNull, CountsWhatComesTooLateAndTooEarly) {
@@ -169,11 +175,11 @@ TEST_F(LiveNull, CountsWhatComesTooLateAndTooEarly) {
   synth.send(protocol::encode(protocol::to_time_tag(now - 0.5), {bubble(1)}));
   synth.send(protocol::encode(protocol::to_time_tag(now + 3600.0), {bubble(2)}));
   sleep(0.3);
-  synth.daemon().signal(SIGTERM);
-  ASSERT_EQ(synth.daemon().wait_for_end(), 0);
-  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("not played: 1 too late"));
-  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("0 events late, 1 too early"));
-  EXPECT_THAT(synth.daemon().output(), testing::HasSubstr("played 0 impacts, 1 bubbles"));
+  synth.process().signal(SIGTERM);
+  ASSERT_EQ(synth.process().wait_for_end(), 0);
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("not played: 1 too late"));
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("0 events late, 1 too early"));
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("played 0 impacts, 1 bubbles"));
 }
 
 }  // namespace

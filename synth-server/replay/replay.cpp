@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/render/replay.hpp"
+#include "synth-server/replay/replay.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/synth-server/live/recording.hpp"
+#include "tests/support/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace splash::synth {
+namespace splash::tests {
 namespace {
 
 std::uint32_t number(const std::string& bytes, std::size_t at, int size) {
@@ -59,4 +59,4 @@ float peak(const std::vector<float>& samples, std::int64_t from, std::int64_t to
   return largest;
 }
 
-}  // namespace splash::synth
+}  // namespace splash::tests

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A log rendered twice is the same twice, in any blocks; its events start where it says.
-#include "synth-server/render/replay.hpp"
+#include "synth-server/replay/replay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace splash::synth {
+namespace splash::tests {
 
 struct Recording {
   int sample_rate = 0;
@@ -23,4 +23,4 @@ struct Recording {
 [[nodiscard]] float peak(const std::vector<float>& samples, std::int64_t from = 0,
                          std::int64_t to = -1);
 
-}  // namespace splash::synth
+}  // namespace splash::tests

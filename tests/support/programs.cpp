@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/programs.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "protocol/time_tag.hpp"
+
+namespace splash::tests {
+namespace {
+
+Arguments on_some_port(Arguments arguments) {
+  if (std::find(arguments.begin(), arguments.end(), "--listen") == arguments.end()) {
+    arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
+  }
+  return arguments;
+}
+
+/// The endpoint that the program says it listens on.
+protocol::Endpoint announced(ChildProcess& process) {
+  const std::string label = "listening: ";
+  const double limit = protocol::monotonic_now() + 120.0;  // OpenCL compiles on a first start
+  while (process.running() && protocol::monotonic_now() < limit) {
+    if (!process.wait_for_text(label, 1.0)) continue;
+    const std::string output = process.output();
+    const auto start = output.find(label) + label.size();
+    const auto end = output.find('\n', start);
+    if (end == std::string::npos) continue;
+    return protocol::parse_endpoint(output.substr(start, end - start), 0);
+  }
+  throw std::runtime_error("it never listened:\n" + process.output());
+}
+
+}  // namespace
+
+std::string temporary_path(const std::string& name) {
+  return testing::TempDir() + "splash-" + std::to_string(getpid()) + "-" + name;
+}
+
+std::string rig_path(const std::string& name) {
+  return std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/" + name;
+}
+
+Arguments command(const std::string& name, const Arguments& arguments) {
+  Arguments all{std::string(SPLASH_BINARY_DIR) + "/" + name};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return all;
+}
+
+Ended run_program(const std::string& name, const Arguments& arguments, double seconds) {
+  ChildProcess process(command(name, arguments));
+  const int code = process.wait_for_end(seconds);
+  return {code, process.output()};
+}
+
+Daemon::Daemon(const std::string& name, const Arguments& arguments)
+    : process_(command(name, on_some_port(arguments))),
+      endpoint_(announced(process_)),
+      socket_(protocol::Endpoint{INADDR_LOOPBACK, 0}) {}
+
+protocol::Message Daemon::ask(const protocol::Message& command, const std::string& address) {
+  send(protocol::encode(command));
+  const double limit = protocol::monotonic_now() + 20.0;
+  std::vector<std::byte> buffer(2048);
+  while (protocol::monotonic_now() < limit) {
+    const auto received = socket_.receive(buffer.data(), buffer.size(), 0.1);
+    if (!received) continue;
+    const auto decoded = protocol::decode({buffer.data(), received->size});
+    for (const auto& message : decoded.packet.messages) {
+      if (message.address == address) return message;
+    }
+  }
+  return {};
+}
+
+long number_before(const std::string& text, const std::string& words) {
+  const auto found = text.rfind(" " + words);
+  if (found == std::string::npos) return -1;
+  auto start = found;
+  while (start > 0 && std::isdigit(static_cast<unsigned char>(text[start - 1])) != 0) --start;
+  return start == found ? -1 : std::stol(text.substr(start, found - start));
+}
+
+}  // namespace splash::tests

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The real programs as child processes on free loopback ports: started, spoken to, ended for sure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/message.hpp"
+#include "protocol/udp_socket.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace splash::tests {
+
+/// A name below the test's temporary folder that no other process uses.
+[[nodiscard]] std::string temporary_path(const std::string& name);
+[[nodiscard]] std::string rig_path(const std::string& name);
+
+using Arguments = std::vector<std::string>;
+
+/// `name` out of the build's programs, with its arguments: what ChildProcess takes.
+[[nodiscard]] Arguments command(const std::string& name, const Arguments& arguments);
+
+struct Ended {
+  int code = 0;
+  std::string text;  ///< all it printed
+};
+/// Runs a program of ours until it ends.
+[[nodiscard]] Ended run_program(const std::string& name, const Arguments& arguments,
+                                double seconds = 120.0);
+
+/// A program that says "listening: host:port", with the end of a socket to talk to it.
+class Daemon {
+ public:
+  /// Adds --listen with a free port unless `arguments` have one, and waits until it listens.
+  Daemon(const std::string& name, const Arguments& arguments);
+
+  ChildProcess& process() noexcept { return process_; }
+  [[nodiscard]] protocol::Endpoint endpoint() const noexcept { return endpoint_; }
+  void send(const std::vector<std::byte>& bytes) { socket_.send_to(endpoint_, bytes); }
+  /// Sends a command and returns the first reply at `address`; empty when there is none.
+  protocol::Message ask(const protocol::Message& command, const std::string& address);
+
+ private:
+  ChildProcess process_;
+  protocol::Endpoint endpoint_;
+  protocol::UdpSocket socket_;
+};
+
+class Synth : public Daemon {
+ public:
+  explicit Synth(const Arguments& arguments) : Daemon("synth-server", arguments) {}
+};
+
+class Simulator : public Daemon {
+ public:
+  explicit Simulator(const Arguments& arguments) : Daemon("sim-server", arguments) {}
+};
+
+/// The whole number that stands before the last `words` in `text`; -1: none.
+[[nodiscard]] long number_before(const std::string& text, const std::string& words);
+
+}  // namespace splash::tests
