@@ -10,6 +10,7 @@
 
 #include "sim-server/numbered_events.hpp"
 #include "sim-server/options.hpp"
+#include "sim-server/send/clock_answers.hpp"
 #include "sim-server/send/control.hpp"
 #include "sim-server/send/event_sender.hpp"
 #include "sim-server/send/pacer.hpp"
@@ -29,6 +30,9 @@ class Server {
   void run(const std::function<bool()>& ended);
   /// Closes the log, asks the targets how they fared and writes the report.
   [[nodiscard]] RunReport finish();
+
+  /// Where poses and control are listened for.
+  [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 
  private:
   void take_pose(const protocol::BodyPose& pose, double arrival);
@@ -54,7 +58,8 @@ class Server {
   double started_ = 0.0;       ///< monotonic [s]
   double wall_seconds_ = 0.0;  ///< of run()
   double next_line_ = 0.0;     ///< monotonic [s]
-  ControlServer control_;      ///< last: its thread uses all of the above
+  ClockAnswers clock_answers_{socket_, targets_};
+  ControlServer control_;  ///< last: its thread uses all of the above
 };
 
 }  // namespace splash::sim
