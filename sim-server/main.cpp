@@ -41,13 +41,14 @@ Scene load_scene(const std::filesystem::path& path) {
   return read_scene(path);
 }
 
-void say_hello(const Simulation& simulation, double seconds_to_build) {
+void say_hello(const Simulation& simulation, const Server& server, double seconds_to_build) {
   const Scene& scene = simulation.scene();
   std::printf("scene   %s: %d particles %.1f mm apart, %zu bodies, sound speed %.1f m/s\n",
               scene.name.c_str(), simulation.particles(), 1e3 * particle_spacing(scene),
               scene.bodies.size(), scene_sound_speed(scene));
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
               seconds_to_build > 1.0 ? " (compiled; kept for the next start)" : "");
+  std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());
   std::printf("running, steps of %.2f ms; Ctrl-C ends it\n", 1e3 * simulation.time_step());
   std::fflush(stdout);
 }
@@ -63,9 +64,9 @@ void run(const Options& options) {
   std::fflush(stdout);
   Simulation simulation(device, scene, options.tracker);
   Server server(options, simulation, device.facts().name);
-  say_hello(simulation, protocol::monotonic_now() - start);
   std::signal(SIGINT, note_signal);
   std::signal(SIGTERM, note_signal);
+  say_hello(simulation, server, protocol::monotonic_now() - start);
   server.run([] { return signals_seen != 0; });
   std::printf("%s", summary(server.finish()).c_str());
 }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// SIGTERM, SIGINT and /quit end both programs in peace: exit status 0, files whole, closing words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "protocol/event_log.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+class Ending : public testing::TestWithParam<int> {
+ protected:
+  /// 0 stands for /quit.
+  static void end(Daemon& daemon) {
+    if (GetParam() == 0) {
+      EXPECT_EQ(daemon.ask({"/quit", {}}, "/done").address, "/done");
+    } else {
+      daemon.process().signal(GetParam());
+    }
+    EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
+  }
+};
+
+TEST_P(Ending, OfTheSimulatorClosesLogAndReport) {
+  const SmallScene scene(plunging());
+  const std::string log = temporary_path("ending.osc");
+  const std::string report = temporary_path("ending.json");
+  Simulator simulator({"--scene", scene.path(), "--record", log, "--report", report});
+  ASSERT_TRUE(simulator.process().wait_for_text("real time x"));  // it has run for two seconds
+  end(simulator);
+  EXPECT_THAT(simulator.process().output(),
+              testing::AllOf(testing::HasSubstr("events "), testing::HasSubstr("pacing ")));
+  EXPECT_TRUE(std::filesystem::exists(report));
+  const auto entries = protocol::read_log(log);
+  ASSERT_FALSE(entries.empty());
+  EXPECT_EQ(entries.back().messages.size(), 1U);
+  EXPECT_TRUE(protocol::to_frame(entries.back().messages.at(0))) << "a /frame closes the log";
+  EXPECT_GT(entries.back().seconds, 1.5);
+  std::filesystem::remove(log);
+  std::filesystem::remove(report);
+}
+
+TEST_P(Ending, OfTheSynthClosesItsRecording) {
+  const std::string wav = temporary_path("ending.wav");
+  Synth synth({"--rig", rig_path("stereo.yaml"), "--device", "null", "--record-audio", wav});
+  end(synth);
+  EXPECT_THAT(synth.process().output(), testing::ContainsRegex("ran [0-9.]+ s: played 0 impacts"));
+  EXPECT_EQ(read_recording(wav).channels.size(), 2U);
+  std::filesystem::remove(wav);
+}
+
+std::string way(const testing::TestParamInfo<int>& info) {
+  return info.param == SIGTERM ? "BySigterm" : info.param == SIGINT ? "BySigint" : "ByQuit";
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, Ending, testing::Values(SIGTERM, SIGINT, 0), way);
+
+}  // namespace
+}  // namespace splash::tests

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// How the simulator ends when something is wrong: the code for scripts, the words for people. The
+// synth's own endings are in tests/synth-server/live.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "protocol/udp_socket.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+Ended simulate(const SmallScene& scene, Arguments further) {
+  further.insert(further.end(),
+                 {"--scene", scene.path(), "--duration", "0.1", "--faster-than-real-time"});
+  return run_program("sim-server", further);
+}
+
+TEST(Exit, UnknownSceneKeyIsNamedWithItsPlace) {
+  const SmallScene scene("{kind: script, repaet: true, keyframes: [{time: 0.0}]}");
+  const auto [code, text] = simulate(scene, {});
+  EXPECT_EQ(code, 78);
+  EXPECT_THAT(text, AllOf(testing::ContainsRegex(scene.path() + ":[0-9]+:28: "),
+                          HasSubstr("repaet"), HasSubstr("repeat")));
+}
+
+TEST(Exit, MissingFilesAreNamed) {
+  const auto scene = run_program("sim-server", {"--scene", "/nowhere/scene.yaml"});
+  EXPECT_EQ(scene.code, 66);
+  EXPECT_THAT(scene.text, HasSubstr("/nowhere/scene.yaml"));
+  const auto rig = run_program("synth-server", {"--rig", "/nowhere/rig.yaml"});
+  EXPECT_EQ(rig.code, 66);
+  EXPECT_THAT(rig.text, HasSubstr("/nowhere/rig.yaml"));
+}
+
+TEST(Exit, MissingRecordingsAreNamed) {
+  const SmallScene csv("{kind: csv, file: nowhere.csv}");
+  const auto [code, text] = simulate(csv, {"--listen", "127.0.0.1:0"});
+  EXPECT_EQ(code, 78) << "the scene names it";
+  EXPECT_THAT(text, HasSubstr("nowhere.csv"));
+}
+
+TEST(Exit, TakenPortIsNamed) {
+  const SmallScene scene(plunging());
+  const protocol::UdpSocket taken({INADDR_LOOPBACK, 0});
+  const std::string endpoint = protocol::to_string(taken.local());
+  const auto simulator = simulate(scene, {"--listen", endpoint});
+  EXPECT_EQ(simulator.code, 69);
+  EXPECT_THAT(simulator.text, HasSubstr(std::to_string(taken.local().port)));
+  const auto synth = run_program(
+      "synth-server", {"--rig", rig_path("stereo.yaml"), "--device", "null", "--listen", endpoint});
+  EXPECT_EQ(synth.code, 69);
+  EXPECT_THAT(synth.text, HasSubstr(std::to_string(taken.local().port)));
+}
+
+TEST(Exit, WrongOptionsAreUsage) {
+  for (const char* name : {"sim-server", "synth-server"}) {
+    EXPECT_EQ(run_program(name, {}).code, 64) << name;
+    EXPECT_EQ(run_program(name, {"--nonsense"}).code, 64) << name;
+    const auto [code, text] = run_program(name, {"--listen", "nohost.invalid:1", "--scene", "x"});
+    EXPECT_EQ(code, 64) << name;
+    EXPECT_EQ(run_program(name, {"--duration", "soon"}).code, 64) << name;
+    EXPECT_EQ(run_program(name, {"--help"}).code, 0) << name;
+    EXPECT_EQ(run_program(name, {"--version"}).code, 0) << name;
+  }
+}
+
+TEST(Exit, FilesThatCannotBeWrittenAreNamed) {
+  const SmallScene scene(plunging());
+  const auto log = simulate(scene, {"--listen", "127.0.0.1:0", "--record", "/nowhere/a.osc"});
+  EXPECT_EQ(log.code, 74);
+  EXPECT_THAT(log.text, HasSubstr("/nowhere/a.osc"));
+  const auto report = simulate(scene, {"--listen", "127.0.0.1:0", "--report", "/nowhere/a.json"});
+  EXPECT_EQ(report.code, 74);
+  EXPECT_THAT(report.text, HasSubstr("/nowhere/a.json"));
+}
+
+TEST(Exit, FullDiskIsSaid) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const SmallScene scene(plunging());
+  const auto [code, text] =
+      run_program("sim-server", {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record",
+                                 "/dev/full", "--duration", "2", "--faster-than-real-time"});
+  EXPECT_EQ(code, 74) << text;
+  EXPECT_THAT(text, HasSubstr("/dev/full"));
+}
+
+TEST(Exit, DeviceThatIsNotThereIsUnavailable) {
+  const SmallScene scene(plunging());
+  const auto [code, text] = simulate(scene, {"--listen", "127.0.0.1:0", "--device", "99"});
+  EXPECT_EQ(code, 69);
+  EXPECT_THAT(text, HasSubstr("99"));
+}
+
+}  // namespace
+}  // namespace splash::tests

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "tests/system/small_scene.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/programs.hpp"
+
+namespace splash::tests {
+namespace {
+
+constexpr const char* kText = R"(name: small
+description: a disc in a little water
+
+fluid:
+  particles: 1400
+
+tank:
+  lower: [-0.2, -0.2, 0.0]
+  upper: [0.2, 0.2, 0.5]
+
+water:
+  - lower: [-0.2, -0.2, 0.0]
+    upper: [0.2, 0.2, 0.2]
+
+bodies:
+  - name: disc
+    shape: {kind: cylinder, size: [0.15, 0.15, 0.05]}
+)";
+
+int scenes = 0;
+
+}  // namespace
+
+SmallScene::SmallScene(const std::string& motion, int seed)
+    : path_(temporary_path("small-" + std::to_string(++scenes) + ".yaml")) {
+  std::ofstream(path_) << "seed: " << seed << '\n' << kText << "    motion: " << motion << '\n';
+}
+
+SmallScene::~SmallScene() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+std::string plunging() {
+  return "{kind: script, repeat: true, keyframes: [{time: 0.0, position: [0, 0, 0.35]}, "
+         "{time: 0.4, position: [0, 0, 0.10]}, {time: 0.6, position: [0, 0, 0.10]}, "
+         "{time: 1.0, position: [0, 0, 0.35]}]}";
+}
+
+std::string tracked() {
+  return "{kind: osc}\n    rest: {position: [0, 0, 0.35]}";
+}
+
+}  // namespace splash::tests

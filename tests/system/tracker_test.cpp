@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// A tracker of the test's own moves a body over UDP while the simulation runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "protocol/event_log.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+constexpr double kPeriod = 0.01;  ///< of the tracker [s]
+constexpr double kStart = 0.5;    ///< the disc rests before, then falls [s]
+constexpr double kSpeed = 0.8;    ///< [m/s]
+constexpr double kDepth = 0.12;   ///< its centre's height at the end [m]
+constexpr double kSeconds = 2.0;
+
+double height(double seconds) {
+  const double fallen = kSpeed * std::max(0.0, seconds - kStart);
+  return std::max(kDepth, SmallScene::kRest - fallen);
+}
+
+/// 100 poses a second, by the clock: a tracker does not wait for a slow machine.
+void drive(Simulator& simulator) {
+  const double start = protocol::monotonic_now();
+  for (double seconds = 0.0; seconds < kSeconds; seconds += kPeriod) {
+    const double left = start + seconds - protocol::monotonic_now();
+    if (left > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+    const double now = protocol::monotonic_now() - start;
+    simulator.send(protocol::encode(protocol::to_message(protocol::BodyPose{
+        0, {0.0F, 0.0F, static_cast<float>(height(now))}, 0.0F, 0.0F, 0.0F, 1.0F})));
+  }
+}
+
+std::vector<protocol::Impact> impacts_in(const std::string& log) {
+  std::vector<protocol::Impact> impacts;
+  for (const auto& entry : protocol::read_log(log)) {
+    for (const auto& message : entry.messages) {
+      const auto event = protocol::to_event(message);
+      if (!event) continue;
+      if (const auto* impact = std::get_if<protocol::Impact>(&*event)) impacts.push_back(*impact);
+    }
+  }
+  return impacts;
+}
+
+TEST(Tracker, OnePlungeIsOneImpact) {
+  const SmallScene scene(tracked());
+  const std::string log = temporary_path("tracker.osc");
+  Simulator simulator({"--scene", scene.path(), "--record", log});
+  drive(simulator);
+  simulator.process().signal(SIGTERM);
+  ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  const auto impacts = impacts_in(log);
+  std::filesystem::remove(log);
+  ASSERT_EQ(impacts.size(), 1U) << simulator.process().output();
+  EXPECT_EQ(impacts[0].body, 0);
+  // The poses come with the jitter of a busy machine, and so does their speed.
+  EXPECT_NEAR(static_cast<double>(impacts[0].speed), kSpeed, 0.5 * kSpeed);
+  EXPECT_NEAR(static_cast<double>(impacts[0].position.z), SmallScene::kLevel, 0.04);
+  EXPECT_LT(std::hypot(impacts[0].position.x, impacts[0].position.y), 0.08F);
+  std::cout << "speed " << impacts[0].speed << " m/s at " << impacts[0].position.z << " m\n";
+}
+
+TEST(Tracker, WithoutPosesNothingMoves) {
+  const SmallScene scene(tracked());
+  const std::string log = temporary_path("untracked.osc");
+  const auto [code, text] =
+      run_program("sim-server", {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record",
+                                 log, "--duration", "2", "--faster-than-real-time"});
+  EXPECT_EQ(code, 0) << text;
+  EXPECT_THAT(text, testing::HasSubstr("0 impacts, 0 bubbles, 0 cavities"));
+  std::filesystem::remove(log);
+}
+
+}  // namespace
+}  // namespace splash::tests
