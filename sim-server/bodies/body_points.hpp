@@ -12,9 +12,9 @@
 namespace splash::sim {
 
 struct BodyPoint : BoundaryPoint {
-  double inset = 0.0;   ///< depth below the body's true surface: half a lattice
-                        ///< spacing [m]
-  double colour = 0.0;  ///< c_r: 1 deep inside, less towards the surface [1]
+  Vector3 skin = {0.0, 0.0, 0.0};  ///< the place carried outwards to the true surface, if the
+                                   ///< point is in the outermost layer [m]
+  double colour = 0.0;             ///< c_r: 1 deep inside, less towards the surface [1]
   bool surface = false;
 };
 

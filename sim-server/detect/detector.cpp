@@ -26,12 +26,25 @@ cl::Program build(Device& device) {
   return build_program(device, sources, {}, false);
 }
 
-std::vector<int> surface_indices(const std::vector<BodyPoint>& points) {
-  std::vector<int> indices;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].surface) indices.push_back(static_cast<int>(i));
+std::vector<BodyPoint> surface_of(const std::vector<BodyPoint>& points) {
+  std::vector<BodyPoint> surface;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(surface),
+               [](const BodyPoint& point) { return point.surface; });
+  return surface;
+}
+
+std::vector<float> skins(const std::vector<BodyPoint>& points) {
+  std::vector<float> places;
+  for (const BodyPoint& point : points) {
+    for (const double part : point.skin) places.push_back(static_cast<float>(part));
   }
-  return indices;
+  return places;
+}
+
+std::vector<int> owners(const std::vector<BodyPoint>& points) {
+  std::vector<int> owners;
+  for (const BodyPoint& point : points) owners.push_back(point.owner);
+  return owners;
 }
 
 SurfaceDistance distance_of(const FluidParams& p) {
@@ -44,18 +57,17 @@ SurfaceDistance distance_of(const FluidParams& p) {
 Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
                    const DetectSettings& settings, int seed)
     : fluid_(fluid),
-      surface_(fluid.device(), surface_indices(points)),
-      touches_(fluid.device(), surface_.size()),
-      touches_read_(surface_.size()),
+      surface_points_(surface_of(points)),
+      skin_(fluid.device(), skins(surface_points_)),
+      owner_(fluid.device(), owners(surface_points_)),
+      touches_(fluid.device(), surface_points_.size()),
+      touches_read_(surface_points_.size()),
       program_(build(fluid.device())),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
       cavities_(fluid, program_, settings, bubble_room(fluid.params().count)),
       impacts_(static_cast<std::size_t>(fluid.body_count()), settings,
-               distance_of(fluid.params())) {
-  std::copy_if(points.begin(), points.end(), std::back_inserter(surface_points_),
-               [](const BodyPoint& point) { return point.surface; });
-}
+               distance_of(fluid.params())) {}
 
 void Detector::enqueue(const Step& step, double frame) {
   if (!surface_points_.empty()) {
@@ -63,9 +75,8 @@ void Detector::enqueue(const Step& step, double frame) {
                      fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
                      fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
                      fluid_.water_density().memory(), static_cast<int>(surface_points_.size()),
-                     surface_.memory(), fluid_.boundary_by_sample().stride,
-                     fluid_.boundary_by_sample().position.memory(),
-                     fluid_.boundary_by_sample().velocity.memory(), touches_.memory());
+                     skin_.memory(), owner_.memory(), fluid_.body_steps().memory(), step.first_body,
+                     touches_.memory());
     touches_.enqueue_read(fluid_.device(), touches_read_);
   }
   bubbles_.enqueue(step, frame);
@@ -75,7 +86,7 @@ std::vector<SurfacePoint> Detector::surface() const {
   std::vector<SurfacePoint> points;
   points.reserve(touches_read_.size());
   for (std::size_t s = 0; s < touches_read_.size(); ++s) {
-    points.push_back({surface_points_[s].owner, surface_points_[s].inset, touches_read_[s]});
+    points.push_back({surface_points_[s].owner, touches_read_[s]});
   }
   return points;
 }

@@ -33,7 +33,8 @@ class Detector {
 
   Fluid& fluid_;
   std::vector<BodyPoint> surface_points_;
-  Buffer<int> surface_;
+  Buffer<float> skin_;  ///< x y z of each point after the other [m]
+  Buffer<int> owner_;
   Buffer<Touch> touches_;
   std::vector<Touch> touches_read_;
   cl::Program program_;

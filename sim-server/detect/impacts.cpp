@@ -10,9 +10,15 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Points this near to the first one meet the water with it: their mean is what meets, so that the
-/// roughness of the particle surface averages out [spacings].
-constexpr double kTogether = 0.2;
+/// Points this near to the first one look at the same water: what they see of it is averaged
+/// [spacings].
+constexpr double kTogether = 0.5;
+
+/// Water in a direction this much upward lies on the body: vertical part of the unit vector.
+constexpr double kLyingOn = 0.3;
+
+/// The particle surface is this rough: nearer, body and water touch [spacings].
+constexpr double kTouching = 0.1;
 
 /// Farther from the surface than this, the colour is too faint to tell how far [spacings].
 constexpr double kSpacingsSeen = 1.4;
@@ -23,6 +29,9 @@ constexpr double kShareOut = 0.75;
 
 /// A body that is clear of the water for this long is out of it, wherever it is [s].
 constexpr double kClearFor = 0.5;
+
+/// A body that comes down by less than this part of its speed slides on the water [1].
+constexpr double kSkimming = 0.1;
 
 /// Least part of a body's own speed at which the surfaces must close [1].
 constexpr double kShareOfOwn = 0.5;
@@ -68,6 +77,18 @@ Vector3 mean_position(const std::vector<SurfacePoint>& points,
   return mean;
 }
 
+/// Unit vector into the water under all of the chosen points: that of their summed gradients.
+Vector3 mean_inward(const std::vector<SurfacePoint>& points,
+                    const std::vector<std::size_t>& chosen) {
+  Touch sum;
+  for (const std::size_t i : chosen) {
+    sum.gx += points[i].touch.gx;
+    sum.gy += points[i].touch.gy;
+    sum.gz += points[i].touch.gz;
+  }
+  return into_water(sum);
+}
+
 }  // namespace
 
 /// The dry points of a body that are next to meet the water, on average.
@@ -92,7 +113,7 @@ std::vector<double> ImpactWatch::gaps_of(const std::vector<SurfacePoint>& points
   gaps.reserve(points.size());
   for (const SurfacePoint& point : points) {
     const double colour = static_cast<double>(point.touch.colour);
-    gaps.push_back(colour < faintest ? kNever : distance_.distance_for(colour) - point.inset);
+    gaps.push_back(colour < faintest ? kNever : distance_.distance_for(colour));
   }
   return gaps;
 }
@@ -100,7 +121,10 @@ std::vector<double> ImpactWatch::gaps_of(const std::vector<SurfacePoint>& points
 ImpactWatch::Meeting ImpactWatch::next_meeting(int body, const std::vector<SurfacePoint>& points,
                                                const std::vector<double>& gaps) const {
   Meeting meeting;
-  const auto is_candidate = [&](std::size_t i) { return points[i].body == body && !wet_[i]; };
+  // Water that lies on a body is carried, not hit.
+  const auto is_candidate = [&](std::size_t i) {
+    return points[i].body == body && !wet_[i] && into_water(points[i].touch)[2] < kLyingOn;
+  };
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_candidate(i)) meeting.gap = std::min(meeting.gap, gaps[i]);
   }
@@ -116,23 +140,33 @@ ImpactWatch::Meeting ImpactWatch::next_meeting(int body, const std::vector<Surfa
 
 void ImpactWatch::average(Meeting& meeting, const std::vector<SurfacePoint>& points,
                           const std::vector<double>& gaps) {
+  // The water is rough, the body is not: its points agree on one surface, as high along one
+  // direction as they see it on average, and the foremost of them meets it first.
+  meeting.inward = mean_inward(points, meeting.points);
   const double share = 1.0 / static_cast<double>(meeting.points.size());
-  double gap = 0.0;
-  Vector3 inward = {0.0, 0.0, 0.0};
+  double surface = 0.0;
+  double water = 0.0;
+  double foremost = -kNever;
+  std::size_t leader = meeting.points.front();
   for (const std::size_t i : meeting.points) {
-    const Touch& touch = points[i].touch;
-    const Vector3 into = into_water(touch);
-    const Vector3 velocity = velocity_of(touch);
-    gap += share * gaps[i];
-    meeting.own += share * dot(velocity, into);
-    meeting.approach += share * (dot(velocity, into) - dot(water_velocity_of(touch), into));
-    meeting.speed += share * std::sqrt(dot(velocity, velocity));
-    for (std::size_t axis = 0; axis < 3; ++axis) inward[axis] += into[axis];
+    const double along = dot(position_of(points[i].touch), meeting.inward);
+    surface += share * (along + gaps[i]);
+    water += share * dot(water_velocity_of(points[i].touch), meeting.inward);
+    if (along > foremost) {
+      foremost = along;
+      leader = i;
+    }
   }
-  meeting.position = mean_position(points, meeting.points);
-  const double size = std::sqrt(dot(inward, inward));
-  if (size > 0.0) meeting.inward = {inward[0] / size, inward[1] / size, inward[2] / size};
-  if (meeting.approach > 0.0) meeting.after = gap / meeting.approach;
+  const Vector3 velocity = velocity_of(points[leader].touch);
+  meeting.gap = surface - foremost;
+  meeting.own = dot(velocity, meeting.inward);
+  meeting.approach = meeting.own - water;
+  meeting.speed = std::sqrt(dot(velocity, velocity));
+  meeting.position = position_of(points[leader].touch);
+  // A slow body pushes the surface ahead of it, so that their approach falls: its own speed tells
+  // better when they would have met. Of a wave that comes to a body, the approach does.
+  const double closing = std::max(meeting.own, meeting.approach);
+  if (closing > 0.0) meeting.after = meeting.gap / closing;
 }
 
 void ImpactWatch::note_who_is_in(double time, const std::vector<SurfacePoint>& points,
@@ -205,18 +239,20 @@ std::vector<DetectedImpact> ImpactWatch::observe(double time, double frame,
   for (std::size_t b = 0; b < locks_.size(); ++b) {
     if (locks_[b].closed) continue;
     const Meeting meeting = next_meeting(static_cast<int>(b), points, gaps);
-    if (meeting.gap > 0.0 && meeting.after > settings_.impact_lookahead) continue;
-    // Water that a body carries along or that flees from it is not hit.
-    const double least = std::max(settings_.impact_speed, kShareOfOwn * meeting.own);
-    const bool fast = meeting.own >= settings_.impact_speed && meeting.approach >= least;
+    const bool touches = meeting.gap <= kTouching * distance_.spacing();
+    if (!touches && meeting.after > settings_.impact_lookahead) continue;
+    // Water that a body carries along or that flees from it is not hit, nor what it skims.
+    const bool fast = meeting.own >= settings_.impact_speed &&
+                      meeting.own >= kSkimming * meeting.speed &&
+                      meeting.approach >= kShareOfOwn * meeting.own;
     const double moment = time + std::max(meeting.after, -frame);
     if (fast) {
       impacts.push_back(
           {moment, static_cast<int>(b), meeting.speed, meeting.approach, meeting.position});
     }
     // A body that eases in makes no impact, and none later on while that part of it is in.
-    const bool eases = meeting.gap <= 0.0 && meeting.own > kEasing &&
-                       meeting.approach >= kShareOfOwn * meeting.own;
+    const bool eases =
+        touches && meeting.own > kEasing && meeting.approach >= kShareOfOwn * meeting.own;
     if (fast || eases) {
       const double since = std::max(moment, time);
       locks_[b] = {true, since, since, meeting.points, meeting.position, meeting.inward};

@@ -26,7 +26,6 @@ struct Touch {
 /// With what stays the same of the point.
 struct SurfacePoint {
   int body = 0;
-  double inset = 0.0;  ///< depth below the body's true surface [m]
   Touch touch;
 };
 

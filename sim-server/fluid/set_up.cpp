@@ -15,6 +15,11 @@ namespace {
 /// Spray may rise this far above the tank before it shares the topmost cells [m].
 constexpr double kHeadroom = 0.5;
 
+/// The outermost layer has nothing above it and packs more densely than the lattice: settled water
+/// stands lower than its volume says by this many spacings, whatever its depth. Measured: 0.15 in
+/// 0.3 m of water, 0.15 to 0.18 in 0.2 m, 0.18 in 0.09 m, 0.2 in 0.5 m.
+constexpr double kSurfaceLoss = 0.17;
+
 WallPlane wall(double nx, double ny, double nz, double offset) {
   return {static_cast<float>(nx), static_cast<float>(ny), static_cast<float>(nz),
           static_cast<float>(offset)};
@@ -137,7 +142,8 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   const Vector3 step = {layer_distance(particles, 0, spacing),
                         layer_distance(particles, 1, spacing),
                         layer_distance(particles, 2, spacing)};
-  const double compression = stratification(scene) * water_depth(scene) / 2.0;
+  const double depth = water_depth(scene);
+  const double compression = stratification(scene) * depth / 2.0 + kSurfaceLoss * spacing / depth;
   p.mass =
       static_cast<float>((1.0 + compression) * scene.fluid.density / lattice_sum(step, support));
   p.rest_density = static_cast<float>(scene.fluid.density);

@@ -20,8 +20,9 @@ inline constexpr double kSupportSpacings = 2.0;
 [[nodiscard]] std::vector<WallPlane> tank_walls(const Scene& scene);
 
 /// `particles`: their places in the initial lattice [m]. The mass of a particle is such that a
-/// block of the lattice has the density at rest, and more by the mean compression of the deepest
-/// column, g H / (2 c0^2), so that the water stands at the wanted level when it has settled.
+/// block of the lattice has the density at rest, and more by what the deepest column loses in
+/// height when it settles: its mean compression, g H / (2 c0^2), and the packing of its surface. So
+/// the water stands at the wanted level.
 [[nodiscard]] FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles);
 
 /// The particles as they stand under their own weight: density grows with depth as the state

@@ -95,7 +95,7 @@ struct DetectSettings {
   double impact_lookahead = 0.015;  ///< an impact is announced this long before it happens [s]
   double impact_release = 0.006;    ///< gap at which a body may make its next impact [m]
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
-  double bubble_gradient = 0.3;     ///< least upward colour gradient, in that of a flat surface [1]
+  double bubble_gradient = 0.15;    ///< least upward colour gradient, in that of a flat surface [1]
   double bubble_life = 0.5;         ///< a bubble particle is dropped after this [s]
   double radius_min = 0.003;        ///< bubble radii follow r^-radius_exponent [m]
   double radius_max = 0.030;        ///< [m]
@@ -103,10 +103,10 @@ struct DetectSettings {
   double epsilon_min = 0.01;            ///< excitations follow epsilon^-epsilon_exponent [1]
   double epsilon_max = 0.1;             ///< [1]
   double epsilon_exponent = 2.0;        ///< [1]
-  double cavity_colour = 0.5;        ///< colour field c_b above which a bubble seeds a cavity [1]
-  int cavity_bubbles_min = 8;        ///< N_b that is mapped to cavity_radius_min
-  int cavity_bubbles_max = 200;      ///< N_b that is mapped to cavity_radius_max
-  double cavity_radius_min = 0.010;  ///< [m]
+  double cavity_colour = 0.3;        ///< colour field c_b above which a bubble seeds a cavity [1]
+  int cavity_bubbles_min = 5;        ///< N_b that is mapped to cavity_radius_min
+  int cavity_bubbles_max = 100;      ///< N_b that is mapped to cavity_radius_max
+  double cavity_radius_min = 0.020;  ///< [m]
   double cavity_radius_max = 0.100;  ///< [m]
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each surface point of a body sees of the water (paper, section 5.1.2):
+// What each point of a body's skin sees of the water (paper, section 5.1.2):
 //   c_f = sum_j V_j W,   its gradient,   and the water's velocity  sum_j V_j W v_j / c_f
 // over particles that belong to a body of water. Spray and the film that a body carries along are no
 // surface that could be hit: their density, without the body's part of it, is lower.
@@ -17,17 +17,20 @@ typedef struct {
   float unused[3];
 } Touch;
 
-// `surface`: samples that lie at their body's surface; `points`, `motion`: all samples in order.
+// `skin`: points of the bodies' true surfaces in body axes; `owner`: which body each belongs to.
 kernel void touch_water(constant FluidParams* p, global const int* cell_start,
                         global const float* position, global const float* velocity,
-                        global const float* density, int surface_count, global const int* surface, int stride,
-                        global const float* points, global const float* motion,
+                        global const float* density, int points, global const float* skin,
+                        global const int* owner, global const BodyStep* bodies, int first_body,
                         global Touch* out) {
   const int s = get_global_id(0);
-  if (s >= surface_count) return;
+  if (s >= points) return;
   const int n = p->capacity;
-  const int i = surface[s];
-  const float x = points[i], y = points[stride + i], z = points[2 * stride + i];
+  const BodyStep b = bodies[first_body + owner[s]];
+  const float3 arm = rotate_by((float3)(skin[3 * s], skin[3 * s + 1], skin[3 * s + 2]), b.qx, b.qy,
+                               b.qz, b.qw);
+  const float3 motion = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
+  const float x = b.px + arm.x, y = b.py + arm.y, z = b.pz + arm.z;
   const int row = cell_row(p, y, z);
   const int cell = cell_x(p, x);
   const float least = LEAST_DENSITY * p->rest_density;
@@ -56,8 +59,8 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
   const float sum = total(c);
   const float share = 1.0f / fmax(sum, TINY);
   const Touch touch = {volume * p->kernel_norm * sum, gradient * total(gx), gradient * total(gy),
-                       gradient * total(gz), x, y, z, motion[i], motion[stride + i],
-                       motion[2 * stride + i], share * total(u), share * total(v),
-                       share * total(w), {0.0f, 0.0f, 0.0f}};
+                       gradient * total(gz), x, y, z, motion.x, motion.y, motion.z,
+                       share * total(u), share * total(v), share * total(w),
+                       {0.0f, 0.0f, 0.0f}};
   out[s] = touch;
 }

@@ -52,7 +52,6 @@ TEST(BodyPoints, FillABox) {
   for (const BodyPoint& point : points) {
     EXPECT_EQ(point.owner, 3);
     EXPECT_TRUE(is_inside(box, point.place));
-    EXPECT_NEAR(point.inset, 0.05 / 3 / 2, 1.0e-12);
     const Vector3& x = point.place;
     EXPECT_LE(std::abs(x[0]), 0.065 - 0.13 / 14 + 1.0e-12);  // half a step below each face
     EXPECT_LE(std::abs(x[2]), 0.025 - 0.05 / 6 + 1.0e-12);
@@ -122,10 +121,27 @@ TEST(BodyPoints, FollowARockerSole) {
   const auto points = sample_shape(foot, 0, kSpacing, kSupport);
   ASSERT_EQ(points.size(), 13U * 5U * 4U);  // squeezed, not cut off
   for (const BodyPoint& point : points) EXPECT_TRUE(is_inside(foot, point.place));
-  // The lowest layer lies its inset above the sole.
+  // The lowest layer's skin is the sole, out to its ends.
   for (std::size_t i = 0; i < 13U * 5U; ++i) {
-    const Vector3& x = points[i].place;
-    EXPECT_NEAR(x[2] - points[i].inset, -0.04 + sole_rise(foot, x[0]), 1.0e-12);
+    const Vector3& x = points[i].skin;
+    EXPECT_NEAR(x[2], -0.04 + sole_rise(foot, x[0]), 1.0e-12);
+  }
+  EXPECT_NEAR(points[0].skin[0], -0.13, 1.0e-12);
+  EXPECT_NEAR(points[12].skin[0], 0.13, 1.0e-12);
+}
+
+TEST(BodyPoints, SkinOfASurfacePointIsOnTheTrueSurface) {
+  const Shape box = {ShapeKind::box, {0.13, 0.1, 0.05}, 0.0, 0.0};
+  for (const BodyPoint& point : sample_shape(box, 0, kSpacing, kSupport)) {
+    if (!point.surface) continue;
+    const Vector3& x = point.skin;
+    const double deepest =
+        std::max({std::abs(x[0]) - 0.065, std::abs(x[1]) - 0.05, std::abs(x[2]) - 0.025});
+    EXPECT_NEAR(deepest, 0.0, 1.0e-12);
+  }
+  const Shape sphere = {ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0};
+  for (const BodyPoint& point : sample_shape(sphere, 0, kSpacing, kSupport)) {
+    if (point.surface) EXPECT_NEAR(length(point.skin), 0.05, 1.0e-12);
   }
 }
 
