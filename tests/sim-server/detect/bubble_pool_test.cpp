@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Who stays in the pool of bubbles: not those alone, above the water, or old; and no more than
+// there is room for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim-server/detect/bubbles.hpp"
+#include "tests/sim-server/detect/detect_rig.hpp"
+#include "tests/sim-server/detect/detect_twin.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kFrame = 0.004;
+
+class Pool : public ::testing::Test {
+ protected:
+  Pool() : water_(hanging_block()) { water_.start(device_); }
+
+  Bubbles& make(std::size_t room, const DetectSettings& settings = {}) {
+    bubbles_ = std::make_unique<Bubbles>(*water_.fluid, detect_program(device_), settings, 1, room);
+    return *bubbles_;
+  }
+
+  /// One frame that ends at `time`.
+  std::vector<DetectedBubble> live_until(double time, std::uint32_t step = 1) {
+    detect(water_, *bubbles_, kFrame);
+    auto fresh = bubbles_->collect(time, kFrame, step);
+    bubbles_->renew(time, fresh);
+    return fresh;
+  }
+
+  /// Serials of those that live.
+  std::vector<int> serials() const {
+    std::vector<int> all;
+    for (const PoolBubble& bubble : bubbles_->pool()) all.push_back(bubble.serial);
+    return all;
+  }
+
+  /// Two bubbles in each other's reach.
+  static std::vector<Vector3> pair_at(double x, double z) { return {{x, 0.5, z}, {x, 0.51, z}}; }
+
+  Device device_;
+  Water water_;
+  std::unique_ptr<Bubbles> bubbles_;
+};
+
+constexpr double kBelow = kBlockBottom - 0.01;
+constexpr double kAbove = kBlockTop + 0.01;
+
+TEST_F(Pool, KeepsPairsBelowTheWater) {
+  Bubbles& bubbles = make(16);
+  fill_pool(bubbles, pair_at(0.5, kBelow));
+  static_cast<void>(live_until(0.1));
+  EXPECT_EQ(serials(), (std::vector<int>{0, 1}));
+}
+
+TEST_F(Pool, DropsTheLonely) {
+  Bubbles& bubbles = make(16);
+  fill_pool(bubbles, {{0.5, 0.5, kBelow}});
+  static_cast<void>(live_until(0.1));
+  EXPECT_TRUE(bubbles.pool().empty());
+}
+
+// Company at the very rim of the support is none.
+TEST_F(Pool, DropsThoseThatBarelyHaveCompany) {
+  for (const double share : {0.9, 0.99}) {
+    Bubbles& bubbles = make(16);
+    const double support = static_cast<double>(water_.params.support);
+    fill_pool(bubbles, {{0.5, 0.5, kBelow}, {0.5, 0.5 + share * support, kBelow}});
+    const double colour = twin_bubble_colour(
+        water_.params, {{0.5, 0.5, kBelow}, {0.5, 0.5 + share * support, kBelow}}, 0);
+    static_cast<void>(live_until(0.1));
+    EXPECT_EQ(bubbles.pool().size(), colour > 1.0e-6 ? 2U : 0U) << "c_b " << colour;
+    EXPECT_EQ(colour > 1.0e-6, share < 0.95);
+  }
+}
+
+TEST_F(Pool, DropsThoseAboveTheWater) {
+  Bubbles& bubbles = make(16);
+  fill_pool(bubbles, pair_at(0.5, kAbove));
+  static_cast<void>(live_until(0.1));
+  EXPECT_TRUE(bubbles.pool().empty());
+}
+
+TEST_F(Pool, DropsTheOld) {
+  Bubbles& bubbles = make(16);
+  fill_pool(bubbles, pair_at(0.5, kBelow), 1.0);
+  fill_pool(bubbles, pair_at(0.45, kBelow), 1.1);
+  const double life = DetectSettings{}.bubble_life;
+  static_cast<void>(live_until(1.0 + life - 0.001));
+  EXPECT_EQ(bubbles.pool().size(), 4U);
+  static_cast<void>(live_until(1.0 + life + 0.001));
+  EXPECT_EQ(serials(), (std::vector<int>{2, 3}));
+}
+
+TEST_F(Pool, KeepsItsOrderAndMarks) {
+  Bubbles& bubbles = make(32);
+  std::vector<Vector3> places;
+  for (const double x : {0.56, 0.44, 0.5}) {
+    for (const Vector3& place : pair_at(x, kBelow)) places.push_back(place);
+    for (const Vector3& place : pair_at(x, kAbove)) places.push_back(place);
+  }
+  fill_pool(bubbles, places);
+  for (PoolBubble& bubble : bubbles.pool()) bubble.cavity = 100 + bubble.serial;
+  static_cast<void>(live_until(0.1));
+  EXPECT_EQ(serials(), (std::vector<int>{0, 1, 4, 5, 8, 9}));
+  for (const PoolBubble& bubble : bubbles.pool()) EXPECT_EQ(bubble.cavity, 100 + bubble.serial);
+}
+
+TEST_F(Pool, MovesWithTheWater) {
+  water_.stir(1.0, 111);
+  Bubbles& bubbles = make(16);
+  const auto places = as_floats(pair_at(0.5, kBelow + 0.02));
+  fill_pool(bubbles, places);
+  detect(water_, bubbles, kFrame);
+  const std::vector<BubbleState> states = bubbles.states();
+  bubbles.renew(0.1, {});
+  ASSERT_EQ(bubbles.pool().size(), 2U);
+  for (const BubbleState& state : states) {
+    const PoolBubble& bubble = bubbles.pool()[static_cast<std::size_t>(state.id)];
+    EXPECT_EQ(bubble.position[0], static_cast<double>(state.x));
+    EXPECT_EQ(bubble.position[2], static_cast<double>(state.z));
+    EXPECT_NE(bubble.position, places[static_cast<std::size_t>(state.id)]);
+  }
+}
+
+/// The block falls fast, and all but its top layer spawn: particles 0 to 399.
+class Spawns : public Pool {
+ protected:
+  static DetectSettings eager() {
+    DetectSettings settings;
+    settings.bubble_gradient = -0.4;
+    return settings;
+  }
+
+  void drop() {
+    Snapshot snapshot = water_.fluid->snapshot();
+    for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
+      if (snapshot.id[i] < 500) snapshot.velocity[part(*water_.fluid, 2, i)] = -1.0F;
+    }
+    water_.fluid->restore(snapshot);
+  }
+};
+
+TEST_F(Spawns, JoinThePoolInTheOrderOfTheirParticles) {
+  Bubbles& bubbles = make(800, eager());
+  fill_pool(bubbles, pair_at(0.5, kBelow));
+  drop();
+  const auto fresh = live_until(0.1);
+  ASSERT_EQ(fresh.size(), 400U);
+  EXPECT_TRUE(std::is_sorted(fresh.begin(), fresh.end(),
+                             [](const auto& a, const auto& b) { return a.particle < b.particle; }));
+  ASSERT_EQ(bubbles.pool().size(), 402U);
+  for (std::size_t k = 0; k < fresh.size(); ++k) {
+    EXPECT_EQ(bubbles.pool()[k + 2].position, fresh[k].position);
+    EXPECT_EQ(bubbles.pool()[k + 2].born, 0.1);
+    EXPECT_EQ(bubbles.pool()[k + 2].serial, static_cast<int>(k));
+    EXPECT_EQ(bubbles.pool()[k + 2].cavity, -1);
+  }
+  EXPECT_EQ(bubbles.dropped(), 0U);
+}
+
+// More than are read at once, each of them once.
+TEST_F(Spawns, AreAllRead) {
+  Bubbles& bubbles = make(800, eager());
+  drop();
+  const auto fresh = live_until(0.1);
+  std::vector<int> particles;
+  for (const DetectedBubble& bubble : fresh) particles.push_back(bubble.particle);
+  std::vector<int> lowest(400);
+  for (int k = 0; k < 400; ++k) lowest[static_cast<std::size_t>(k)] = k;
+  EXPECT_EQ(particles, lowest);
+  EXPECT_EQ(bubbles.dropped(), 0U);
+}
+
+TEST_F(Spawns, BeyondTheRoomAreCounted) {
+  Bubbles& bubbles = make(150, eager());
+  drop();
+  const auto fresh = live_until(0.1);
+  EXPECT_EQ(fresh.size(), 150U);
+  EXPECT_EQ(bubbles.pool().size(), 150U);
+  EXPECT_EQ(bubbles.dropped(), 250U);
+}
+
+TEST_F(Spawns, BeyondThePoolsRoomAreCounted) {
+  Bubbles& bubbles = make(401, eager());
+  fill_pool(bubbles, pair_at(0.5, kBelow));
+  drop();
+  const auto fresh = live_until(0.1);
+  EXPECT_EQ(fresh.size(), 400U);
+  EXPECT_EQ(bubbles.pool().size(), 401U);
+  EXPECT_EQ(bubbles.dropped(), 1U);
+  // The old ones keep their places.
+  EXPECT_EQ(bubbles.pool()[1].serial, 1);
+}
+
+}  // namespace
+}  // namespace splash::sim

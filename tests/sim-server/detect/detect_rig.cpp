@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "tests/sim-server/detect/detect_rig.hpp"
+
+#include <algorithm>
+
+#include "sim-server/fluid/kernel_sources.hpp"
+
+namespace splash::sim {
+namespace kernels {
+std::vector<KernelSource> detect();
+}  // namespace kernels
+
+cl::Program detect_program(Device& device) {
+  std::vector<KernelSource> sources = fluid_sources();
+  const std::vector<KernelSource> own = kernels::detect();
+  sources.insert(sources.end(), own.begin(), own.end());
+  return build_program(device, sources, {}, false);
+}
+
+Step prepare(Water& water) {
+  const Step step = water.step_at(0.0);
+  water.fluid->set_bodies(water.bodies->at(water.time));
+  water.fluid->prepare(step);
+  water.fluid->device().queue().finish();
+  return step;
+}
+
+Water hanging_block() {
+  constexpr double kSpacing = 0.02;
+  Water water;
+  water.name = "hanging block";
+  water.scene = tank_scene(kSpacing, {1.0, 1.0, 1.0}, 1.0);
+  for (int kz = 0; kz < 5; ++kz) {
+    for (int ky = 0; ky < 10; ++ky) {
+      for (int kx = 0; kx < 10; ++kx) {
+        water.particles.push_back({0.4 + (kx + 0.5) * kSpacing, 0.4 + (ky + 0.5) * kSpacing,
+                                   kBlockBottom + (kz + 0.5) * kSpacing});
+      }
+    }
+  }
+  water.particles.push_back({0.8, 0.8, 0.8});
+  return water;
+}
+
+void move_particle(Water& water, int id, const Vector3& place, const Vector3& velocity) {
+  Snapshot snapshot = water.fluid->snapshot();
+  const auto found = std::find(snapshot.id.begin(), snapshot.id.end(), id);
+  const auto i = static_cast<std::size_t>(found - snapshot.id.begin());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    snapshot.position[part(*water.fluid, axis, i)] = static_cast<float>(place[axis]);
+    snapshot.velocity[part(*water.fluid, axis, i)] = static_cast<float>(velocity[axis]);
+  }
+  water.fluid->restore(snapshot);
+}
+
+void fill_pool(Bubbles& bubbles, const std::vector<Vector3>& places, double born) {
+  for (const Vector3& place : places) {
+    const int serial = static_cast<int>(bubbles.pool().size());
+    bubbles.pool().push_back({place, born, serial, -1});
+  }
+}
+
+void detect(Water& water, Bubbles& bubbles, double frame) {
+  const Step step = prepare(water);
+  bubbles.enqueue(step, frame);
+  water.fluid->device().queue().finish();
+}
+
+}  // namespace splash::sim

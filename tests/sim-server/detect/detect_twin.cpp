@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "tests/sim-server/detect/detect_twin.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Of the density at rest: less is spray or a film, no body of water (kernels/body_touch.cl).
+constexpr float kLeastDensity = 0.82F;
+
+double volume_of_particle(const FluidParams& p) {
+  return static_cast<double>(p.mass) / static_cast<double>(p.rest_density);
+}
+
+int root_of(std::vector<int>& parent, int i) {
+  while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+  return i;
+}
+
+}  // namespace
+
+TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_density,
+                     const Vector3& place) {
+  const double support = static_cast<double>(state.params.support);
+  const double volume = volume_of_particle(state.params);
+  TwinTouch touch;
+  for (std::size_t j = 0; j < state.position.size(); ++j) {
+    const Vector3 away = place - state.position[j];
+    if (dot(away, away) >= support * support) continue;
+    if (water_density[j] < kLeastDensity * state.params.rest_density) {
+      ++touch.passed_over;
+      continue;
+    }
+    ++touch.seen;
+    const double weight = volume * kernel_value(length(away), support);
+    const Vector3 slope = volume * kernel_gradient(length(away), support) * away;
+    touch.colour += weight;
+    touch.gradient = touch.gradient + slope;
+    touch.gradient_scale += length(slope);
+    touch.water = touch.water + weight * state.velocity[j];
+  }
+  if (touch.colour > 0.0) touch.water = (1.0 / touch.colour) * touch.water;
+  return touch;
+}
+
+TwinSum twin_upward(const FluidState& state, const std::vector<Vector3>& bubbles,
+                    const Vector3& place) {
+  const double support = static_cast<double>(state.params.support);
+  const double volume = volume_of_particle(state.params);
+  TwinSum sum;
+  const auto add = [&](double term) {
+    sum.value += term * support / 1.5;
+    sum.scale += std::abs(term) * support / 1.5;
+  };
+  const auto add_point = [&](const Vector3& other, double weight) {
+    const Vector3 away = place - other;
+    add(weight * kernel_gradient(length(away), support) * away[2]);
+  };
+  for (const Vector3& other : state.position) add_point(other, volume);
+  for (const Vector3& other : bubbles) add_point(other, volume);
+  for (std::size_t b = 0; b < state.body_position.size(); ++b) {
+    add_point(state.body_position[b], state.body_volume[b]);
+  }
+  add(twin_walls(state.params, place, state.piston).gradient[2]);
+  return sum;
+}
+
+Vector3 twin_water_velocity(const FluidState& state, const Vector3& place) {
+  const double support = static_cast<double>(state.params.support);
+  Vector3 sum = {0.0, 0.0, 0.0};
+  double weights = 0.0;
+  for (std::size_t j = 0; j < state.position.size(); ++j) {
+    const double weight = kernel_value(length(place - state.position[j]), support);
+    weights += weight;
+    sum = sum + weight * state.velocity[j];
+  }
+  return weights > 0.0 ? (1.0 / weights) * sum : sum;
+}
+
+double twin_bubble_colour(const FluidParams& params, const std::vector<Vector3>& bubbles,
+                          std::size_t i) {
+  const double support = static_cast<double>(params.support);
+  double colour = 0.0;
+  for (std::size_t j = 0; j < bubbles.size(); ++j) {
+    if (j == i) continue;
+    colour += volume_of_particle(params) * kernel_value(length(bubbles[i] - bubbles[j]), support);
+  }
+  return colour;
+}
+
+std::vector<Vector3> as_floats(std::vector<Vector3> places) {
+  for (Vector3& place : places) {
+    for (double& x : place) x = static_cast<double>(static_cast<float>(x));
+  }
+  return places;
+}
+
+std::vector<int> twin_groups(const std::vector<Vector3>& places, double reach,
+                             const std::vector<bool>& seed) {
+  std::vector<int> parent(places.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (length(places[i] - places[j]) >= reach) continue;
+      const int a = root_of(parent, static_cast<int>(i));
+      const int b = root_of(parent, static_cast<int>(j));
+      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  }
+  std::vector<bool> seeded(places.size(), false);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (seed[i]) seeded[static_cast<std::size_t>(root_of(parent, static_cast<int>(i)))] = true;
+  }
+  std::vector<int> groups(places.size(), -1);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int root = root_of(parent, static_cast<int>(i));
+    if (seeded[static_cast<std::size_t>(root)]) groups[i] = root;
+  }
+  return groups;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The detectors' kernels once more, in double precision and by brute force: every point against
+// every other, no grid, no lanes, no boxes. They start from the floats the device holds.
+#pragma once
+
+#include <vector>
+
+#include "tests/sim-server/fluid/twin.hpp"
+
+namespace splash::sim {
+
+/// What a point sees of the water (paper, section 5.1.2). The scales are sums of the magnitudes of
+/// all terms: rounding is relative to these.
+struct TwinTouch {
+  double colour = 0.0;                 ///< c_f [1]
+  Vector3 gradient = {0.0, 0.0, 0.0};  ///< [1/m]
+  Vector3 water = {0.0, 0.0, 0.0};     ///< mean velocity [m/s]
+  double gradient_scale = 0.0;         ///< [1/m]
+  int seen = 0;                        ///< particles within reach that are water
+  int passed_over = 0;                 ///< particles within reach that are spray
+};
+/// `water_density`: of each particle without the bodies' part [kg/m3].
+[[nodiscard]] TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_density,
+                                   const Vector3& place);
+
+/// A number, and the sum of the magnitudes of all terms it is the sum of.
+struct TwinSum {
+  double value = 0.0;
+  double scale = 0.0;
+};
+/// Vertical colour gradient of fluid, bodies, bubbles and walls, in that of a flat surface,
+/// 3 / (2 H) (paper, eq. 2) [1].
+[[nodiscard]] TwinSum twin_upward(const FluidState& state, const std::vector<Vector3>& bubbles,
+                                  const Vector3& place);
+
+/// Mean velocity of all water within reach, none: zero [m/s].
+[[nodiscard]] Vector3 twin_water_velocity(const FluidState& state, const Vector3& place);
+
+/// Colour of the other bubbles at bubble `i` [1].
+[[nodiscard]] double twin_bubble_colour(const FluidParams& params,
+                                        const std::vector<Vector3>& bubbles, std::size_t i);
+
+/// Places as the device holds them.
+[[nodiscard]] std::vector<Vector3> as_floats(std::vector<Vector3> places);
+
+/// The group of each point by union-find: the smallest index among all points that a chain of
+/// steps shorter than `reach` leads to; -1: the group has no seed.
+[[nodiscard]] std::vector<int> twin_groups(const std::vector<Vector3>& places, double reach,
+                                           const std::vector<bool>& seed);
+
+}  // namespace splash::sim

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A shipped scene, changed a little, run through the whole simulation faster than real time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim-server/simulation.hpp"
+
+namespace splash::sim {
+
+/// Text of configs/scenes/`name`.
+[[nodiscard]] std::string scene_text(const std::string& name);
+/// `text` with its only `from` replaced; throws std::runtime_error when there is none or another.
+[[nodiscard]] std::string changed(std::string text, const std::string& from, const std::string& to);
+
+/// How high the water stands under the first body, and that body's centre, at the end of a frame.
+struct Gauge {
+  double time = 0.0;    ///< [s]
+  double level = 0.0;   ///< [m]
+  double height = 0.0;  ///< [m]
+};
+
+/// A run: all that was found, and what the water did.
+struct SceneRun {
+  Detections found;
+  std::vector<Gauge> gauges;  ///< until the first impact was told and is over
+  double time_step = 0.0;     ///< the longest [s]
+  double frame = 0.0;         ///< the longest [s]
+  RunTotals totals;
+};
+[[nodiscard]] SceneRun run_scene(const std::string& text, double seconds);
+
+/// Height of the water's surface [m]: where the particles' own volumes end. Over each square of one
+/// spacing around the tank's middle the highest particle is the top layer; the water goes on for
+/// half a layer above it, and layers of the settled water are as far apart as its volume asks: one
+/// spacing. Independent of any colour field.
+[[nodiscard]] double water_level(Simulation& simulation, double half_width);
+
+}  // namespace splash::sim

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// What body points see of the water against the brute-force double twin.
+#include <gtest/gtest.h>
+
+#include "sim-server/detect/impacts.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/detect/detect_rig.hpp"
+#include "tests/sim-server/detect/detect_twin.hpp"
+#include "tests/sim-server/fluid/situations.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Of colour and gradient, relative to the sum of the magnitudes of their terms; measured at most
+/// 5e-6. At the rim of the support 1 - q is a small difference: its absolute error stays.
+constexpr double kBound = 2.0e-5;
+constexpr double kRim = 1.0e-8;
+
+/// Where a body is, as the kernel reads it; no box.
+BodyStep as_step(const BodyState& body) {
+  const auto f = [](double x) { return static_cast<float>(x); };
+  BodyStep step = {};
+  step.px = f(body.position[0]), step.py = f(body.position[1]), step.pz = f(body.position[2]);
+  step.qx = f(body.rotation[0]), step.qy = f(body.rotation[1]), step.qz = f(body.rotation[2]);
+  step.qw = f(body.rotation[3]);
+  step.vx = f(body.velocity[0]), step.vy = f(body.velocity[1]), step.vz = f(body.velocity[2]);
+  step.wx = f(body.spin[0]), step.wy = f(body.spin[1]), step.wz = f(body.spin[2]);
+  return step;
+}
+
+/// Skins of bodies: points in body axes, and where the bodies are.
+struct Skins {
+  std::vector<Vector3> places;
+  std::vector<int> owner;
+  std::vector<BodyState> bodies;
+};
+
+/// Runs the kernel for bodies of the second of two steps; the first has them elsewhere.
+std::vector<Touch> touch(Water& water, const Skins& skins) {
+  Device& device = water.fluid->device();
+  Kernel kernel(detect_program(device), "touch_water");
+  std::vector<float> parts;
+  for (const Vector3& place : skins.places) {
+    for (const double part : place) parts.push_back(static_cast<float>(part));
+  }
+  std::vector<BodyStep> steps(skins.bodies.size(), as_step({{0.1, 0.2, 0.1}}));
+  for (const BodyState& body : skins.bodies) steps.push_back(as_step(body));
+  const Buffer<float> skin(device, parts);
+  const Buffer<int> owner(device, skins.owner);
+  const Buffer<BodyStep> bodies(device, steps);
+  const Buffer<Touch> out(device, skins.places.size());
+  const Fluid& fluid = *water.fluid;
+  kernel.run(device.queue(), skins.places.size(), fluid.params_buffer().memory(),
+             fluid.grid().cell_start(), fluid.particles().position.memory(),
+             fluid.particles().velocity.memory(), fluid.water_density().memory(),
+             static_cast<int>(skins.places.size()), skin.memory(), owner.memory(), bodies.memory(),
+             static_cast<int>(skins.bodies.size()), out.memory());
+  return out.read(device, skins.places.size());
+}
+
+Vector3 vector(float x, float y, float z) {
+  return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+}
+
+struct Seen {
+  int water = 0;
+  int spray = 0;
+};
+
+/// From the place that the kernel says it looked from.
+void expect_twins(const FluidState& state, const std::vector<float>& density, const Touch& touch,
+                  Seen& seen) {
+  const TwinTouch twin = twin_touch(state, density, vector(touch.x, touch.y, touch.z));
+  ASSERT_NEAR(static_cast<double>(touch.colour), twin.colour, kBound * twin.colour + kRim);
+  const Vector3 gradient = vector(touch.gx, touch.gy, touch.gz);
+  const double rim = 100.0 * kRim / static_cast<double>(state.params.support);
+  ASSERT_LT(length(gradient - twin.gradient), kBound * twin.gradient_scale + rim);
+  // Where the colour is faint, the mean is that of hardly any water.
+  if (twin.colour > 1.0e-3) {
+    const Vector3 water = vector(touch.water_u, touch.water_v, touch.water_w);
+    ASSERT_LT(length(water - twin.water), 3.0e-5);  // of up to 2.6 m/s
+  }
+  seen.water += twin.seen;
+  seen.spray += twin.passed_over;
+}
+
+/// That place, and its velocity.
+void expect_rigid(const Skins& skins, std::size_t i, const Touch& touch) {
+  const BodyState& body = skins.bodies[static_cast<std::size_t>(skins.owner[i])];
+  const Vector3 arm = rotate(body.rotation, skins.places[i]);
+  ASSERT_LT(length(vector(touch.x, touch.y, touch.z) - (body.position + arm)), 2.0e-7);
+  ASSERT_LT(length(vector(touch.u, touch.v, touch.w) - (body.velocity + cross(body.spin, arm))),
+            2.0e-6);
+}
+
+/// Two turned, moving bodies with points all over the tank.
+Skins wide_bodies() {
+  Skins skins;
+  skins.places = random_places(201, {-0.25, -0.2, -0.2}, {0.25, 0.2, 0.2}, 72);
+  for (int i = 0; i < 201; ++i) skins.owner.push_back(i % 3 == 0 ? 1 : 0);
+  skins.bodies = {{{0.2, 0.15, 0.12}, from_turn({0.2, -0.4, 0.9}), {0.5, 0, -1}, {3, -2, 5}},
+                  {{0.1, 0.1, 0.1}, from_turn({2.0, 0.1, 0.0}), {0, 0.8, 0.1}, {0, 0, -4}}};
+  return skins;
+}
+
+class TouchWater : public ::testing::TestWithParam<int> {};
+
+TEST_P(TouchWater, IsTheTwins) {
+  Device device(-1, false, GetParam());
+  Seen seen;
+  for (Water& water : situations()) {
+    SCOPED_TRACE(water.name);
+    water.start(device);
+    water.stir(1.5, 71);
+    prepare(water);
+    const Skins skins = wide_bodies();
+    const std::vector<Touch> touches = touch(water, skins);
+    const FluidState state = read_state(*water.fluid, water.piston.offset);
+    const auto density = water.fluid->water_density().read(device, state.position.size());
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      expect_rigid(skins, i, touches[i]);
+      expect_twins(state, density, touches[i], seen);
+    }
+  }
+  EXPECT_GT(seen.water, 1000);
+  EXPECT_GT(seen.spray, 1000);
+}
+
+// The filter's density is the water's own: a body next to a lone particle makes it no water.
+TEST_P(TouchWater, GoesByTheDensityWithoutBodies) {
+  Device device(-1, false, GetParam());
+  Water water = two_bodies();
+  water.start(device);
+  prepare(water);
+  FluidState state = read_state(*water.fluid);
+  const auto density = water.fluid->water_density().read(device, state.position.size());
+  const std::vector<double> with_bodies = twin_density(state);
+  state.body_position.clear();
+  const std::vector<double> without = twin_density(state);
+  int differ = 0;
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    ASSERT_NEAR(static_cast<double>(density[i]), without[i], 1.0e-5 * without[i]);
+    if (with_bodies[i] > 1.05 * without[i]) ++differ;
+  }
+  EXPECT_GT(differ, 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, TouchWater, kLaneCounts, lanes_name);
+
+// The limit is such that a film of one layer is no surface, the top layer of still water is.
+TEST(LeastDensity, TellsAFilmFromWater) {
+  Device device;
+  Water film = hanging_block();
+  std::erase_if(film.particles, [](const Vector3& x) { return x[2] > kBlockBottom + 0.02; });
+  Water block = hanging_block();
+  for (Water* water : {&film, &block}) {
+    water->start(device);
+    prepare(*water);
+  }
+  const auto colour_below = [](Water& water) {
+    const Skins skins = {{{0.0, 0.0, 0.0}}, {0}, {{{0.5, 0.5, kBlockBottom - 0.005}}}};
+    return static_cast<double>(touch(water, skins).front().colour);
+  };
+  EXPECT_EQ(colour_below(film), 0.0);
+  EXPECT_GT(colour_below(block), 0.1);
+}
+
+}  // namespace
+}  // namespace splash::sim
