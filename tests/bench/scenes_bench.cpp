@@ -3,6 +3,7 @@
 // detectors, without waiting for the clock and without a receiver. Prints a table; with a file
 // name, also writes it as CSV.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// A recorded walk through the water: an impact for each foot contact that the force plates beside
+// the cameras saw, none for a foot that stands or glides.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sim-server/device/device.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation.hpp"
+
+namespace splash::sim {
+namespace {
+
+const std::filesystem::path kSource = SPLASH_SOURCE_DIR;
+constexpr double kTwoFrames = 2.0 / 60.0;  ///< of the tracker [s]
+constexpr double kEnd = 2.5;               ///< of the recording [s]
+
+struct Contact {
+  std::string foot;
+  double seconds = 0.0;
+};
+
+/// Rising edges of the plates' vertical force. The first, at 0 s, is that of a foot which the
+/// recording finds on the floor already.
+std::vector<Contact> read_contacts() {
+  std::ifstream file(kSource / "tests" / "data" / "walk_contacts.csv");
+  std::vector<Contact> contacts;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream row(line);
+    Contact contact;
+    std::getline(row, contact.foot, ',');
+    if (row >> contact.seconds && contact.seconds > 0.0) contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+TEST(Walk, EachFootContactOfTheForcePlatesIsOneImpact) {
+  const std::vector<Contact> contacts = read_contacts();
+  ASSERT_EQ(contacts.size(), 4U);
+  const Scene scene = read_scene(kSource / "configs" / "scenes" / "walk.yaml");
+  Device device;
+  Simulation simulation(device, scene, kSource / "tests" / "data" / "walk_feet.trc");
+  std::vector<DetectedImpact> impacts;
+  while (simulation.seconds() < kEnd) {
+    const FrameResult frame = simulation.advance();
+    impacts.insert(impacts.end(), frame.found.impacts.begin(), frame.found.impacts.end());
+  }
+  ASSERT_EQ(impacts.size(), contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::string& body = scene.bodies[static_cast<std::size_t>(impacts[i].body)].name;
+    EXPECT_EQ(body, "foot_" + contacts[i].foot);
+    EXPECT_NEAR(impacts[i].time, contacts[i].seconds, kTwoFrames);
+    RecordProperty("error_ms_" + std::to_string(i),
+                   std::to_string(1e3 * (impacts[i].time - contacts[i].seconds)));
+  }
+  EXPECT_EQ(simulation.totals().resets, 0U);
+}
+
+}  // namespace
+}  // namespace splash::sim
