@@ -1,108 +1,16 @@
 // SPDX-License-Identifier: MIT
-// When a body makes an impact and when it makes none, as logic: bodies and water by hand.
+// When a body makes an impact and when it makes none, as logic.
 #include "sim-server/detect/impacts.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <utility>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "tests/sim-server/detect/impact_stories.hpp"
 
 namespace splash::sim {
 namespace {
-
-constexpr double kSpacing = 0.02;
-constexpr double kFrame = 0.004;
-
-SurfaceDistance surface_distance() {
-  // Layer weight of a cubic lattice with support 2 spacings: its colour is 1 in the depth.
-  double sum = 0.0;
-  for (int k = -2; k <= 2; ++k) sum += plane_marginal(k * kSpacing, 2.0 * kSpacing);
-  return {kSpacing, 2.0 * kSpacing, 1.0 / sum};
-}
-
-/// A flat underside of 4 x 4 points over flat water, both level: heights and vertical speeds.
-struct Scenery {
-  double underside = 0.1;  ///< of the body [m]
-  double speed = 0.0;      ///< of the body, upwards [m/s]
-  double level = 0.0;      ///< of the water [m]
-  double flow = 0.0;       ///< of the water, upwards [m/s]
-  double drift = 0.0;      ///< of the body, sideways [m/s]
-  bool water = true;       ///< any there at all
-};
-
-void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {
-  const SurfaceDistance distance = surface_distance();
-  for (int k = 0; k < 16; ++k) {
-    SurfacePoint point;
-    point.body = body;
-    const double gap = at.underside - at.level;
-    const bool any = at.water && gap < distance.farthest();
-    point.touch.colour = any ? static_cast<float>(distance.colour_at(gap)) : 0.0F;
-    point.touch.gz = any ? -30.0F : 0.0F;
-    point.touch.x = 0.02F * static_cast<float>(k % 4);
-    point.touch.y = 0.02F * static_cast<float>(k / 4);
-    point.touch.z = static_cast<float>(at.underside);
-    point.touch.u = static_cast<float>(at.drift);
-    point.touch.w = static_cast<float>(at.speed);
-    point.touch.water_w = any ? static_cast<float>(at.flow) : 0.0F;
-    points.push_back(point);
-  }
-}
-
-struct Announced {
-  double at = 0.0;  ///< when it was said [s]
-  DetectedImpact impact;
-};
-
-using Story = std::function<Scenery(double)>;
-
-/// Lives through the stories of all bodies, frame by frame.
-std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
-                             const DetectSettings& settings = {}, double frame = kFrame) {
-  ImpactWatch watch(bodies.size(), settings, surface_distance());
-  std::vector<Announced> all;
-  for (int k = 0; k * frame < seconds; ++k) {
-    const double time = k * frame;
-    std::vector<SurfacePoint> points;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      add_body(points, static_cast<int>(b), bodies[b](time));
-    }
-    for (const DetectedImpact& impact : watch.observe(time, frame, points)) {
-      all.push_back({time, impact});
-    }
-  }
-  return all;
-}
-
-std::vector<Announced> watch(const Story& body, double seconds, const DetectSettings& settings = {},
-                             double frame = kFrame) {
-  return watch(std::vector<Story>{body}, seconds, settings, frame);
-}
-
-/// A body at constant speed from one height to another; stays there.
-struct Leg {
-  double until = 0.0;   ///< [s]
-  double height = 0.0;  ///< at its end [m]
-};
-
-Story path(double from, std::vector<Leg> legs) {
-  return [from, legs = std::move(legs)](double time) {
-    double start = 0.0;
-    double height = from;
-    for (const Leg& leg : legs) {
-      if (time < leg.until) {
-        const double speed = (leg.height - height) / (leg.until - start);
-        return Scenery{.underside = height + speed * (time - start), .speed = speed};
-      }
-      start = leg.until;
-      height = leg.height;
-    }
-    return Scenery{.underside = height};
-  };
-}
 
 class Plunge : public ::testing::TestWithParam<double> {};
 
@@ -240,88 +148,6 @@ TEST(NoImpact, WithoutWater) {
     return Scenery{.underside = 0.3 - time, .speed = -1.0, .water = false};
   };
   EXPECT_TRUE(watch(fall, 1.0).empty());
-}
-
-TEST(Again, AfterComingOut) {
-  const auto twice = path(0.1, {{0.2, -0.1}, {0.4, 0.1}, {0.6, -0.1}, {0.8, 0.1}, {1.0, -0.1}});
-  const auto all = watch(twice, 1.2);
-  ASSERT_EQ(all.size(), 3U);
-  EXPECT_NEAR(all[0].impact.time, 0.1, 1.0e-5);
-  EXPECT_NEAR(all[1].impact.time, 0.5, 1.0e-5);
-  EXPECT_NEAR(all[2].impact.time, 0.9, 1.0e-5);
-}
-
-// Up to the release distance it has not come out; a little beyond, it has.
-TEST(Again, OnlyBeyondTheReleaseGap) {
-  const DetectSettings settings;
-  for (const double beyond : {-0.002, 0.002}) {
-    const double top = settings.impact_release + beyond;
-    const auto all = watch(path(0.1, {{0.2, -0.1}, {0.4, top}, {0.6, -0.1}}), 1.0);
-    EXPECT_EQ(all.size(), beyond > 0.0 ? 2U : 1U) << beyond;
-  }
-}
-
-TEST(Again, AfterEasingInAndComingOut) {
-  const auto all = watch(path(0.03, {{1.5, -0.01}, {1.8, 0.1}, {2.0, -0.1}}), 2.5);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_NEAR(all[0].impact.time, 1.9, 1.0e-5);
-}
-
-TEST(Again, NotForABodyThatStartsInTheWaterBeforeItLeft) {
-  const auto all = watch(path(-0.1, {{0.2, -0.02}, {0.4, -0.2}, {0.7, 0.1}, {0.9, -0.1}}), 1.2);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_NEAR(all[0].impact.time, 0.8, 1.0e-5);
-}
-
-/// Plunges to 10 cm, opens a cavity for a while, then goes on into the water that comes back.
-Story through_a_cavity(double closes) {
-  return [closes](double time) {
-    Scenery at = path(0.1, {{0.2, -0.1}, {closes - 0.005, -0.1}, {closes + 0.195, -0.3}})(time);
-    if (time > 0.15 && time < closes) {
-      at.water = false;  // around it; beneath it comes back with the body on its way down
-    } else if (time >= closes) {
-      at.level = -0.1;
-    }
-    return at;
-  };
-}
-
-TEST(Again, NotInItsOwnCavity) {
-  const auto all = watch(through_a_cavity(0.5), 1.0);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_NEAR(all[0].impact.time, 0.1, 1.0e-5);
-}
-
-// The water may sink below a body instead: after half a second it is dry.
-TEST(Again, AfterTheWaterHasLongSunk) {
-  EXPECT_EQ(watch(through_a_cavity(1.0), 1.5).size(), 2U);
-}
-
-// One that comes down tilted is led by a few of its points: it stays in its cavity, too.
-TEST(Again, NotInItsOwnCavityWhenTilted) {
-  ImpactWatch watch(1, {}, surface_distance());
-  int impacts = 0;
-  for (int k = 0; k * kFrame < 0.45; ++k) {
-    const double time = k * kFrame;
-    std::vector<SurfacePoint> points;
-    const bool cavity = time > 0.15 && time < 0.40;
-    const Scenery at = {.underside = std::max(0.1 - time, -0.1),
-                        .speed = time < 0.2 ? -1.0 : -0.0,
-                        .water = !cavity};
-    add_body(points, 0, at);
-    for (std::size_t i = 0; i < points.size(); ++i) {  // 30 degrees about y
-      const double rise = 0.58 * static_cast<double>(points[i].touch.x);
-      Scenery higher = at;
-      higher.underside += rise;
-      std::vector<SurfacePoint> one;
-      add_body(one, 0, higher);
-      points[i].touch.z = one[i].touch.z;
-      points[i].touch.colour = one[i].touch.colour;
-      points[i].touch.gz = one[i].touch.gz;
-    }
-    impacts += static_cast<int>(watch.observe(time, kFrame, points).size());
-  }
-  EXPECT_EQ(impacts, 1);
 }
 
 TEST(Bodies, AreWatchedEachForItself) {

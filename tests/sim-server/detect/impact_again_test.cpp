@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// When a body that was in the water may make its next impact, as logic.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/sim-server/detect/impact_stories.hpp"
+
+namespace splash::sim {
+namespace {
+
+TEST(Again, AfterComingOut) {
+  const auto twice = path(0.1, {{0.2, -0.1}, {0.4, 0.1}, {0.6, -0.1}, {0.8, 0.1}, {1.0, -0.1}});
+  const auto all = watch(twice, 1.2);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_NEAR(all[0].impact.time, 0.1, 1.0e-5);
+  EXPECT_NEAR(all[1].impact.time, 0.5, 1.0e-5);
+  EXPECT_NEAR(all[2].impact.time, 0.9, 1.0e-5);
+}
+
+// Up to the release distance it has not come out; a little beyond, it has.
+TEST(Again, OnlyBeyondTheReleaseGap) {
+  const DetectSettings settings;
+  for (const double beyond : {-0.002, 0.002}) {
+    const double top = settings.impact_release + beyond;
+    const auto all = watch(path(0.1, {{0.2, -0.1}, {0.4, top}, {0.6, -0.1}}), 1.0);
+    EXPECT_EQ(all.size(), beyond > 0.0 ? 2U : 1U) << beyond;
+  }
+}
+
+TEST(Again, AfterEasingInAndComingOut) {
+  const auto all = watch(path(0.03, {{1.5, -0.01}, {1.8, 0.1}, {2.0, -0.1}}), 2.5);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NEAR(all[0].impact.time, 1.9, 1.0e-5);
+}
+
+TEST(Again, NotForABodyThatStartsInTheWaterBeforeItLeft) {
+  const auto all = watch(path(-0.1, {{0.2, -0.02}, {0.4, -0.2}, {0.7, 0.1}, {0.9, -0.1}}), 1.2);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NEAR(all[0].impact.time, 0.8, 1.0e-5);
+}
+
+/// Plunges to 10 cm, opens a cavity for a while, then goes on into the water that comes back.
+Story through_a_cavity(double closes) {
+  return [closes](double time) {
+    Scenery at = path(0.1, {{0.2, -0.1}, {closes - 0.005, -0.1}, {closes + 0.195, -0.3}})(time);
+    if (time > 0.15 && time < closes) {
+      at.water = false;  // around it; beneath it comes back with the body on its way down
+    } else if (time >= closes) {
+      at.level = -0.1;
+    }
+    return at;
+  };
+}
+
+TEST(Again, NotInItsOwnCavity) {
+  const auto all = watch(through_a_cavity(0.5), 1.0);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NEAR(all[0].impact.time, 0.1, 1.0e-5);
+}
+
+// The water may sink below a body instead: after half a second it is dry.
+TEST(Again, AfterTheWaterHasLongSunk) {
+  EXPECT_EQ(watch(through_a_cavity(1.0), 1.5).size(), 2U);
+}
+
+// One that comes down tilted is led by a few of its points: it stays in its cavity, too.
+TEST(Again, NotInItsOwnCavityWhenTilted) {
+  ImpactWatch watch(1, {}, surface_distance());
+  int impacts = 0;
+  for (int k = 0; k * kFrame < 0.45; ++k) {
+    const double time = k * kFrame;
+    std::vector<SurfacePoint> points;
+    const bool cavity = time > 0.15 && time < 0.40;
+    const Scenery at = {.underside = std::max(0.1 - time, -0.1),
+                        .speed = time < 0.2 ? -1.0 : -0.0,
+                        .water = !cavity};
+    add_body(points, 0, at);
+    for (std::size_t i = 0; i < points.size(); ++i) {  // 30 degrees about y
+      const double rise = 0.58 * static_cast<double>(points[i].touch.x);
+      Scenery higher = at;
+      higher.underside += rise;
+      std::vector<SurfacePoint> one;
+      add_body(one, 0, higher);
+      points[i].touch.z = one[i].touch.z;
+      points[i].touch.colour = one[i].touch.colour;
+      points[i].touch.gz = one[i].touch.gz;
+    }
+    impacts += static_cast<int>(watch.observe(time, kFrame, points).size());
+  }
+  EXPECT_EQ(impacts, 1);
+}
+
+}  // namespace
+}  // namespace splash::sim

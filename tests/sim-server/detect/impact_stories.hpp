@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Bodies and water by hand: what the surface points of bodies would see, told frame by frame.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sim-server/detect/impacts.hpp"
+
+namespace splash::sim {
+
+inline constexpr double kSpacing = 0.02;  ///< [m]
+inline constexpr double kFrame = 0.004;   ///< [s]
+
+/// Of water on a cubic lattice, support two spacings.
+[[nodiscard]] SurfaceDistance surface_distance();
+
+/// A flat underside over flat water, both level: heights and vertical speeds.
+struct Scenery {
+  double underside = 0.1;  ///< of the body [m]
+  double speed = 0.0;      ///< of the body, upwards [m/s]
+  double level = 0.0;      ///< of the water [m]
+  double flow = 0.0;       ///< of the water, upwards [m/s]
+  double drift = 0.0;      ///< of the body, sideways [m/s]
+  bool water = true;       ///< any there at all
+};
+
+/// 4 x 4 points from (0, 0) to (6 cm, 6 cm).
+void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at);
+
+struct Announced {
+  double at = 0.0;  ///< when it was said [s]
+  DetectedImpact impact;
+};
+
+/// What is to be seen at a time.
+using Story = std::function<Scenery(double)>;
+
+/// Lives through the stories of all bodies, frame by frame.
+[[nodiscard]] std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
+                                           const DetectSettings& settings = {});
+[[nodiscard]] std::vector<Announced> watch(const Story& body, double seconds,
+                                           const DetectSettings& settings = {});
+
+struct Leg {
+  double until = 0.0;   ///< [s]
+  double height = 0.0;  ///< at its end [m]
+};
+/// An underside at constant speed from one height to the next, which stays at the last.
+[[nodiscard]] Story path(double from, std::vector<Leg> legs);
+
+}  // namespace splash::sim
