@@ -65,7 +65,7 @@ TEST_F(Pool, DropsTheLonely) {
 
 // Company at the very rim of the support is none.
 TEST_F(Pool, DropsThoseThatBarelyHaveCompany) {
-  for (const double share : {0.9, 0.99}) {
+  for (const double share : {0.9, 0.98}) {
     Bubbles& bubbles = make(16);
     const double support = static_cast<double>(water_.params.support);
     fill_pool(bubbles, {{0.5, 0.5, kBelow}, {0.5, 0.5 + share * support, kBelow}});

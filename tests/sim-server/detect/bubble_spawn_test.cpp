@@ -22,7 +22,7 @@ constexpr double kFrame = 0.004;
 
 DetectSettings settings() {
   DetectSettings settings;
-  settings.bubble_speed = 1.0;
+  settings.bubble_speed = 0.8;  // not its own square
   settings.bubble_gradient = 0.3;
   return settings;
 }
