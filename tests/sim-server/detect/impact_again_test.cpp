@@ -91,5 +91,29 @@ TEST(Again, NotInItsOwnCavityWhenTilted) {
   EXPECT_EQ(impacts, 1);
 }
 
+/// Impacts of a body with a step in its underside, 5 cm high.
+int impacts_of_a_step(const Story& story, double seconds) {
+  ImpactWatch watch(1, {}, surface_distance());
+  int impacts = 0;
+  for (int k = 0; k * kFrame < seconds; ++k) {
+    const double time = k * kFrame;
+    std::vector<SurfacePoint> points;
+    Scenery at = story(time);
+    add_body(points, 0, at);
+    at.underside += 0.05;
+    add_body(points, 0, at);
+    impacts += static_cast<int>(watch.observe(time, kFrame, points).size());
+  }
+  return impacts;
+}
+
+// While a part of it is in, the rest makes no impact, however fast: after a plunge, after easing
+// in, and when it began in the water.
+TEST(Again, NotForTheRestOfABodyThatIsPartlyIn) {
+  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.2, -0.02}, {1.0, -0.02}, {1.2, -0.2}}), 1.5), 1);
+  EXPECT_EQ(impacts_of_a_step(path(0.02, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 0);
+  EXPECT_EQ(impacts_of_a_step(path(-0.01, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 0);
+}
+
 }  // namespace
 }  // namespace splash::sim
