@@ -60,7 +60,7 @@ TEST_F(Log, SameSeedWritesTheSameBytes) {
   const std::string first = bytes_of(record("first.osc"));
   EXPECT_GT(first.size(), 1000U);
   EXPECT_EQ(first, bytes_of(record("second.osc")));
-  EXPECT_NE(first, bytes_of(record("other.osc", 2))) << "another seed draws other bubbles";
+  EXPECT_NE(first, bytes_of(record("other.osc", 2))) << "another seed, another log";
 }
 
 TEST_F(Log, ReplayedTwiceGivesTheSameBits) {
