@@ -55,7 +55,7 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
       "voice, %llu out of range\n",
       static_cast<unsigned long long>(c.dropped_band),
       static_cast<unsigned long long>(c.dropped_unheard),
-      static_cast<unsigned long long>(c.dropped_pool + c.dropped_queue),
+      static_cast<unsigned long long>(c.dropped_pool) + c.dropped_queue,
       static_cast<unsigned long long>(c.dropped_refused));
 }
 

@@ -67,8 +67,8 @@ class ControlServer {
   struct Request {
     const protocol::Message& message;
     protocol::Endpoint from;
-    double monotonic;  ///< of arrival [s]
-    double unix_time;  ///< of arrival [s]
+    double monotonic = 0.0;  ///< of arrival [s]
+    double unix_time = 0.0;  ///< of arrival [s]
   };
   struct Command;  ///< an address and what it does, see control_commands.cpp
 
