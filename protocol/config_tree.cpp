@@ -139,7 +139,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (!level.has_key) {
       throw ConfigError(tree.place, "a key must be a name (got " + describe_kind(tree) + ")");
     }
-    level.tree.entries.emplace_back(std::move(level.key), std::move(tree));
+    level.tree.entries.push_back({std::move(level.key), std::move(tree)});
     level.has_key = false;
   }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "protocol/config.hpp"
@@ -21,14 +20,21 @@ struct ConfigTree {
     Place place;
   };
 
+  struct Entry;  // a pair of key and tree would need the whole tree first
+
   Kind kind = Kind::null;
   Place place;
   std::string text;     ///< of a scalar
   bool quoted = false;  ///< a scalar in quotes is text, whatever it looks like
   std::vector<ConfigTree> items;
-  std::vector<std::pair<Key, ConfigTree>> entries;
+  std::vector<Entry> entries;
 
   [[nodiscard]] const ConfigTree* find(const std::string& key) const;
+};
+
+struct ConfigTree::Entry {
+  Key key;
+  ConfigTree value;
 };
 
 /// Throws ConfigError: bad syntax, repeated keys, keys that are no names, anchors, aliases, merge
