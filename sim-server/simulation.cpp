@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/settle.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/tracking/make_motion.hpp"
@@ -58,20 +59,9 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   largest_step_ =
       largest_time_step(fluid_.params(), bodies_.fastest(0.0), std::abs(scene_.fluid.gravity[2]),
                         scene_.fluid.time_step_factor);
-  settle();
+  const PistonState piston = piston_at(scene_.wave_maker, 0.0);
+  settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, largest_step_);
   good_ = fluid_.snapshot();
-}
-
-void Simulation::settle() {
-  const auto bodies = bodies_.at(0.0);
-  fluid_.set_bodies(bodies);
-  const int steps = static_cast<int>(kSettleSeconds / largest_step_);
-  for (int k = 0; k < steps; ++k) {
-    const Step step = {largest_step_, 0.0, 0.0, 0};
-    fluid_.prepare(step);
-    fluid_.advance(step);
-  }
-  fluid_.still();
 }
 
 std::vector<Step> Simulation::plan_frame(const FrameSteps& steps) {

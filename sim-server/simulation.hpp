@@ -55,7 +55,6 @@ class Simulation {
   [[nodiscard]] int nearest_body(const Vector3& place) const;
 
  private:
-  void settle();
   [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps);
   void keep_healthy(FrameResult& result);
 

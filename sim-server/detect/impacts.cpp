@@ -77,6 +77,11 @@ Vector3 mean_position(const std::vector<SurfacePoint>& points,
   return mean;
 }
 
+Vector3 moved(const Vector3& place, const Vector3& velocity, double seconds) {
+  return {place[0] + seconds * velocity[0], place[1] + seconds * velocity[1],
+          place[2] + seconds * velocity[2]};
+}
+
 /// Unit vector into the water under all of the chosen points: that of their summed gradients.
 Vector3 mean_inward(const std::vector<SurfacePoint>& points,
                     const std::vector<std::size_t>& chosen) {
@@ -93,11 +98,12 @@ Vector3 mean_inward(const std::vector<SurfacePoint>& points,
 
 /// The dry points of a body that are next to meet the water, on average.
 struct ImpactWatch::Meeting {
-  double gap = kNever;    ///< of the very nearest [m]
-  double after = kNever;  ///< time until the surfaces meet [s]
-  double approach = 0.0;  ///< of the surfaces to each other [m/s]
-  double own = 0.0;       ///< the body's part of it [m/s]
-  double speed = 0.0;     ///< [m/s]
+  double gap = kNever;                 ///< of the very nearest [m]
+  double after = kNever;               ///< time until the surfaces meet [s]
+  double approach = 0.0;               ///< of the surfaces to each other [m/s]
+  double own = 0.0;                    ///< the body's part of it [m/s]
+  double speed = 0.0;                  ///< [m/s]
+  Vector3 velocity = {0.0, 0.0, 0.0};  ///< of the foremost point [m/s]
   Vector3 position = {0.0, 0.0, 0.0};
   Vector3 inward = {0.0, 0.0, -1.0};
   std::vector<std::size_t> points;
@@ -161,12 +167,11 @@ void ImpactWatch::average(Meeting& meeting, const std::vector<SurfacePoint>& poi
   meeting.gap = surface - foremost;
   meeting.own = dot(velocity, meeting.inward);
   meeting.approach = meeting.own - water;
+  meeting.velocity = velocity;
   meeting.speed = std::sqrt(dot(velocity, velocity));
   meeting.position = position_of(points[leader].touch);
-  // A slow body pushes the surface ahead of it, so that their approach falls: its own speed tells
-  // better when they would have met. Of a wave that comes to a body, the approach does.
-  const double closing = std::max(meeting.own, meeting.approach);
-  if (closing > 0.0) meeting.after = meeting.gap / closing;
+  // The body's own speed alone: the surface breathes and gives way, and comes back.
+  if (meeting.own > 0.0) meeting.after = meeting.gap / meeting.own;
 }
 
 void ImpactWatch::note_who_is_in(double time, const std::vector<SurfacePoint>& points,
@@ -198,8 +203,8 @@ bool ImpactWatch::has_come_out(std::size_t body, const std::vector<SurfacePoint>
   // In the cavity that it opens, or on the film under its sole, a body is clear of the water and
   // yet in it: it must also have come back to where it entered.
   const Vector3 now = mean_position(points, lock.leading);
-  const Vector3 moved = {now[0] - lock.entry[0], now[1] - lock.entry[1], now[2] - lock.entry[2]};
-  if (dot(moved, lock.inward) < -settings_.impact_release) return true;
+  const Vector3 way = {now[0] - lock.entry[0], now[1] - lock.entry[1], now[2] - lock.entry[2]};
+  if (dot(way, lock.inward) < -settings_.impact_release) return true;
   // The water may have sunk instead; then all of the body stays clear.
   std::size_t all = 0;
   std::size_t all_out = 0;
@@ -227,6 +232,37 @@ void ImpactWatch::note_wetness(const std::vector<double>& gaps) {
   }
 }
 
+/// Water that a body carries along or that flees from it is not hit, nor what it skims.
+bool ImpactWatch::is_fast(const Meeting& meeting) const {
+  return meeting.own >= settings_.impact_speed && meeting.own >= kSkimming * meeting.speed &&
+         meeting.approach >= kShareOfOwn * meeting.own;
+}
+
+void ImpactWatch::meet(int body, double time, double frame, const std::vector<SurfacePoint>& points,
+                       const std::vector<double>& gaps) {
+  const Meeting meeting = next_meeting(body, points, gaps);
+  // Touching water gives way to a slow body: when they would have met is known best before.
+  const bool touches = meeting.gap <= kTouching * distance_.spacing();
+  if (!touches && meeting.after > settings_.impact_lookahead) return;
+  const bool fast = is_fast(meeting);
+  // A body that eases in makes no impact, and none later on while that part of it is in.
+  const bool eases =
+      meeting.gap <= 0.0 && meeting.own > kEasing && meeting.approach >= kShareOfOwn * meeting.own;
+  if (!fast && !eases) return;
+  const double wait = std::max(meeting.after, -frame);
+  Lock& lock = locks_[static_cast<std::size_t>(body)];
+  lock.closed = true;
+  lock.since = lock.wet_at = time + std::max(wait, 0.0);
+  lock.leading = meeting.points;
+  lock.entry = moved(mean_position(points, meeting.points), meeting.velocity, wait);
+  lock.inward = meeting.inward;
+  lock.due.reset();
+  if (fast) {
+    lock.due = {time + wait, body, meeting.speed, meeting.approach,
+                moved(meeting.position, meeting.velocity, wait)};
+  }
+}
+
 std::vector<DetectedImpact> ImpactWatch::observe(double time, double frame,
                                                  const std::vector<SurfacePoint>& points) {
   const std::vector<double> gaps = gaps_of(points);
@@ -237,25 +273,13 @@ std::vector<DetectedImpact> ImpactWatch::observe(double time, double frame,
   }
   open_locks(time, points, gaps);
   for (std::size_t b = 0; b < locks_.size(); ++b) {
-    if (locks_[b].closed) continue;
-    const Meeting meeting = next_meeting(static_cast<int>(b), points, gaps);
-    const bool touches = meeting.gap <= kTouching * distance_.spacing();
-    if (!touches && meeting.after > settings_.impact_lookahead) continue;
-    // Water that a body carries along or that flees from it is not hit, nor what it skims.
-    const bool fast = meeting.own >= settings_.impact_speed &&
-                      meeting.own >= kSkimming * meeting.speed &&
-                      meeting.approach >= kShareOfOwn * meeting.own;
-    const double moment = time + std::max(meeting.after, -frame);
-    if (fast) {
-      impacts.push_back(
-          {moment, static_cast<int>(b), meeting.speed, meeting.approach, meeting.position});
+    if (!locks_[b].closed) {
+      meet(static_cast<int>(b), time, frame, points, gaps);
     }
-    // A body that eases in makes no impact, and none later on while that part of it is in.
-    const bool eases =
-        touches && meeting.own > kEasing && meeting.approach >= kShareOfOwn * meeting.own;
-    if (fast || eases) {
-      const double since = std::max(moment, time);
-      locks_[b] = {true, since, since, meeting.points, meeting.position, meeting.inward};
+    std::optional<DetectedImpact>& due = locks_[b].due;
+    if (due && due->time <= time + settings_.impact_lookahead) {
+      impacts.push_back(*due);
+      due.reset();
     }
   }
   note_wetness(gaps);

@@ -6,6 +6,7 @@
 // carries along elsewhere does not count.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim-server/detect/detection.hpp"
@@ -42,6 +43,7 @@ class ImpactWatch {
   /// A body in the water, or about to be.
   struct Lock {
     bool closed = false;
+    std::optional<DetectedImpact> due;  ///< known, and not yet near enough to be announced
     double since = 0.0;                 ///< the surfaces meet not before [s]
     double wet_at = 0.0;                ///< last time at which it was not clear of the water [s]
     std::vector<std::size_t> leading;   ///< points that met the water
@@ -55,12 +57,16 @@ class ImpactWatch {
                                      const std::vector<double>& gaps) const;
   static void average(Meeting& meeting, const std::vector<SurfacePoint>& points,
                       const std::vector<double>& gaps);
+  [[nodiscard]] bool is_fast(const Meeting& meeting) const;
   void note_who_is_in(double time, const std::vector<SurfacePoint>& points,
                       const std::vector<double>& gaps);
   void open_locks(double time, const std::vector<SurfacePoint>& points,
                   const std::vector<double>& gaps);
   [[nodiscard]] bool has_come_out(std::size_t body, const std::vector<SurfacePoint>& points,
                                   const std::vector<double>& gaps, double time);
+  /// Closes the body's lock if it is about to meet the water.
+  void meet(int body, double time, double frame, const std::vector<SurfacePoint>& points,
+            const std::vector<double>& gaps);
   void note_wetness(const std::vector<double>& gaps);
 
   DetectSettings settings_;

@@ -85,6 +85,14 @@ double stratification(const Scene& scene) {
   return downward ? -g[2] / (sound * sound) : 0.0;
 }
 
+/// Part of its height that the deepest column loses when it settles; nothing without gravity.
+double settling_loss(const Scene& scene, double spacing) {
+  const double growth = stratification(scene);
+  if (growth <= 0.0) return 0.0;
+  const double depth = water_depth(scene);
+  return growth * depth / 2.0 + kSurfaceLoss * spacing / depth;
+}
+
 /// Height of the water's surface over x, y [m]; the floor's where there is none.
 double surface_height(const Scene& scene, const Vector3& place) {
   double height = floor_height(scene, place[0]);
@@ -142,10 +150,8 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   const Vector3 step = {layer_distance(particles, 0, spacing),
                         layer_distance(particles, 1, spacing),
                         layer_distance(particles, 2, spacing)};
-  const double depth = water_depth(scene);
-  const double compression = stratification(scene) * depth / 2.0 + kSurfaceLoss * spacing / depth;
-  p.mass =
-      static_cast<float>((1.0 + compression) * scene.fluid.density / lattice_sum(step, support));
+  const double loss = settling_loss(scene, spacing);
+  p.mass = static_cast<float>((1.0 + loss) * scene.fluid.density / lattice_sum(step, support));
   p.rest_density = static_cast<float>(scene.fluid.density);
   p.sound_speed = static_cast<float>(sound);
   p.viscous = static_cast<float>(10.0 * scene.fluid.viscosity);

@@ -62,9 +62,9 @@ double water_depth(const Scene& scene) {
 
 double scene_sound_speed(const Scene& scene) {
   if (scene.fluid.sound_speed > 0.0) return scene.fluid.sound_speed;
-  // Monaghan 1994: density stays within (v/c)^2 of rest, so c should be ten times the fastest speed.
-  // Eight times that of the fastest wave the depth allows (1.6 % at the floor) is what two CPU cores
-  // carry in real time; the floor covers bodies of up to 1.3 m/s, whatever the depth.
+  // Monaghan 1994: density stays within (v/c)^2 of rest, so c should be ten times the fastest
+  // speed. Eight times that of the fastest wave the depth allows (1.6 % at the floor) is what two
+  // CPU cores carry in real time; the floor covers bodies of up to 1.3 m/s, whatever the depth.
   constexpr double kRatio = 8.0;
   constexpr double kLeast = 13.0;
   const auto& g = scene.fluid.gravity;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What each point of a body's skin sees of the water (paper, section 5.1.2):
 //   c_f = sum_j V_j W,   its gradient,   and the water's velocity  sum_j V_j W v_j / c_f
-// over particles that belong to a body of water. Spray and the film that a body carries along are no
-// surface that could be hit: their density, without the body's part of it, is lower.
+// over particles that belong to a body of water. Spray and the film that a body carries along are
+// no surface that could be hit: their density, without the body's part of it, is lower.
 
 // Of the density at rest, on the lattice: a lone particle has 0.40, a film of one layer 0.75, the
 // top layer of a flat surface 0.88.

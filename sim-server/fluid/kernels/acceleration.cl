@@ -81,7 +81,8 @@ static float3 push_by_bodies(constant FluidParams* p, global const int* body_sta
   for (int k = 0; k < 9; ++k) {
     const int2 run = neighbour_run(p, body_start, row, cell, cell, k);
     for (int j = run.x; j < run.y; j += LANES) {
-      const Push f = push(p, mover, load_x(body_position, j, run.y), LOAD(body_position + stride, j),
+      const Push f = push(p, mover, load_x(body_position, j, run.y),
+                          LOAD(body_position + stride, j),
                           LOAD(body_position + 2 * stride, j), LOAD(body_velocity, j),
                           LOAD(body_velocity + stride, j), LOAD(body_velocity + 2 * stride, j),
                           (lanes)(0.0f));

@@ -6,8 +6,8 @@
 // as the particle does, the weight falls twice as fast as that of a fixed layer: the particle's own
 // pressure alone then balances the fluid's, and the wall's push is the gradient of an energy.
 // On a slope the water thins out to nothing, where an image at twice the height leaves a particle
-// no place to rest (a pool stayed at 0.35 m/s): there, and on the floor that it continues, the layers
-// stay where they are.
+// no place to rest (a pool stayed at 0.35 m/s): there, and on the floor that it continues, the
+// layers stay where they are.
 // Walls that meet at a right angle leave the fluid the product of what each leaves; the sloped
 // floor replaces the floor where it is nearer.
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/fluid/settle.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
@@ -64,17 +65,24 @@ double liveliest(Water& water, double seconds) {
   return most;
 }
 
+/// As a simulation does before its time begins.
+void let_settle(Water& water) {
+  const double dt = largest_time_step(water.params, 0.0, 9.81, 1.0);
+  settle(*water.fluid, {}, 0.0, 1.0, dt);
+}
+
 TEST(Physics, AColumnAtRestStaysAtRest) {
   Device device;
   const double depth = 0.36;
   Water water = fill(tank_scene(0.02, {0.24, 0.2, 0.5}, depth));
   water.start(device);
+  let_settle(water);
   ASSERT_GT(water.params.count, 2000);
   const double first = liveliest(water, 0.5);
   run(water, 1.0);
   const double later = liveliest(water, 0.5);
   std::printf("kinetic energy of a column at rest %.2e, later %.2e J/kg\n", first, later);
-  EXPECT_LT(later, 0.5 * first);
+  EXPECT_LT(first, 2.0e-4);  // nothing to be heard of the lattice
   EXPECT_LT(later, 2.0e-4);  // 2 cm/s
   EXPECT_NEAR(highest(water), depth - 0.01, 0.01);
   expect_in_tank(water);
@@ -86,7 +94,8 @@ TEST(Physics, AColumnIsAsDenseAsItsWeightAsks) {
   const double depth = 0.36;
   Water water = fill(tank_scene(0.02, {0.24, 0.2, 0.5}, depth));
   water.start(device);
-  run(water, 1.5);
+  let_settle(water);
+  run(water, 0.5);
   const Survey survey = water.fluid->survey();
   const double bottom = 9.81 * depth / 225.0;
   // It goes on breathing a little: a tenth of the compression, seconds long.

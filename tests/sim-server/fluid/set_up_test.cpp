@@ -109,14 +109,16 @@ TEST(SetUp, LatticeHasTheDensityAtRest) {
   }
 }
 
-// Compressed by its own weight the water still stands where the scene wants it.
-TEST(SetUp, MassMakesUpForTheMeanCompression) {
+// Compressed by its own weight and packed at its surface the water still stands where the scene
+// wants it.
+TEST(SetUp, MassMakesUpForWhatSettles) {
   Scene scene = tank_scene(0.02, {0.2, 0.16, 0.3}, 0.2);
   const auto particles = initial_particles(scene);
   const double heavy = static_cast<double>(make_params(scene, particles).mass);
   scene.fluid.gravity = {0.0, 0.0, 0.0};
   const double light = static_cast<double>(make_params(scene, particles).mass);
-  EXPECT_NEAR(heavy / light, 1.0 + 9.81 * 0.2 / (2.0 * 225.0), 1.0e-6);
+  // Half of g H / c0^2, and 0.17 spacings for the packing of the surface.
+  EXPECT_NEAR(heavy / light, 1.0 + 9.81 * 0.2 / (2.0 * 225.0) + 0.17 * 0.02 / 0.2, 1.0e-6);
 }
 
 TEST(SetUp, SettledWaterIsDenserBelowAndNoLower) {

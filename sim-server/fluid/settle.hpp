@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Lets water come to rest before anything happens to it.
+#pragma once
+
+#include <vector>
+
+#include "sim-server/fluid/fluid.hpp"
+
+namespace splash::sim {
+
+/// Runs `fluid` for `seconds` in steps of `dt` with its bodies at rest where `bodies` says: first
+/// freely, so that the lattice finds a better packing, then stopping all motion again and again, so
+/// that the column ceases to breathe. `piston`: offset of the wave maker [m].
+void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
+            double dt);
+
+}  // namespace splash::sim
