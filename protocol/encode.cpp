@@ -20,7 +20,8 @@ void append_big_endian(Buffer& out, std::uint64_t value, int bytes) {
 
 void append_text(Buffer& out, const std::string& text) {
   if (text.find('\0') != std::string::npos) {
-    throw std::length_error("OSC text '" + std::string(text.c_str()) + "' holds a zero byte");
+    const std::string shown = text.substr(0, text.find('\0'));
+    throw std::length_error("OSC text '" + shown + "' holds a zero byte");
   }
   for (const char c : text) out.push_back(static_cast<std::byte>(c));
   out.resize(out.size() / 4 * 4 + 4);

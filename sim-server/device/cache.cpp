@@ -38,7 +38,7 @@ void try_to_write(const std::filesystem::path& folder) {
 
 std::filesystem::path prepare_kernel_cache() {
   const char* chosen = std::getenv("POCL_CACHE_DIR");
-  const std::filesystem::path folder =
+  std::filesystem::path folder =
       chosen != nullptr && *chosen != '\0' ? std::filesystem::path(chosen) : default_cache();
   try_to_write(folder);
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);

@@ -87,7 +87,7 @@ std::vector<DeviceFacts> list_devices() {
 std::string describe(const DeviceFacts& facts) {
   std::ostringstream line;
   line << facts.index << ": " << facts.name << " (" << (facts.is_cpu ? "CPU" : "GPU") << ", "
-       << facts.compute_units << " compute units, " << facts.memory / (1024 * 1024) << " MiB, "
+       << facts.compute_units << " compute units, " << (facts.memory >> 20U) << " MiB, "
        << facts.platform << ", driver " << facts.driver << ")";
   return line.str();
 }

@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 4 * 26 + 16 * SPLASH_MAX_WALLS);
+static_assert(sizeof(FluidParams) == 104 + 16UL * SPLASH_MAX_WALLS);
 static_assert(sizeof(BodyStep) == 4 * 19);
 
 static_assert(sizeof(SurveyPart) == 32);

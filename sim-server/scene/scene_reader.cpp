@@ -70,7 +70,7 @@ void check_markers(const ConfigMap& map, const MotionEntry& entry) {
 /// The recording's path, made absolute by the scene's folder.
 std::filesystem::path find_file(const ConfigMap& map, const std::string& name) {
   if (name.empty()) return {};
-  const std::filesystem::path path = map.folder() / name;
+  std::filesystem::path path = map.folder() / name;
   if (!std::filesystem::is_regular_file(path)) {
     throw map.error("file", "there is no file " + path.string());
   }
