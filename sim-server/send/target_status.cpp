@@ -63,7 +63,11 @@ void TargetStatus::ask_and_wait(double timeout) {
   drain(0.0);  // answers to older questions are not what is waited for
   ask();
   const double end = clock_() + timeout;
-  for (double left = timeout; left > 0.0 && !all_answered(); left = end - clock_()) drain(left);
+  double left = timeout;
+  while (left > 0.0 && !all_answered()) {
+    drain(left);
+    left = end - clock_();
+  }
 }
 
 void TargetStatus::drain(double timeout) {

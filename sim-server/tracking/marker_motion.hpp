@@ -20,7 +20,7 @@ namespace splash::sim {
 ///
 /// Throws std::invalid_argument: an unknown marker, no frame with all of them, all on one line.
 [[nodiscard]] std::vector<Keyframe> marker_poses(const MarkerRecording& recording,
-                                                 const std::vector<std::string>& markers,
+                                                 const std::vector<std::string>& names,
                                                  const Shape& shape, bool sole);
 
 }  // namespace splash::sim

@@ -37,7 +37,8 @@ struct Mean {
 
 }  // namespace
 
-PathMotion::PathMotion(std::vector<Keyframe> poses, Between between, bool repeat, double start)
+PathMotion::PathMotion(const std::vector<Keyframe>& poses, Between between, bool repeat,
+                       double start)
     : straight_(between == Between::straight), repeat_(repeat), start_(start) {
   if (poses.empty()) throw std::invalid_argument("a path needs at least one pose");
   for (const Keyframe& pose : poses) {

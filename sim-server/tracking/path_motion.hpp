@@ -21,7 +21,8 @@ class PathMotion : public Motion {
   /// the last it stands still there; with `repeat` the path from `start` to the end comes again.
   /// Throws std::invalid_argument: no pose, times not increasing, `start` at or after the end,
   /// or `repeat` with a last pose that is not the one at `start` (within 1 cm and 5 degrees).
-  PathMotion(std::vector<Keyframe> poses, Between between, bool repeat = false, double start = 0.0);
+  PathMotion(const std::vector<Keyframe>& poses, Between between, bool repeat = false,
+             double start = 0.0);
 
   [[nodiscard]] BodyState at(double seconds) const override;
 

@@ -33,7 +33,7 @@ Keyframe read_row(const TextTable& table, std::size_t line) {
     throw table.error(line, cells.back().column,
                       "a pose has eight numbers (got " + std::to_string(cells.size()) + ")");
   }
-  std::array<double, 8> v;
+  std::array<double, 8> v = {};
   for (std::size_t i = 0; i < v.size(); ++i) {
     v[i] = table.number(line, cells[i], kColumns[i], kLimits[i]);
   }

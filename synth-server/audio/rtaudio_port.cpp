@@ -48,6 +48,7 @@ DeviceDescription describe(const RtAudio::DeviceInfo& info, const std::string& a
 }
 
 #ifdef SPLASH_HAS_ALSA
+// NOLINTNEXTLINE(cert-dcl50-cpp): the type of this callback is ALSA's
 void ignore_alsa(const char*, int, const char*, int, const char*, ...) {}
 #endif
 #ifdef SPLASH_HAS_JACK
