@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/audio/null_output.hpp"
 
+// NOLINTNEXTLINE(modernize-deprecated-headers): clock_nanosleep is POSIX, not in <ctime>
 #include <time.h>
 
 #include <cmath>

@@ -75,7 +75,7 @@ struct RtAudioOutput::Stream {
 
 RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_shared<Stream>()) {
   const auto all = list_devices(choice.api);
-  const DeviceDescription chosen = all[choose_device(all, choice.device)];
+  const DeviceDescription& chosen = all[choose_device(all, choice.device)];
   const std::string title = chosen.api + " device '" + chosen.name + "'";
   if (chosen.channels < choice.channels) {
     throw DeviceError(title + " has " + std::to_string(chosen.channels) +

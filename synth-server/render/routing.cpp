@@ -46,8 +46,8 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
     if (output.body >= 0 && output.body != source.body) continue;
     spread(output, source.position, gains_.data());
     for (int c = 0; c < channels; ++c) {
-      const double gain =
-          gains_[static_cast<std::size_t>(c)] * levels_[static_cast<std::size_t>(begin + c)];
+      const auto level = static_cast<std::size_t>(begin) + static_cast<std::size_t>(c);
+      const double gain = gains_[static_cast<std::size_t>(c)] * levels_[level];
       if (gain <= 0.0 || static_cast<std::size_t>(reach.routes) == routes.size()) continue;
       routes[static_cast<std::size_t>(reach.routes++)] = {begin + c, gain};
       reach.loudest = std::max(reach.loudest, gain);
