@@ -12,8 +12,8 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 104 + 16UL * SPLASH_MAX_WALLS);
-static_assert(sizeof(BodyStep) == 4 * 19);
+static_assert(sizeof(FluidParams) == 26 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(BodyStep) == 19 * sizeof(float));
 
 static_assert(sizeof(SurveyPart) == 32);
 
