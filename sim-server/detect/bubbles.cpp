@@ -73,8 +73,8 @@ void Bubbles::enqueue(const Step& step, double frame) {
 void Bubbles::look_for_spawns(const Step& step) {
   Device& device = fluid_.device();
   spawn_count_.enqueue_clear(device);
-  // A flat surface seen from its outermost particles half a spacing deep is 0.93 of one seen from
-  // the surface itself; the threshold is in units of the latter.
+  // The threshold is in units of the gradient at a flat surface; its outermost particles, half a
+  // spacing below, see 0.65 of that (the planar marginal there over the one at the centre).
   spawn_bubbles_.run(
       device.queue(), static_cast<std::size_t>(fluid_.params().count),
       fluid_.params_buffer().memory(), fluid_.grid().cell_start(),

@@ -55,7 +55,7 @@ struct Snapshot {
 class Fluid {
  public:
   /// `particles`: initial places [m]; `boundary`: points of `bodies` rigid bodies.
-  /// `relaxed`: kernels with relaxed mathematics (a fifth faster on CPUs, see the twins' bounds).
+  /// `relaxed`: kernels with relaxed mathematics; no faster with PoCL, whose vectors are explicit.
   Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
         const std::vector<BoundaryPoint>& boundary, int bodies, bool relaxed = false);
 
