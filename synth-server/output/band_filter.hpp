@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "synth-server/output/biquad.hpp"
 #include "synth-server/output/rig.hpp"
 
 namespace splash::synth {
@@ -16,12 +17,7 @@ class BandFilter {
   BandFilter(const Band& band, double sample_rate);
 
   [[nodiscard]] double process(double in) noexcept {
-    for (Section& s : sections_) {
-      const double out = s.b0 * in + s.first;
-      s.first = s.b1 * in - s.a1 * out + s.second;
-      s.second = s.b2 * in - s.a2 * out;
-      in = out;
-    }
+    for (Biquad& section : sections_) in = section.process(in);
     return in;
   }
 
@@ -30,19 +26,7 @@ class BandFilter {
   [[nodiscard]] bool at_rest(double limit) const noexcept;
 
  private:
-  struct Section {
-    double b0 = 1.0;
-    double b1 = 0.0;
-    double b2 = 0.0;
-    double a1 = 0.0;
-    double a2 = 0.0;
-    double first = 0.0;   ///< state
-    double second = 0.0;  ///< state
-  };
-  static Section high_pass(double frequency, double q, double sample_rate);
-  static Section low_pass(double frequency, double q, double sample_rate);
-
-  std::array<Section, 4> sections_{};
+  std::array<Biquad, 4> sections_{};
 };
 
 }  // namespace splash::synth

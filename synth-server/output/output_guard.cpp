@@ -9,10 +9,12 @@
 namespace splash::synth {
 namespace {
 
-/// By its exponent bits: holds whatever a compiler assumes about NaN.
-bool is_finite(double value) noexcept {
-  constexpr std::uint64_t kExponent = 0x7ff0000000000000ULL;
-  return (std::bit_cast<std::uint64_t>(value) & kExponent) != kExponent;
+/// Not for NaN, infinities and what is beyond kNonsense. By its bits, which order magnitudes as
+/// the numbers themselves: holds whatever a compiler assumes about NaN.
+bool is_signal(double value) noexcept {
+  constexpr std::uint64_t kMagnitude = 0x7fffffffffffffffULL;
+  return (std::bit_cast<std::uint64_t>(value) & kMagnitude) <
+         std::bit_cast<std::uint64_t>(OutputGuard::kNonsense);
 }
 
 /// The largest float that does not exceed `value`.
@@ -26,8 +28,9 @@ constexpr double kSettled = 1.0e-12;  ///< states below this are nil: -240 dB
 
 }  // namespace
 
-OutputGuard::OutputGuard(const Output& output, double sample_rate)
+OutputGuard::OutputGuard(const Output& output, double sample_rate, int channel)
     : band_(output.band, sample_rate),
+      equaliser_(output, channel, sample_rate),
       limiter_(output.ceiling, sample_rate),
       ceiling_(rounded_down(output.ceiling)),
       // A sine at the band's upper end and the ceiling changes by 2 pi f ceiling per second; twice
@@ -35,11 +38,16 @@ OutputGuard::OutputGuard(const Output& output, double sample_rate)
       slew_(2.0 * 2.0 * std::numbers::pi * std::min(output.band.high, 0.5 * sample_rate) *
             output.ceiling / sample_rate) {}
 
-/// `value`, or nil and a fresh start when it is no number.
-double OutputGuard::checked(double value) noexcept {
-  if (is_finite(value)) return value;
+void OutputGuard::forget() noexcept {
   band_.reset();
+  equaliser_.reset();
   limiter_.reset();
+}
+
+/// `value`, or nil and a fresh start when it is no signal.
+double OutputGuard::checked(double value) noexcept {
+  if (is_signal(value)) return value;
+  forget();
   ++resets_;
   return 0.0;
 }
@@ -48,7 +56,8 @@ void OutputGuard::process(const double* in, const double* fade, float* out, int 
   for (int i = 0; i < count; ++i) {
     const double tame = std::clamp(checked(in[i]), -kMostInput, kMostInput);
     // Checked again: no filter of ours is unstable, but this is the place to be sure.
-    const double limited = limiter_.process(checked(band_.process(tame)));
+    const double even = checked(equaliser_.process(checked(band_.process(tame))));
+    const double limited = limiter_.process(even);
     if (limiter_.limiting()) ++limited_;
     last_ += std::clamp(limited - last_, -slew_, slew_);
     out[i] = static_cast<float>(std::clamp(last_ * fade[i], -ceiling_, ceiling_));
@@ -56,9 +65,11 @@ void OutputGuard::process(const double* in, const double* fade, float* out, int 
 }
 
 bool OutputGuard::settle() noexcept {
-  if (!band_.at_rest(kSettled) || std::abs(last_) > kSettled || limiter_.limiting()) return false;
-  band_.reset();
-  limiter_.reset();
+  if (!band_.at_rest(kSettled) || !equaliser_.at_rest(kSettled) || limiter_.limiting() ||
+      std::abs(last_) > kSettled) {
+    return false;
+  }
+  forget();
   last_ = 0.0;
   return true;
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The last thing between the mix and a transducer, one per channel, in this order: finite check
-// before any state, DC block and band (the high-pass has its zeros at 0 Hz), limiter, slew limit,
-// fade, hard clamp at the ceiling. Whatever comes in, what goes out is finite and within it.
+// before any state, DC block and band (the high-pass has its zeros at 0 Hz), equaliser, limiter,
+// slew limit, fade, hard clamp at the ceiling. Whatever comes in, what goes out is finite and
+// within it.
 #pragma once
 
 #include <cstdint>
 
 #include "synth-server/output/band_filter.hpp"
+#include "synth-server/output/equaliser.hpp"
 #include "synth-server/output/limiter.hpp"
 #include "synth-server/output/rig.hpp"
 
@@ -17,10 +19,13 @@ class OutputGuard {
   /// Louder input is cut before the filters: 24 dB over full scale, where only the limiter would
   /// be heard anyway. Else one sample of 1e30 would hold the limiter down for minutes.
   static constexpr double kMostInput = 16.0;
+  /// What is louder still is no signal but an error, and treated like NaN: 1024 impacts at 100 m/s
+  /// at once, with 60 dB of gain and the default full scale, stay 26 dB under it.
+  static constexpr double kNonsense = 1.0e12;
 
   OutputGuard() = default;
-  /// `sample_rate` [Hz].
-  OutputGuard(const Output& output, double sample_rate);
+  /// Of channel `channel` of `output`, in the order of channel_names(); `sample_rate` [Hz].
+  OutputGuard(const Output& output, double sample_rate, int channel = 0);
 
   /// `in`: the mix [full scale]; `fade`: its gain, sample by sample; `out`: what the device gets.
   void process(const double* in, const double* fade, float* out, int count) noexcept;
@@ -34,8 +39,10 @@ class OutputGuard {
 
  private:
   double checked(double value) noexcept;
+  void forget() noexcept;
 
   BandFilter band_;
+  Equaliser equaliser_;
   Limiter limiter_;
   double ceiling_ = 1.0;  ///< representable as float
   double slew_ = 1.0;     ///< largest change per sample [full scale]

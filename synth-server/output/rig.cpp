@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/output/rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+
+#include "synth-server/output/rig_equaliser.hpp"
 
 namespace splash::synth {
 namespace {
 
 constexpr int kMaxTiles = 1024;
 constexpr int kMaxChannels = 2048;
+constexpr std::size_t kMaxParts = 64;
 
 [[noreturn]] void refuse(const Output& output, const std::string& key, double value,
                          const std::string& rule) {
@@ -32,6 +36,23 @@ void check_tiles(const Output& output) {
   }
 }
 
+void check_parts(const Output& output) {
+  const auto& parts = output.parts;
+  if (parts.empty() || parts.size() > kMaxParts) {
+    refuse(output, "number of parts", static_cast<double>(parts.size()),
+           "a worn output has 1 to 64, one per transducer, such as [heel, toe]");
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!parts[i].empty() &&
+        std::find(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i), parts[i]) ==
+            parts.begin() + static_cast<std::ptrdiff_t>(i)) {
+      continue;
+    }
+    throw std::invalid_argument("output '" + output.name + "': part '" + parts[i] +
+                                "': names must differ and not be empty");
+  }
+}
+
 void check_output(const Output& output) {
   if (output.name.empty()) throw std::invalid_argument("an output needs a name");
   const Band& band = output.band;
@@ -47,6 +68,7 @@ void check_output(const Output& output) {
     refuse(output, "gain_db", output.gain_db, "must be within -60 and 60 dB");
   }
   if (output.kind == OutputKind::tiles) check_tiles(output);
+  if (output.kind == OutputKind::worn) check_parts(output);
   if (output.kind == OutputKind::stereo && !(output.width > 0.0)) {
     refuse(output, "width", output.width, "must be positive");
   }
@@ -55,6 +77,7 @@ void check_output(const Output& output) {
     refuse(output, "number of trims_db", static_cast<double>(output.trims_db.size()),
            "must be " + std::to_string(channels) + ", one per channel, or none");
   }
+  check_equalisers(output);
 }
 
 }  // namespace
@@ -65,6 +88,8 @@ int channel_count(const Output& output) noexcept {
       return output.tiles_x * output.tiles_y;
     case OutputKind::single:
       return 1;
+    case OutputKind::worn:
+      return static_cast<int>(output.parts.size());
     case OutputKind::stereo:
       return 2;
   }
@@ -77,20 +102,25 @@ int channel_count(const Rig& rig) noexcept {
   return count;
 }
 
+std::vector<std::string> part_names(const Output& output) {
+  if (output.kind == OutputKind::single) return {""};
+  if (output.kind == OutputKind::stereo) return {"left", "right"};
+  if (output.kind == OutputKind::worn) return output.parts;
+  std::vector<std::string> names;
+  const int count = channel_count(output);
+  const std::size_t width = std::max<std::size_t>(2, std::to_string(count - 1).size());
+  for (int tile = 0; tile < count; ++tile) {
+    const std::string number = std::to_string(tile);
+    names.push_back("tile/" + std::string(width - number.size(), '0') + number);
+  }
+  return names;
+}
+
 std::vector<std::string> channel_names(const Rig& rig) {
   std::vector<std::string> names;
   for (const Output& output : rig.outputs) {
-    if (output.kind == OutputKind::single) names.push_back(output.name);
-    if (output.kind == OutputKind::stereo) {
-      names.push_back(output.name + "/left");
-      names.push_back(output.name + "/right");
-    }
-    if (output.kind != OutputKind::tiles) continue;
-    const int count = channel_count(output);
-    const std::size_t width = std::max<std::size_t>(2, std::to_string(count - 1).size());
-    for (int tile = 0; tile < count; ++tile) {
-      const std::string number = std::to_string(tile);
-      names.push_back(output.name + "/tile/" + std::string(width - number.size(), '0') + number);
+    for (const std::string& part : part_names(output)) {
+      names.push_back(part.empty() ? output.name : output.name + '/' + part);
     }
   }
   return names;

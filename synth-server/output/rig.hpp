@@ -12,6 +12,7 @@ namespace splash::synth {
 enum class OutputKind {
   tiles,   ///< a floor of square tiles, one channel each
   single,  ///< one transducer, in a hand or a shoe: one channel
+  worn,    ///< several on one body, such as heel and toe of a shoe: one channel each
   stereo,  ///< two loudspeakers or headphones: left, right
 };
 
@@ -19,6 +20,30 @@ enum class OutputKind {
 struct Band {
   double low = 20.0;    ///< -3 dB point of the high-pass [Hz]
   double high = 750.0;  ///< -3 dB point of the low-pass [Hz]; bubbles born above it are left out
+};
+
+enum class SectionKind { peak, low_shelf, high_shelf };
+
+struct EqualiserSection {
+  SectionKind kind = SectionKind::peak;
+  double frequency = 100.0;  ///< middle of a peak, or where a shelf has half its gain [Hz]
+  double gain_db = 0.0;      ///< [dB]
+  double q = 0.7071;         ///< a peak's frequency over its width at half its gain [1]
+};
+
+/// What was measured of a transducer, to be undone; no points: nothing was.
+struct MeasuredResponse {
+  std::vector<double> frequency;  ///< rising [Hz]
+  std::vector<double> level_db;   ///< at these, over what it should be [dB]
+  double most_cut_db = 40.0;      ///< louder places are turned down by at most this [dB]
+};
+
+/// Evens out some channels of an output.
+struct Equalisation {
+  std::vector<std::string> channels;  ///< names within the output, e.g. "tile/07"; empty: all
+  double most_boost_db = 6.0;         ///< nowhere louder than this: power that harms [dB]
+  std::vector<EqualiserSection> sections;
+  MeasuredResponse response;
 };
 
 struct Output {
@@ -37,7 +62,9 @@ struct Output {
   double tile_size = 0.305;  ///< tiles: edge of a tile [m]; paper section 6: 30.5 cm
   double reach = 0.40;       ///< tiles: an event is felt up to this far from a tile's middle [m]
   double width = 2.0;        ///< stereo: an event this wide from left to right pans fully [m]
-  std::vector<double> trims_db;  ///< gain of each channel [dB]; empty: none
+  std::vector<double> trims_db;    ///< gain of each channel [dB]; empty: none
+  std::vector<std::string> parts;  ///< worn: where on the body, one channel each
+  std::vector<Equalisation> equalisers;
 };
 
 struct Rig {
@@ -49,7 +76,9 @@ struct Rig {
 [[nodiscard]] int channel_count(const Output& output) noexcept;
 [[nodiscard]] int channel_count(const Rig& rig) noexcept;
 
-/// One name per channel, for lists and port maps: "floor/tile/07", "hand", "speakers/left".
+/// One name per channel within its output: "tile/07", "heel", "left", "" for a single one.
+[[nodiscard]] std::vector<std::string> part_names(const Output& output);
+/// One name per channel, for lists and port maps: "floor/tile/07", "hand", "left shoe/heel".
 /// Tiles are numbered from the lower corner along +x, then row by row along +y.
 [[nodiscard]] std::vector<std::string> channel_names(const Rig& rig);
 

@@ -50,7 +50,8 @@ void spread(const Output& output, const protocol::Vec3& position, double* gains)
       spread_stereo(output, position, gains);
       break;
     case OutputKind::single:
-      gains[0] = 1.0;
+    case OutputKind::worn:
+      std::fill_n(gains, channel_count(output), 1.0);
       break;
   }
 }

@@ -15,7 +15,8 @@ namespace splash::synth {
 ///   2009, with a finite reach). Beside the floor, its edge speaks, fading to nil at `reach` off
 ///   it.
 /// stereo: constant power over `width` along x, around `place`.
-/// single: 1.
+/// single, worn: 1. A worn rig goes by body: events say which body they belong to, but not where
+///   on it, so all its transducers play alike, each with its trim and its band.
 void spread(const Output& output, const protocol::Vec3& position, double* gains) noexcept;
 
 }  // namespace splash::synth

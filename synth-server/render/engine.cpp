@@ -92,7 +92,7 @@ Engine::State::State(const Rig& rig, const EngineSettings& s)
       fade(s.start_ramp, s.sample_rate) {
   floor = kFloor / routing.loudest();
   for (const Output& output : rig.outputs) {
-    for (int c = 0; c < channel_count(output); ++c) guards.emplace_back(output, s.sample_rate);
+    for (int c = 0; c < channel_count(output); ++c) guards.emplace_back(output, s.sample_rate, c);
   }
   idle.assign(guards.size(), 1);
   mix.touched.assign(guards.size(), 0);

@@ -45,6 +45,19 @@ TEST(ShippedRigs, HandheldAndStereoAndBoth) {
   EXPECT_DOUBLE_EQ(both.outputs.at(1).band.high, 20000.0);
 }
 
+TEST(ShippedRigs, ShoesGoByTheirFootAndAGloveByItsHand) {
+  const Rig shoes = shipped("shoes");
+  EXPECT_EQ(channel_names(shoes), (std::vector<std::string>{"left shoe/heel", "left shoe/toe",
+                                                            "right shoe/heel", "right shoe/toe"}));
+  EXPECT_EQ(shoes.outputs.at(0).body, 0);
+  EXPECT_EQ(shoes.outputs.at(1).body, 1);
+  const Rig glove = shipped("glove");
+  EXPECT_EQ(channel_names(glove),
+            (std::vector<std::string>{"fingertips/thumb", "fingertips/index", "fingertips/middle",
+                                      "fingertips/ring", "fingertips/little", "palm/centre"}));
+  for (const Output& output : glove.outputs) EXPECT_EQ(output.body, 0);
+}
+
 TEST(ShippedRigs, AllOfThemRead) {
   int count = 0;
   const std::filesystem::path folder = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/rigs";
@@ -57,6 +70,10 @@ TEST(ShippedRigs, AllOfThemRead) {
 }
 
 const std::string kBegin = "name: x\noutputs:\n  - name: hand\n    band: {low: 20, high: 750}\n";
+
+const std::string kWorn = "    kind: worn\n    parts: [heel, toe]\n";
+const std::string kSections = "    equalisers:\n      - sections:\n        [";
+const std::string kResponse = "    equalisers:\n      - response: ";
 
 struct Broken {
   std::string text;
@@ -76,6 +93,20 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{kBegin + "    kind: single\n    trims_db: [1, 2]\n",
                "rig.yaml:3:", "one per channel"},
         Broken{kBegin + "    kind: single\n    body: 1.5\n", "rig.yaml:6:", "body"},
+        Broken{kBegin + "    kind: single\n    parts: [heel]\n", "rig.yaml:6:", "not worn"},
+        Broken{kBegin + "    kind: worn\n", "rig.yaml:3:", "[heel, toe]"},
+        Broken{kBegin + "    kind: worn\n    parts: [toe, toe]\n", "rig.yaml:3:", "differ"},
+        Broken{kBegin + kWorn + "    equalisers: [{channels: [heal]}]\n", "rig.yaml:3:", "heal"},
+        Broken{kBegin + kWorn + "    equalisers: [{most_boost_db: 30}]\n",
+               "rig.yaml:7:", "most_boost_db"},
+        Broken{kBegin + kWorn + kSections + "{kind: peak, frequency: 99, gain_db: 12}]\n",
+               "rig.yaml:3:", "most_boost_db"},
+        Broken{kBegin + kWorn + kSections + "{kind: notch, frequency: 99, gain_db: 1}]\n",
+               "rig.yaml:9:", "peak"},
+        Broken{kBegin + kWorn + kResponse + "{frequency: [90, 80], level_db: [1, 2]}\n",
+               "rig.yaml:3:", "1.05"},
+        Broken{kBegin + kWorn + kResponse + "{frequency: [80, 90], level_db: [1]}\n",
+               "rig.yaml:3:", "as many"},
         Broken{kBegin + "    kind: tiles\n    tiles: {reach: 0.1}\n", "rig.yaml:3:", "reach"},
         Broken{
             "name: x\noutputs:\n  - name: a\n    kind: single\n    band: {low: 800, high: 750}\n",
@@ -91,6 +122,26 @@ TEST_P(BrokenRig, IsAnsweredWithItsPlaceAndTheReason) {
     EXPECT_THAT(error.what(), HasSubstr(GetParam().place));
     EXPECT_THAT(error.what(), HasSubstr(GetParam().words));
   }
+}
+
+TEST(Rig, ReadsEqualisers) {
+  const Rig rig = parse_rig(kBegin + kWorn +
+                                "    equalisers:\n"
+                                "      - channels: [toe]\n"
+                                "        most_boost_db: 9\n"
+                                "        sections: [{kind: low_shelf, frequency: 40, gain_db: 9}]\n"
+                                "      - response:\n"
+                                "          frequency: [30, 60, 120]\n"
+                                "          level_db: [-8, 0, 4]\n",
+                            "rig.yaml");
+  const auto& equalisers = rig.outputs.at(0).equalisers;
+  ASSERT_EQ(equalisers.size(), 2U);
+  EXPECT_EQ(equalisers[0].channels, std::vector<std::string>{"toe"});
+  ASSERT_EQ(equalisers[0].sections.size(), 1U);
+  EXPECT_EQ(equalisers[0].sections[0].kind, SectionKind::low_shelf);
+  EXPECT_DOUBLE_EQ(equalisers[0].sections[0].gain_db, 9.0);
+  EXPECT_TRUE(equalisers[1].channels.empty());
+  EXPECT_EQ(equalisers[1].response.level_db, (std::vector<double>{-8, 0, 4}));
 }
 
 TEST(Rig, RefusesTwoOutputsOfOneName) {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The rows of the rig file as Markdown tables, with their defaults.
+#include <array>
+#include <cstdio>
+
+#include "synth-server/output/rig_reader.hpp"
+#include "synth-server/output/rig_rows.hpp"
+
+namespace splash::synth {
+namespace {
+
+using protocol::Row;
+
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+std::string text_of(int value) {
+  return std::to_string(value);
+}
+std::string text_of(bool value) {
+  return value ? "true" : "false";
+}
+std::string text_of(const std::string& value) {
+  return value;
+}
+template <class List>
+std::string text_of(const List& list) {
+  std::string out;
+  for (const auto& item : list) out += (out.empty() ? "" : ", ") + text_of(item);
+  return "[" + out + "]";
+}
+
+template <class Struct>
+std::string describe_fields(const std::vector<Field<Struct>>& fields) {
+  static const Struct fallback{};  // static: else g++ 12 warns of uninitialised strings
+  std::vector<Row> rows;
+  std::vector<std::string> defaults;
+  for (const Field<Struct>& field : fields) {
+    rows.push_back(field.row);
+    defaults.push_back(
+        std::visit([&](auto member) { return text_of(fallback.*member); }, field.member));
+  }
+  return protocol::describe(rows, defaults);
+}
+
+}  // namespace
+
+std::string describe_rig_keys() {
+  return "### A rig\n\n" + describe_fields(rig_fields()) + "\n### Each of `outputs`\n\n" +
+         describe_fields(output_fields()) + "\n### `band` of an output\n\n" +
+         describe_fields(band_fields()) + "\n### `tiles` of an output of that kind\n\n" +
+         describe_fields(tile_fields()) + "\n### `stereo` of an output of that kind\n\n" +
+         describe_fields(stereo_fields()) + "\n### Each of `equalisers` of an output\n\n" +
+         describe_fields(equaliser_fields()) + "\n### Each of `sections` of an equaliser\n\n" +
+         describe_fields(section_fields()) + "\n### `response` of an equaliser\n\n" +
+         describe_fields(response_fields());
+}
+
+}  // namespace splash::synth

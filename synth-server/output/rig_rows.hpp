@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Every key that may stand in a rig file, a row each: the reader, the error texts and the manual
+// come from them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/config.hpp"
+#include "synth-server/output/rig.hpp"
+
+namespace splash::synth {
+
+using protocol::Field;
+
+/// What the YAML says of an output beside Output's own members.
+struct OutputEntry : Output {
+  std::string kind_name;
+};
+struct SectionEntry : EqualiserSection {
+  std::string kind_name;
+};
+
+[[nodiscard]] std::vector<Field<Rig>> rig_fields();
+[[nodiscard]] std::vector<Field<OutputEntry>> output_fields();
+[[nodiscard]] std::vector<Field<Band>> band_fields();
+[[nodiscard]] std::vector<Field<Output>> tile_fields();
+[[nodiscard]] std::vector<Field<Output>> stereo_fields();
+[[nodiscard]] std::vector<Field<Equalisation>> equaliser_fields();
+[[nodiscard]] std::vector<Field<SectionEntry>> section_fields();
+[[nodiscard]] std::vector<Field<MeasuredResponse>> response_fields();
+
+}  // namespace splash::synth
