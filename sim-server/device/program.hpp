@@ -27,20 +27,22 @@ struct KernelSource {
 class Kernel {
  public:
   Kernel() = default;
-  Kernel(const cl::Program& program, const std::string& name) : kernel_(program, name.c_str()) {}
+  /// `group`: work-items handed out together; few when each is worth microseconds.
+  Kernel(const cl::Program& program, const std::string& name, std::size_t group = 64)
+      : kernel_(program, name.c_str()), group_(group) {}
 
   template <class... Args>
   void run(cl::CommandQueue& queue, std::size_t count, const Args&... args) {
     cl_uint index = 0;
     (kernel_.setArg(index++, args), ...);
-    const std::size_t group = count >= kGroup ? kGroup : 1;
+    const std::size_t group = count >= group_ ? group_ : 1;
     const std::size_t padded = (count + group - 1) / group * group;
     queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(padded), cl::NDRange(group));
   }
 
  private:
-  static constexpr std::size_t kGroup = 64;
   cl::Kernel kernel_;
+  std::size_t group_ = 64;
 };
 
 }  // namespace splash::sim

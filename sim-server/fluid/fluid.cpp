@@ -91,9 +91,10 @@ void Fluid::build_kernels(bool relaxed) {
       NeighbourGrid(device_, program, params_, static_cast<std::size_t>(boundary_count_), 1);
   place_bodies_ = Kernel(program, "place_bodies");
   gather_body_volumes_ = Kernel(program, "gather_body_volumes");
-  compute_density_ = Kernel(program, "compute_density");
-  compute_acceleration_ = Kernel(program, "compute_acceleration");
-  integrate_ = Kernel(program, "integrate");
+  const std::size_t group = device_.lanes() > 1 ? 4 : 64;
+  compute_density_ = Kernel(program, "compute_density", group);
+  compute_acceleration_ = Kernel(program, "compute_acceleration", group);
+  integrate_ = Kernel(program, "integrate", group);
   survey_ = Kernel(guard, "survey");
   survey_parts_ = Buffer<SurveyPart>(device_, kParts);
   survey_read_.resize(kParts);
@@ -136,8 +137,7 @@ void Fluid::sort_particles() {
 }
 
 std::size_t Fluid::groups() const {
-  const int targets = device_.lanes() > 1 ? 4 : 1;  // TARGETS of kernels/lanes.h
-  return static_cast<std::size_t>((params_.count + targets - 1) / targets);
+  return static_cast<std::size_t>((params_.count + device_.lanes() - 1) / device_.lanes());
 }
 
 void Fluid::compute_density(const Step& step) {
@@ -158,13 +158,18 @@ void Fluid::compute_acceleration(const Step& step) {
 }
 
 void Fluid::integrate(const Step& step) {
-  integrate_.run(device_.queue(), static_cast<std::size_t>(params_.count), params_buffer_.memory(),
-                 as_float(step.dt), as_float(step.piston), as_float(step.piston_speed),
-                 acceleration_.memory(), sorted_.position.memory(), sorted_.velocity.memory());
+  integrate_.run(device_.queue(), groups(), params_buffer_.memory(), as_float(step.dt),
+                 as_float(step.piston), as_float(step.piston_speed), acceleration_.memory(),
+                 sorted_.position.memory(), sorted_.velocity.memory());
 }
 
 void Fluid::still() {
   sorted_.velocity.enqueue_clear(device_);
+}
+
+void Fluid::drop_last_wall() {
+  --params_.wall_count;
+  params_buffer_.write(device_, std::span<const FluidParams>(&params_, 1));
 }
 
 void Fluid::enqueue_survey() {

@@ -69,6 +69,8 @@ class Fluid {
 
   /// Stops all particles where they are.
   void still();
+  /// Takes away the last wall, which a gate is; waits.
+  void drop_last_wall();
 
   /// Enqueues the survey; its result is there once the queue is finished.
   void enqueue_survey();
@@ -105,7 +107,7 @@ class Fluid {
   void compute_density(const Step& step);
   void compute_acceleration(const Step& step);
   void integrate(const Step& step);
-  /// Work-items of the stages that search neighbours.
+  /// Work-items of the stages that handle a vector of particles at once.
   [[nodiscard]] std::size_t groups() const;
 
   Device& device_;

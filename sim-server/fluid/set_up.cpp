@@ -20,6 +20,9 @@ constexpr double kHeadroom = 0.5;
 /// 0.3 m of water, 0.15 to 0.18 in 0.2 m, 0.18 in 0.09 m, 0.2 in 0.5 m.
 constexpr double kSurfaceLoss = 0.17;
 
+/// Index of the slope among the walls: after the floor and the four sides.
+constexpr int kSlopeWall = 5;
+
 WallPlane wall(double nx, double ny, double nz, double offset) {
   return {static_cast<float>(nx), static_cast<float>(ny), static_cast<float>(nz),
           static_cast<float>(offset)};
@@ -122,6 +125,10 @@ std::vector<WallPlane> tank_walls(const Scene& scene) {
     walls.push_back(wall(-scene.slope.gradient * scale, 0.0, scale,
                          (a[2] - scene.slope.gradient * scene.slope.foot) * scale));
   }
+  if (scene.gate.present) {
+    const double side = scene.gate.water_left ? -1.0 : 1.0;
+    walls.push_back(wall(side, 0, 0, side * scene.gate.x));
+  }
   return walls;
 }
 
@@ -166,7 +173,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);
   p.piston = scene.wave_maker.present ? 1 : -1;
-  p.slope = scene.slope.present ? p.wall_count - 1 : -1;
+  p.slope = scene.slope.present ? kSlopeWall : -1;
   return p;
 }
 

@@ -16,7 +16,8 @@ inline constexpr double kSupportSpacings = 2.0;
 /// Support radius H of a scene [m].
 [[nodiscard]] double support_radius(const Scene& scene);
 
-/// Walls: the floor first, then the sides (smallest x first: the piston), then the slope.
+/// Walls: the floor first, then the sides (smallest x first: the piston), then the slope, then the
+/// gate.
 [[nodiscard]] std::vector<WallPlane> tank_walls(const Scene& scene);
 
 /// `particles`: their places in the initial lattice [m]. The mass of a particle is such that a

@@ -57,6 +57,6 @@ static float upward_gradient(constant FluidParams* p, global const int* cell_sta
     sum += body_above(p, body_start, body_position, body_volume, body_stride, x, y, z);
   }
   const float gradient = 20.0f * p->kernel_norm * p->inverse_support * p->inverse_support * sum +
-                         wall_field(p, x, y, z, piston).gz;
+                         first_lane(wall_field(p, (lanes)(x), (lanes)(y), (lanes)(z), piston).gz);
   return gradient * p->support / 1.5f;
 }

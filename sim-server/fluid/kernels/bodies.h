@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Whether any body is within reach of a point: most particles are spared the search.
-static bool near_bodies(global const BodyStep* bodies, int first, int count, float x, float y,
-                        float z) {
+// Whether any body is within reach: most particles are spared the search.
+static bool bodies_near_box(global const BodyStep* bodies, int first, int count, float3 lower,
+                            float3 upper) {
   for (int b = first; b < first + count; ++b) {
-    if (x > bodies[b].lower_x && x < bodies[b].upper_x && y > bodies[b].lower_y &&
-        y < bodies[b].upper_y && z > bodies[b].lower_z && z < bodies[b].upper_z) {
+    if (upper.x > bodies[b].lower_x && lower.x < bodies[b].upper_x &&
+        upper.y > bodies[b].lower_y && lower.y < bodies[b].upper_y &&
+        upper.z > bodies[b].lower_z && lower.z < bodies[b].upper_z) {
       return true;
     }
   }
   return false;
+}
+
+static bool near_bodies(global const BodyStep* bodies, int first, int count, float x, float y,
+                        float z) {
+  return bodies_near_box(bodies, first, count, (float3)(x, y, z), (float3)(x, y, z));
 }

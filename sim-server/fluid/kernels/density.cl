@@ -6,52 +6,42 @@
 // The force needs p / rho^2 only, so that is what is stored.
 // The part without bodies is kept, too: it tells water from the film that a body carries along.
 
-// Sum of W / sigma over the neighbours of each target.
-static void sum_fluid(constant FluidParams* p, global const int* cell_start,
-                      global const float* position, const Targets* at, float* sum) {
-  const int n = p->capacity;
-  for (int turn = 0; turn < at->turns; ++turn) {
-    lanes part[TARGETS];
-    for (int t = 0; t < TARGETS; ++t) part[t] = 0.0f;
-    for (int k = 0; k < 9; ++k) {
-      const int2 run =
-          neighbour_run(p, cell_start, at->row[turn], at->from[turn], at->to[turn], k);
-      for (int j = run.x; j < run.y; j += LANES) {
-        const lanes xj = load_x(position, j, run.y);
-        const lanes yj = LOAD(position + n, j);
-        const lanes zj = LOAD(position + 2 * n, j);
-        for (int t = 0; t < TARGETS; ++t) {
-          const lanes dx = at->x[t] - xj;
-          const lanes dy = at->y[t] - yj;
-          const lanes dz = at->z[t] - zj;
-          part[t] += kernel_shape(one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support));
-        }
-      }
-    }
-    for (int t = 0; t < TARGETS; ++t) {
-      if (at->turns == 1 || t == turn) sum[t] = total(part[t]);
-    }
-  }
+static lanes shape_at(constant FluidParams* p, const Group* g, global const float* position,
+                      int stride, int j) {
+  const lanes dx = g->x - position[j];
+  const lanes dy = g->y - position[stride + j];
+  const lanes dz = g->z - position[2 * stride + j];
+  return kernel_shape(one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support));
 }
 
-// Sum of V_b W / sigma over the body points around one place.
-static float sum_bodies(constant FluidParams* p, global const int* body_start,
-                        global const float* body_position, global const float* body_volume,
-                        int stride, float x, float y, float z) {
-  const int row = cell_row(p, y, z);
-  const int cell = cell_x(p, x);
+// Sum of W / sigma over the fluid around each lane.
+static lanes sum_fluid(constant FluidParams* p, const Group* g, global const int* cell_start,
+                       global const float* position) {
   lanes sum = 0.0f;
-  for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, body_start, row, cell, cell, k);
-    for (int j = run.x; j < run.y; j += LANES) {
-      const lanes dx = x - load_x(body_position, j, run.y);
-      const lanes dy = y - LOAD(body_position + stride, j);
-      const lanes dz = z - LOAD(body_position + 2 * stride, j);
-      sum += LOAD(body_volume, j) *
-             kernel_shape(one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support));
+  Near near;
+  begin_search(&near);
+  while (search(p, g, cell_start, position, p->capacity, &near)) {
+    for (int k = 0; k < near.count; ++k) {
+      sum += shape_at(p, g, position, p->capacity, NEAR(near, k));
     }
   }
-  return total(sum);
+  return sum;
+}
+
+// Sum of V_b W / sigma over the body points around each lane.
+static lanes sum_bodies(constant FluidParams* p, const Group* g, global const int* body_start,
+                        global const float* body_position, global const float* body_volume,
+                        int stride) {
+  lanes sum = 0.0f;
+  Near near;
+  begin_search(&near);
+  while (search(p, g, body_start, body_position, stride, &near)) {
+    for (int k = 0; k < near.count; ++k) {
+      const int j = NEAR(near, k);
+      sum += body_volume[j] * shape_at(p, g, body_position, stride, j);
+    }
+  }
+  return sum;
 }
 
 kernel void compute_density(constant FluidParams* p, global const int* cell_start,
@@ -60,25 +50,26 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
                             int body_stride, global const BodyStep* bodies, int first_body,
                             int body_count, float piston, global float* density,
                             global float* water_density, global float* pressure_term) {
-  const int first = get_global_id(0) * TARGETS;
-  if (first >= p->count) return;
-  const Targets at = load_targets(p, position, first);
-  float fluid[TARGETS];
-  sum_fluid(p, cell_start, position, &at, fluid);
-
-  for (int t = 0; t < TARGETS && first + t < p->count; ++t) {
-    const float water =
-        p->kernel_norm * p->mass * fluid[t] +
-        p->rest_density * wall_field(p, at.x[t], at.y[t], at.z[t], piston).share;
-    float rho = water;
-    if (near_bodies(bodies, first_body, body_count, at.x[t], at.y[t], at.z[t])) {
-      rho += p->kernel_norm * p->rest_density *
-             sum_bodies(p, body_start, body_position, body_volume, body_stride, at.x[t], at.y[t],
-                        at.z[t]);
+  const int first = get_global_id(0) * LANES;
+  const int last = min(first + LANES, p->count);
+  lanes water = p->rest_density, rho = p->rest_density;
+  for (int turn = first; turn < last;) {
+    const Group g = load_group(p, cell_start, position, first, last, turn);
+    const lanes share = wall_field(p, g.x, g.y, g.z, piston).share;
+    const lanes fluid = p->kernel_norm * p->mass * sum_fluid(p, &g, cell_start, position) +
+                        p->rest_density * share;
+    lanes all = fluid;
+    if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
+      all += p->kernel_norm * p->rest_density *
+             sum_bodies(p, &g, body_start, body_position, body_volume, body_stride);
     }
-    const float pressure = fmax(p->sound_speed * p->sound_speed * (rho - p->rest_density), 0.0f);
-    density[first + t] = rho;
-    water_density[first + t] = water;
-    pressure_term[first + t] = pressure / (rho * rho);
+    water = select(water, fluid, g.mine);
+    rho = select(rho, all, g.mine);
+    turn = g.next;
   }
+  if (first >= last) return;
+  const lanes pressure = fmax(p->sound_speed * p->sound_speed * (rho - p->rest_density), 0.0f);
+  STORE(rho, density, first);
+  STORE(water, water_density, first);
+  STORE(pressure / (rho * rho), pressure_term, first);
 }

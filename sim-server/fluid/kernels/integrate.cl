@@ -5,28 +5,38 @@
 kernel void integrate(constant FluidParams* p, float dt, float piston, float piston_speed,
                       global const float* acceleration, global float* position,
                       global float* velocity) {
-  const int i = get_global_id(0);
+  const int i = get_global_id(0) * LANES;
   if (i >= p->count) return;
   const int n = p->capacity;
-  float3 v = (float3)(velocity[i], velocity[n + i], velocity[2 * n + i]) +
-             dt * (float3)(acceleration[i], acceleration[n + i], acceleration[2 * n + i]);
-  const float speed = length(v);
-  if (speed > p->speed_limit) v *= p->speed_limit / speed;
-  float3 x = (float3)(position[i], position[n + i], position[2 * n + i]) + dt * v;
+  lanes u = LOAD(velocity, i) + dt * LOAD(acceleration, i);
+  lanes v = LOAD(velocity + n, i) + dt * LOAD(acceleration + n, i);
+  lanes w = LOAD(velocity + 2 * n, i) + dt * LOAD(acceleration + 2 * n, i);
+  const lanes slower = fmin(p->speed_limit * rsqrt(u * u + v * v + w * w), 1.0f);
+  u *= slower;
+  v *= slower;
+  w *= slower;
+  lanes x = LOAD(position, i) + dt * u;
+  lanes y = LOAD(position + n, i) + dt * v;
+  lanes z = LOAD(position + 2 * n, i) + dt * w;
 
-  const float least = 0.05f * p->spacing;
+  const float closest = 0.05f * p->spacing;
   for (int k = 0; k < p->wall_count; ++k) {
-    const float d = wall_distance(p, k, x.x, x.y, x.z, piston);
-    if (d >= least) continue;
-    const float3 normal = (float3)(p->walls[k].nx, p->walls[k].ny, p->walls[k].nz);
-    x += (least - d) * normal;
-    const float into = dot(v, normal) - (k == p->piston ? piston_speed : 0.0f);
-    v -= fmin(into, 0.0f) * normal;
+    const lanes inside = fmax(closest - wall_distance(p, k, x, y, z, piston), 0.0f);
+    if (!(least(-inside) < 0.0f)) continue;
+    const float nx = p->walls[k].nx, ny = p->walls[k].ny, nz = p->walls[k].nz;
+    x += inside * nx;
+    y += inside * ny;
+    z += inside * nz;
+    const lanes speed = nx * u + ny * v + nz * w - (k == p->piston ? piston_speed : 0.0f);
+    const lanes stopped = select((lanes)(0.0f), fmin(speed, 0.0f), inside > 0.0f);
+    u -= stopped * nx;
+    v -= stopped * ny;
+    w -= stopped * nz;
   }
-  position[i] = x.x;
-  position[n + i] = x.y;
-  position[2 * n + i] = x.z;
-  velocity[i] = v.x;
-  velocity[n + i] = v.y;
-  velocity[2 * n + i] = v.z;
+  STORE(x, position, i);
+  STORE(y, position + n, i);
+  STORE(z, position + 2 * n, i);
+  STORE(u, velocity, i);
+  STORE(v, velocity + n, i);
+  STORE(w, velocity + 2 * n, i);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A vector of neighbours: LANES of them are handled at once by one work-item. On CPUs this is what
+// A vector of particles: LANES of them are handled at once by one work-item. On CPUs this is what
 // makes SPH fast (explicit vectors; the compiler finds none by itself); on GPUs LANES is 1 and the
 // same source is plain scalar code.
 
@@ -7,46 +7,58 @@
 
 #if LANES == 16
 typedef float16 lanes;
+typedef int16 lane_flags;  // of each lane: 0, or all bits set
 #define LOAD(array, index) vload16(0, (array) + (index))
+#define STORE(value, array, index) vstore16(value, 0, (array) + (index))
+#define LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+static float first_lane(lanes a) { return a.s0; }
 static float total(lanes a) {
   const float8 b = a.lo + a.hi;
   const float4 c = b.lo + b.hi;
   const float2 d = c.lo + c.hi;
   return d.x + d.y;
 }
+static float least(lanes a) {
+  const float8 b = fmin(a.lo, a.hi);
+  const float4 c = fmin(b.lo, b.hi);
+  const float2 d = fmin(c.lo, c.hi);
+  return fmin(d.x, d.y);
+}
 #elif LANES == 8
 typedef float8 lanes;
+typedef int8 lane_flags;
 #define LOAD(array, index) vload8(0, (array) + (index))
+#define STORE(value, array, index) vstore8(value, 0, (array) + (index))
+#define LANE_NUMBERS ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+static float first_lane(lanes a) { return a.s0; }
 static float total(lanes a) {
   const float4 c = a.lo + a.hi;
   const float2 d = c.lo + c.hi;
   return d.x + d.y;
 }
+static float least(lanes a) {
+  const float4 c = fmin(a.lo, a.hi);
+  const float2 d = fmin(c.lo, c.hi);
+  return fmin(d.x, d.y);
+}
 #elif LANES == 1
 typedef float lanes;
+typedef int lane_flags;
 #define LOAD(array, index) (array)[index]
+#define STORE(value, array, index) (array)[index] = (value)
+#define LANE_NUMBERS 0
+static float first_lane(lanes a) { return a; }
 static float total(lanes a) { return a; }
+static float least(lanes a) { return a; }
 #else
 #error "LANES must be 1, 8 or 16"
-#endif
-
-// Particles handled together by one work-item: next to each other in the sorted arrays, they share
-// the search of their neighbours and each load of one.
-#if LANES > 1
-#define TARGETS 4
-#else
-#define TARGETS 1
 #endif
 
 // LOAD of x coordinates of a run that ends before `end`: lanes past it are sent far away, for the
 // arrays go on there with particles of other runs, which may be neighbours in their own right.
 static lanes load_x(global const float* array, int index, int end) {
-#if LANES == 16
-  const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  return select((float16)(FAR_AWAY), LOAD(array, index), lane < (int16)(end - index));
-#elif LANES == 8
-  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-  return select((float8)(FAR_AWAY), LOAD(array, index), lane < (int8)(end - index));
+#if LANES > 1
+  return select((lanes)(FAR_AWAY), LOAD(array, index), LANE_NUMBERS < (lane_flags)(end - index));
 #else
   return LOAD(array, index);
 #endif

@@ -19,17 +19,17 @@ static lanes kernel_shape(lanes u) {
 }
 
 // Weight of the kernel's plane at distance z from its centre: the integral of W over it [1/m].
-static float plane_marginal(float z, float inverse_support) {
-  const float u = fmin(fabs(z) * inverse_support, 1.0f);
-  const float u2 = u * u;
+static lanes plane_marginal(lanes z, float inverse_support) {
+  const lanes u = fmin(fabs(z) * inverse_support, 1.0f);
+  const lanes u2 = u * u;
   return 21.0f * inverse_support *
          (1.0f / 14.0f + u2 * (-0.5f + u2 * (2.5f + u * (-4.0f + u * (2.5f - u * (4.0f / 7.0f))))));
 }
 
 // -d/dz of it, which is 2 pi z W(z) [1/m2].
-static float plane_marginal_fall(float z, float inverse_support) {
-  const float u = fmin(fabs(z) * inverse_support, 1.0f);
-  const float left = 1.0f - u;
-  const float left2 = left * left;
+static lanes plane_marginal_fall(lanes z, float inverse_support) {
+  const lanes u = fmin(fabs(z) * inverse_support, 1.0f);
+  const lanes left = 1.0f - u;
+  const lanes left2 = left * left;
   return 21.0f * inverse_support * inverse_support * u * left2 * left2 * (1.0f + 4.0f * u);
 }

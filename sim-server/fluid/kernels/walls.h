@@ -12,45 +12,50 @@
 // floor replaces the floor where it is nearer.
 
 typedef struct {
-  float share;          // part of the kernel's weight inside walls [1]
-  float gx, gy, gz;     // its gradient [1/m]: points into the walls
+  lanes share;       // part of the kernel's weight inside walls [1]
+  lanes gx, gy, gz;  // its gradient [1/m]: points into the walls
 } WallField;
 
-static float wall_distance(constant FluidParams* p, int k, float x, float y, float z,
+static lanes wall_distance(constant FluidParams* p, int k, lanes x, lanes y, lanes z,
                            float piston) {
   const float moved = k == p->piston ? piston : 0.0f;
-  return p->walls[k].nx * x + p->walls[k].ny * y + p->walls[k].nz * z - p->walls[k].offset - moved;
+  return p->walls[k].nx * x + p->walls[k].ny * y + p->walls[k].nz * z -
+         (p->walls[k].offset + moved);
 }
 
 // Part of the kernel's weight behind a wall at distance d, and its fall with d [1], [1/m].
-static float2 behind_wall(constant FluidParams* p, float d, bool mirrors) {
-  float2 behind = (float2)(0.0f, 0.0f);
+static lanes behind_wall(constant FluidParams* p, lanes d, bool mirrors, lanes* fall) {
+  lanes share = 0.0f;
+  *fall = 0.0f;
   for (int layer = 0; layer < 2; ++layer) {
-    const float z = mirrors ? 2.0f * fmax(d, 0.0f) + layer * p->spacing
+    const lanes z = mirrors ? 2.0f * fmax(d, 0.0f) + layer * p->spacing
                             : fmax(d, 0.0f) + (layer + 0.5f) * p->spacing;
-    behind.x += plane_marginal(z, p->inverse_support);
-    behind.y += (mirrors ? 2.0f : 1.0f) * plane_marginal_fall(z, p->inverse_support);
+    share += p->layer_weight * plane_marginal(z, p->inverse_support);
+    *fall += p->layer_weight * (mirrors ? 2.0f : 1.0f) *
+             plane_marginal_fall(z, p->inverse_support);
   }
-  return p->layer_weight * behind;
+  return share;
 }
 
-static WallField wall_field(constant FluidParams* p, float x, float y, float z, float piston) {
+static WallField wall_field(constant FluidParams* p, lanes x, lanes y, lanes z, float piston) {
   WallField field = {0.0f, 0.0f, 0.0f, 0.0f};
-  float open = 1.0f;
-  int hidden = -1;  // the floor or the slope, whichever is farther
-  if (p->slope >= 0) {
-    const bool slope_nearer = wall_distance(p, p->slope, x, y, z, piston) <
-                              wall_distance(p, 0, x, y, z, piston);
-    hidden = slope_nearer ? 0 : p->slope;
-  }
+  lanes open = 1.0f;
   for (int k = 0; k < p->wall_count; ++k) {
-    const float d = wall_distance(p, k, x, y, z, piston);
-    if (k == hidden || d >= p->support) continue;
-    const float2 behind = behind_wall(p, d, p->slope < 0 || (k != 0 && k != p->slope));
-    const float left = 1.0f - behind.x;
-    field.gx -= behind.y / left * p->walls[k].nx;
-    field.gy -= behind.y / left * p->walls[k].ny;
-    field.gz -= behind.y / left * p->walls[k].nz;
+    lanes d = wall_distance(p, k, x, y, z, piston);
+    if (p->slope >= 0 && (k == 0 || k == p->slope)) {
+      // Of the floor and the slope the farther one is hidden.
+      const lanes other = wall_distance(p, k == 0 ? p->slope : 0, x, y, z, piston);
+      const lane_flags hidden = k == 0 ? other < d : other <= d;
+      d = select(d, (lanes)(FAR_AWAY), hidden);
+    }
+    if (!(least(d) < p->support)) continue;
+    lanes fall;
+    const lanes behind = behind_wall(p, d, p->slope < 0 || (k != 0 && k != p->slope), &fall);
+    const lanes left = 1.0f - behind;
+    const lanes pull = fall / left;
+    field.gx -= pull * p->walls[k].nx;
+    field.gy -= pull * p->walls[k].ny;
+    field.gz -= pull * p->walls[k].nz;
     open *= left;
   }
   field.share = 1.0f - open;
