@@ -46,7 +46,27 @@ Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
   const std::vector<Vector3> particles = particles_around(scene, bodies);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
   return {device, make_params(scene, particles), settled(scene, particles), boundary,
-          static_cast<int>(bodies.count())};
+          body_shapes(scene.bodies)};
+}
+
+/// Gives every particle the velocity of the scene's flow; the fastest of them [m/s].
+double start_flow(Fluid& fluid, const Scene& scene) {
+  if (scene.flow.kind == FlowKind::none) return 0.0;
+  Snapshot state = fluid.snapshot();
+  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    const auto at = [&](std::size_t axis) {
+      return static_cast<double>(state.position[axis * stride + i]);
+    };
+    const Vector3 v = initial_velocity(scene, {at(0), at(1), at(2)});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      state.velocity[axis * stride + i] = static_cast<float>(v[axis]);
+    }
+    fastest = std::max(fastest, length(v));
+  }
+  fluid.restore(state);
+  return fastest;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 
 static_assert(sizeof(FluidParams) == 26 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 19 * sizeof(float));
+static_assert(sizeof(BodyShape) == 6 * sizeof(float));
 
 static_assert(sizeof(SurveyPart) == 32);
 
@@ -27,12 +28,13 @@ float as_float(double value) {
 }  // namespace
 
 Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
-             const std::vector<BoundaryPoint>& boundary, int bodies, bool relaxed)
-    : device_(device), params_(params), body_count_(bodies) {
+             const std::vector<BoundaryPoint>& boundary, const std::vector<BodyShape>& shapes,
+             bool relaxed)
+    : device_(device), params_(params), body_count_(static_cast<int>(shapes.size())) {
   load_particles(particles);
   params_.capacity = sorted_.stride;
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
-  load_boundary(boundary);
+  load_boundary(boundary, shapes);
   build_kernels(relaxed);
 }
 
@@ -56,7 +58,8 @@ void Fluid::load_particles(const std::vector<Vector3>& particles) {
   acceleration_ = Buffer<float>(device_, 3 * stride);
 }
 
-void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary) {
+void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
+                          const std::vector<BodyShape>& shapes) {
   boundary_count_ = static_cast<int>(boundary.size());
   body_points_ = PointArrays(device_, boundary.size());
   body_sorted_ = PointArrays(device_, boundary.size());
@@ -80,6 +83,7 @@ void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary) {
   body_sample_volume_ = Buffer<float>(device_, volume);
   body_points_.id.write(device_, ids);
   body_volume_ = Buffer<float>(device_, stride + kReadAhead);
+  body_shapes_ = Buffer<BodyShape>(device_, shapes);
 }
 
 void Fluid::build_kernels(bool relaxed) {
@@ -159,7 +163,8 @@ void Fluid::compute_acceleration(const Step& step) {
 
 void Fluid::integrate(const Step& step) {
   integrate_.run(device_.queue(), groups(), params_buffer_.memory(), as_float(step.dt),
-                 as_float(step.piston), as_float(step.piston_speed), acceleration_.memory(),
+                 as_float(step.piston), as_float(step.piston_speed), body_shapes_.memory(),
+                 body_steps_.memory(), step.first_body, body_count_, acceleration_.memory(),
                  sorted_.position.memory(), sorted_.velocity.memory());
 }
 

@@ -54,10 +54,12 @@ struct Snapshot {
 /// for it.
 class Fluid {
  public:
-  /// `particles`: initial places [m]; `boundary`: points of `bodies` rigid bodies.
+  /// `particles`: initial places [m]; `boundary`: points of the rigid bodies, `shapes`: their
+  /// outlines, which nothing is caught in.
   /// `relaxed`: kernels with relaxed mathematics; no faster with PoCL, whose vectors are explicit.
   Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
-        const std::vector<BoundaryPoint>& boundary, int bodies, bool relaxed = false);
+        const std::vector<BoundaryPoint>& boundary, const std::vector<BodyShape>& shapes,
+        bool relaxed = false);
 
   /// Bodies of all steps of the coming frame, step after step.
   void set_bodies(const std::vector<BodyStep>& steps);
@@ -100,7 +102,8 @@ class Fluid {
 
  private:
   void load_particles(const std::vector<Vector3>& particles);
-  void load_boundary(const std::vector<BoundaryPoint>& boundary);
+  void load_boundary(const std::vector<BoundaryPoint>& boundary,
+                     const std::vector<BodyShape>& shapes);
   void build_kernels(bool relaxed);
   void place_bodies(const Step& step);
   void sort_particles();
@@ -127,6 +130,7 @@ class Fluid {
   Buffer<float> body_sample_;
   Buffer<int> body_owner_;
   Buffer<float> body_sample_volume_;
+  Buffer<BodyShape> body_shapes_;
   Buffer<BodyStep> body_steps_;
   std::vector<BodyStep> uploaded_steps_;  ///< kept until the queue has read them
   PointArrays body_points_;

@@ -57,6 +57,18 @@ typedef struct {
   float upper_x, upper_y, upper_z;
 } BodyStep;
 
+#define SPLASH_BOX 0
+#define SPLASH_SPHERE 1
+#define SPLASH_CYLINDER 2
+
+// The outline of a body in its own axes.
+typedef struct {
+  int kind;                      // SPLASH_BOX, SPLASH_SPHERE or SPLASH_CYLINDER (along z)
+  float half_x, half_y, half_z;  // [m]
+  float rocker;                  // the sole of a box curves up at both x ends by this [m]
+  float flat;                    // share of its length, in the middle, that does not curve [1]
+} BodyShape;
+
 #ifdef __cplusplus
 }  // namespace splash::sim
 #endif

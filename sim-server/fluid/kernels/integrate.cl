@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Symplectic Euler: v += a dt, x += v dt. Then nobody is left behind a wall, and nobody outruns
-// the speed limit.
+// the speed limit; nobody is caught in a body.
 
 kernel void integrate(constant FluidParams* p, float dt, float piston, float piston_speed,
-                      global const float* acceleration, global float* position,
+                      constant BodyShape* shapes, global const BodyStep* bodies, int first_body,
+                      int body_count, global const float* acceleration, global float* position,
                       global float* velocity) {
   const int i = get_global_id(0) * LANES;
   if (i >= p->count) return;
@@ -18,6 +19,7 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
   lanes x = LOAD(position, i) + dt * u;
   lanes y = LOAD(position + n, i) + dt * v;
   lanes z = LOAD(position + 2 * n, i) + dt * w;
+  keep_lanes_out(p, shapes, bodies, first_body, body_count, &x, &y, &z, &u, &v, &w);
 
   const float closest = 0.05f * p->spacing;
   for (int k = 0; k < p->wall_count; ++k) {

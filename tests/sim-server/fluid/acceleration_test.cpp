@@ -48,7 +48,7 @@ TEST_P(Acceleration, OfAllTogetherIsGravity) {
   FluidParams open = water.params;
   open.wall_count = 0;
   water.fluid = std::make_unique<Fluid>(device, open, water.particles, std::vector<BoundaryPoint>{},
-                                        0, GetParam().relaxed);
+                                        std::vector<BodyShape>{}, GetParam().relaxed);
   water.stir(1.0, 8);
   water.step(1.0e-4);
   Vector3 sum = {0.0, 0.0, 0.0};

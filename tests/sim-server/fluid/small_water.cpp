@@ -42,7 +42,7 @@ void Water::start(Device& device, bool relaxed) {
                                     std::move(moved), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
   fluid = std::make_unique<Fluid>(device, params, settle ? settled(scene, particles) : particles,
-                                  boundary, static_cast<int>(bodies->count()), relaxed);
+                                  boundary, body_shapes(scene.bodies), relaxed);
   time = 0.0;
 }
 

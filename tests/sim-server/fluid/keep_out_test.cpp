@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Nothing is caught in a body: particles put anywhere in bodies of every shape, turned and moving,
+// are at most half a spacing deep after one step, on the side of the nearest face, and no longer
+// on their way in.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
+#include "tests/sim-server/fluid/lane_settings.hpp"
+#include "tests/sim-server/fluid/small_water.hpp"
+
+namespace splash::sim {
+namespace {
+
+const Vector3 kCentre = {0.5, 0.5, 0.5};
+const Vector3 kMotion = {0.3, -0.2, -0.8};
+const Vector3 kSpin = {0.5, 1.0, -2.0};
+
+/// Rotation by 0.7 rad about an axis that is none of the body's.
+Quaternion turned() {
+  const double part = std::sin(0.35) / std::sqrt(14.0);
+  return {1.0 * part, 2.0 * part, 3.0 * part, std::cos(0.35)};
+}
+
+/// Below the nearest face, a curved sole taken as what it is.
+double depth_of(const Shape& shape, const Vector3& local) {
+  if (shape.kind != ShapeKind::box) return -distance_to(shape, local);
+  const double under = local[2] + shape.size[2] / 2.0 - rocker_rise(shape, local[0]);
+  return std::min(-distance_to(shape, local), under);
+}
+
+Water body_among_particles(const Shape& shape) {
+  Scene scene = tank_scene(0.05, {1.0, 1.0, 1.0}, 0.2);
+  BodySettings body;
+  body.name = "body";
+  body.shape = shape;
+  scene.bodies = {body};
+  Water water;
+  water.scene = scene;
+  water.particles = initial_particles(scene);
+  water.motions = {[](double) { return BodyState{kCentre, turned(), kMotion, kSpin}; }};
+  return water;
+}
+
+/// Puts the particles at random places in and around the body.
+std::vector<Vector3> scatter(Water& water) {
+  const std::vector<Vector3> places =
+      random_places(water.particles.size(), {0.35, 0.35, 0.35}, {0.65, 0.65, 0.65}, 5);
+  Snapshot snapshot = water.fluid->snapshot();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      snapshot.position[part(*water.fluid, axis, i)] =
+          static_cast<float>(places[static_cast<std::size_t>(snapshot.id[i])][axis]);
+    }
+  }
+  water.fluid->restore(snapshot);
+  return places;
+}
+
+Vector3 in_body(const Vector3& place) {
+  const Quaternion q = turned();
+  return rotate({-q[0], -q[1], -q[2], q[3]}, place - kCentre);
+}
+
+class KeepOut : public ::testing::TestWithParam<Build> {};
+
+TEST_P(KeepOut, LeavesNobodyDeepInside) {
+  Device device(-1, false, GetParam().lanes);
+  for (const Shape& shape : {Shape{ShapeKind::box, {0.2, 0.14, 0.1}, 0.0, 0.0},
+                             Shape{ShapeKind::box, {0.3, 0.14, 0.1}, 0.03, 0.4},
+                             Shape{ShapeKind::sphere, {0.2, 0.2, 0.2}, 0.0, 0.0},
+                             Shape{ShapeKind::cylinder, {0.2, 0.2, 0.12}, 0.0, 0.0}}) {
+    SCOPED_TRACE(static_cast<int>(shape.kind));
+    Water water = body_among_particles(shape);
+    water.start(device, GetParam().relaxed);
+    const std::vector<Vector3> places = scatter(water);
+    water.step(1.0e-7);  // next to no motion of its own
+    const Snapshot after = water.fluid->snapshot();
+    const double kept = 0.5 * water.scene.fluid.spacing;
+    int moved = 0;
+    for (std::size_t i = 0; i < after.id.size(); ++i) {
+      const Vector3 before = places[static_cast<std::size_t>(after.id[i])];
+      const Vector3 x = vector_of(*water.fluid, after.position, i);
+      const double deep = depth_of(shape, in_body(before));
+      if (deep <= kept) {
+        EXPECT_LT(length(x - before), 1.0e-5);
+        continue;
+      }
+      ++moved;
+      EXPECT_LT(depth_of(shape, in_body(x)), kept + 1.0e-5);
+      EXPECT_NEAR(length(x - before), deep - kept, 1.0e-5) << "not by the nearest face";
+      const Vector3 out = (1.0 / length(x - before)) * (x - before);
+      const Vector3 skin = kMotion + cross(kSpin, before - kCentre);
+      EXPECT_GT(dot(vector_of(*water.fluid, after.velocity, i) - skin, out), -1.0e-3);
+    }
+    EXPECT_GT(moved, 20);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Builds, KeepOut, kBuilds, build_name);
+
+}  // namespace
+}  // namespace splash::sim
