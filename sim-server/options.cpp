@@ -47,6 +47,8 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--record", options.record, "Write the events to this log")->type_name("LOG");
   app.add_option("--report", options.report, "Write what the run achieved to this file")
       ->type_name("FILE.json");
+  app.add_option("--gauges", options.gauges, "Write what the scene's gauges read to this file")
+      ->type_name("FILE.csv");
   app.add_flag("--faster-than-real-time", texts.fast, "Do not wait for the wall clock");
 }
 

@@ -17,6 +17,11 @@ std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
   return protocol::failing_with(protocol::kExitIo, [&] { return protocol::LogWriter(path); });
 }
 
+std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Scene& scene) {
+  if (path.empty()) return std::nullopt;
+  return protocol::failing_with(protocol::kExitIo, [&] { return GaugeFile(path, scene); });
+}
+
 protocol::UdpSocket open_socket(const std::vector<protocol::Endpoint>& targets) {
   return protocol::failing_with(protocol::kExitUnavailable,
                                 [&] { return protocol::UdpSocket(sending_endpoint(targets)); });
@@ -41,6 +46,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       targets_(options.targets),
       socket_(open_socket(options.targets)),
       log_(open_log(options.record)),
+      gauges_(open_gauges(options.gauges, simulation.scene())),
       sender_(
           targets_, socket_, log_ ? &*log_ : nullptr,
           {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),
@@ -79,11 +85,13 @@ void Server::run(const std::function<bool()>& ended) {
   started_ = protocol::monotonic_now();
   next_line_ = started_ + kLinePeriod;
   origin_ = started_ - simulation_.seconds();
+  note_gauges();
   while (!ended() && !is_over()) {
     const FrameResult frame = simulation_.advance();
     pacer_.wait_until(frame.seconds);
     origin_ = protocol::monotonic_now() - frame.seconds;
     send(frame);
+    note_gauges();
     note_status(frame);
     target_status_.poll();
     if (protocol::monotonic_now() >= next_line_) print_progress();
@@ -120,6 +128,13 @@ void Server::note_status(const FrameResult& frame) {
   status_.real_time_factor = static_cast<float>(frame.seconds / wall);
   status_.steps_per_second = static_cast<float>(static_cast<double>(totals.steps) / wall);
   status_.density_error = static_cast<float>(frame.survey.mean_excess);
+}
+
+void Server::note_gauges() {
+  if (!gauges_) return;
+  protocol::failing_with(protocol::kExitIo, [&] {
+    gauges_->note(simulation_.seconds(), simulation_.fluid(), simulation_.bodies());
+  });
 }
 
 void Server::print_progress() {

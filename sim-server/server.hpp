@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "sim-server/gauge/gauge_file.hpp"
 #include "sim-server/numbered_events.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/send/clock_answers.hpp"
@@ -38,6 +39,7 @@ class Server {
   void take_pose(const protocol::BodyPose& pose, double arrival);
   void send(const FrameResult& frame);
   void note_status(const FrameResult& frame);
+  void note_gauges();
   void print_progress();
   [[nodiscard]] bool is_over() const;
 
@@ -47,6 +49,7 @@ class Server {
   Targets targets_;
   protocol::UdpSocket socket_;
   std::optional<protocol::LogWriter> log_;
+  std::optional<GaugeFile> gauges_;
   EventSender sender_;
   Pacer pacer_;
   TargetStatus target_status_;

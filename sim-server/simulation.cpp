@@ -7,8 +7,10 @@
 
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/settle.hpp"
+#include "sim-server/scene/flow.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
 #include "sim-server/tracking/make_motion.hpp"
 
 namespace splash::sim {
@@ -81,6 +83,10 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
                         scene_.fluid.time_step_factor);
   const PistonState piston = piston_at(scene_.wave_maker, 0.0);
   settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, largest_step_);
+  if (scene_.gate.present) fluid_.drop_last_wall();
+  const double fastest = std::max(start_flow(fluid_, scene_), bodies_.fastest(0.0));
+  largest_step_ = largest_time_step(fluid_.params(), fastest, std::abs(scene_.fluid.gravity[2]),
+                                    scene_.fluid.time_step_factor);
   good_ = fluid_.snapshot();
 }
 

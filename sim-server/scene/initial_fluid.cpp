@@ -69,6 +69,18 @@ Counts lattice(const Vector3& edge, double spacing) {
   return best;
 }
 
+/// Whether a place of the block's box is inside its form.
+bool is_filled(const WaterBlock& block, const Vector3& place) {
+  if (block.form == WaterForm::box) return true;
+  Vector3 share = {};  // from the middle, in half edges
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double half = 0.5 * (block.upper[i] - block.lower[i]);
+    share[i] = (place[i] - block.lower[i]) / half - 1.0;
+  }
+  if (block.form == WaterForm::cylinder) share[1] = 0.0;
+  return std::hypot(share[0], share[1], share[2]) <= 1.0;
+}
+
 /// Appends one block. On the slope each column of particles begins half a layer above it, so that
 /// none is too close to the floor and the water's volume is kept within half a layer.
 void fill(const Scene& scene, const WaterBlock& block, double spacing, std::vector<Vector3>& out) {
@@ -83,7 +95,8 @@ void fill(const Scene& scene, const WaterBlock& block, double spacing, std::vect
         const double x = block.lower[0] + (i + 0.5) * dx;
         const double bottom = std::max(block.lower[2], floor_height(scene, x));
         if (k >= std::lround((block.upper[2] - bottom) / dz)) continue;
-        out.push_back({x, block.lower[1] + (j + 0.5) * dy, bottom + (k + 0.5) * dz});
+        const Vector3 place = {x, block.lower[1] + (j + 0.5) * dy, bottom + (k + 0.5) * dz};
+        if (is_filled(block, place)) out.push_back(place);
       }
     }
   }

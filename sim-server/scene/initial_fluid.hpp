@@ -9,8 +9,9 @@
 
 namespace splash::sim {
 
-/// Centres of the particles: a lattice per block of water that fills it exactly, half a spacing
-/// from its sides and above the slope, without those that a body displaces. `poses` are the
+/// Centres of the particles: a lattice per block of water that fills its box exactly, half a
+/// spacing from its sides and above the slope, without those outside a round form and those that a
+/// body displaces. `poses` are the
 /// bodies' at the start (their times are ignored), one each; without them bodies are where
 /// `rest` says. The order is fixed: x fastest, then y, then z.
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene);

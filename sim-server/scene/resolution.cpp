@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace splash::sim {
 
@@ -19,12 +20,25 @@ double positive_area(double a, double b, double p, double q) {
   return left > 0.0 ? 0.5 * left * (root - a) : 0.5 * right * (b - root);
 }
 
+/// Part of its box that a form fills [1].
+double fullness(WaterForm form) {
+  switch (form) {
+    case WaterForm::cylinder:
+      return std::numbers::pi / 4.0;
+    case WaterForm::sphere:
+      return std::numbers::pi / 6.0;
+    case WaterForm::box:
+      break;
+  }
+  return 1.0;
+}
+
 double block_volume(const Scene& scene, const WaterBlock& block) {
   const double height = block.upper[2] - block.lower[2];
   const double width = block.upper[1] - block.lower[1];
   double left = block.lower[0];
   double area = 0.0;
-  if (!scene.slope.present) return height * width * (block.upper[0] - left);
+  if (!scene.slope.present) return fullness(block.form) * height * width * (block.upper[0] - left);
   // Up to where the slope reaches the block's underside nothing is cut; from there the depth falls
   // linearly.
   const double gradient = scene.slope.gradient;

@@ -46,10 +46,34 @@ struct WaveMaker {
   double period = 2.0;  ///< [s]
 };
 
-/// Water at rest fills the box between `lower` and `upper`, cut by the tank, slope and bodies.
+enum class WaterForm { box, cylinder, sphere };
+
+/// Water fills the form that touches the box between `lower` and `upper` from within, cut by the
+/// tank, slope and bodies.
 struct WaterBlock {
   Vector3 lower = {0.0, 0.0, 0.0};  ///< [m]
   Vector3 upper = {1.0, 1.0, 0.5};  ///< [m]
+  WaterForm form = WaterForm::box;  ///< cylinder: along y
+};
+
+/// A wall across the tank at `x` that holds the water back until time begins.
+struct Gate {
+  bool present = false;
+  double x = 0.0;          ///< [m]
+  bool water_left = true;  ///< the water is at smaller x
+};
+
+enum class FlowKind { none, uniform, strain, standing_wave, vortex };
+
+/// How the water moves when time begins; scene/flow has the formulas.
+struct Flow {
+  FlowKind kind = FlowKind::none;
+  Vector3 velocity = {0.0, 0.0, 0.0};  ///< uniform [m/s]
+  Vector3 centre = {0.0, 0.0, 0.0};    ///< strain: what stays where it is [m]
+  double rate = 1.0;                   ///< strain [1/s]
+  double amplitude = 0.01;             ///< standing_wave: height of the crest to come [m]
+  int mode = 1;                        ///< standing_wave: half waves in the tank's length [1]
+  double speed = 0.1;                  ///< vortex: the largest [m/s]
 };
 
 enum class ShapeKind { box, sphere, cylinder };
@@ -110,6 +134,27 @@ struct DetectSettings {
   double cavity_radius_max = 0.100;  ///< [m]
 };
 
+enum class GaugeKind { height, pressure, front, body, energy, momentum, spread, cavity };
+
+/// One probe of the water; sim-server/gauge says what each kind measures.
+struct GaugeSettings {
+  std::string name;
+  GaugeKind kind = GaugeKind::height;
+  double x = 0.0;                   ///< height: of the vertical line [m]
+  double y = 0.0;                   ///< height [m]
+  Vector3 place = {0.0, 0.0, 0.0};  ///< pressure [m]
+  Vector3 lower = {0.0, 0.0, 0.0};  ///< cavity: region that is searched [m]
+  Vector3 upper = {1.0, 1.0, 1.0};  ///< cavity: its z is the level below which air is enclosed [m]
+  std::size_t axis = 0;             ///< front: 0 or 1 for x or y
+  double sign = 1.0;                ///< front: +1 or -1, the way it runs
+  std::size_t body = 0;             ///< body: index among the scene's
+};
+
+struct GaugesSettings {
+  double rate = 0.0;  ///< samples per second; 0: one at the end of every frame [1/s]
+  std::vector<GaugeSettings> probes;
+};
+
 /// Pacing and sending.
 struct ServeSettings {
   double frame_rate = 160.0;  ///< frames per second: detection, sending and pacing [1/s]
@@ -125,7 +170,10 @@ struct Scene {
   Slope slope;
   WaveMaker wave_maker;
   std::vector<WaterBlock> water;
+  Gate gate;
+  Flow flow;
   std::vector<BodySettings> bodies;
+  GaugesSettings gauges;
   DetectSettings detect;
   ServeSettings serve;
 };

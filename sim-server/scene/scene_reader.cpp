@@ -6,8 +6,10 @@
 #include <set>
 
 #include "protocol/config.hpp"
+#include "sim-server/scene/gauge_reader.hpp"
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
+#include "sim-server/scene/water_reader.hpp"
 
 namespace splash::sim {
 
@@ -147,25 +149,25 @@ void read_basin(const ConfigMap& map, Scene& scene) {
     scene.wave_maker.present = true;
     check_wave_maker(*maker, scene.wave_maker, scene.tank);
   }
-  for (const ConfigMap& entry : map.list("water")) {
-    WaterBlock block;
-    entry.read(water_fields(), {}, block);
-    check_water(entry, block, scene.tank, scene.water);
-    scene.water.push_back(block);
-  }
-  if (scene.water.empty()) throw map.error("water", "the scene needs at least one block of water");
+  read_water(map, scene);
+  read_flow(map, scene);
 }
 
 Scene build(const ConfigMap& map, const std::string& file_stem) {
   Scene scene;
   map.read(scene_fields(),
-           {"fluid", "tank", "slope", "wave_maker", "water", "bodies", "detect", "serve"}, scene);
+           {"fluid", "tank", "slope", "wave_maker", "water", "gate", "flow", "bodies", "gauges",
+            "detect", "serve"},
+           scene);
   if (scene.name.empty()) scene.name = file_stem;
   read_basin(map, scene);
   const ConfigMap fluid = map.child("fluid");
   fluid.read(fluid_fields(), {}, scene.fluid);
   check_resolution(fluid, scene);
   read_bodies(map, scene);
+  if (const auto gauges = map.optional_child("gauges")) {
+    scene.gauges = read_gauges(*gauges, scene);
+  }
   if (const auto detect = map.optional_child("detect")) {
     detect->read(detect_fields(), {}, scene.detect);
     check_detect(*detect, scene.detect);

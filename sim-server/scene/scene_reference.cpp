@@ -82,11 +82,16 @@ std::string scene_reference() {
          section("### `wave_maker` (optional): the wall at the smallest x is a piston",
                  wave_maker_fields()) +
          section("### `water`: a list", water_fields()) +
+         section("### `gate` (optional): a wall that holds the water back until time begins",
+                 gate_fields()) +
+         section("### `flow` (optional): how the water moves when time begins", flow_fields()) +
          section("### `bodies`: a list", body_fields()) +
          section("### `shape` of a body", shape_fields()) +
          section("### `rest` of a body (kinds `fixed` and `osc`)", rest_fields()) +
          section("### `motion` of a body (optional)", motion_fields()) +
          section("### `keyframes` of a scripted motion: a list", keyframe_fields()) +
+         section("### `gauges` (optional): what `--gauges FILE.csv` writes", gauges_fields()) +
+         section("### `probes` of the gauges: a list", gauge_fields()) +
          section("### `detect` (optional)", detect_fields()) +
          section("### `serve` (optional)", serve_fields());
 }

@@ -72,9 +72,12 @@ void check_wave_maker(const ConfigMap& map, const WaveMaker& maker, const Tank& 
       "stroke", text(maker.stroke) + " is not below half the tank's length (" + text(half) + " m)");
 }
 
-void check_water(const ConfigMap& map, const WaterBlock& block, const Tank& tank,
-                 const std::vector<WaterBlock>& blocks) {
+void check_water(const ConfigMap& map, const WaterBlock& block, const Scene& scene) {
+  const Tank& tank = scene.tank;
   check_corners(map, block.lower, block.upper);
+  if (block.form != WaterForm::box && scene.slope.present) {
+    throw map.error("form", "only boxes of water can lie on a slope");
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string axis = kAxes[i];
     if (block.lower[i] < tank.lower[i] - kTouch) {
@@ -86,8 +89,41 @@ void check_water(const ConfigMap& map, const WaterBlock& block, const Tank& tank
                                    ", outside the tank, which ends at " + text(tank.upper[i]));
     }
   }
-  for (const auto& other : blocks) {
+  for (const auto& other : scene.water) {
     if (overlap(block, other)) throw map.error("lower", "this water overlaps a block before it");
+  }
+}
+
+void check_gate(const ConfigMap& map, const Scene& scene) {
+  const Gate& gate = scene.gate;
+  if (scene.wave_maker.present) throw map.error("x", "a wave maker's tank cannot have a gate");
+  if (gate.x <= scene.tank.lower[0] || gate.x >= scene.tank.upper[0]) {
+    throw map.error("x", text(gate.x) + " is outside the tank, whose x goes from " +
+                             text(scene.tank.lower[0]) + " to " + text(scene.tank.upper[0]));
+  }
+  for (const WaterBlock& block : scene.water) {
+    const bool held =
+        gate.water_left ? block.upper[0] <= gate.x + kTouch : block.lower[0] >= gate.x - kTouch;
+    if (held) continue;
+    throw map.error("x", "the gate at " + text(gate.x) + " stands in the water, a block of which " +
+                             "goes from x = " + text(block.lower[0]) + " to " +
+                             text(block.upper[0]));
+  }
+}
+
+void check_gauge(const ConfigMap& map, const GaugeSettings& gauge, const Tank& tank) {
+  if (gauge.kind == GaugeKind::cavity) return check_corners(map, gauge.lower, gauge.upper);
+  const bool line = gauge.kind == GaugeKind::height;
+  if (!line && gauge.kind != GaugeKind::pressure) return;
+  const Vector3 place = line ? Vector3{gauge.x, gauge.y, tank.lower[2]} : gauge.place;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool inside =
+        place[i] >= tank.lower[i] - kTouch && (i == 2 || place[i] <= tank.upper[i] + kTouch);
+    if (inside) continue;
+    throw map.error(line ? kAxes[i] : "place", std::string(kAxes[i]) + " is " + text(place[i]) +
+                                                   ", outside the tank, which goes from " +
+                                                   text(tank.lower[i]) + " to " +
+                                                   text(tank.upper[i]));
   }
 }
 

@@ -11,9 +11,12 @@ namespace splash::sim {
 void check_tank(const protocol::ConfigMap& map, const Tank& tank);
 void check_slope(const protocol::ConfigMap& map, const Slope& slope, const Tank& tank);
 void check_wave_maker(const protocol::ConfigMap& map, const WaveMaker& maker, const Tank& tank);
-/// `blocks` are the ones before it in the file.
-void check_water(const protocol::ConfigMap& map, const WaterBlock& block, const Tank& tank,
-                 const std::vector<WaterBlock>& blocks);
+/// `scene` holds the tank, the slope and the blocks before it in the file.
+void check_water(const protocol::ConfigMap& map, const WaterBlock& block, const Scene& scene);
+/// All water on one side of it, and no wave maker there.
+void check_gate(const protocol::ConfigMap& map, const Scene& scene);
+/// Inside the tank, or a region with a volume.
+void check_gauge(const protocol::ConfigMap& map, const GaugeSettings& gauge, const Tank& tank);
 void check_shape(const protocol::ConfigMap& map, const Shape& shape);
 void check_detect(const protocol::ConfigMap& map, const DetectSettings& detect);
 /// Spacing or particles, one of them; a number of particles that can be simulated.

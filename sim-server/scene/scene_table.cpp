@@ -134,26 +134,6 @@ const Fields<WaveMaker>& wave_maker_fields() {
   return kFields;
 }
 
-const Fields<WaterBlock>& water_fields() {
-  static const Fields<WaterBlock> kFields = {
-      {{.key = "lower",
-        .unit = "m",
-        .meaning = "Corner of the water at rest with the smallest x y z.",
-        .min = -100,
-        .max = 100,
-        .required = true},
-       &WaterBlock::lower},
-      {{.key = "upper",
-        .unit = "m",
-        .meaning = "Opposite corner; its z is the water's level.",
-        .min = -100,
-        .max = 100,
-        .required = true},
-       &WaterBlock::upper},
-  };
-  return kFields;
-}
-
 const Fields<BodySettings>& body_fields() {
   static const Fields<BodySettings> kFields = {
       {{.key = "name", .unit = "", .meaning = "Its name, unlike any other's.", .required = true},

@@ -25,17 +25,38 @@ struct MotionEntry : MotionSettings {
   std::string file_name;
 };
 
+/// Water as its mapping spells it: the form is still a word.
+struct WaterEntry : WaterBlock {
+  std::string form_name = "box";
+};
+
+/// A flow as its mapping spells it.
+struct FlowEntry : Flow {
+  std::string kind_name;
+};
+
+/// A gauge as its mapping spells it: kind, axis and body are still words.
+struct GaugeEntry : GaugeSettings {
+  std::string kind_name;
+  std::string axis_name = "x";
+  std::string body_name;
+};
+
 [[nodiscard]] const Fields<Scene>& scene_fields();
 [[nodiscard]] const Fields<FluidSettings>& fluid_fields();
 [[nodiscard]] const Fields<Tank>& tank_fields();
 [[nodiscard]] const Fields<Slope>& slope_fields();
 [[nodiscard]] const Fields<WaveMaker>& wave_maker_fields();
-[[nodiscard]] const Fields<WaterBlock>& water_fields();
+[[nodiscard]] const Fields<WaterEntry>& water_fields();
+[[nodiscard]] const Fields<Gate>& gate_fields();
+[[nodiscard]] const Fields<FlowEntry>& flow_fields();
 [[nodiscard]] const Fields<BodySettings>& body_fields();
 [[nodiscard]] const Fields<ShapeEntry>& shape_fields();
 [[nodiscard]] const Fields<Keyframe>& rest_fields();
 [[nodiscard]] const Fields<Keyframe>& keyframe_fields();
 [[nodiscard]] const Fields<MotionEntry>& motion_fields();
+[[nodiscard]] const Fields<GaugesSettings>& gauges_fields();
+[[nodiscard]] const Fields<GaugeEntry>& gauge_fields();
 [[nodiscard]] const Fields<DetectSettings>& detect_fields();
 [[nodiscard]] const Fields<ServeSettings>& serve_fields();
 

@@ -33,6 +33,15 @@ double volume_by_slices(const Scene& scene) {
   return volume;
 }
 
+TEST(Resolution, VolumeOfRoundForms) {
+  Scene scene = beach();
+  scene.slope.present = false;
+  scene.water = {{{0.0, 0.0, 0.2}, {0.2, 0.5, 0.4}, WaterForm::cylinder}};
+  EXPECT_NEAR(water_volume(scene), M_PI * 0.01 * 0.5, 1e-12);
+  scene.water = {{{0.0, 0.0, 0.2}, {0.2, 0.2, 0.4}, WaterForm::sphere}};
+  EXPECT_NEAR(water_volume(scene), 4.0 / 3.0 * M_PI * 1e-3, 1e-12);
+}
+
 TEST(Resolution, VolumeIsCutByTheSlope) {
   Scene scene = beach();
   EXPECT_NEAR(water_volume(scene), volume_by_slices(scene), 1e-6);

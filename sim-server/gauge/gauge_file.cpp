@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/gauge/gauge_file.hpp"
+
+#include <stdexcept>
+
+namespace splash::sim {
+
+namespace {
+
+const Scene& with_probes(const Scene& scene) {
+  if (!scene.gauges.probes.empty()) return scene;
+  throw std::runtime_error("the scene " + scene.name +
+                           " names no gauges; add 'gauges:' with 'probes:' to it "
+                           "(configs/README.md) or leave out --gauges");
+}
+
+}  // namespace
+
+GaugeFile::GaugeFile(const std::filesystem::path& path, const Scene& scene)
+    : path_(path), gauges_(with_probes(scene)), out_(path) {
+  out_.precision(9);
+  const char* separator = "";
+  for (const std::string& column : gauges_.columns()) {
+    out_ << separator << column;
+    separator = ",";
+  }
+  out_ << std::endl;  // so that what follows is lines, whoever reads along
+  if (!out_) throw std::runtime_error("cannot write gauges to " + path.string());
+}
+
+void GaugeFile::note(double seconds, Fluid& fluid, const Bodies& bodies) {
+  if (!gauges_.is_due(seconds)) return;
+  const char* separator = "";
+  for (const double value : gauges_.read(seconds, fluid, bodies)) {
+    out_ << separator << value;
+    separator = ",";
+  }
+  out_ << '\n';
+  if (!out_) throw std::runtime_error("cannot write gauges to " + path_.string());
+}
+
+}  // namespace splash::sim

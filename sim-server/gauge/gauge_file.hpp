@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Gauges written to a CSV file, a line per sample.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+#include "sim-server/gauge/gauges.hpp"
+
+namespace splash::sim {
+
+class GaugeFile {
+ public:
+  /// Opens the file and writes the columns' names. Throws std::runtime_error when the scene names
+  /// no gauges or the file cannot be written.
+  GaugeFile(const std::filesystem::path& path, const Scene& scene);
+
+  /// Writes a sample if one is due at `seconds`, the end of a frame. Throws std::runtime_error.
+  void note(double seconds, Fluid& fluid, const Bodies& bodies);
+
+ private:
+  std::filesystem::path path_;
+  Gauges gauges_;
+  std::ofstream out_;
+};
+
+}  // namespace splash::sim

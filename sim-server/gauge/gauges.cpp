@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/gauge/gauges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim-server/fluid/set_up.hpp"
+#include "sim-server/gauge/balance.hpp"
+#include "sim-server/gauge/body_force.hpp"
+#include "sim-server/gauge/cavity.hpp"
+#include "sim-server/gauge/front.hpp"
+#include "sim-server/gauge/height.hpp"
+#include "sim-server/gauge/images.hpp"
+#include "sim-server/gauge/pressure.hpp"
+#include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+/// Frames end on time up to this [s].
+constexpr double kSlack = 1.0e-9;
+
+const std::vector<std::string>& quantities(GaugeKind kind) {
+  static const std::map<GaugeKind, std::vector<std::string>> kNames = {
+      {GaugeKind::height, {"height", "wetted"}},
+      {GaugeKind::pressure, {"pressure"}},
+      {GaugeKind::front, {"front"}},
+      {GaugeKind::body,
+       {"x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz",
+        "tx", "ty", "tz"}},
+      {GaugeKind::energy, {"kinetic", "potential", "compression", "total"}},
+      {GaugeKind::momentum, {"x", "y", "z", "fastest", "rms"}},
+      {GaugeKind::spread, {"x", "y", "z", "sx", "sy", "sz"}},
+      {GaugeKind::cavity, {"open", "enclosed", "pocket"}}};
+  return kNames.at(kind);
+}
+
+bool needs_pressures(GaugeKind kind) {
+  return kind == GaugeKind::pressure || kind == GaugeKind::body || kind == GaugeKind::energy;
+}
+
+template <class Values>
+void append(std::vector<double>& row, const Values& values) {
+  row.insert(row.end(), values.begin(), values.end());
+}
+
+/// The tank as it is now: a wave maker's wall is where its piston is.
+Tank tank_at(const Scene& scene, double seconds) {
+  Tank tank = scene.tank;
+  tank.lower[0] += piston_at(scene.wave_maker, seconds).offset;
+  return tank;
+}
+
+void add_body(const GaugeSettings& probe, double seconds, const WaterState& water,
+              const Bodies& bodies, std::vector<double>& row) {
+  const BodyState state = bodies.state(probe.body, seconds);
+  const BodyForce force = body_force(water, bodies.points(), static_cast<int>(probe.body), state);
+  append(row, state.position);
+  append(row, state.rotation);
+  append(row, state.velocity);
+  append(row, state.spin);
+  append(row, force.force);
+  append(row, force.torque);
+}
+
+void add_cavity(const GaugeSettings& probe, double seconds, const Scene& scene,
+                const WaterState& water, const Bodies& bodies, std::vector<double>& row) {
+  std::vector<BodyState> states;
+  for (std::size_t b = 0; b < bodies.count(); ++b) states.push_back(bodies.state(b, seconds));
+  const auto solid = [&](const Vector3& place) {
+    for (std::size_t b = 0; b < states.size(); ++b) {
+      const Vector3 local = rotate(inverse(states[b].rotation), place - states[b].position);
+      if (distance_to(scene.bodies[b].shape, local) < 0.0) return true;
+    }
+    return false;
+  };
+  const auto points = with_images(water.position, tank_at(scene, seconds), water.support);
+  const Cavity cavity = find_cavity(points, water, probe.lower, probe.upper, solid);
+  append(row, std::array{cavity.open, cavity.enclosed, cavity.pocket});
+}
+
+}  // namespace
+
+Gauges::Gauges(const Scene& scene) : scene_(scene), columns_({"time"}) {
+  for (const GaugeSettings& probe : scene_.gauges.probes) {
+    for (const std::string& quantity : quantities(probe.kind)) {
+      columns_.push_back(probe.name + "_" + quantity);
+    }
+    pressures_ = pressures_ || needs_pressures(probe.kind);
+  }
+}
+
+bool Gauges::is_due(double seconds) const noexcept {
+  return seconds >= next_ - kSlack;
+}
+
+std::vector<double> Gauges::read(double seconds, Fluid& fluid, const Bodies& bodies) {
+  if (scene_.gauges.rate > 0.0) {
+    // From the clock's beginning, not from the last sample: frames do not add up to periods.
+    next_ = (std::floor(seconds * scene_.gauges.rate + 1.0e-6) + 1.0) / scene_.gauges.rate;
+  }
+  if (pressures_) {
+    const PistonState piston = piston_at(scene_.wave_maker, seconds);
+    fluid.set_bodies(bodies.at(seconds));
+    fluid.prepare({0.0, piston.offset, piston.speed, 0});
+  }
+  return read(seconds, read_water(fluid, pressures_), bodies);
+}
+
+std::vector<double> Gauges::read(double seconds, const WaterState& water,
+                                 const Bodies& bodies) const {
+  std::vector<double> row = {seconds};
+  for (const GaugeSettings& probe : scene_.gauges.probes) {
+    add(probe, seconds, water, bodies, row);
+  }
+  return row;
+}
+
+void Gauges::add(const GaugeSettings& probe, double seconds, const WaterState& water,
+                 const Bodies& bodies, std::vector<double>& row) const {
+  const Tank tank = tank_at(scene_, seconds);
+  switch (probe.kind) {
+    case GaugeKind::height: {
+      const auto near = near_line(water.position, probe.x, probe.y, water.support);
+      const Height height = water_height(with_images(near, tank, water.support), water, probe.x,
+                                         probe.y, floor_height(scene_, probe.x));
+      append(row, std::array{height.top, height.wetted});
+      break;
+    }
+    case GaugeKind::pressure:
+      row.push_back(pressure_at(water, probe.place));
+      break;
+    case GaugeKind::front: {
+      const std::size_t across = 1 - probe.axis;
+      row.push_back(
+          front_position(water, probe.axis, probe.sign, tank.upper[across] - tank.lower[across]));
+      break;
+    }
+    case GaugeKind::body:
+      add_body(probe, seconds, water, bodies, row);
+      break;
+    case GaugeKind::energy: {
+      const Energies e = energies(water);
+      append(row, std::array{e.kinetic, e.potential, e.compression, e.total()});
+      break;
+    }
+    case GaugeKind::momentum: {
+      const Momentum m = momentum(water);
+      append(row, m.sum);
+      append(row, std::array{m.fastest, m.rms});
+      break;
+    }
+    case GaugeKind::spread: {
+      const Spread s = spread(water);
+      append(row, s.centre);
+      append(row, s.deviation);
+      break;
+    }
+    case GaugeKind::cavity:
+      add_cavity(probe, seconds, scene_, water, bodies, row);
+      break;
+  }
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/gauge/water_state.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+std::vector<Vector3> as_vectors(const std::vector<float>& parts, std::size_t count,
+                                std::size_t stride) {
+  std::vector<Vector3> all(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all[i][axis] = static_cast<double>(parts[axis * stride + i]);
+    }
+  }
+  return all;
+}
+
+void read_pressures(Fluid& fluid, WaterState& water) {
+  const std::size_t count = water.position.size();
+  const std::vector<float> density = fluid.density().read(fluid.device(), count);
+  const std::vector<float> term = fluid.pressure_term().read(fluid.device(), count);
+  water.density.assign(density.begin(), density.end());
+  water.pressure.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    water.pressure[i] = static_cast<double>(term[i]) * water.density[i] * water.density[i];
+  }
+}
+
+}  // namespace
+
+WaterState read_water(Fluid& fluid, bool pressures) {
+  const FluidParams& p = fluid.params();
+  const Snapshot snapshot = fluid.snapshot();
+  const auto stride = static_cast<std::size_t>(p.capacity);
+  const std::size_t count = snapshot.id.size();
+  WaterState water;
+  water.position = as_vectors(snapshot.position, count, stride);
+  water.velocity = as_vectors(snapshot.velocity, count, stride);
+  if (pressures) read_pressures(fluid, water);
+  water.mass = static_cast<double>(p.mass);
+  water.spacing = static_cast<double>(p.spacing);
+  water.support = static_cast<double>(p.support);
+  water.rest_density = static_cast<double>(p.rest_density);
+  water.sound_speed = static_cast<double>(p.sound_speed);
+  water.viscous = static_cast<double>(p.viscous);
+  water.artificial = static_cast<double>(p.artificial);
+  water.point_weight = static_cast<double>(p.layer_weight) / water.spacing;
+  water.gravity = {static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
+                   static_cast<double>(p.gravity_z)};
+  return water;
+}
+
+}  // namespace splash::sim

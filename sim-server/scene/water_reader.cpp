@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/water_reader.hpp"
+
+#include <map>
+#include <set>
+
+#include "sim-server/scene/scene_rules.hpp"
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+using protocol::ConfigMap;
+
+WaterBlock read_block(const ConfigMap& map) {
+  static const std::map<std::string, WaterForm> kForms = {
+      {"box", WaterForm::box}, {"cylinder", WaterForm::cylinder}, {"sphere", WaterForm::sphere}};
+  WaterEntry entry;
+  map.read(water_fields(), {}, entry);
+  entry.form = kForms.at(entry.form_name);
+  return entry;
+}
+
+/// A key that this kind of flow does not use is a mistake, not a no-op.
+void refuse_foreign_keys(const ConfigMap& map, const std::string& kind) {
+  static const std::map<std::string, std::string> kUsedBy = {
+      {"velocity", "uniform"},        {"centre", "strain"},      {"rate", "strain"},
+      {"amplitude", "standing_wave"}, {"mode", "standing_wave"}, {"speed", "vortex"}};
+  for (const auto& [key, user] : kUsedBy) {
+    if (map.has(key) && user != kind) {
+      throw map.error(key, "has no meaning for a flow of kind " + kind);
+    }
+  }
+}
+
+}  // namespace
+
+void read_water(const ConfigMap& map, Scene& scene) {
+  for (const ConfigMap& entry : map.list("water")) {
+    const WaterBlock block = read_block(entry);
+    check_water(entry, block, scene);
+    scene.water.push_back(block);
+  }
+  if (scene.water.empty()) throw map.error("water", "the scene needs at least one block of water");
+  if (const auto gate = map.optional_child("gate")) {
+    gate->read(gate_fields(), {}, scene.gate);
+    scene.gate.present = true;
+    scene.gate.water_left = scene.water.front().lower[0] < scene.gate.x;
+    check_gate(*gate, scene);
+  }
+}
+
+void read_flow(const ConfigMap& map, Scene& scene) {
+  static const std::map<std::string, FlowKind> kKinds = {{"uniform", FlowKind::uniform},
+                                                         {"strain", FlowKind::strain},
+                                                         {"standing_wave", FlowKind::standing_wave},
+                                                         {"vortex", FlowKind::vortex}};
+  const auto flow = map.optional_child("flow");
+  if (!flow) return;
+  FlowEntry entry;
+  flow->read(flow_fields(), {}, entry);
+  refuse_foreign_keys(*flow, entry.kind_name);
+  entry.kind = kKinds.at(entry.kind_name);
+  scene.flow = entry;
+}
+
+}  // namespace splash::sim

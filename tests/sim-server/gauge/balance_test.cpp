@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Energies, momentum and spread of water whose sums have a closed form.
+#include "sim-server/gauge/balance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sim-server/gauge/lattice.hpp"
+
+namespace splash::sim {
+namespace {
+
+TEST(Balance, CompressionIsTheWorkDoneOnTheWater) {
+  const double sound = 15.0;
+  const double rest = 998.0;
+  const double density = 1040.0;
+  constexpr int kParts = 200000;
+  double work = 0.0;  // the integral of p / rho^2, by midpoints
+  for (int i = 0; i < kParts; ++i) {
+    const double rho = rest + (density - rest) * (i + 0.5) / kParts;
+    work += sound * sound * (rho - rest) / (rho * rho) * (density - rest) / kParts;
+  }
+  EXPECT_NEAR(compression_energy(density, rest, sound) / work, 1.0, 1e-9);
+  EXPECT_EQ(compression_energy(rest, rest, sound), 0.0);
+  EXPECT_EQ(compression_energy(0.5 * rest, rest, sound), 0.0) << "stretched water has no pressure";
+}
+
+TEST(Balance, EnergiesOfABlockThatMovesAsOne) {
+  WaterState water = lattice_water({0.0, 0.0, 1.0}, {0.1, 0.2, 1.4}, 0.01);
+  water.density.assign(water.position.size(), 1010.0);
+  for (Vector3& v : water.velocity) v = {0.3, 0.0, -0.4};
+  const double mass = 1000.0 * 0.1 * 0.2 * 0.4;
+  const Energies e = energies(water);
+  EXPECT_NEAR(e.kinetic, 0.5 * mass * 0.25, 1e-9);
+  EXPECT_NEAR(e.potential, mass * 9.81 * 1.2, 1e-9);
+  EXPECT_NEAR(e.compression, mass * compression_energy(1010.0, 1000.0, 20.0), 1e-12);
+  EXPECT_NEAR(e.total(), e.kinetic + e.potential + e.compression, 1e-12);
+}
+
+TEST(Balance, MomentumOfTurningWaterIsNone) {
+  WaterState water = lattice_water({-0.1, -0.1, 0.0}, {0.1, 0.1, 0.1}, 0.01);
+  for (std::size_t i = 0; i < water.position.size(); ++i) {
+    const Vector3& x = water.position[i];
+    water.velocity[i] = {-2.0 * x[1], 2.0 * x[0], 0.0};
+  }
+  const Momentum turning = momentum(water);
+  for (const double part : turning.sum) EXPECT_NEAR(part, 0.0, 1e-12);
+  EXPECT_NEAR(turning.fastest, 2.0 * std::hypot(0.095, 0.095), 1e-12);
+  // Mean of x^2 over n midpoints: L^2/12 (1 - 1/n^2).
+  const double mean_square = 0.2 * 0.2 / 12.0 * (1.0 - 1.0 / 400.0);
+  EXPECT_NEAR(turning.rms, 2.0 * std::sqrt(2.0 * mean_square), 1e-12);
+  for (Vector3& v : water.velocity) v[2] = 0.5;
+  EXPECT_NEAR(momentum(water).sum[2], 1000.0 * 0.004 * 0.5, 1e-9);
+}
+
+TEST(Balance, SpreadOfADiscIsHalfItsRadius) {
+  const Vector3 centre = {0.3, 0.0, 0.2};
+  const WaterState water = lattice_water(
+      {0.2, 0.0, 0.1}, {0.4, 0.02, 0.3}, 0.002,
+      [&](const Vector3& x) { return std::hypot(x[0] - centre[0], x[2] - centre[2]) < 0.1; });
+  const Spread s = spread(water);
+  EXPECT_NEAR(s.centre[0], 0.3, 1e-12);
+  EXPECT_NEAR(s.centre[2], 0.2, 1e-12);
+  EXPECT_NEAR(s.deviation[0], 0.05, 1e-4);
+  EXPECT_NEAR(s.deviation[2], 0.05, 1e-4);
+}
+
+}  // namespace
+}  // namespace splash::sim

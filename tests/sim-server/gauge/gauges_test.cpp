@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// All gauges of a scene: columns, times, the file, and that looking changes nothing.
+#include "sim-server/gauge/gauges.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "sim-server/device/device.hpp"
+#include "sim-server/gauge/gauge_file.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation.hpp"
+
+namespace splash::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string kScene = R"(
+fluid: {spacing: 0.025}
+tank: {lower: [0, 0, 0], upper: [0.3, 0.2, 0.6]}
+water: [{lower: [0, 0, 0], upper: [0.2, 0.2, 0.2]}]
+gate: {x: 0.2}
+bodies:
+  - name: post
+    shape: {size: [0.05, 0.05, 0.4]}
+    rest: {position: [0.1, 0.1, 0.2]}
+)";
+const std::string kGauges = R"(gauges:
+  rate: 40
+  probes:
+    - {name: H1, kind: height, x: 0.05, y: 0.1}
+    - {name: P, kind: pressure, place: [0.05, 0.1, 0]}
+    - {name: tip, kind: front, axis: x}
+    - {name: post, kind: body, body: post}
+    - {name: E, kind: energy}
+    - {name: M, kind: momentum}
+    - {name: S, kind: spread}
+    - {name: C, kind: cavity, lower: [0, 0, 0], upper: [0.2, 0.2, 0.2]}
+)";
+
+TEST(Gauges, NameEachOfTheirNumbers) {
+  const Gauges gauges(parse_scene(kScene + kGauges, "s.yaml"));
+  EXPECT_THAT(
+      gauges.columns(),
+      ElementsAre("time", "H1_height", "H1_wetted", "P_pressure", "tip_front", "post_x", "post_y",
+                  "post_z", "post_qx", "post_qy", "post_qz", "post_qw", "post_vx", "post_vy",
+                  "post_vz", "post_wx", "post_wy", "post_wz", "post_fx", "post_fy", "post_fz",
+                  "post_tx", "post_ty", "post_tz", "E_kinetic", "E_potential", "E_compression",
+                  "E_total", "M_x", "M_y", "M_z", "M_fastest", "M_rms", "S_x", "S_y", "S_z", "S_sx",
+                  "S_sy", "S_sz", "C_open", "C_enclosed", "C_pocket"));
+}
+
+/// All particles after a tenth of a second; looked at after each frame or not.
+Snapshot run(bool looked_at) {
+  Device device;
+  const Scene scene = parse_scene(kScene + kGauges, "s.yaml");
+  Simulation simulation(device, scene, {});
+  Gauges gauges(scene);
+  while (simulation.seconds() < 0.1) {
+    static_cast<void>(simulation.advance());
+    if (!looked_at) continue;
+    const auto row = gauges.read(simulation.seconds(), simulation.fluid(), simulation.bodies());
+    EXPECT_EQ(row.size(), gauges.columns().size());
+    for (const double value : row) EXPECT_TRUE(std::isfinite(value));
+  }
+  return simulation.fluid().snapshot();
+}
+
+TEST(Gauges, ChangeNothingByLooking) {
+  const Snapshot alone = run(false);
+  const Snapshot watched = run(true);
+  // Looking sorts the particles: compare each with itself.
+  std::vector<std::size_t> place(alone.id.size());
+  for (std::size_t i = 0; i < watched.id.size(); ++i) {
+    place[static_cast<std::size_t>(watched.id[i])] = i;
+  }
+  for (std::size_t i = 0; i < alone.id.size(); ++i) {
+    const std::size_t j = place[static_cast<std::size_t>(alone.id[i])];
+    ASSERT_EQ(alone.position[i], watched.position[j]);
+    ASSERT_EQ(alone.velocity[i], watched.velocity[j]);
+  }
+}
+
+class GaugeFiles : public ::testing::Test {
+ protected:
+  GaugeFiles()
+      : path_(std::filesystem::temp_directory_path() /
+              ("splash-gauges-" + std::to_string(getpid()) + ".csv")) {}
+  ~GaugeFiles() override {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  std::filesystem::path path_;
+};
+
+TEST_F(GaugeFiles, HoldALinePerSampleAtTheScenesRate) {
+  Device device;
+  const Scene scene = parse_scene(kScene + kGauges, "s.yaml");
+  Simulation simulation(device, scene, {});
+  int frames = 0;
+  {
+    GaugeFile file(path_, scene);
+    file.note(0.0, simulation.fluid(), simulation.bodies());
+    for (; simulation.seconds() < 0.2; ++frames) {
+      static_cast<void>(simulation.advance());
+      file.note(simulation.seconds(), simulation.fluid(), simulation.bodies());
+    }
+  }
+  std::ifstream in(path_);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_THAT(line, HasSubstr("time,H1_height,"));
+  std::vector<double> times;
+  while (std::getline(in, line)) times.push_back(std::stod(line));
+  EXPECT_GT(frames, 20);
+  ASSERT_EQ(times.size(), 9U) << "40 a second for 0.2 s, and the beginning";
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    EXPECT_GE(times[k], static_cast<double>(k) / 40.0 - 1e-9);
+    EXPECT_LT(times[k], static_cast<double>(k) / 40.0 + 0.01);
+  }
+}
+
+TEST_F(GaugeFiles, RefuseASceneWithoutGauges) {
+  try {
+    const GaugeFile file(path_, parse_scene(kScene, "bare.yaml"));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bare"));
+    EXPECT_THAT(error.what(), HasSubstr("leave out --gauges"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
+TEST(Gauges, TheGateHoldsTheWaterUntilTimeBegins) {
+  Device device;
+  const Scene scene = parse_scene(kScene + kGauges, "s.yaml");
+  Simulation simulation(device, scene, {});
+  Gauges gauges(scene);
+  const auto front = [&] {
+    return gauges.read(simulation.seconds(), simulation.fluid(), simulation.bodies())[4];
+  };
+  EXPECT_NEAR(front(), 0.2, 0.0125);
+  while (simulation.seconds() < 0.1) static_cast<void>(simulation.advance());
+  EXPECT_GT(front(), 0.23);
+}
+
+}  // namespace
+}  // namespace splash::sim
