@@ -95,6 +95,7 @@ constexpr ArgumentRow kDumpOsc[] = {
     {'i', "level", "1", 0, 3, "0: off, 1: text, 2: hexadecimal, 3: both"}};
 constexpr ArgumentRow kError[] = {
     {'i', "on", "1", 0, 1, "1: failures are reported in the log, 0: not"}};
+constexpr ArgumentRow kMute[] = {{'i', "on", "1", 0, 1, "1: silent, 0: heard"}};
 constexpr ArgumentRow kPing[] = {stamp("t0", "sender's clock when it sent the ping")};
 
 constexpr ArgumentRow kDone[] = {
@@ -127,7 +128,9 @@ constexpr ArgumentRow kSynthStatus[] = {
     {'f', "cpu_average", "%", 0, 10000, "rendering time in its block's time, mean"},
     {'f', "cpu_peak", "%", 0, 10000, "rendering time in its block's time, largest"},
     {'f', "sample_rate", "Hz", 0, 1e6, "of the output"},
-    count_row("silenced", "blocks the output guard had to silence")};
+    count_row("silenced", "blocks the output guard had to silence"),
+    {'f', "level", "1", 0, 1, "loudest channel's peak, last half second, part of full scale"},
+    count_row("loudest", "number of that channel, from 1; 0: all are silent")};
 constexpr ArgumentRow kSimStatus[] = {
     program("sim-server"),
     count_row("particles", "fluid particles in the scene"),
@@ -157,6 +160,9 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/version", Direction::to_both, "Asks for /version.reply", {}},
     {"/sync", Direction::to_both, "Answered by /synced when all earlier commands are done", kSync},
     {"/clearSched", Direction::to_both, "Drops what waits for its time; answered by /done", {}},
+    {"/mute", Direction::to_synth,
+     "Fades all channels out in 20 ms for good, or opens them within two seconds; answered by /done",
+     kMute},
     {"/dumpOSC", Direction::to_both, "Prints incoming packets", kDumpOsc},
     {"/error", Direction::to_both, "Turns the report of failures on or off", kError},
     {"/quit", Direction::to_both, "Ends the program; answered by /done; only from loopback", {}},

@@ -27,6 +27,8 @@ struct SynthStatus {
   float cpu_peak = 0.0F;     ///< [%]
   float sample_rate = 0.0F;  ///< [Hz]
   std::uint64_t silenced = 0;
+  float level = 0.0F;  ///< loudest channel's peak [full scale]
+  std::uint64_t loudest = 0;
   bool operator==(const SynthStatus&) const = default;
 };
 

@@ -13,6 +13,7 @@
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay_file.hpp"
 #include "synth-server/server.hpp"
+#include "synth-server/test_tone.hpp"
 
 namespace {
 
@@ -28,15 +29,26 @@ sigset_t ending_signals() {
   return signals;
 }
 
+/// True once it is known; said when realtime was refused.
+bool say_scheduling(const Server& server) {
+  const std::string scheduling = server.scheduling();
+  if (scheduling.find("refused") != std::string::npos) {
+    std::fprintf(stderr, "synth-server: %s\n", scheduling.c_str());
+  }
+  return !scheduling.empty();
+}
+
 /// Until a signal, /quit or the end of --duration. A second signal then ends the program at once.
 void play(const Options& options, Server& server) {
   const sigset_t signals = ending_signals();
   const double start = protocol::monotonic_now();
   double next_line = start + 1.0;
+  bool knows_scheduling = false;
   for (;;) {
     const timespec slice{0, 50'000'000};
     const bool ended = sigtimedwait(&signals, nullptr, &slice) > 0;
     const double now = protocol::monotonic_now();
+    if (!knows_scheduling) knows_scheduling = say_scheduling(server);
     if (ended || server.asked_to_quit()) break;
     if (options.duration > 0.0 && now - start >= options.duration) break;
     if (options.verbose && now >= next_line) {
@@ -79,6 +91,7 @@ void run(const Options& options) {
   // Blocked before any thread starts, so that all inherit it and only play() sees them.
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  if (!options.test_tone.empty()) return play_test_tone(options, rig, signals);
   Server server(options, rig);
   play(options, server);
   server.finish();

@@ -19,6 +19,7 @@ struct Texts {
   std::string chirp = "literal";
   double latency_ms = 0.0;
   double late_ms = 50.0;
+  double horizon_ms = 2000.0;
 };
 
 void add_sources(CLI::App& app, Options& options, Texts& texts) {
@@ -49,6 +50,9 @@ void add_output(CLI::App& app, Options& options) {
   app.add_option("--api", options.api, "Audio API (default: the first that has a device)")
       ->check(CLI::IsMember({"jack", "alsa", "pulse"}));
   app.add_flag("--list-devices", options.list_devices, "List the sound devices and end");
+  app.add_option("--test-tone", options.test_tone,
+                 "A soft tone on each channel in turn, or on the one of that number; then end")
+      ->type_name("all|N");
   app.add_option("--record-audio", options.record_audio, "Also write the live output to this file")
       ->type_name("WAV");
   app.add_option("--sample-rate", options.sample_rate,
@@ -63,8 +67,7 @@ void add_output(CLI::App& app, Options& options) {
 
 void add_playing(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--latency-ms", texts.latency_ms,
-                 "Added to each event's moment; at least one block (default: 1.5 blocks, 5 ms or "
-                 "more)")
+                 "Added to each time tag; at least one block (default: 1.5 blocks, 5 ms or more)")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("MS");
   app.add_option("--late-ms", texts.late_ms,
@@ -72,6 +75,12 @@ void add_playing(CLI::App& app, Options& options, Texts& texts) {
       ->check(CLI::Range(0.0, 10000.0))
       ->type_name("MS")
       ->capture_default_str();
+  app.add_option("--horizon-ms", texts.horizon_ms,
+                 "What is further ahead than this has a wrong clock and plays by its arrival")
+      ->check(CLI::Range(100.0, 60000.0))
+      ->type_name("MS")
+      ->capture_default_str();
+  app.add_flag("--muted", options.muted, "Silent until /mute 0 comes");
   app.add_option("--chirp", texts.chirp,
                  "Bubbles as sin(2 pi t f(t)), as the paper prints it, or with integrated f")
       ->check(CLI::IsMember({"literal", "integrated"}))
@@ -104,6 +113,7 @@ void apply(const Texts& texts, Options& options) {
   options.literal_chirp = texts.chirp == "literal";
   options.latency = 1e-3 * texts.latency_ms;
   options.late_window = 1e-3 * texts.late_ms;
+  options.horizon = 1e-3 * texts.horizon_ms;
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct Options {
   bool stems = false;            ///< also one file for each of the three components
 
   bool list_devices = false;
+  std::string test_tone;               ///< a channel's number or "all"; empty: play events
   std::string device;                  ///< empty: the default one
   std::string api;                     ///< empty: the first that has a device
   std::filesystem::path record_audio;  ///< the live output; empty: not recorded
@@ -30,6 +31,8 @@ struct Options {
 
   double latency = 0.0;        ///< added to each event's moment [s]; 0: from the block size
   double late_window = 0.050;  ///< [s]
+  double horizon = 2.0;        ///< further ahead no time tag is believed [s]
+  bool muted = false;          ///< silent until /mute 0
   bool literal_chirp = true;
   std::uint64_t seed = 1;
   double duration = 0.0;  ///< [s]; 0: until it is stopped

@@ -14,21 +14,23 @@ constexpr double kPartsPerMillion = 1e6;
 
 }  // namespace
 
-Player::Player(Engine& engine, CommandQueue& queue, Recorder* recorder, double sample_rate,
-               int max_block, const ScheduleSettings& settings)
+Player::Player(Engine& engine, CommandQueue& queue, Recorder* recorder,
+               const PlayerSettings& settings)
     : engine_(engine),
       queue_(queue),
       recorder_(recorder),
-      sample_rate_(sample_rate),
-      max_block_(max_block),
       settings_(settings),
-      clock_(sample_rate),
+      schedule_(settings.schedule),
+      clock_(settings.sample_rate),
+      gate_(settings.start_ramp, settings.sample_rate, !settings.muted),
+      meter_(engine.channels(), settings.sample_rate),
       part_(static_cast<std::size_t>(engine.channels())) {}
 
 void Player::render(const AudioBlock& block) noexcept {
   const double start = protocol::monotonic_now();
   if (block.xrun) xruns_.add();
   if (block.xrun || block.restart) clock_.reset();
+  if (block.restart || blocks_.get() == 0) take_device(block);
   clock_.update(block.time, engine_.clock(), block.frames);
   clock_resets_.set(clock_.resets());
   queue_.consume_all([this](const Command& command) { obey(command); });
@@ -36,7 +38,14 @@ void Player::render(const AudioBlock& block) noexcept {
   render_parts(block);
   voices_peak_.set(std::max(voices_peak_.get(), engine_.counters().voices));
   blocks_.add();
-  note_load(protocol::monotonic_now() - start, block.frames / sample_rate_);
+  note_load(protocol::monotonic_now() - start, block.frames / settings_.sample_rate);
+}
+
+/// The first block of a device, which may have another size than the last one's.
+void Player::take_device(const AudioBlock& block) noexcept {
+  if (blocks_.get() != 0) gate_.restart();
+  schedule_.latency = latency_for(settings_.schedule.latency, block.frames, settings_.sample_rate);
+  latency_shown_ = schedule_.latency;
 }
 
 void Player::obey(const Command& command) noexcept {
@@ -50,6 +59,10 @@ void Player::obey(const Command& command) noexcept {
       return set_silent(true);
     case Command::Kind::resume:
       return set_silent(false);
+    case Command::Kind::mute:
+      return gate_.open(false);
+    case Command::Kind::unmute:
+      return gate_.open(true);
   }
 }
 
@@ -61,7 +74,9 @@ void Player::set_silent(bool silent) noexcept {
 void Player::play(const Command& command) noexcept {
   if (silent_) set_silent(false);  // from a sender without frames, whose presence nobody watches
   const Placement placement =
-      place(command.moment, command.by_arrival, clock_, engine_.clock(), settings_);
+      command.at_once
+          ? place_at_once(command.offset, engine_.clock(), settings_.sample_rate, schedule_)
+          : place(command.moment, command.by_arrival, clock_, engine_.clock(), schedule_);
   switch (placement.timing) {
     case Timing::too_late:
       return too_late_.add();
@@ -79,9 +94,11 @@ void Player::play(const Command& command) noexcept {
 
 void Player::render_parts(const AudioBlock& block) noexcept {
   for (int done = 0; done < block.frames;) {
-    const int frames = std::min(max_block_, block.frames - done);
+    const int frames = std::min(settings_.max_block, block.frames - done);
     for (std::size_t c = 0; c < part_.size(); ++c) part_[c] = block.channels[c] + done;
     engine_.render(part_.data(), frames);
+    gate_.process(part_.data(), static_cast<int>(part_.size()), frames);
+    meter_.note(part_.data(), frames);
     if (recorder_ != nullptr) recorder_->push(part_.data(), frames);
     done += frames;
   }

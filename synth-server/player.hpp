@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The audio callback's work: take what the receiver sent, give each event its sample, render,
-// record. It neither waits nor allocates; everybody else reads its counts.
+// The audio callback's work: take what the receiver sent, give each event its sample, render, open
+// or close the gate, measure, record. It neither waits nor allocates; everybody else reads its
+// counts.
 #pragma once
 
 #include <atomic>
@@ -9,6 +10,8 @@
 
 #include "synth-server/audio/audio_output.hpp"
 #include "synth-server/audio/recorder.hpp"
+#include "synth-server/gate.hpp"
+#include "synth-server/meter.hpp"
 #include "synth-server/receive/command_queue.hpp"
 #include "synth-server/receive/sample_clock.hpp"
 #include "synth-server/receive/schedule.hpp"
@@ -29,11 +32,18 @@ struct PlayerCounters {
   double load_peak = 0.0;          ///< the same, largest since the start [1]
 };
 
+struct PlayerSettings {
+  double sample_rate = 48000.0;  ///< [Hz]
+  int max_block = 4096;          ///< as the engine's [frames]
+  double start_ramp = 2.0;       ///< of the gate [s]
+  bool muted = false;            ///< until /mute 0 comes
+  ScheduleSettings schedule;
+};
+
 class Player final : public BlockSource {
  public:
-  /// `max_block`: as the engine's. `recorder` may be null.
-  Player(Engine& engine, CommandQueue& queue, Recorder* recorder, double sample_rate, int max_block,
-         const ScheduleSettings& settings);
+  /// `recorder` may be null.
+  Player(Engine& engine, CommandQueue& queue, Recorder* recorder, const PlayerSettings& settings);
 
   void render(const AudioBlock& block) noexcept override;
 
@@ -42,8 +52,12 @@ class Player final : public BlockSource {
 
   /// From any thread.
   [[nodiscard]] PlayerCounters counters() const noexcept;
+  [[nodiscard]] const Meter& meter() const noexcept { return meter_; }
+  /// Added to every time tag; follows the device's block when that changes [s].
+  [[nodiscard]] double latency() const noexcept { return latency_shown_; }
 
  private:
+  void take_device(const AudioBlock& block) noexcept;
   void obey(const Command& command) noexcept;
   void set_silent(bool silent) noexcept;
   void play(const Command& command) noexcept;
@@ -53,10 +67,11 @@ class Player final : public BlockSource {
   Engine& engine_;
   CommandQueue& queue_;
   Recorder* recorder_;
-  double sample_rate_;
-  int max_block_;
-  ScheduleSettings settings_;
+  PlayerSettings settings_;
+  ScheduleSettings schedule_;  ///< with the latency that this device's blocks need
   SampleClock clock_;
+  Gate gate_;
+  Meter meter_;
   std::vector<float*> part_;  ///< channels of a block's part
   double load_ = 0.0;         ///< averaged [1]
   Count blocks_;
@@ -70,6 +85,7 @@ class Player final : public BlockSource {
   bool silent_ = false;  ///< because no sender is there
   Count load_average_ppm_;
   Count load_peak_ppm_;
+  std::atomic<double> latency_shown_{0.0};
 };
 
 }  // namespace splash::synth

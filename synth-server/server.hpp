@@ -5,17 +5,19 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
-#include <vector>
 
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/output/wav_file.hpp"
+#include "synth-server/output_choice.hpp"
 #include "synth-server/player.hpp"
 #include "synth-server/receive/receiver.hpp"
 #include "synth-server/render/engine.hpp"
+#include "synth-server/server_text.hpp"
 
 namespace splash::synth {
 
@@ -31,30 +33,45 @@ class Server {
   [[nodiscard]] bool asked_to_quit() const noexcept { return quit_; }
   /// One line on what is going on.
   [[nodiscard]] std::string state() const;
+  /// How the rendering thread is scheduled; empty before the first block.
+  [[nodiscard]] std::string scheduling() const { return output_->scheduling(); }
 
   /// Fades out in 20 ms, closes everything, prints the summary. Throws Failure when the recording
   /// could not be written. Nothing plays afterwards.
   void finish();
 
  private:
-  void open_output(const Options& options, int channels);
-  void start_recorder(const Options& options, int max_block);
-  void start_receiver(const Options& options, protocol::UdpSocket socket);
-  void introduce(const Options& options, const Rig& rig) const;
+  /// What renders at one sample rate.
+  struct Playing {
+    Engine engine;
+    Player player;
+    Playing(const Rig& rig, const EngineSettings& engine_settings, CommandQueue& queue,
+            Recorder* recorder, const PlayerSettings& player_settings);
+  };
+
+  [[nodiscard]] std::unique_ptr<Playing> make_playing(int sample_rate, Recorder* recorder);
+  /// The device came back at another rate.
+  BlockSource& adapt(const AudioFormat& format);
+  void start_output(OpenedOutput opened);
+  void start_recorder();
+  void start_receiver(protocol::UdpSocket socket);
+  void introduce() const;
+  void warn_of_latency(const AudioFormat& format) const;
   void await_silence() const;
+  [[nodiscard]] Totals totals() const;
   [[nodiscard]] protocol::SynthStatus complete(protocol::SynthStatus status) const;
 
+  const Options options_;
+  const Rig rig_;
   std::atomic<bool> quit_{false};
+  std::atomic<bool> muted_{false};
   double started_ = 0.0;  ///< [s, monotonic]
   CommandQueue queue_;
-  std::unique_ptr<AudioOutput> opened_;  ///< until the watch takes it
-  std::string missing_device_;           ///< why there is none; empty: there is, or none is wanted
-  AudioFormat format_;
-  ScheduleSettings schedule_;
-  std::unique_ptr<Engine> engine_;
+  AudioFormat format_;  ///< at the start
   std::unique_ptr<WavFile> recording_;
   std::unique_ptr<Recorder> recorder_;
-  std::unique_ptr<Player> player_;
+  mutable std::mutex mutex_;  ///< guards playing_; the audio thread never takes it
+  std::unique_ptr<Playing> playing_;
   std::unique_ptr<DeviceWatch> output_;
   std::unique_ptr<Receiver> receiver_;
 };

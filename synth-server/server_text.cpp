@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/server_text.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -8,6 +9,7 @@ namespace splash::synth {
 namespace {
 
 constexpr std::size_t kNamesPerLine = 6;
+constexpr std::size_t kPortsPerLine = 2;
 
 std::string decimal(double value, int digits) {
   char text[40];
@@ -34,13 +36,23 @@ std::string to_text(const AudioFormat& format) {
          " (" + milliseconds_text(block) + ")";
 }
 
-std::string channel_map(const std::vector<std::string>& names) {
+std::string channel_map(const std::vector<std::string>& names,
+                        const std::vector<std::string>& ports) {
+  const std::size_t per_line = ports.empty() ? kNamesPerLine : kPortsPerLine;
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    text += i % kNamesPerLine == 0 ? (i == 0 ? "channels: " : "\n          ") : ", ";
+    text += i % per_line == 0 ? (i == 0 ? "channels: " : "\n          ") : ", ";
     text += std::to_string(i + 1) + ' ' + names[i];
+    if (!ports.empty()) text += " -> " + ports[i];
   }
   return text + '\n';
+}
+
+std::string level_text(const Meter& meter, const std::vector<std::string>& names) {
+  const Meter::Loudest loudest = meter.loudest();
+  if (loudest.level <= 0.0F) return "all channels silent";
+  return "loudest " + std::to_string(loudest.channel + 1) + ' ' + names[loudest.channel] + " at " +
+         decimal(20.0 * std::log10(static_cast<double>(loudest.level)), 1) + " dB";
 }
 
 std::uint64_t dropped(const EngineCounters& engine) noexcept {

@@ -28,8 +28,11 @@ struct Totals {
 [[nodiscard]] std::string milliseconds_text(double seconds);
 /// "jack device 'system', 36 channels at 48000 Hz, blocks of 256 (5.3 ms)"
 [[nodiscard]] std::string to_text(const AudioFormat& format);
-/// Which channel drives what, several to a line.
-[[nodiscard]] std::string channel_map(const std::vector<std::string>& names);
+/// Which channel drives what, several to a line; `ports`: as the device calls them, may be empty.
+[[nodiscard]] std::string channel_map(const std::vector<std::string>& names,
+                                      const std::vector<std::string>& ports);
+/// "loudest 3 floor/tile/02 at -12.5 dB", or that all is silent.
+[[nodiscard]] std::string level_text(const Meter& meter, const std::vector<std::string>& names);
 /// The lines at the end of a run.
 [[nodiscard]] std::string summary(const Totals& totals);
 /// One line for --verbose.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace splash::synth {
 
@@ -32,6 +33,8 @@ struct AudioFormat {
   int channels = 0;
   int sample_rate = 0;  ///< [Hz]
   int block = 0;        ///< frames per call
+  /// Where each channel goes, as the device calls it, e.g. "system:playback_1"; empty: its numbers.
+  std::vector<std::string> ports = {};
 };
 
 /// An open output. It calls its BlockSource between start() and stop(), from one thread.

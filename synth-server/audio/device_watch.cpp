@@ -27,16 +27,18 @@ std::string title(const AudioFormat& format) {
 }  // namespace
 
 DeviceWatch::DeviceWatch(BlockSource& source, std::unique_ptr<AudioOutput> output,
-                         std::string missing, Open open, Report report, WatchSettings settings)
-    : source_(source),
+                         std::string missing, Open open, Report report, Adapt adapt,
+                         WatchSettings settings)
+    : source_(&source),
       open_(std::move(open)),
       report_(std::move(report)),
+      adapt_(std::move(adapt)),
       settings_(settings),
       needed_(output->format()),
       output_(std::move(output)),
       standing_in_(!missing.empty()),
       last_refusal_(std::move(missing)) {
-  output_->start(source_);
+  output_->start(*source_);
   restart_progress();
   next_try_ = Clock::now() + settings_.retry;
   if (open_) thread_ = std::thread([this] { run(); });
@@ -105,14 +107,16 @@ void DeviceWatch::try_device() {
   next_try_ = Clock::now() + settings_.retry;
   try {
     auto device = open_();
-    if (device->format().sample_rate != needed_.sample_rate) {
+    if (device->format().sample_rate != needed_.sample_rate && !adapt_) {
       throw DeviceError(title(device->format()) + " now runs at " +
                         std::to_string(device->format().sample_rate) + " Hz, not at " +
                         std::to_string(needed_.sample_rate) + " Hz: restart synth-server");
     }
     exchange(std::move(device));
     standing_in_ = false;
-    report_(title(output_->format()) + " plays");
+    report_(title(output_->format()) + " plays, blocks of " +
+            std::to_string(output_->format().block) + " at " +
+            std::to_string(output_->format().sample_rate) + " Hz");
   } catch (const std::exception& error) {  // nothing may end this thread
     standing_in_ = true;
     if (output_ == nullptr) {
@@ -131,7 +135,11 @@ void DeviceWatch::exchange(std::unique_ptr<AudioOutput> next) {
   }
   next.reset();  // the old one is closed before the new one starts: never two at once
   try {
-    output_->start(source_);
+    if (output_->format().sample_rate != needed_.sample_rate) {
+      source_ = &adapt_(output_->format());
+      needed_.sample_rate = output_->format().sample_rate;
+    }
+    output_->start(*source_);
   } catch (...) {
     const std::lock_guard lock(mutex_);
     output_.reset();

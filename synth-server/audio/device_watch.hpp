@@ -27,12 +27,15 @@ class DeviceWatch {
   /// Opens the device anew; throws DeviceError while it cannot.
   using Open = std::function<std::unique_ptr<AudioOutput>()>;
   using Report = std::function<void(const std::string&)>;
+  /// The device came back at another rate: gives what renders at that one. Nothing renders
+  /// meanwhile, and the source so far is not called any more.
+  using Adapt = std::function<BlockSource&(const AudioFormat&)>;
 
   /// Starts `output`, already open, with `source`. Without `open`, nothing is ever reopened.
   /// `missing`: why `output` only stands in for a device (that is known already and not reported
-  /// again); empty: it is the device.
+  /// again); empty: it is the device. Without `adapt`, a device at another rate is refused.
   DeviceWatch(BlockSource& source, std::unique_ptr<AudioOutput> output, std::string missing,
-              Open open, Report report, WatchSettings settings = {});
+              Open open, Report report, Adapt adapt = {}, WatchSettings settings = {});
   /// Stops the output; afterwards `source` is not called any more.
   ~DeviceWatch();
   DeviceWatch(const DeviceWatch&) = delete;
@@ -62,9 +65,10 @@ class DeviceWatch {
   void exchange(std::unique_ptr<AudioOutput> next);
   void restart_progress();
 
-  BlockSource& source_;
+  BlockSource* source_;
   Open open_;
   Report report_;
+  Adapt adapt_;
   WatchSettings settings_;
   AudioFormat needed_;        ///< channels and rate that the source renders
   mutable std::mutex mutex_;  ///< guards output_ against the readers of its format

@@ -7,8 +7,10 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "protocol/time_tag.hpp"
+#include "synth-server/audio/port_names.hpp"
 #include "synth-server/audio/rtaudio_port.hpp"
 
 namespace splash::synth {
@@ -82,6 +84,7 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
                       " output channels, the rig needs " + std::to_string(choice.channels) +
                       "; choose another device (--list-devices) or rig");
   }
+  std::vector<std::string> ports = port_names(chosen.api, chosen.name, choice.channels);
   stream_->audio = rtaudio_port::create(chosen.api);
   const auto devices = rtaudio_port::devices(*stream_->audio, chosen.api);
   const auto found = std::find_if(devices.begin(), devices.end(), [&](const auto& device) {
@@ -103,8 +106,9 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
                       std::to_string(chosen.preferred_rate) + "): " + error.what());
   }
   stream_->channels.resize(static_cast<std::size_t>(choice.channels));
-  stream_->format = {chosen.api, chosen.name, choice.channels, rate,
-                     static_cast<int>(opening.block)};
+  stream_->format = {
+      chosen.api,      chosen.name, choice.channels, rate, static_cast<int>(opening.block),
+      std::move(ports)};
 }
 
 RtAudioOutput::~RtAudioOutput() {

@@ -26,6 +26,7 @@ class Fade {
   }
 
   [[nodiscard]] bool closed() const noexcept { return level_ <= 0.0; }
+  [[nodiscard]] bool opened() const noexcept { return level_ >= 1.0; }
 
  private:
   double level_ = 1.0;  ///< [0, 1]

@@ -15,11 +15,15 @@ struct Command {
     clear_scheduled,  ///< forget what waits; what sounds may end
     silence,          ///< the last sender is gone: fade out and forget everything
     resume,           ///< a sender is there (again)
+    mute,             ///< fade out until told otherwise; all goes on unheard
+    unmute,           ///< open slowly, as at the start
   };
   Kind kind = Kind::play;
   protocol::Event event;
   double moment = 0.0;      ///< of the event [s, monotonic]
   double by_arrival = 0.0;  ///< arrival + announced delay [s, monotonic]
+  bool at_once = false;     ///< came without a time: in the next block, `offset` into it
+  double offset = 0.0;      ///< of the event after its bundle's time [s]
 };
 
 /// Ten blocks of 20 ms at the 40 000 events per second that fill a datagram per frame; one producer

@@ -58,6 +58,8 @@ protocol::Message Control::carry_out(const protocol::Message& message,
   if (address == "/quit") return quit(from);
   if (address == "/clearSched") {
     actions_.clear_scheduled();
+  } else if (address == "/mute") {
+    actions_.mute(integer(message) != 0);
   } else if (address == "/dumpOSC") {
     dump_level_ = integer(message);
   } else if (address == "/error") {

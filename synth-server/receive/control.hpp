@@ -19,6 +19,7 @@ struct ControlActions {
   std::function<protocol::SynthStatus(protocol::SynthStatus)> status;
   std::function<void()> clear_scheduled;
   std::function<void()> quit;
+  std::function<void(bool)> mute;  ///< true: silent, false: heard
 };
 
 /// Where and when a command came.

@@ -62,7 +62,7 @@ std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet
       packet.messages.empty() ? std::nullopt : protocol::to_frame(packet.messages.front());
   if (!frame) {
     const double moment = tagged ? time_.monotonic_of(*packet.time) : arrival;
-    return Timing{moment, arrival};
+    return Timing{moment, arrival, !tagged};
   }
   Sender& sender = senders_.at(from);
   if (!welcome(*frame, sender, arrival)) return std::nullopt;
@@ -70,12 +70,12 @@ std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet
 
   const double delay = 1e-3 * static_cast<double>(frame->delay_ms);
   const double by_arrival = arrival + delay;
-  if (!tagged) return Timing{by_arrival, by_arrival};
+  if (!tagged) return Timing{by_arrival, by_arrival, delay <= 0.0};
   const double moment = time_.monotonic_of(*packet.time);
   sender.clock.observe(moment - delay, arrival);
   const double correction = sender.clock.correction(time_.unix_of(arrival));
   if (correction != 0.0) ++counters_.corrected;
-  return Timing{moment + correction, by_arrival};
+  return Timing{moment + correction, by_arrival, false};
 }
 
 bool Intake::welcome(const protocol::Frame& frame, Sender& sender, double arrival) {
@@ -109,8 +109,8 @@ void Intake::route(const protocol::Message& message, const Timing& timing,
 
 void Intake::play(const protocol::Event& event, const Timing& timing) {
   const double offset = offset_seconds(event);
-  const Command command{Command::Kind::play, event, timing.moment + offset,
-                        timing.by_arrival + offset};
+  const Command command{Command::Kind::play,        event,          timing.moment + offset,
+                        timing.by_arrival + offset, timing.at_once, offset};
   ++(queue_.push(command) ? counters_.events : counters_.queue_full);
 }
 

@@ -48,12 +48,15 @@ class Intake {
   [[nodiscard]] IntakeCounters counters() const;
   [[nodiscard]] const Control& control() const noexcept { return control_; }
   [[nodiscard]] bool sender_present() const noexcept { return senders_.anybody_present(); }
+  /// When tick() next has a lease to end [s, monotonic]; infinity: nobody is present.
+  [[nodiscard]] double next_expiry() const noexcept { return senders_.next_expiry(); }
 
  private:
   /// What a bundle says about the time of its events.
   struct Timing {
     double moment = 0.0;      ///< the bundle's [s, monotonic]
     double by_arrival = 0.0;  ///< arrival + announced delay [s, monotonic]
+    bool at_once = false;     ///< OSC's "immediately", and no delay announced
   };
   /// nullopt: a bundle that was heard before.
   [[nodiscard]] std::optional<Timing> open_bundle(const protocol::Packet& packet,

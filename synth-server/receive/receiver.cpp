@@ -11,7 +11,7 @@
 namespace splash::synth {
 namespace {
 
-/// Waiting for a datagram no longer than this, leases end in time [s].
+/// Pings, and a host's clock that was set, are looked after this often; leases to the point [s].
 constexpr double kTick = 0.02;
 /// A flood must not keep leases and pings from being looked after [datagrams].
 constexpr int kMostBetweenTicks = 256;
@@ -52,7 +52,7 @@ void Receiver::run() {
   std::vector<Reply> replies;
   int since_tick = 0;
   while (!stopping_) {
-    const auto received = socket_.receive(buffer_.data(), buffer_.size(), kTick);
+    const auto received = socket_.receive(buffer_.data(), buffer_.size(), patience());
     if (received) take(*received, replies);
     if (!received || ++since_tick >= kMostBetweenTicks) {
       since_tick = 0;
@@ -65,6 +65,11 @@ void Receiver::run() {
 }
 
 // Only this thread changes intake_, so it reads without the lock.
+double Receiver::patience() const noexcept {
+  return std::clamp(intake_.next_expiry() - protocol::monotonic_now(), 0.0, kTick);
+}
+
+// As above.
 std::uint64_t Receiver::rejected() const {
   const IntakeCounters counters = intake_.counters();
   return refused(counters) + counters.forbidden;

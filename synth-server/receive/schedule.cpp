@@ -5,6 +5,26 @@
 #include <cmath>
 
 namespace splash::synth {
+namespace {
+
+/// A block lasts until the next one is asked for; half of one is for late callbacks [blocks].
+constexpr double kLatencyBlocks = 1.5;
+constexpr double kLeastLatency = 0.005;  ///< [s]
+
+}  // namespace
+
+double latency_for(double wanted, int block, double sample_rate) noexcept {
+  const double block_seconds = block / sample_rate;
+  if (wanted > 0.0) return std::max(wanted, block_seconds);
+  return std::max(kLeastLatency, kLatencyBlocks * block_seconds);
+}
+
+Placement place_at_once(double offset, std::int64_t block_start, double sample_rate,
+                        const ScheduleSettings& settings) noexcept {
+  const double ahead = std::clamp(offset, 0.0, settings.horizon);
+  return {offset > settings.horizon ? Timing::early : Timing::on_time,
+          block_start + std::llround(ahead * sample_rate)};
+}
 
 Placement place(double moment, double by_arrival, const SampleClock& clock,
                 std::int64_t block_start, const ScheduleSettings& settings) noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // When an event is played: its moment plus the fixed latency, on the sample clock; what comes late
-// plays at once or not at all, what lies too far ahead is not believed.
+// plays at once or not at all, what lies too far ahead is not believed, what has no time plays with
+// the next block.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 namespace splash::synth {
 
 struct ScheduleSettings {
-  double latency = 0.008;      ///< added to every moment; covers one block [s]
+  double latency = 0.0;        ///< wanted, added to every moment [s]; 0: what the block needs
   double late_window = 0.050;  ///< later than this an event is dropped [s]
   double horizon = 2.0;        ///< further ahead a time tag is taken for a wrong clock [s]
 };
@@ -26,6 +27,14 @@ struct Placement {
   Timing timing = Timing::on_time;
   std::int64_t sample = 0;  ///< never before the block's start; meaningless when too late
 };
+
+/// The wanted latency, or at least one block: a block is asked for that long before its last sample
+/// sounds. Without a wish, half a block more for late callbacks, and 5 ms or more [s].
+[[nodiscard]] double latency_for(double wanted, int block, double sample_rate) noexcept;
+
+/// An event without a time: as soon as it can be, `offset` [s] into the block, no latency added.
+[[nodiscard]] Placement place_at_once(double offset, std::int64_t block_start, double sample_rate,
+                                      const ScheduleSettings& settings) noexcept;
 
 /// `moment`: when the event happens; `by_arrival`: when it would, going by its arrival and the
 /// delay it names [s, monotonic]. `block_start`: first sample that can still be rendered.

@@ -2,8 +2,7 @@
 #include "synth-server/receive/sender.hpp"
 
 #include <algorithm>
-
-#include "protocol/limits.hpp"
+#include <limits>
 
 namespace splash::synth {
 namespace {
@@ -46,11 +45,19 @@ Sender& SenderTable::at(const protocol::Endpoint& from) {
 bool SenderTable::expire(double now) noexcept {
   bool ended = false;
   for (Sender& sender : senders_) {
-    if (!sender.present || now - sender.heard <= protocol::kPeerLease) continue;
+    if (!sender.present || now < sender.heard + kLease) continue;
     sender.present = false;
     ended = true;
   }
   return ended && !anybody_present();
+}
+
+double SenderTable::next_expiry() const noexcept {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Sender& sender : senders_) {
+    if (sender.present) next = std::min(next, sender.heard + kLease);
+  }
+  return next;
 }
 
 bool SenderTable::anybody_present() const noexcept {

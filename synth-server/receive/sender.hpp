@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/event.hpp"
+#include "protocol/limits.hpp"
 #include "protocol/sequence.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
@@ -30,6 +31,11 @@ struct Sender {
   protocol::TimeTag asked;  ///< stamp of the ping that waits for its pong
 };
 
+/// A sender that says nothing for so long is gone [s]: a little less than the three heartbeats that
+/// it may miss, so that 20 ms of fading and a block of up to 20 ms later, 320 ms after the last of
+/// them, all is silent.
+inline constexpr double kLease = protocol::kPeerLease - 0.025;
+
 /// What all senders together lost, doubled and reordered, in bundles; those forgotten included.
 struct SequenceTotals {
   std::uint64_t received = 0;
@@ -48,6 +54,8 @@ class SenderTable {
 
   /// Ends leases that ran out by `now`. True when that leaves nobody present.
   bool expire(double now) noexcept;
+  /// When the next lease runs out [s, monotonic]; infinity: nobody is present.
+  [[nodiscard]] double next_expiry() const noexcept;
   [[nodiscard]] bool anybody_present() const noexcept;
   [[nodiscard]] SequenceTotals totals() const noexcept;
 

@@ -75,7 +75,7 @@ class DeviceWatchTest : public testing::Test {
           const std::lock_guard lock(mutex_);
           lines_.push_back(line);
         },
-        WatchSettings{milliseconds(5), patience, milliseconds(20)});
+        adapt_, WatchSettings{milliseconds(5), patience, milliseconds(20)});
   }
   static bool wait_for(const std::function<bool()>& condition) {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -96,6 +96,7 @@ class DeviceWatchTest : public testing::Test {
   std::atomic<bool> present_{true};
   std::atomic<int> attempts_{0};
   int rate_ = 48000;
+  DeviceWatch::Adapt adapt_;
   std::mutex mutex_;
   std::vector<std::string> lines_;
 };
@@ -152,6 +153,24 @@ TEST_F(DeviceWatchTest, RefusesAnotherRate) {
   EXPECT_EQ(output->format().api, "null");
   const int blocks = source_.blocks;
   EXPECT_TRUE(wait_for([&] { return source_.blocks > blocks; }));
+}
+
+TEST_F(DeviceWatchTest, AdaptsToAnotherRateWhileNothingRenders) {
+  Source other;
+  std::atomic<int> asked_for{0};
+  adapt_ = [&](const AudioFormat& format) -> BlockSource& {
+    asked_for = format.sample_rate;
+    return other;
+  };
+  rate_ = 44100;
+  const auto output = watch(std::make_unique<NullOutput>(2, 48000, 64), "no card");
+  ASSERT_TRUE(wait_for([&] { return other.blocks > 5; }));
+  EXPECT_EQ(asked_for, 44100);
+  const int before = source_.blocks;
+  next_.dead = true;  // lost again: what stands in runs at the new rate
+  ASSERT_TRUE(wait_for([&] { return output->losses() == 1; }));
+  EXPECT_EQ(output->format().sample_rate, 44100);
+  EXPECT_EQ(source_.blocks, before) << "the old source is not called any more";
 }
 
 TEST_F(DeviceWatchTest, LeavesAHealthyDeviceAlone) {

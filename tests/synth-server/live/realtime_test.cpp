@@ -18,7 +18,7 @@ TEST(Realtime, TheCallbackNeverAllocatesNorLocks) {
   Engine engine(rig, {});
   static CommandQueue queue;
   Recorder recorder(36, 48000, 4096, 0.1, [](const float* const*, int) {});
-  Player player(engine, queue, &recorder, 48000.0, 4096, {0.010, 0.050, 2.0});
+  Player player(engine, queue, &recorder, {48000.0, 4096, 2.0, false, {0.010, 0.050, 2.0}});
 
   std::vector<std::vector<float>> samples(36, std::vector<float>(8192));
   std::vector<float*> channels;

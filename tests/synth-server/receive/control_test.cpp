@@ -24,7 +24,7 @@ class ControlTest : public testing::Test {
               status.voices = 7;
               return status;
             },
-            [this] { ++cleared_; }, [this] { ++quits_; }};
+            [this] { ++cleared_; }, [this] { ++quits_; }, [this](bool on) { muted_ = on; }};
   }
   /// The one reply; a new second for each command, so that the limit is not met.
   Message ask(const Message& message, const protocol::Endpoint& from = kLocal) {
@@ -42,6 +42,7 @@ class ControlTest : public testing::Test {
 
   int cleared_ = 0;
   int quits_ = 0;
+  bool muted_ = false;
   double now_ = 0.0;
   Control control_;
 };
@@ -50,6 +51,14 @@ TEST_F(ControlTest, AllowsLoopbackAndThoseNamed) {
   EXPECT_TRUE(control_.allows(kLocal));
   EXPECT_TRUE(control_.allows(kFriend));
   EXPECT_FALSE(control_.allows(kStranger));
+}
+
+TEST_F(ControlTest, Mutes) {
+  EXPECT_EQ(ask({"/mute", {1}}), (Message{"/done", {std::string("/mute")}}));
+  EXPECT_TRUE(muted_);
+  EXPECT_EQ(ask({"/mute", {0}}, kFriend).address, "/done");
+  EXPECT_FALSE(muted_);
+  EXPECT_EQ(ask({"/mute", {2}}).address, "/fail");
 }
 
 TEST_F(ControlTest, StatusJoinsBothSides) {

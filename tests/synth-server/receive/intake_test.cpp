@@ -32,7 +32,9 @@ class IntakeTest : public testing::Test {
  protected:
   IntakeTest()
       : intake_(queue_,
-                Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {}}, {}),
+                Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {},
+                         [](bool) {}},
+                        {}),
                 LocalTime([this] { return kUnix + (now_ - kStart); }, [this] { return now_; })) {}
 
   void send(const std::vector<std::byte>& bytes, const protocol::Endpoint& from = kSim) {
@@ -87,6 +89,10 @@ TEST_F(IntakeTest, ImmediatelyMeansArrivalPlusDelayPlusOffset) {
   EXPECT_NEAR(events[0].moment, kStart + 0.0125, kPrecision);
   EXPECT_NEAR(events[1].moment, kStart + 0.0030, kPrecision) << "a bare message";
   EXPECT_NEAR(events[2].moment, kStart + 0.2010, kPrecision) << "a tagged bundle without a frame";
+  EXPECT_FALSE(events[0].at_once) << "it names a delay: two such are as far apart as they say";
+  EXPECT_TRUE(events[1].at_once);
+  EXPECT_DOUBLE_EQ(events[1].offset, 0.003);
+  EXPECT_FALSE(events[2].at_once);
 }
 
 TEST_F(IntakeTest, NeverPlaysABundleTwice) {
@@ -121,7 +127,7 @@ TEST_F(IntakeTest, SilencesWhenTheSenderIsGoneAndResumes) {
   }
   EXPECT_TRUE(commands().empty());
 
-  now_ += 0.29;
+  now_ += kLease - 0.01;
   intake_.tick(now_, replies_);
   EXPECT_TRUE(commands().empty());
   now_ += 0.02;

@@ -22,9 +22,10 @@ constexpr Endpoint kAnyPort{INADDR_LOOPBACK, 0};
 class ReceiverTest : public testing::Test {
  protected:
   ReceiverTest()
-      : receiver_(protocol::UdpSocket(kAnyPort), queue_,
-                  Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {}}, {}),
-                  [this](const std::string&) { ++lines_; }) {}
+      : receiver_(
+            protocol::UdpSocket(kAnyPort), queue_,
+            Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {}, {}}, {}),
+            [this](const std::string&) { ++lines_; }) {}
 
   void send(const std::vector<std::byte>& bytes) { socket_.send_to(receiver_.local(), bytes); }
 
@@ -91,7 +92,7 @@ TEST_F(ReceiverTest, PicksTheEventsOutOfAFlood) {
 TEST_F(ReceiverTest, SaysGoodbyeToItsClients) {
   {
     Receiver receiver(protocol::UdpSocket(kAnyPort), queue_,
-                      Control({[](protocol::SynthStatus s) { return s; }, [] {}, [] {}}, {}),
+                      Control({[](protocol::SynthStatus s) { return s; }, [] {}, [] {}, {}}, {}),
                       [](const std::string&) {});
     socket_.send_to(receiver.local(), protocol::encode(Message{"/notify", {1}}));
     EXPECT_EQ(reply().address, "/done");

@@ -58,5 +58,22 @@ TEST_F(Schedule, NeverWaitsLongerThanTheHorizon) {
   EXPECT_EQ(placement.sample, kBlockStart + 96000 + 480);
 }
 
+TEST_F(Schedule, PlaysWhatHasNoTimeWithTheNextBlock) {
+  EXPECT_EQ(place_at_once(0.0, kBlockStart, kRate, settings_).sample, kBlockStart);
+  const Placement later = place_at_once(0.1, kBlockStart, kRate, settings_);
+  EXPECT_EQ(later.timing, Timing::on_time);
+  EXPECT_EQ(later.sample, kBlockStart + 4800) << "no latency on top";
+  const Placement wild = place_at_once(10.0, kBlockStart, kRate, settings_);
+  EXPECT_EQ(wild.timing, Timing::early);
+  EXPECT_EQ(wild.sample, kBlockStart + 96000);
+}
+
+TEST(Latency, IsWhatIsWantedButABlockAtLeast) {
+  EXPECT_DOUBLE_EQ(latency_for(0.020, 256, kRate), 0.020);
+  EXPECT_DOUBLE_EQ(latency_for(0.002, 256, kRate), 256.0 / kRate);
+  EXPECT_DOUBLE_EQ(latency_for(0.0, 1024, kRate), 1536.0 / kRate);
+  EXPECT_DOUBLE_EQ(latency_for(0.0, 64, kRate), 0.005);
+}
+
 }  // namespace
 }  // namespace splash::synth

@@ -13,9 +13,9 @@ TEST(SenderTable, EndsALeaseOnceItHasRunOut) {
   Sender& sender = table.at({INADDR_LOOPBACK, 1});
   sender.present = true;
   sender.heard = 10.0;
-  EXPECT_FALSE(table.expire(9.999 + protocol::kPeerLease)) << "three heartbeats may be missed";
+  EXPECT_FALSE(table.expire(9.999 + kLease)) << "three heartbeats may be missed";
   EXPECT_TRUE(table.anybody_present());
-  EXPECT_TRUE(table.expire(10.001 + protocol::kPeerLease));
+  EXPECT_TRUE(table.expire(10.001 + kLease));
   EXPECT_FALSE(table.anybody_present());
   EXPECT_FALSE(table.expire(11.0)) << "said once";
 }
@@ -29,6 +29,19 @@ TEST(SenderTable, WaitsForTheLastOfSeveral) {
   }
   EXPECT_FALSE(table.expire(1.5));
   EXPECT_TRUE(table.expire(2.5));
+}
+
+TEST(SenderTable, KnowsWhenTheNextLeaseEnds) {
+  SenderTable table;
+  EXPECT_GT(table.next_expiry(), 1e300) << "nobody is there";
+  for (std::uint16_t port = 1; port <= 2; ++port) {
+    table.at({INADDR_LOOPBACK, port}).heard = 10.0 - port;
+    table.at({INADDR_LOOPBACK, port}).present = true;
+  }
+  EXPECT_DOUBLE_EQ(table.next_expiry(), 8.0 + kLease);
+  EXPECT_FALSE(table.expire(8.0 + kLease)) << "one of two";
+  EXPECT_DOUBLE_EQ(table.next_expiry(), 9.0 + kLease) << "at its time, not after it, it was gone";
+  EXPECT_TRUE(table.expire(9.0 + kLease));
 }
 
 TEST(SenderTable, KeepsTheCountsOfThoseItForgets) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/output_choice.hpp"
+
+#include "synth-server/audio/null_output.hpp"
+#include "synth-server/audio/rtaudio_output.hpp"
+
+namespace splash::synth {
+namespace {
+
+DeviceChoice choice_of(const Options& options, int channels) {
+  return {options.api, options.device, channels, options.sample_rate, options.block};
+}
+
+}  // namespace
+
+OpenedOutput open_output(const Options& options, int channels,
+                         const std::function<void(const std::string&)>& log) {
+  std::string missing;
+  if (options.device != "null") {
+    try {
+      return {std::make_unique<RtAudioOutput>(choice_of(options, channels)), {}};
+    } catch (const UnknownDevice&) {
+      throw;
+    } catch (const DeviceError& error) {
+      missing = error.what();
+      log(missing + ". Nothing will be heard until there is one; events are played to the null " +
+          "output" + (options.record_audio.empty() ? "" : " and recorded"));
+    }
+  }
+  const int rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
+  return {std::make_unique<NullOutput>(channels, rate, options.block), missing};
+}
+
+DeviceChoice choice_again(const Options& options, int channels, const OpenedOutput& opened) {
+  DeviceChoice again = choice_of(options, channels);
+  if (opened.missing.empty()) {
+    again.api = opened.output->format().api;
+    again.device = opened.output->format().device;
+  }
+  return again;
+}
+
+}  // namespace splash::synth

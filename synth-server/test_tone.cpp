@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/test_tone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+
+#include "protocol/failure.hpp"
+#include "synth-server/audio/recorder.hpp"
+#include "synth-server/output/wav_file.hpp"
+#include "synth-server/output_choice.hpp"
+#include "synth-server/server_text.hpp"
+
+namespace splash::synth {
+namespace {
+
+constexpr int kLongestBlock = 8192;  ///< of any device [frames]
+constexpr double kRecorderSeconds = 4.0;
+constexpr timespec kOneTone{1, 0};
+constexpr timespec kFading{0, 100'000'000};
+
+/// Passes blocks on to the recorder.
+class Tapped final : public BlockSource {
+ public:
+  Tapped(BlockSource& source, Recorder* recorder) : source_(source), recorder_(recorder) {}
+  void render(const AudioBlock& block) noexcept override {
+    source_.render(block);
+    if (recorder_ != nullptr) recorder_->push(block.channels, block.frames);
+  }
+
+ private:
+  BlockSource& source_;
+  Recorder* recorder_;
+};
+
+std::vector<int> wanted_channels(const std::string& text, int channels) {
+  std::vector<int> all;
+  for (int c = 0; c < channels; ++c) {
+    if (text == "all" || text == std::to_string(c + 1)) all.push_back(c);
+  }
+  if (!all.empty()) return all;
+  throw protocol::Failure(protocol::kExitUsage, "--test-tone " + text + ": must be all or 1 to " +
+                                                    std::to_string(channels) +
+                                                    ", a channel of the rig");
+}
+
+/// False when a signal came first.
+bool wait(const timespec& time, const sigset_t& signals) {
+  return sigtimedwait(&signals, nullptr, &time) <= 0;
+}
+
+void play_each(TestTone& tone, const std::vector<int>& channels,
+               const std::vector<std::string>& names, const sigset_t& signals) {
+  for (const int c : channels) {
+    std::printf("tone: %d %s, %.0f Hz\n", c + 1, names[static_cast<std::size_t>(c)].c_str(),
+                tone.frequency(c));
+    std::fflush(stdout);
+    tone.choose(c);
+    if (!wait(kOneTone, signals)) break;
+  }
+  tone.choose(TestTone::kNone);
+  (void)wait(kFading, signals);
+}
+
+}  // namespace
+
+TestTone::TestTone(const Rig& rig, double sample_rate)
+    : sample_rate_(sample_rate), fade_(Fade::kSeconds, sample_rate) {
+  for (const Output& output : rig.outputs) {
+    const double high = std::min(output.band.high, 0.4 * sample_rate);
+    const double middle = std::sqrt(output.band.low * high);
+    for (int c = 0; c < channel_count(output); ++c) {
+      voices_.push_back({2.0 * std::numbers::pi * middle / sample_rate, kLevel * output.ceiling,
+                         OutputGuard(output, sample_rate, c)});
+    }
+  }
+}
+
+double TestTone::frequency(int channel) const {
+  return voices_[static_cast<std::size_t>(channel)].step * sample_rate_ / (2.0 * std::numbers::pi);
+}
+
+double TestTone::next(double gain) noexcept {
+  if (playing_ == kNone) return 0.0;
+  const Voice& voice = voices_[static_cast<std::size_t>(playing_)];
+  phase_ = std::fmod(phase_ + voice.step, 2.0 * std::numbers::pi);
+  return gain * voice.amplitude * std::sin(phase_);
+}
+
+void TestTone::render(const AudioBlock& block) noexcept {
+  for (int i = 0; i < block.frames; ++i) {
+    const int chosen = chosen_;
+    const double gain = fade_.next(chosen == playing_ && playing_ != kNone);
+    if (chosen != playing_ && fade_.closed()) {
+      playing_ = chosen;
+      phase_ = 0.0;
+    }
+    const double tone = next(gain);
+    constexpr double kOpen = 1.0;
+    for (std::size_t c = 0; c < voices_.size(); ++c) {
+      const double in = static_cast<int>(c) == playing_ ? tone : 0.0;
+      voices_[c].guard.process(&in, &kOpen, block.channels[c] + i, 1);
+    }
+  }
+}
+
+void play_test_tone(const Options& options, const Rig& rig, const sigset_t& signals) {
+  const int channels = channel_count(rig);
+  const std::vector<int> wanted = wanted_channels(options.test_tone, channels);
+  const OpenedOutput opened = protocol::failing_with(protocol::kExitUnavailable, [&] {
+    return open_output(options, channels, [](const std::string& line) {
+      std::fprintf(stderr, "synth-server: %s\n", line.c_str());
+    });
+  });
+  const AudioFormat& format = opened.output->format();
+  std::unique_ptr<WavFile> file;
+  std::unique_ptr<Recorder> recorder;
+  if (!options.record_audio.empty()) {
+    file = std::make_unique<WavFile>(options.record_audio, channels, format.sample_rate);
+    recorder = std::make_unique<Recorder>(
+        channels, format.sample_rate, kLongestBlock, kRecorderSeconds,
+        [&file](const float* const* planar, int frames) { file->write(planar, frames); });
+  }
+  const std::vector<std::string> names = channel_names(rig);
+  std::printf("output: %s\n%s", to_text(format).c_str(), channel_map(names, format.ports).c_str());
+  TestTone tone(rig, format.sample_rate);
+  Tapped tapped(tone, recorder.get());
+  opened.output->start(tapped);
+  play_each(tone, wanted, names, signals);
+  opened.output->stop();
+  if (recorder != nullptr) recorder->finish();
+  if (file != nullptr) file->close();
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Off until started, silent when muted, silent 320 ms after the last word of a simulator: receiving
+// side and player together, on clocks of the test's own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "synth-server/output/rig_reader.hpp"
+#include "synth-server/player.hpp"
+#include "synth-server/receive/intake.hpp"
+
+namespace splash::synth {
+namespace {
+
+constexpr double kRate = 48000.0;
+constexpr double kStart = 700.0;  // [s, monotonic]
+constexpr double kUnix = 1.8e9;   // at the same moment [s]
+constexpr protocol::Endpoint kSim{INADDR_LOOPBACK, 57300};
+
+Rig stereo() {
+  return read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml");
+}
+
+EngineSettings open_engine() {
+  EngineSettings settings;
+  settings.start_ramp = 0.0;
+  return settings;
+}
+
+/// A synth without threads: time passes block by block.
+class Chain {
+ public:
+  Chain(double ramp, bool muted, int block = 256)
+      : block_(block),
+        engine_(stereo(), open_engine()),
+        player_(engine_, queue_, nullptr, {kRate, 4096, ramp, muted, {}}),
+        intake_(queue_, Control({[](protocol::SynthStatus s) { return s; }, [] {}, [] {}, {}}, {}),
+                LocalTime([this] { return kUnix + (now() - kStart); }, [this] { return now(); })) {}
+
+  [[nodiscard]] double now() const { return kStart + static_cast<double>(samples_.size()) / kRate; }
+  void say(Command::Kind kind) {
+    Command command;
+    command.kind = kind;
+    (void)queue_.push(command);
+  }
+  /// A frame of the simulator with a cavity that sounds for seconds.
+  void cavity(double at) {
+    std::vector<Reply> replies;
+    const protocol::Frame frame{1, sequence_, 0, 0.0F};
+    const protocol::Cavity cavity{sequence_++, 0, 0.1F, 0.1F, {0.0F, 0.0F, 0.0F}, 0.0F};
+    intake_.datagram(protocol::encode(protocol::kImmediately,
+                                      {protocol::to_message(frame), protocol::to_message(cavity)}),
+                     kSim, at, replies);
+  }
+  void run(double seconds, bool restart = false) {
+    const double end = now() + seconds;
+    while (now() < end) call(std::exchange(restart, false));
+  }
+  /// As the receiver's thread does while nothing comes.
+  void tick_when_due(double until) {
+    std::vector<Reply> replies;
+    if (intake_.next_expiry() <= until) intake_.tick(intake_.next_expiry(), replies);
+  }
+  [[nodiscard]] float peak_since(double moment) const {
+    float peak = 0.0F;
+    const auto from = static_cast<std::size_t>(std::llround((moment - kStart) * kRate));
+    for (std::size_t i = from; i < samples_.size(); ++i) {
+      peak = std::max(peak, std::abs(samples_[i]));
+    }
+    return peak;
+  }
+  [[nodiscard]] double last_sound() const {
+    const auto last = std::find_if(samples_.rbegin(), samples_.rend(),
+                                   [](float sample) { return sample != 0.0F; });
+    return kStart + static_cast<double>(samples_.rend() - last) / kRate;
+  }
+  [[nodiscard]] const Meter& meter() const { return player_.meter(); }
+
+ private:
+  void call(bool restart) {
+    tick_when_due(now());
+    std::vector<float> left(static_cast<std::size_t>(block_));
+    std::vector<float> right(left.size());
+    std::vector<float*> channels{left.data(), right.data()};
+    player_.render({channels.data(), block_, now(), false, restart});
+    samples_.insert(samples_.end(), left.begin(), left.end());
+  }
+
+  int block_;
+  std::vector<float> samples_;
+  int sequence_ = 0;
+  CommandQueue queue_;
+  Engine engine_;
+  Player player_;
+  Intake intake_;
+};
+
+class Silence : public testing::TestWithParam<int> {};
+
+TEST_P(Silence, IsThereWithin320MillisecondsOfTheLastWord) {
+  for (const double phase : {0.0, 0.0031, 0.0107, 0.0199}) {  // of the last word in its block
+    Chain chain(0.0, false, GetParam());
+    for (int beat = 0; beat < 4; ++beat) {
+      chain.cavity(chain.now());
+      chain.run(0.1);
+    }
+    const double last = chain.now() + phase;
+    chain.run(phase);
+    chain.cavity(last);
+    chain.run(0.26);
+    EXPECT_GT(chain.peak_since(last + 0.2), 0.01F) << "two heartbeats may be missed";
+    chain.run(1.0);
+    EXPECT_GT(chain.last_sound(), last + 0.25);
+    EXPECT_LE(chain.last_sound(), last + 0.320);
+    EXPECT_EQ(chain.peak_since(last + 0.320), 0.0F);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Blocks, Silence, testing::Values(64, 256, 512, 960));
+
+TEST(Gate, OpensOverTwoSecondsAndNotBefore) {
+  Chain chain(2.0, false);
+  chain.cavity(chain.now());
+  chain.run(0.02);
+  EXPECT_LT(chain.peak_since(kStart), 1e-3F);
+  for (int i = 0; i < 22; ++i) {
+    chain.cavity(chain.now());
+    chain.run(0.1);
+  }
+  EXPECT_GT(chain.peak_since(chain.now() - 0.1), 0.3F);
+}
+
+TEST(Gate, StaysShutWhileMutedAndOpensSlowlyAfterwards) {
+  Chain chain(2.0, true);
+  for (int i = 0; i < 25; ++i) {
+    chain.cavity(chain.now());
+    chain.run(0.1);
+  }
+  EXPECT_EQ(chain.peak_since(kStart), 0.0F) << "off until it is started";
+  chain.say(Command::Kind::unmute);
+  const double opened = chain.now();
+  chain.cavity(chain.now());
+  chain.run(0.05);
+  EXPECT_GT(chain.peak_since(opened), 0.0F);
+  EXPECT_LT(chain.peak_since(opened), 0.01F);
+  for (int i = 0; i < 21; ++i) {
+    chain.cavity(chain.now());
+    chain.run(0.1);
+  }
+  EXPECT_GT(chain.peak_since(chain.now() - 0.1), 0.3F);
+
+  chain.say(Command::Kind::mute);
+  const double muted = chain.now();
+  for (int i = 0; i < 4; ++i) {
+    chain.cavity(chain.now());
+    chain.run(0.1);
+  }
+  EXPECT_GT(chain.last_sound(), muted + 0.01) << "a fade, not a click";
+  EXPECT_LE(chain.last_sound(), muted + 0.0201);
+}
+
+TEST(Gate, OpensSlowlyForADeviceThatCameBack) {
+  Chain chain(2.0, false);
+  for (int i = 0; i < 25; ++i) {
+    chain.cavity(chain.now());
+    chain.run(0.1);
+  }
+  ASSERT_GT(chain.peak_since(chain.now() - 0.1), 0.3F);
+  const double back = chain.now();
+  chain.run(0.05, true);
+  EXPECT_LT(chain.peak_since(back), 0.01F);
+}
+
+TEST(Meter, ShowsThePeaksOfTheLastHalfSecond) {
+  Chain chain(0.0, false);
+  EXPECT_EQ(chain.meter().loudest().level, 0.0F);
+  chain.cavity(chain.now());
+  chain.run(0.2);
+  EXPECT_FLOAT_EQ(chain.meter().level(0), chain.peak_since(kStart));
+  chain.say(Command::Kind::mute);
+  chain.run(0.6);
+  EXPECT_EQ(chain.meter().loudest().level, 0.0F);
+}
+
+}  // namespace
+}  // namespace splash::synth
