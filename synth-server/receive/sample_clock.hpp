@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which sample sounds at which moment: a delay-locked loop that smooths the jittering times of the
-// audio callbacks. F. Adriaensen, "Using a DLL to filter time", Linux Audio Conference 2005.
+// audio callbacks. F. Adriaensen, "Using a DLL to filter time", Linux Audio Conference 2005. A
+// callback can be late by chance but never early, so the loop follows the earliest of each quarter
+// of a second: load on the machine, which makes most of them late, then hardly moves it.
 #pragma once
 
 #include <cstdint>
@@ -29,14 +31,16 @@ class SampleClock {
 
  private:
   void start(double now, std::int64_t first, int frames) noexcept;
-  /// Natural frequency of the loop times one block [rad].
-  [[nodiscard]] double omega(double block_seconds) const noexcept;
+  void begin_span() noexcept;
+  void correct() noexcept;
+  [[nodiscard]] double omega(double seconds) const noexcept;
 
   double nominal_;             ///< seconds per sample [s]
   double seconds_per_sample_;  ///< estimated [s]
   double time_ = 0.0;          ///< filtered start of the current block [s]
-  double next_time_ = 0.0;     ///< predicted start of the next one [s]
   double elapsed_ = 0.0;       ///< since the last start [s]
+  double earliest_ = 0.0;      ///< least error of a callback in this span [s]
+  std::int64_t span_ = 0;      ///< its length so far [samples]
   std::int64_t first_ = 0;     ///< sample at `time_`
   std::int64_t next_first_ = 0;
   int outliers_ = 0;  ///< callbacks in a row whose error was too large to believe

@@ -32,7 +32,7 @@ bool reachable() {
 
 }  // namespace
 
-JackServer::JackServer(const std::string& name, int channels, int period) {
+JackServer::JackServer(const std::string& name, int channels, int period, int rate) {
   setenv("JACK_DEFAULT_SERVER", name.c_str(), 1);
   setenv("JACK_NO_AUDIO_RESERVATION", "1", 1);
   setenv("JACK_NO_START_SERVER", "1", 1);
@@ -40,7 +40,7 @@ JackServer::JackServer(const std::string& name, int channels, int period) {
   jack_set_info_function(ignore);
   jackd_ = std::make_unique<tests::ChildProcess>(std::vector<std::string>{
       "jackd", "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C", "0", "-P",
-      std::to_string(channels), "-r", "48000", "-p", std::to_string(period)});
+      std::to_string(channels), "-r", std::to_string(rate), "-p", std::to_string(period)});
   if (wait_until([this] { return !jackd_->running() || reachable(); }, 20.0) && jackd_->running()) {
     return;
   }
@@ -58,6 +58,14 @@ JackServer::~JackServer() {
 void JackServer::kill() {
   jackd_->signal(SIGKILL);
   (void)jackd_->wait_for_end(5.0);
+}
+
+void JackServer::set_period(int period) {
+  jack_client_t* client = jack_client_open("splash-test-period", JackNoStartServer, nullptr);
+  if (client == nullptr) throw std::runtime_error("no JACK server to change");
+  const int refused = jack_set_buffer_size(client, static_cast<jack_nframes_t>(period));
+  jack_client_close(client);
+  if (refused != 0) throw std::runtime_error("JACK keeps its period");
 }
 
 JackCapture::JackCapture(const std::string& source, int channels, double seconds)
@@ -104,6 +112,15 @@ int JackCapture::process(jack_nframes_t frames, void* self) {
 int JackCapture::note_xrun(void* self) {
   ++static_cast<JackCapture*>(self)->xruns_;
   return 0;
+}
+
+bool JackCapture::connected(const std::string& from, const std::string& to) const {
+  const char** peers =
+      jack_port_get_all_connections(client_, jack_port_by_name(client_, from.c_str()));
+  bool found = false;
+  for (const char** peer = peers; peer != nullptr && *peer != nullptr; ++peer) found |= to == *peer;
+  jack_free(static_cast<void*>(peers));
+  return found;
 }
 
 bool JackCapture::wait(double seconds) const {

@@ -19,13 +19,15 @@ namespace splash::synth {
 class JackServer {
  public:
   /// Throws std::runtime_error saying what to install when jackd is missing or does not start.
-  JackServer(const std::string& name, int channels, int period);
+  JackServer(const std::string& name, int channels, int period, int rate = 48000);
   ~JackServer();
   JackServer(const JackServer&) = delete;
   JackServer& operator=(const JackServer&) = delete;
 
   /// As a crash would.
   void kill();
+  /// Changes the period of the running server, as `jack_bufsize` does [frames].
+  static void set_period(int period);
 
  private:
   std::unique_ptr<tests::ChildProcess> jackd_;
@@ -44,6 +46,8 @@ class JackCapture {
   bool wait(double seconds) const;
   /// Times the server was late: samples are missing then.
   [[nodiscard]] int xruns() const noexcept { return xruns_; }
+  /// Whether two ports, of whomever, are connected.
+  [[nodiscard]] bool connected(const std::string& from, const std::string& to) const;
   /// What was recorded so far. To be called after wait().
   [[nodiscard]] const std::vector<std::vector<float>>& channels() const noexcept {
     return samples_;

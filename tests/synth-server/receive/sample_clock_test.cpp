@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -45,14 +46,36 @@ TEST(SampleClock, FiltersJitterToLessThanASample) {
   };
   SampleClock clock(kRate);
   drive(clock, kRate, 0, 2000, jitter);
-  const double mean_delay = 0.99 * 0.99 * 0.5e-4 + 0.01 * 1e-3;  // no loop can know that
   double worst = 0.0;
   for (int k = 2000; k < 4000; ++k) {
     drive(clock, kRate, k, k + 1, jitter);
-    const double ideal = k * kBlock / kRate + kStart + 0.01 + mean_delay;
+    const double ideal = k * kBlock / kRate + kStart + 0.01;
     worst = std::max(worst, std::abs(clock.sample_at(ideal) - (k * kBlock + 0.01 * kRate)));
   }
   EXPECT_LT(worst, 1.0) << "samples; unfiltered it would be up to 47";
+  EXPECT_EQ(clock.resets(), 0U);
+}
+
+TEST(SampleClock, HardlyMindsCallbacksThatAreLateByChance) {
+  // As on a busy machine without realtime priority: one in thirty up to 15 ms late.
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto jitter = [&] {
+    const double late = uniform(random) < 1.0 / 30.0 ? 15e-3 * uniform(random) : 0.0;
+    return late + 40e-6 * uniform(random);
+  };
+  SampleClock clock(kRate);
+  drive(clock, kRate, 0, 2000, jitter);
+  double least = 1e9;
+  double most = -1e9;
+  for (int k = 2000; k < 6000; ++k) {
+    drive(clock, kRate, k, k + 1, jitter);
+    const double error = clock.sample_at(kStart + k * kBlock / kRate) - k * kBlock;
+    least = std::min(least, error);
+    most = std::max(most, error);
+  }
+  EXPECT_LT(most - least, 1.0) << "samples; each counted fully, it would be 20";
+  EXPECT_LT(std::max(std::abs(least), std::abs(most)), 3.0);
   EXPECT_EQ(clock.resets(), 0U);
 }
 
@@ -63,12 +86,34 @@ TEST(SampleClock, IsUsableFromTheFirstBlock) {
 }
 
 TEST(SampleClock, FollowsTheRateOfARealCard) {
-  const double real = kRate * (1.0 + 80e-6);
+  for (const double drift : {80e-6, -80e-6}) {
+    const double real = kRate * (1.0 + drift);
+    SampleClock clock(kRate);
+    drive(clock, real, 0, 8000, zero);  // 43 s
+    EXPECT_NEAR(clock.rate(), real, 0.05);
+    const double moment = kStart + 8000.0 * kBlock / real + 0.5;
+    EXPECT_NEAR(clock.sample_at(moment), 8000.0 * kBlock + 0.5 * real, 0.5);
+  }
+}
+
+TEST(SampleClock, RidesOnTheEarliestCallbacksWhateverTheLoad) {
+  // Idle for a while, then so loaded that callbacks are late by up to 2 ms, then idle again.
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  double load = 0.0;
+  const auto jitter = [&] { return 30e-6 * uniform(random) + load * std::pow(uniform(random), 4); };
   SampleClock clock(kRate);
-  drive(clock, real, 0, 8000, zero);  // 43 s
-  EXPECT_NEAR(clock.rate(), real, 0.05);
-  const double moment = kStart + 8000.0 * kBlock / real + 0.5;
-  EXPECT_NEAR(clock.sample_at(moment), 8000.0 * kBlock + 0.5 * real, 0.5);
+  drive(clock, kRate, 0, 2000, jitter);
+  double least = 1e9;
+  double most = -1e9;
+  for (int k = 2000; k < 8000; ++k) {
+    load = k >= 3000 && k < 6000 ? 2e-3 : 0.0;
+    drive(clock, kRate, k, k + 1, jitter);
+    const double error = clock.sample_at(kStart + k * kBlock / kRate) - k * kBlock;
+    least = std::min(least, error);
+    most = std::max(most, error);
+  }
+  EXPECT_LT(most - least, 1.0) << "samples; a loop that heeds all callbacks wanders by 27";
 }
 
 TEST(SampleClock, CoastsThroughOneLateCallback) {

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// A JACK server that changes under the running program: its period, its rate. And what the program
+// says of its ports.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include "protocol/status.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
+#include "tests/synth-server/live/jack_capture.hpp"
+
+namespace splash::synth {
+namespace {
+
+using tests::rig_path;
+
+constexpr int kPeriod = 512;
+constexpr double kPatience = 30.0;  ///< [s]
+
+std::string server_name(const std::string& name) {
+  return "splash-" + name + "-" + std::to_string(getpid());
+}
+
+tests::Arguments arguments() {
+  return {"--rig", rig_path("shoes.yaml"), "--api", "jack"};
+}
+
+/// Whether an event of each foot is heard in its shoe, and in no other.
+void expect_both_shoes(tests::Synth& synth) {
+  JackCapture capture("synth-server", 4, 2.5);
+  for (int k = 0; k < 23; ++k) {  // the gate opens slowly
+    const protocol::Bubble bubble{k, k < 15 ? 0 : 1, 0.02F, 0.1F, {0.0F, 0.0F, 0.0F}, 0.0F};
+    synth.send(protocol::encode(protocol::to_message(bubble)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  ASSERT_TRUE(capture.wait(kPatience)) << synth.process().output();
+  const auto& channels = capture.channels();
+  for (const auto& channel : channels) EXPECT_GT(tests::peak(channel), 0.01F);
+  EXPECT_EQ(channels[0], channels[1]) << "heel and toe";
+  EXPECT_EQ(channels[2], channels[3]);
+  EXPECT_LT(tests::onset(channels[0], 0.01F), tests::onset(channels[2], 0.01F));
+}
+
+TEST(JackChanges, OfThePeriodAreFollowed) {
+  const JackServer server(server_name("period"), 4, kPeriod);
+  tests::Synth synth(arguments());
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("blocks of 512"));
+  for (const int period : {1024, 256}) {
+    JackServer::set_period(period);
+    ASSERT_TRUE(synth.process().wait_for_text(
+        "plays, blocks of " + std::to_string(period) + " at 48000 Hz", kPatience))
+        << synth.process().output();
+    ASSERT_TRUE(synth.process().running());
+  }
+  expect_both_shoes(synth);
+  synth.process().signal(SIGTERM);
+  EXPECT_EQ(synth.process().wait_for_end(), 0);
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("2 device losses"));
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("not played: 0 too late"));
+}
+
+TEST(JackChanges, OfTheRateAreFollowed) {
+  const std::string name = server_name("rate");
+  auto server = std::make_unique<JackServer>(name, 4, kPeriod);
+  tests::Synth synth(arguments());
+  server->kill();
+  server = std::make_unique<JackServer>(name, 4, kPeriod, 44100);
+  ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of 512 at 44100 Hz", kPatience))
+      << synth.process().output();
+  const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->sample_rate, 44100.0F);
+  expect_both_shoes(synth);
+  synth.process().signal(SIGTERM);
+  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+}
+
+TEST(JackPorts, AreNamedInTheChannelMap) {
+  const JackServer server(server_name("ports"), 6, kPeriod);
+  tests::Synth synth(arguments());
+  EXPECT_THAT(synth.process().output(),
+              testing::HasSubstr("1 left shoe/heel -> system:playback_1, "
+                                 "2 left shoe/toe -> system:playback_2\n"));
+  EXPECT_THAT(synth.process().output(),
+              testing::HasSubstr("4 right shoe/toe -> system:playback_4\n"));
+  JackCapture client("synth-server", 4, 0.1);  // what is said is what is connected
+  EXPECT_TRUE(client.wait(kPatience));
+  for (int c = 0; c < 4; ++c) {
+    EXPECT_TRUE(client.connected("synth-server:outport " + std::to_string(c),
+                                 "system:playback_" + std::to_string(c + 1)));
+  }
+  EXPECT_FALSE(client.connected("synth-server:outport 0", "system:playback_2"));
+}
+
+}  // namespace
+}  // namespace splash::synth
