@@ -46,6 +46,15 @@ struct Equalisation {
   MeasuredResponse response;
 };
 
+enum class Sense { none, touch, hearing };
+
+/// What is known of who feels or hears an output: voices end where nobody would.
+struct Threshold {
+  Sense sense = Sense::none;
+  double level_db = -80.0;  ///< a sine of 250 Hz (touch) or 1 kHz (hearing) is just felt or heard
+                            ///< at this level [dB re full scale]
+};
+
 struct Output {
   std::string name;
   OutputKind kind = OutputKind::single;
@@ -65,6 +74,7 @@ struct Output {
   std::vector<double> trims_db;    ///< gain of each channel [dB]; empty: none
   std::vector<std::string> parts;  ///< worn: where on the body, one channel each
   std::vector<Equalisation> equalisers;
+  Threshold threshold;
 };
 
 struct Rig {

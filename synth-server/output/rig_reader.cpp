@@ -44,13 +44,20 @@ Equalisation read_equaliser(const ConfigMap& map) {
   return equalisation;
 }
 
+Threshold read_threshold(const ConfigMap& map) {
+  ThresholdEntry entry;
+  map.read(threshold_fields(), {}, entry);
+  entry.sense = entry.sense_name == "touch" ? Sense::touch : Sense::hearing;
+  return entry;
+}
+
 Output read_output(const ConfigMap& map) {
   static const std::map<std::string, OutputKind> kKinds = {{"tiles", OutputKind::tiles},
                                                            {"single", OutputKind::single},
                                                            {"worn", OutputKind::worn},
                                                            {"stereo", OutputKind::stereo}};
   OutputEntry entry;
-  map.read(output_fields(), {"band", "tiles", "stereo", "equalisers"}, entry);
+  map.read(output_fields(), {"band", "tiles", "stereo", "equalisers", "threshold"}, entry);
   entry.kind = kKinds.at(entry.kind_name);
   map.child("band").read(band_fields(), {}, entry.band);
   read_part(map, "tiles", entry.kind == OutputKind::tiles, tile_fields(), entry);
@@ -60,6 +67,9 @@ Output read_output(const ConfigMap& map) {
   }
   for (const ConfigMap& equaliser : map.list("equalisers")) {
     entry.equalisers.push_back(read_equaliser(equaliser));
+  }
+  if (const std::optional<ConfigMap> threshold = map.optional_child("threshold")) {
+    entry.threshold = read_threshold(*threshold);
   }
   return entry;
 }

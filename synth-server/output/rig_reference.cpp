@@ -55,7 +55,8 @@ std::string describe_rig_keys() {
          describe_fields(stereo_fields()) + "\n### Each of `equalisers` of an output\n\n" +
          describe_fields(equaliser_fields()) + "\n### Each of `sections` of an equaliser\n\n" +
          describe_fields(section_fields()) + "\n### `response` of an equaliser\n\n" +
-         describe_fields(response_fields());
+         describe_fields(response_fields()) + "\n### `threshold` of an output\n\n" +
+         describe_fields(threshold_fields());
 }
 
 }  // namespace splash::synth

@@ -184,4 +184,21 @@ std::vector<Field<MeasuredResponse>> response_fields() {
            &MeasuredResponse::most_cut_db}};
 }
 
+std::vector<Field<ThresholdEntry>> threshold_fields() {
+  return {{{.key = "sense",
+            .unit = "",
+            .meaning = "with what its signal is perceived",
+            .required = true,
+            .choices = {"touch", "hearing"}},
+           &ThresholdEntry::sense_name},
+          {{.key = "level_db",
+            .unit = "dB",
+            .meaning = "level, re full scale, at which a sine of 250 Hz (touch) or 1 kHz (hearing) "
+                       "is just perceived; voices 20 dB below it end",
+            .min = -140,
+            .max = 0,
+            .required = true},
+           &ThresholdEntry::level_db}};
+}
+
 }  // namespace splash::synth

@@ -20,6 +20,9 @@ struct OutputEntry : Output {
 struct SectionEntry : EqualiserSection {
   std::string kind_name;
 };
+struct ThresholdEntry : Threshold {
+  std::string sense_name;
+};
 
 [[nodiscard]] std::vector<Field<Rig>> rig_fields();
 [[nodiscard]] std::vector<Field<OutputEntry>> output_fields();
@@ -29,5 +32,6 @@ struct SectionEntry : EqualiserSection {
 [[nodiscard]] std::vector<Field<Equalisation>> equaliser_fields();
 [[nodiscard]] std::vector<Field<SectionEntry>> section_fields();
 [[nodiscard]] std::vector<Field<MeasuredResponse>> response_fields();
+[[nodiscard]] std::vector<Field<ThresholdEntry>> threshold_fields();
 
 }  // namespace splash::synth

@@ -46,7 +46,10 @@ const EngineSettings& checked(const EngineSettings& s) {
   require(s.sample_rate >= 8000.0 && s.sample_rate <= 384000.0, "sample_rate", s.sample_rate,
           "8000 to 384000 Hz");
   require(s.max_block >= 1 && s.max_block <= 65536, "max_block", s.max_block, "1 to 65536 frames");
-  require(s.max_voices >= 1 && s.max_voices <= 65536, "max_voices", s.max_voices, "1 to 65536");
+  require(s.max_voices >= 1 && s.max_voices <= 131072, "max_voices", s.max_voices, "1 to 131072");
+  require(s.max_impacts >= 1 && s.max_impacts <= 4096, "max_impacts", s.max_impacts, "1 to 4096");
+  require(s.mask_from >= 0.0 && s.mask_from <= 1.0, "mask_from", s.mask_from, "0 to 1");
+  require(s.water_level <= kMostPlace, "water_level", s.water_level, "at most 1000000 m");
   require(s.max_scheduled >= 1 && s.max_scheduled <= (1 << 20), "max_scheduled", s.max_scheduled,
           "1 to 1048576");
   require(s.impact_gain >= 0.0 && s.impact_gain <= 10.0, "impact_gain", s.impact_gain, "0 to 10 m");

@@ -13,19 +13,12 @@
 #include "synth-server/output/fade.hpp"
 #include "synth-server/output/output_guard.hpp"
 #include "synth-server/render/admission.hpp"
+#include "synth-server/render/ensemble.hpp"
 #include "synth-server/render/event_queue.hpp"
 #include "synth-server/render/flush_denormals.hpp"
-#include "synth-server/render/routing.hpp"
-#include "synth-server/render/voice_pool.hpp"
 
 namespace splash::synth {
 namespace {
-
-/// Voices end 120 dB under full scale of their loudest channel.
-constexpr double kFloor = 1.0e-6;
-/// Most voices that start within one cell; 190 000 per second at 48 kHz. Bounds the time that a
-/// flood of events can take from a block.
-constexpr int kMostStarts = 256;
 
 const Rig& checked(const Rig& rig, double sample_rate) {
   check(rig);
@@ -43,131 +36,37 @@ const Rig& checked(const Rig& rig, double sample_rate) {
 struct Engine::State {
   State(const Rig& rig, const EngineSettings& s);
 
-  void start(const protocol::Impact& impact, std::int64_t sample) noexcept;
-  void start(const protocol::Bubble& bubble, std::int64_t sample) noexcept;
-  void start(const protocol::Cavity& cavity, std::int64_t sample) noexcept;
-  bool start_bubble(double radius, double epsilon, const Source& source,
-                    std::int64_t sample) noexcept;
-  bool start_voice(const Sound& sound, const VoiceLife& life, const Routing::Reach& reach,
-                   std::int64_t sample) noexcept;
-  void mix_until(std::int64_t sample) noexcept;
   void render_piece(float* const* channels, int done, int count) noexcept;
   void guard_channel(std::size_t channel, float* out, int count) noexcept;
-  void end_piece() noexcept;
+  void end_cell() noexcept;
 
   EngineSettings settings;
-  double sample_rate;
-  double floor;  ///< amplitude that no channel can make audible [m]
-  Chirp chirp;
-  Routing routing;
-  VoicePool pool;
+  Ensemble ensemble;
   EventQueue queue;
-  std::vector<Route> routes;  ///< of the voice that is being started
   Mix mix;
   std::vector<OutputGuard> guards;
   std::vector<char> idle;  ///< per channel: its guard is at rest
   Fade fade;
   std::array<double, kCell> fade_gains{};
   std::int64_t clock = 0;
-  std::int64_t mixed = 0;  ///< voices are mixed up to here
-  int starts = 0;          ///< in this cell
   std::atomic<bool> silent{false};
   std::atomic<bool> silenced{false};
   std::atomic<std::int64_t> shown_clock{0};
   struct Counts {
-    Count voices, scheduled, impacts, bubbles, cavities, late, stolen, refused, queue, pool, band,
-        unheard, muted, cleared, skipped, cells, resets, limited;
+    Count voices, scheduled, late, refused, queue, muted, cleared, skipped, cells, resets, limited;
   } counts;
 };
 
 Engine::State::State(const Rig& rig, const EngineSettings& s)
     : settings(checked(s)),
-      sample_rate(s.sample_rate),
-      floor(0.0),
-      chirp(s.literal_chirp ? Chirp::literal : Chirp::integrated),
-      routing(checked(rig, s.sample_rate)),
-      pool(s.max_voices, routing.max_routes(), s.sample_rate),
+      ensemble(checked(rig, s.sample_rate), s),
       queue(s.max_scheduled),
-      routes(static_cast<std::size_t>(routing.max_routes())),
+      mix(static_cast<std::size_t>(channel_count(rig))),
       fade(s.start_ramp, s.sample_rate) {
-  floor = kFloor / routing.loudest();
   for (const Output& output : rig.outputs) {
     for (int c = 0; c < channel_count(output); ++c) guards.emplace_back(output, s.sample_rate, c);
   }
   idle.assign(guards.size(), 1);
-  mix.touched.assign(guards.size(), 0);
-  mix.samples.assign(guards.size() * kCell, 0.0);
-}
-
-bool Engine::State::start_voice(const Sound& sound, const VoiceLife& life,
-                                const Routing::Reach& reach, std::int64_t sample) noexcept {
-  if (starts >= kMostStarts) {
-    counts.pool.add();
-    return false;
-  }
-  if (pool.full()) {  // voices that are over by now give their places back
-    mix_until(sample);
-    pool.release(sample);
-  }
-  const std::span<const Route> reached(routes.data(), static_cast<std::size_t>(reach.routes));
-  const VoicePool::Start result =
-      pool.full() ? VoicePool::Start::refused : pool.start(sound, life, reached, sample);
-  if (result == VoicePool::Start::refused) counts.pool.add();
-  if (result == VoicePool::Start::refused) return false;
-  if (result == VoicePool::Start::stole) counts.stolen.add();
-  ++starts;
-  return true;
-}
-
-void Engine::State::start(const protocol::Impact& impact, std::int64_t sample) noexcept {
-  const double amplitude = impact_amplitude(static_cast<double>(impact.speed), settings.impact_gain,
-                                            settings.impact_exponent);
-  const VoiceLife life = impact_life(amplitude, sample_rate, floor);
-  const Routing::Reach reach = routing.route({impact.position, impact.body, 0.0}, routes);
-  if (reach.result != Routing::Result::heard || life.length <= 0) {
-    counts.unheard.add();
-    return;
-  }
-  const Noise noise(settings.seed, static_cast<std::uint64_t>(impact.id));
-  if (start_voice(ImpactVoice(amplitude, noise, sample_rate), life, reach, sample)) {
-    counts.impacts.add();
-  }
-}
-
-bool Engine::State::start_bubble(double radius, double epsilon, const Source& source,
-                                 std::int64_t sample) noexcept {
-  const VoiceLife life = bubble_life(radius, epsilon, sample_rate, chirp, floor);
-  const Routing::Reach reach = routing.route(source, routes);
-  if (reach.result == Routing::Result::out_of_band || life.fold <= 0) {
-    counts.band.add();
-    return false;
-  }
-  if (reach.result == Routing::Result::unheard || life.length <= 0) {
-    counts.unheard.add();
-    return false;
-  }
-  return start_voice(BubbleVoice(radius, epsilon, sample_rate, chirp), life, reach, sample);
-}
-
-void Engine::State::start(const protocol::Bubble& bubble, std::int64_t sample) noexcept {
-  const auto radius = static_cast<double>(bubble.radius);
-  const Source source{bubble.position, bubble.body, bubble_frequency(radius)};
-  if (start_bubble(radius, static_cast<double>(bubble.epsilon), source, sample)) {
-    counts.bubbles.add();
-  }
-}
-
-void Engine::State::start(const protocol::Cavity& cavity, std::int64_t sample) noexcept {
-  const auto radius = static_cast<double>(cavity.radius);
-  const Source source{cavity.position, cavity.body, bubble_frequency(radius)};
-  if (start_bubble(radius, static_cast<double>(cavity.epsilon), source, sample)) {
-    counts.cavities.add();
-  }
-}
-
-void Engine::State::mix_until(std::int64_t sample) noexcept {
-  if (sample > mixed) pool.mix(mixed, sample, mix);
-  mixed = std::max(mixed, sample);
 }
 
 /// `count` samples from the clock on, within one cell; `done`: samples of the block before them.
@@ -177,15 +76,14 @@ void Engine::State::render_piece(float* const* channels, int done, int count) no
     const EventQueue::Waiting next = queue.pop();
     const std::int64_t sample = std::max(next.sample, clock);
     if (next.sample < clock) counts.late.add();
-    std::visit([&](const auto& event) { start(event, sample); }, next.event);
+    std::visit([&](const auto& event) { ensemble.start(event, sample); }, next.event);
   }
-  mix_until(end);
-  pool.release(end);
+  ensemble.mix(clock, end, mix);
   const bool open = !silent.load(std::memory_order_relaxed);
   for (int i = 0; i < count; ++i) fade_gains[static_cast<std::size_t>(i)] = fade.next(open);
   for (std::size_t c = 0; c < guards.size(); ++c) guard_channel(c, channels[c] + done, count);
   clock = end;
-  if (clock % kCell == 0) end_piece();
+  if (clock % kCell == 0) end_cell();
 }
 
 void Engine::State::guard_channel(std::size_t channel, float* out, int count) noexcept {
@@ -198,7 +96,8 @@ void Engine::State::guard_channel(std::size_t channel, float* out, int count) no
 }
 
 /// The cell is complete: find the channels that have come to rest, and begin the next one.
-void Engine::State::end_piece() noexcept {
+void Engine::State::end_cell() noexcept {
+  ensemble.end_cell(clock);
   std::uint64_t skipped = 0;
   std::uint64_t resets = 0;
   std::uint64_t limited = 0;
@@ -219,7 +118,6 @@ void Engine::State::end_piece() noexcept {
   counts.resets.set(resets);
   counts.limited.set(limited);
   counts.cells.add();
-  starts = 0;
 }
 
 Engine::Engine(const Rig& rig, const EngineSettings& settings)
@@ -258,7 +156,7 @@ void Engine::render(float* const* channels, int frames) noexcept {
     done += count;
   }
   s.silenced.store(s.fade.closed(), std::memory_order_relaxed);
-  s.counts.voices.set(s.pool.size());
+  s.counts.voices.set(s.ensemble.voices());
   s.counts.scheduled.set(s.queue.size());
   s.shown_clock.store(s.clock, std::memory_order_relaxed);
 }
@@ -271,7 +169,7 @@ void Engine::clear() noexcept {
   state_->counts.cleared.add(state_->queue.size());
   state_->queue.clear();
   state_->counts.scheduled.set(0);
-  state_->pool.fade_all(state_->clock);
+  state_->ensemble.fade_all(state_->clock);
 }
 
 void Engine::silence(bool silent) noexcept {
@@ -284,10 +182,11 @@ bool Engine::silenced() const noexcept {
 
 EngineCounters Engine::counters() const noexcept {
   const auto& c = state_->counts;
-  return {c.voices.get(), c.scheduled.get(), c.impacts.get(), c.bubbles.get(), c.cavities.get(),
-          c.late.get(),   c.stolen.get(),    c.refused.get(), c.queue.get(),   c.pool.get(),
-          c.band.get(),   c.unheard.get(),   c.muted.get(),   c.cleared.get(), c.skipped.get(),
-          c.cells.get(),  c.resets.get(),    c.limited.get()};
+  const auto& e = state_->ensemble.counts();
+  return {c.voices.get(), c.scheduled.get(), e.impacts.get(), e.bubbles.get(), e.cavities.get(),
+          c.late.get(),   e.stolen.get(),    c.refused.get(), c.queue.get(),   e.pool.get(),
+          e.band.get(),   e.unheard.get(),   c.muted.get(),   c.cleared.get(), c.skipped.get(),
+          c.cells.get(),  c.resets.get(),    c.limited.get(), e.masked.get()};
 }
 
 int Engine::channels() const noexcept {

@@ -8,7 +8,9 @@
 
 #include "protocol/event.hpp"
 #include "synth-server/output/rig.hpp"
+#include "synth-server/render/bubble_pool.hpp"
 #include "synth-server/render/counters.hpp"
+#include "synth-server/voices/bubble_model.hpp"
 
 namespace splash::synth {
 
@@ -30,14 +32,23 @@ struct EngineSettings {
   double sample_rate = 48000.0;  ///< [Hz], 8000 to 384000
   int max_block = 4096;          ///< most frames of one render call, 1 to 65536
   std::uint64_t seed = 1;        ///< of the impacts' noise
-  bool literal_chirp = true;     ///< sin(2 pi t f(t)) as printed; false: phase is the integral of f
-  double impact_gain = 5.0e-4;   ///< amplitude of an impact at 1 m/s [m]
-  double impact_exponent = 3.0;  ///< amplitude ~ speed^exponent; paper section 5.1.2
+  BubbleModel bubbles = BubbleModel::paper;
+  bool literal_chirp = true;  ///< paper: sin(2 pi t f(t)) as printed; false: f is integrated
+  double water_level = kNoWaterLevel;  ///< physical: z of the surface, for depths [m]
+  double impact_gain = 5.0e-4;         ///< amplitude of an impact at 1 m/s [m]
+  double impact_exponent = 3.0;        ///< amplitude ~ speed^exponent; paper section 5.1.2
   unsigned components = kAllComponents;
-  int max_voices = 1024;      ///< sounding at once; above it the quietest is faded out
-  int max_scheduled = 16384;  ///< events waiting for their time
-  double start_ramp = 2.0;    ///< fade-in of the first samples [s]; 0 for files
-  bool skip_silent = true;    ///< leave silent channels uncomputed (same samples, less work)
+  Precision precision = Precision::exact;
+  InstructionSet instructions = InstructionSet::best;
+  int max_voices = 4096;         ///< bubbles and cavities at once; above it the quietest fades out
+  int max_impacts = 256;         ///< the same of impacts
+  int max_scheduled = 16384;     ///< events waiting for their time
+  double start_ramp = 2.0;       ///< fade-in of the first samples [s]; 0 for files
+  bool skip_silent = true;       ///< leave silent channels uncomputed (same samples, less work)
+  bool skip_out_of_band = true;  ///< leave bubbles out where they are born above the band
+  bool skip_unfelt = true;       ///< end voices 20 dB below the threshold that the rig states
+  bool skip_masked = true;       ///< leave out what louder bubbles cover, see render/masking.hpp
+  double mask_from = 0.5;        ///< the latter only while this part of max_voices sounds, 0 to 1
 };
 
 /// Every method but counters() and silence() belongs to one thread, the rendering one.

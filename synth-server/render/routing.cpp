@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "synth-server/output/spreading.hpp"
 
@@ -18,10 +19,11 @@ int most_routes(const Output& output) {
 
 }  // namespace
 
-Routing::Routing(const Rig& rig) : outputs_(rig.outputs) {
+Routing::Routing(const Rig& rig, const Skips& skips) : skips_(skips), outputs_(rig.outputs) {
   std::size_t widest = 0;
   for (const Output& output : outputs_) {
     const auto channels = static_cast<std::size_t>(channel_count(output));
+    audibility_.emplace_back(output, skips.unfelt);
     for (std::size_t c = 0; c < channels; ++c) {
       const double trim = output.trims_db.empty() ? 0.0 : output.trims_db[c];
       levels_.push_back(std::pow(10.0, (output.gain_db + trim) / 20.0) / output.full_scale);
@@ -30,28 +32,32 @@ Routing::Routing(const Rig& rig) : outputs_(rig.outputs) {
     max_routes_ += most_routes(output);
   }
   gains_.resize(widest);
-  for (const double level : levels_) loudest_ = std::max(loudest_, level);
 }
 
 Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noexcept {
   Reach reach;
+  reach.floor = std::numeric_limits<double>::infinity();
   bool in_band = false;
   int first = 0;
-  for (const Output& output : outputs_) {
+  for (std::size_t o = 0; o < outputs_.size(); ++o) {
+    const Output& output = outputs_[o];
     const int channels = channel_count(output);
     const int begin = first;
     first += channels;
-    if (source.frequency > output.band.high) continue;
+    if (skips_.out_of_band && source.frequency > output.band.high) continue;
     in_band = true;
     if (output.body >= 0 && output.body != source.body) continue;
     spread(output, source.position, gains_.data());
+    double loudest = 0.0;
     for (int c = 0; c < channels; ++c) {
       const auto level = static_cast<std::size_t>(begin) + static_cast<std::size_t>(c);
       const double gain = gains_[static_cast<std::size_t>(c)] * levels_[level];
       if (gain <= 0.0 || static_cast<std::size_t>(reach.routes) == routes.size()) continue;
       routes[static_cast<std::size_t>(reach.routes++)] = {begin + c, gain};
-      reach.loudest = std::max(reach.loudest, gain);
+      loudest = std::max(loudest, gain);
     }
+    if (loudest <= 0.0) continue;
+    reach.floor = std::min(reach.floor, audibility_[o].floor(source.frequency) / loudest);
   }
   if (reach.routes > 0) {
     reach.result = Result::heard;

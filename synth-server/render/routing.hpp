@@ -8,6 +8,7 @@
 
 #include "protocol/event.hpp"
 #include "synth-server/output/rig.hpp"
+#include "synth-server/render/audibility.hpp"
 
 namespace splash::synth {
 
@@ -25,27 +26,30 @@ struct Source {
 
 class Routing {
  public:
-  explicit Routing(const Rig& rig);
+  struct Skips {
+    bool out_of_band = true;  ///< leave out outputs whose band ends below the source's pitch
+    bool unfelt = true;       ///< end voices below the rig's thresholds, not only far below these
+  };
+  Routing(const Rig& rig, const Skips& skips);
 
   enum class Result { heard, out_of_band, unheard };
   struct Reach {
     Result result = Result::unheard;
-    int routes = 0;        ///< written
-    double loudest = 0.0;  ///< largest gain among them [1/m]
+    int routes = 0;      ///< written
+    double floor = 0.0;  ///< amplitude under which none of them needs the voice [m]
   };
   /// Writes up to max_routes() routes.
   Reach route(const Source& source, std::span<Route> routes) noexcept;
 
   [[nodiscard]] int max_routes() const noexcept { return max_routes_; }
-  /// Largest gain of any channel [1/m].
-  [[nodiscard]] double loudest() const noexcept { return loudest_; }
 
  private:
+  Skips skips_;
   std::vector<Output> outputs_;
-  std::vector<double> levels_;  ///< of each channel [1/m]
-  std::vector<double> gains_;   ///< of one output's channels, for spread()
+  std::vector<Audibility> audibility_;  ///< of each output
+  std::vector<double> levels_;          ///< of each channel [1/m]
+  std::vector<double> gains_;           ///< of one output's channels, for spread()
   int max_routes_ = 0;
-  double loudest_ = 0.0;
 };
 
 }  // namespace splash::synth

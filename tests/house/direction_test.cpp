@@ -66,7 +66,7 @@ TEST(Direction, ProtocolKnowsNobody) {
 
 TEST(Direction, RenderingKnowsEventsVoicesAndOutputOnly) {
   EXPECT_THAT(complaint("synth-server/render", "protocol/event.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("synth-server/render", "synth-server/voices/bubble_voice.hpp"), IsEmpty());
+  EXPECT_THAT(complaint("synth-server/render", "synth-server/voices/bubble_tone.hpp"), IsEmpty());
   EXPECT_THAT(complaint("synth-server/render", "protocol/udp_socket.hpp"),
               HasSubstr("may not know"));
   EXPECT_THAT(complaint("synth-server/render", "protocol/event_log.hpp"),

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <vector>
 
 namespace splash::synth {
@@ -95,6 +97,50 @@ TEST(ImpactVoice, HasTheVarianceOfFilteredEnvelopedNoise) {
     }
     EXPECT_NEAR(power[n] / expected, 1.0, 0.26) << "sample " << n;
   }
+}
+
+/// Impulse response of the band-pass (w0, Q) of unit noise gain in closed form, from its poles
+/// rho e^(+-i theta): h(n) = g (c(n) - c(n - 2)) with c(n) = rho^n sin((n + 1) theta) / sin theta.
+std::vector<double> closed_form_response(double rate, std::size_t length) {
+  const double w = 2.0 * std::numbers::pi * kImpactFrequency / rate;
+  const double alpha = std::sin(w) / (2.0 * kImpactQ);
+  const double rho = std::sqrt((1.0 - alpha) / (1.0 + alpha));
+  const double theta = std::acos(std::cos(w) / (1.0 + alpha) / rho);
+  const auto c = [&](double n) {
+    return n < 0.0 ? 0.0 : std::pow(rho, n) * std::sin((n + 1.0) * theta) / std::sin(theta);
+  };
+  std::vector<double> h;
+  for (std::size_t n = 0; n < length; ++n) {
+    const auto at = static_cast<double>(n);
+    h.push_back(std::sqrt((1.0 - rho * rho) / 2.0) * (c(at) - c(at - 2.0)));
+  }
+  return h;
+}
+
+class ImpactVoiceAt : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Rates, ImpactVoiceAt, testing::Values(44100.0, 48000.0, 96000.0));
+
+TEST_P(ImpactVoiceAt, IsTheNoiseUnderItsEnvelopeThroughItsResonatorOverItsWholeLife) {
+  const double rate = GetParam();
+  const Noise noise(7, 11);
+  ImpactVoice voice(1.0, noise, rate);
+  std::vector<double> out(static_cast<std::size_t>(impact_life(1.0, rate, 1e-6).length));
+  voice.render(out.data(), static_cast<int>(out.size()));
+  std::vector<double> excitation;
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    excitation.push_back(impact_envelope(static_cast<double>(n) / rate) * noise.at(n));
+  }
+  const auto h = closed_form_response(rate, static_cast<std::size_t>(rate / 12));  // to -190 dB
+  double worst = 0.0;
+  // Every 7th sample: all the life, a seventh of the work.
+  for (std::size_t n = 0; n < out.size(); n += 7) {
+    double expected = 0.0;
+    for (std::size_t k = 0; k < h.size() && k <= n; ++k) expected += h[k] * excitation[n - k];
+    worst = std::max(worst, std::abs(out[n] - expected));
+  }
+  std::printf("%.0f Hz: largest error %.1f dB\n", rate, 20.0 * std::log10(worst));
+  EXPECT_LT(20.0 * std::log10(worst), -140.0);
+  EXPECT_GT(worst, 0.0) << "compared with itself?";
 }
 
 TEST(ImpactLife, EndsWhereTheEnvelopeMeetsTheFloor) {

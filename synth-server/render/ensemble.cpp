@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/render/ensemble.hpp"
+
+#include <span>
+
+namespace splash::synth {
+namespace {
+
+PoolSettings pool_settings(const Rig& rig, const EngineSettings& s, int max_routes) {
+  return {s.precision, s.instructions, s.max_voices, max_routes, channel_count(rig), s.sample_rate};
+}
+
+}  // namespace
+
+Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
+    : settings_(settings),
+      routing_(rig, {settings.skip_out_of_band, settings.skip_unfelt}),
+      routes_(static_cast<std::size_t>(routing_.max_routes())),
+      bubbles_(make_bubble_pool(pool_settings(rig, settings, routing_.max_routes()))),
+      impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
+      masking_(channel_count(rig), settings.sample_rate) {}
+
+void Ensemble::start(const protocol::Impact& impact, std::int64_t sample) noexcept {
+  const double amplitude = impact_amplitude(static_cast<double>(impact.speed),
+                                            settings_.impact_gain, settings_.impact_exponent);
+  const Routing::Reach reach = routing_.route({impact.position, impact.body, 0.0}, routes_);
+  const VoiceLife life = impact_life(amplitude, settings_.sample_rate, reach.floor);
+  if (reach.result != Routing::Result::heard || life.length <= 0) return counts_.unheard.add();
+  if (starts_ >= kMostStarts) return counts_.pool.add();
+  const Noise noise(settings_.seed, static_cast<std::uint64_t>(impact.id));
+  const ImpactVoice voice(amplitude, noise, settings_.sample_rate);
+  const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
+  const ImpactPool::Start result = impacts_.start(voice, life, reached, sample);
+  if (result == ImpactPool::Start::refused) return counts_.pool.add();
+  if (result == ImpactPool::Start::stole) counts_.stolen.add();
+  ++starts_;
+  counts_.impacts.add();
+}
+
+bool Ensemble::masking() const noexcept {
+  return settings_.skip_masked &&
+         static_cast<double>(bubbles_->size()) >= settings_.mask_from * settings_.max_voices;
+}
+
+bool Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
+                          std::int64_t sample) noexcept {
+  const VoiceLife life = life_of(tone, settings_.sample_rate, reach.floor);
+  if (reach.result == Routing::Result::out_of_band || life.fold <= 0) {
+    counts_.band.add();
+    return false;
+  }
+  if (reach.result == Routing::Result::unheard || life.length <= 0) {
+    counts_.unheard.add();
+    return false;
+  }
+  const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
+  if (masking() && masking_.covers(tone, reached, sample, bubbles_->ranking())) {
+    counts_.masked.add();
+    return false;
+  }
+  if (starts_ >= kMostStarts) {
+    counts_.pool.add();
+    return false;
+  }
+  const BubblePool::Started started = bubbles_->start(tone, life, reached, sample);
+  if (started.result == BubblePool::Start::refused) {
+    counts_.pool.add();
+    return false;
+  }
+  if (started.result == BubblePool::Start::stole) counts_.stolen.add();
+  ++starts_;
+  if (settings_.skip_masked) {
+    masking_.note(tone, reached, sample, started.place, bubbles_->ranking());
+  }
+  return true;
+}
+
+template <class BubbleOrCavity>
+bool Ensemble::start_bubble(const BubbleOrCavity& event, std::int64_t sample) noexcept {
+  const BubbleTone tone =
+      bubble_tone(settings_.bubbles, settings_.literal_chirp ? Chirp::literal : Chirp::integrated,
+                  settings_.water_level, static_cast<double>(event.radius),
+                  static_cast<double>(event.epsilon), static_cast<double>(event.position.z));
+  const Source source{event.position, event.body, tone.frequency};
+  return start_tone(tone, routing_.route(source, routes_), sample);
+}
+
+void Ensemble::start(const protocol::Bubble& bubble, std::int64_t sample) noexcept {
+  if (start_bubble(bubble, sample)) counts_.bubbles.add();
+}
+
+void Ensemble::start(const protocol::Cavity& cavity, std::int64_t sample) noexcept {
+  if (start_bubble(cavity, sample)) counts_.cavities.add();
+}
+
+void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
+  impacts_.mix(from, to, mix);
+  bubbles_->mix(from, to, mix);
+}
+
+void Ensemble::end_cell(std::int64_t sample) noexcept {
+  impacts_.release(sample);
+  bubbles_->release(sample);
+  starts_ = 0;
+}
+
+void Ensemble::fade_all(std::int64_t sample) noexcept {
+  impacts_.fade_all(sample);
+  bubbles_->fade_all(sample);
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// All that sounds: from an event to its voices, unless nobody would feel or hear it; and the mix of
+// all voices.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "protocol/event.hpp"
+#include "synth-server/render/bubble_pool.hpp"
+#include "synth-server/render/counters.hpp"
+#include "synth-server/render/engine.hpp"
+#include "synth-server/render/impact_pool.hpp"
+#include "synth-server/render/masking.hpp"
+#include "synth-server/render/routing.hpp"
+
+namespace splash::synth {
+
+class Ensemble {
+ public:
+  Ensemble(const Rig& rig, const EngineSettings& settings);
+
+  /// A voice begins at `sample`, within the cell that is being mixed and not before what was mixed.
+  void start(const protocol::Impact& impact, std::int64_t sample) noexcept;
+  void start(const protocol::Bubble& bubble, std::int64_t sample) noexcept;
+  void start(const protocol::Cavity& cavity, std::int64_t sample) noexcept;
+
+  /// Adds samples [from, to) of all voices; both within one cell.
+  void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
+  /// At the end of a cell, behind which `sample` lies.
+  void end_cell(std::int64_t sample) noexcept;
+  /// Fades all voices out from `sample` on.
+  void fade_all(std::int64_t sample) noexcept;
+
+  [[nodiscard]] std::size_t voices() const noexcept { return bubbles_->size() + impacts_.size(); }
+
+  struct Counts {
+    Count impacts, bubbles, cavities, stolen, pool, band, unheard, masked;
+  };
+  [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
+
+ private:
+  template <class BubbleOrCavity>
+  bool start_bubble(const BubbleOrCavity& event, std::int64_t sample) noexcept;
+  bool start_tone(const BubbleTone& tone, const Routing::Reach& reach,
+                  std::int64_t sample) noexcept;
+  [[nodiscard]] bool masking() const noexcept;
+
+  EngineSettings settings_;
+  Routing routing_;
+  std::vector<Route> routes_;  ///< of the voice that is being started
+  std::unique_ptr<BubblePool> bubbles_;
+  ImpactPool impacts_;
+  Masking masking_;
+  int starts_ = 0;  ///< in this cell
+  Counts counts_;
+};
+
+}  // namespace splash::synth

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A pack and its samples, for the tests of the voices.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "synth-server/voices/pack_kernels.hpp"
+
+namespace splash::synth {
+
+template <class Pack>
+class PackPlayer {
+ public:
+  explicit PackPlayer(const PackKernels<Pack>& kernels) : kernels_(kernels) {}
+
+  void seat(std::size_t lane, const BubbleTone& tone, double rate, int ahead) {
+    set_lane(pack_, lane, tone, rate, ahead);
+  }
+  void render(int from, int to) { kernels_.advance(pack_, from, to, samples_.data()); }
+  [[nodiscard]] typename Pack::Real at(std::size_t lane, int n) const {
+    return samples_[lane * kCell + static_cast<std::size_t>(n)];
+  }
+
+ private:
+  PackKernels<Pack> kernels_;
+  Pack pack_{};
+  alignas(64) std::array<typename Pack::Real, kPackVoices * kCell> samples_{};
+};
+
+}  // namespace splash::synth
