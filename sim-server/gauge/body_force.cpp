@@ -27,19 +27,37 @@ Cell cell_of(const Vector3& place, double edge) {
   return cell;
 }
 
-/// The body's points by cells as large as the support.
-std::map<Cell, std::vector<Placed>> place_points(const WaterState& water,
-                                                 std::span<const BodyPoint> points, int owner,
-                                                 const BodyState& state) {
+/// The body's points by cells as large as the support, and the cells' bounds.
+struct PlacedBody {
   std::map<Cell, std::vector<Placed>> cells;
+  Cell first = {};
+  Cell last = {};
+
+  [[nodiscard]] bool is_near(const Cell& cell) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (cell[i] < first[i] - 1 || cell[i] > last[i] + 1) return false;
+    }
+    return true;
+  }
+};
+
+PlacedBody place_points(const WaterState& water, std::span<const BodyPoint> points, int owner,
+                        const BodyState& state) {
+  PlacedBody body;
   for (const BodyPoint& point : points) {
     if (point.owner != owner) continue;
     const Vector3 arm = rotate(state.rotation, point.place);
     const Placed placed = {state.position + arm, state.velocity + cross(state.spin, arm),
                            water.point_weight * point.volume};
-    cells[cell_of(placed.place, water.support)].push_back(placed);
+    const Cell cell = cell_of(placed.place, water.support);
+    const bool is_first = body.cells.empty();
+    for (std::size_t i = 0; i < 3; ++i) {
+      body.first[i] = is_first ? cell[i] : std::min(body.first[i], cell[i]);
+      body.last[i] = is_first ? cell[i] : std::max(body.last[i], cell[i]);
+    }
+    body.cells[cell].push_back(placed);
   }
-  return cells;
+  return body;
 }
 
 /// On the body's point by particle i [N].
@@ -60,14 +78,15 @@ Vector3 push(const WaterState& water, std::size_t i, const Placed& point) {
 
 BodyForce body_force(const WaterState& water, std::span<const BodyPoint> points, int owner,
                      const BodyState& state) {
-  const auto cells = place_points(water, points, owner, state);
+  const PlacedBody body = place_points(water, points, owner, state);
   BodyForce total;
   for (std::size_t i = 0; i < water.position.size(); ++i) {
     const Cell home = cell_of(water.position[i], water.support);
+    if (!body.is_near(home)) continue;
     for (int k = 0; k < 27; ++k) {
       const auto found =
-          cells.find({home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, home[2] + k / 9 - 1});
-      if (found == cells.end()) continue;
+          body.cells.find({home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, home[2] + k / 9 - 1});
+      if (found == body.cells.end()) continue;
       for (const Placed& point : found->second) {
         const Vector3 force = push(water, i, point);
         total.force = total.force + force;

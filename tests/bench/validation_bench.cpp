@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Runs the validation cases at all their resolutions and leaves a report with pictures.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "protocol/time_tag.hpp"
+#include "tests/validation/report.hpp"
+
+namespace {
+
+using namespace splash;
+using namespace splash::validation;
+
+struct Options {
+  std::vector<std::string> cases;
+  std::filesystem::path out = std::filesystem::path(SPLASH_SOURCE_DIR) / "out" / "validation";
+  int resolutions = 100;
+  int device = -1;
+};
+
+/// A line that says how far the run is, not more often than every two seconds.
+class Progress {
+ public:
+  explicit Progress(std::string what) : what_(std::move(what)), shown_(protocol::monotonic_now()) {}
+  void operator()(double share) {
+    const double now = protocol::monotonic_now();
+    if (now - shown_ < 2.0) return;
+    shown_ = now;
+    std::printf("\r%s  %3.0f %%", what_.c_str(), 100.0 * std::min(share, 1.0));
+    std::fflush(stdout);
+  }
+
+ private:
+  std::string what_;
+  double shown_;
+};
+
+void print(const std::string& what, const Result& result) {
+  std::printf("\r%s  %d particles, %.1f s (%.1f s of processor)\n", what.c_str(), result.particles,
+              result.wall, result.processor);
+  for (const Figure& figure : result.outcome.figures) {
+    const char* verdict = "";
+    if (figure.has_gate()) verdict = figure.passes() ? "  as wanted" : "  OUTSIDE";
+    std::printf("    %-44s %10.4g %s%s\n", figure.name.c_str(), figure.value, figure.unit.c_str(),
+                verdict);
+  }
+  std::fflush(stdout);
+}
+
+void bench(const Options& options) {
+  std::vector<const Case*> wanted;
+  for (const std::string& name : options.cases) wanted.push_back(&case_named(name));
+  if (wanted.empty()) {
+    for (const Case& item : all_cases()) wanted.push_back(&item);
+  }
+  std::filesystem::create_directories(options.out / "series");
+  sim::Device device(options.device);
+  std::printf("device: %s\n", describe(device.facts()).c_str());
+  std::vector<Result> results;
+  for (const Case* item : wanted) {
+    const auto count =
+        std::min(static_cast<std::size_t>(std::max(options.resolutions, 1)), item->spacings.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      char what[96];
+      std::snprintf(what, sizeof what, "%-18s %s/dp = %-4.0f", item->name.c_str(),
+                    item->size_name.c_str(), item->size / item->spacings[k]);
+      Progress progress(what);
+      results.push_back(run_case(device, *item, item->spacings[k], options.out / "series",
+                                 [&](double share) { progress(share); }));
+      print(what, results.back());
+      // After every run, so that a run that is broken off leaves what it found.
+      write_report(options.out, device.facts().name, results);
+    }
+  }
+  std::printf("report: %s\n", (options.out / "report.md").c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Holds the water against references: report.md, figures.csv and pictures.",
+               "bench-validation");
+  app.add_option("--case", options.cases, "Only this case (repeatable)")->type_name("NAME");
+  app.add_option("--out", options.out, "Folder for the report")->capture_default_str();
+  app.add_option("--resolutions", options.resolutions, "Only so many, coarse ones first")
+      ->check(CLI::Range(1, 100));
+  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bench(options);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "bench-validation: " << error.what() << '\n';
+    return 70;
+  }
+}

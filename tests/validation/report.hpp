@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What the validation found, as Markdown for people, CSV for programs and pictures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/validation/cases.hpp"
+
+namespace splash::validation {
+
+/// One case at one resolution.
+struct Result {
+  const Case* item = nullptr;
+  double spacing = 0.0;    ///< [m]
+  int particles = 0;       ///< of the largest scene of a sweep
+  double simulated = 0.0;  ///< all scenes of a sweep together [s]
+  double wall = 0.0;       ///< with settling and gauges [s]
+  double processor = 0.0;  ///< [s]
+  Outcome outcome;
+};
+
+/// Runs one case at one resolution. `progress` gets the share done [0, 1].
+[[nodiscard]] Result run_case(sim::Device& device, const Case& item, double spacing,
+                              const std::filesystem::path& series_folder,
+                              const std::function<void(double)>& progress = {});
+
+/// Writes report.md, figures.csv and a picture per case into `folder`. Throws std::runtime_error.
+void write_report(const std::filesystem::path& folder, const std::string& device,
+                  const std::vector<Result>& results);
+
+}  // namespace splash::validation
