@@ -25,7 +25,8 @@ set border 3 linecolor rgb ink linewidth 0.9
 set tics nomirror out scale 0.6 textcolor rgb ink
 set grid linecolor rgb "#dde1e7" linewidth 0.6
 set bmargin 7
-set key at screen 0.5, 0.02 bottom center horizontal maxrows 2 noenhanced textcolor rgb ink samplen 2
+set key at screen 0.5, 0.02 bottom center horizontal maxrows 2 noenhanced \
+  textcolor rgb ink samplen 2
 )gp";
 
 void write_data(const std::filesystem::path& path, const Curve& curve) {
