@@ -168,6 +168,13 @@ RunReport Server::finish() {
   report.mean_density_error =
       totals.mean_excess_sum / static_cast<double>(std::max<std::int64_t>(healthy, 1));
   report.maximum_density_error = totals.max_excess;
+  const SkipTotals& skipped = totals.skipped;
+  report.idle_frames = skipped.idle;
+  report.without_contacts = skipped.contacts;
+  report.without_bubbles = skipped.bubbles;
+  report.without_cavities = skipped.cavities;
+  report.asleep =
+      skipped.asleep_sum / static_cast<double>(std::max<std::int64_t>(totals.frames, 1));
   report.events = {sent.impacts, sent.bubbles, sent.cavities};
   report.invalid_events = sent.invalid;
   report.overdue_events = sent.overdue;

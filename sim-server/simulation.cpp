@@ -51,6 +51,11 @@ Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
           body_shapes(scene.bodies)};
 }
 
+SleepRule sleep_rule(const Scene& scene) {
+  return {scene.skip.sleep_speed,
+          static_cast<int>(std::ceil(scene.skip.sleep_after * scene.serve.frame_rate))};
+}
+
 /// Gives every particle the velocity of the scene's flow; the fastest of them [m/s].
 double start_flow(Fluid& fluid, const Scene& scene) {
   if (scene.flow.kind == FlowKind::none) return 0.0;
@@ -77,7 +82,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
       fluid_(make_fluid(device, scene_, bodies_)),
-      detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed) {
+      detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed, !scene_.skip.cavities),
+      needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   largest_step_ =
       largest_time_step(fluid_.params(), bodies_.fastest(0.0), std::abs(scene_.fluid.gravity[2]),
                         scene_.fluid.time_step_factor);
@@ -88,47 +94,76 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   largest_step_ = largest_time_step(fluid_.params(), fastest, std::abs(scene_.fluid.gravity[2]),
                                     scene_.fluid.time_step_factor);
   good_ = fluid_.snapshot();
+  if (scene_.skip.sleep) fluid_.let_sleep(sleep_rule(scene_));
 }
 
-std::vector<Step> Simulation::plan_frame(const FrameSteps& steps) {
+std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
+                                         std::vector<BodyStep>& poses) const {
   std::vector<Step> plan;
-  std::vector<BodyStep> poses;
   for (int k = 0; k < steps.count; ++k) {
     const double time = seconds_ + k * steps.dt;
     const PistonState piston = piston_at(scene_.wave_maker, time);
-    plan.push_back({steps.dt, piston.offset, piston.speed, static_cast<int>(poses.size())});
+    plan.push_back({steps.dt, piston.offset, piston.speed, static_cast<int>(poses.size()), k == 0});
     const std::vector<BodyStep> now = bodies_.at(time);
     poses.insert(poses.end(), now.begin(), now.end());
   }
-  fluid_.set_bodies(poses);
   return plan;
 }
 
 FrameResult Simulation::advance() {
   const FrameSteps steps =
       steps_of_frame(1.0 / scene_.serve.frame_rate, step_share_ * largest_step_);
-  const std::vector<Step> plan = plan_frame(steps);
-  const double detect_time = seconds_ + (steps.count - 1) * steps.dt;
+  std::vector<BodyStep> poses;
+  const std::vector<Step> plan = plan_frame(steps, poses);
+  const FrameNeeds needs =
+      needs_.of_frame(poses, survey_, steps.count * steps.dt, plan.front().piston_speed != 0.0,
+                      detector_.bubbles_alive());
+  count(needs);
+  if (needs.steps) {
+    fluid_.set_bodies(poses);
+    return compute(plan, needs);
+  }
+  FrameResult still;
+  seconds_ += steps.count * steps.dt;
+  detected_at_ = seconds_;
+  still.seconds = seconds_;
+  still.survey = survey_;
+  totals_.mean_excess_sum += survey_.mean_excess;
+  return still;
+}
+
+FrameResult Simulation::compute(const std::vector<Step>& plan, const FrameNeeds& needs) {
+  const double dt = plan.front().dt;
+  const auto steps = static_cast<int>(plan.size());
+  const double detect_time = seconds_ + (steps - 1) * dt;
   const double since = detect_time - detected_at_;
   for (const Step& step : plan) {
     fluid_.prepare(step);
-    if (&step == &plan.back()) detector_.enqueue(step, since);
+    if (&step == &plan.back()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
     fluid_.advance(step);
   }
-  seconds_ += steps.count * steps.dt;
-  totals_.steps += steps.count;
-  ++totals_.frames;
-
+  seconds_ += steps * dt;
+  totals_.steps += steps;
   fluid_.enqueue_survey();
   fluid_.device().queue().finish();
 
   FrameResult result;
   result.seconds = seconds_;
   result.found = detector_.collect(detect_time, since, static_cast<std::uint32_t>(totals_.steps));
-  result.survey = fluid_.survey_result();
+  survey_ = result.survey = fluid_.survey_result();
   detected_at_ = detect_time;
   keep_healthy(result);
   return result;
+}
+
+void Simulation::count(const FrameNeeds& needs) {
+  ++totals_.frames;
+  SkipTotals& skipped = totals_.skipped;
+  skipped.idle += !needs.steps;
+  skipped.contacts += !needs.steps || !needs.contacts;
+  skipped.bubbles += !needs.steps || !needs.bubbles;
+  skipped.cavities = static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches();
+  skipped.asleep_sum += static_cast<double>(survey_.asleep) / fluid_.params().count;
 }
 
 void Simulation::keep_healthy(FrameResult& result) {
@@ -136,6 +171,7 @@ void Simulation::keep_healthy(FrameResult& result) {
   if (result.survey.not_finite > 0) {
     // Nothing of a frame that went wrong is told; time goes on, with smaller steps for a while.
     fluid_.restore(good_);
+    needs_.forget();
     result.found = {};
     result.restored = true;
     ++totals_.resets;

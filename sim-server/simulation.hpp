@@ -11,6 +11,7 @@
 #include "sim-server/detect/detector.hpp"
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/time_step.hpp"
+#include "sim-server/needs.hpp"
 #include "sim-server/tracking/live_motion.hpp"
 
 namespace splash::sim {
@@ -31,6 +32,7 @@ struct RunTotals {
   double max_excess = 0.0;       ///< [1]
   std::uint64_t resets = 0;
   std::uint64_t bubbles_dropped = 0;
+  SkipTotals skipped;
 };
 
 class Simulation {
@@ -55,7 +57,11 @@ class Simulation {
   [[nodiscard]] int nearest_body(const Vector3& place) const;
 
  private:
-  [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps);
+  [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps,
+                                             std::vector<BodyStep>& poses) const;
+  /// All of a frame that computes anything.
+  [[nodiscard]] FrameResult compute(const std::vector<Step>& plan, const FrameNeeds& needs);
+  void count(const FrameNeeds& needs);
   void keep_healthy(FrameResult& result);
 
   Scene scene_;
@@ -63,6 +69,8 @@ class Simulation {
   Bodies bodies_;
   Fluid fluid_;
   Detector detector_;
+  Needs needs_;
+  Survey survey_;  ///< the last one
   double seconds_ = 0.0;
   double detected_at_ = 0.0;   ///< time of the last detection [s]
   double largest_step_ = 0.0;  ///< [s]

@@ -70,6 +70,12 @@ void Bubbles::enqueue(const Step& step, double frame) {
   look_for_spawns(step);
 }
 
+void Bubbles::skip() {
+  carried_ = 0;
+  states_.clear();
+  spawn_count_read_.front() = 0;
+}
+
 void Bubbles::look_for_spawns(const Step& step) {
   Device& device = fluid_.device();
   spawn_count_.enqueue_clear(device);

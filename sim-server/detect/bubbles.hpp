@@ -43,6 +43,8 @@ class Bubbles {
 
   /// Between prepare and advance of a frame's last step: looks for spawns and carries the living.
   void enqueue(const Step& step, double frame);
+  /// Instead of it, where no water is fast and no bubble lives.
+  void skip();
   /// What was found, once the queue is finished: new bubbles as events, in the order of their
   /// particles' ids; the pool moves on to `time`. `frame`: seconds since the last call; `step`:
   /// counts the steps.

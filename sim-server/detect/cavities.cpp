@@ -62,9 +62,10 @@ std::vector<DetectedCavity> name_cavities(std::vector<PoolBubble>& pool,
 }
 
 Cavities::Cavities(Fluid& fluid, const cl::Program& program, const DetectSettings& settings,
-                   std::size_t room)
+                   std::size_t room, bool search_always)
     : fluid_(fluid),
       settings_(settings),
+      search_always_(search_always),
       label_(fluid.device(), room),
       grown_(fluid.device(), room),
       changed_(fluid.device(), 1),
@@ -100,7 +101,8 @@ std::vector<DetectedCavity> Cavities::search(double time, Bubbles& bubbles) {
   const float least = static_cast<float>(settings_.cavity_colour);
   const bool any_seed = std::any_of(states.begin(), states.end(),
                                     [least](const BubbleState& s) { return s.colour > least; });
-  if (!any_seed) return {};
+  if (states.empty() || (!any_seed && !search_always_)) return {};
+  ++searches_;
   const std::vector<int> grown = grow(bubbles);
   std::vector<int> label(bubbles.pool().size(), -1);
   for (std::size_t i = 0; i < states.size(); ++i) {

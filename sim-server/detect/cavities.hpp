@@ -24,10 +24,12 @@ namespace splash::sim {
 class Cavities {
  public:
   Cavities(Fluid& fluid, const cl::Program& program, const DetectSettings& settings,
-           std::size_t room);
+           std::size_t room, bool search_always = false);
 
   /// Searches among the bubbles that were carried; before they are renewed.
   [[nodiscard]] std::vector<DetectedCavity> search(double time, Bubbles& bubbles);
+  /// Searches that were worth it so far.
+  [[nodiscard]] std::uint64_t searches() const noexcept { return searches_; }
   /// Rounds of the longest search so far.
   [[nodiscard]] int rounds() const noexcept { return rounds_; }
 
@@ -38,6 +40,8 @@ class Cavities {
   DetectSettings settings_;
   int next_cavity_ = 0;
   int rounds_ = 0;
+  bool search_always_ = false;
+  std::uint64_t searches_ = 0;
   Buffer<int> label_;
   Buffer<int> grown_;
   Buffer<int> changed_;

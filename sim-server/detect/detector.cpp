@@ -55,7 +55,7 @@ SurfaceDistance distance_of(const FluidParams& p) {
 }  // namespace
 
 Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
-                   const DetectSettings& settings, int seed)
+                   const DetectSettings& settings, int seed, bool search_always)
     : fluid_(fluid),
       surface_points_(surface_of(points)),
       skin_(fluid.device(), skins(surface_points_)),
@@ -65,21 +65,30 @@ Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
       program_(build(fluid.device())),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
-      cavities_(fluid, program_, settings, bubble_room(fluid.params().count)),
+      cavities_(fluid, program_, settings, bubble_room(fluid.params().count), search_always),
       impacts_(static_cast<std::size_t>(fluid.body_count()), settings,
                distance_of(fluid.params())) {}
 
-void Detector::enqueue(const Step& step, double frame) {
-  if (!surface_points_.empty()) {
-    touch_water_.run(fluid_.device().queue(), surface_points_.size(),
-                     fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
-                     fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
-                     fluid_.water_density().memory(), static_cast<int>(surface_points_.size()),
-                     skin_.memory(), owner_.memory(), fluid_.body_steps().memory(), step.first_body,
-                     touches_.memory());
-    touches_.enqueue_read(fluid_.device(), touches_read_);
+void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
+  if (passes.contacts && !surface_points_.empty()) {
+    enqueue_contacts(step);
+  } else {
+    for (Touch& touch : touches_read_) touch.colour = touch.gx = touch.gy = touch.gz = 0.0F;
   }
-  bubbles_.enqueue(step, frame);
+  if (passes.bubbles) {
+    bubbles_.enqueue(step, frame);
+  } else {
+    bubbles_.skip();
+  }
+}
+
+void Detector::enqueue_contacts(const Step& step) {
+  touch_water_.run(fluid_.device().queue(), surface_points_.size(), fluid_.params_buffer().memory(),
+                   fluid_.grid().cell_start(), fluid_.particles().position.memory(),
+                   fluid_.particles().velocity.memory(), fluid_.water_density().memory(),
+                   static_cast<int>(surface_points_.size()), skin_.memory(), owner_.memory(),
+                   fluid_.body_steps().memory(), step.first_body, touches_.memory());
+  touches_.enqueue_read(fluid_.device(), touches_read_);
 }
 
 std::vector<SurfacePoint> Detector::surface() const {

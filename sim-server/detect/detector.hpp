@@ -13,23 +13,32 @@
 
 namespace splash::sim {
 
+/// Which passes a frame needs; the others find nothing.
+struct Passes {
+  bool contacts = true;
+  bool bubbles = true;
+};
+
 class Detector {
  public:
-  /// `points`: all body points, in the order given to `fluid`.
+  /// `points`: all body points, in the order given to `fluid`; `search_always`: for cavities even
+  /// where no bubble has enough others around it.
   Detector(Fluid& fluid, const std::vector<BodyPoint>& points, const DetectSettings& settings,
-           int seed);
+           int seed, bool search_always = false);
 
   /// Enqueues the search for the state at the beginning of `step`.
-  void enqueue(const Step& step, double frame);
+  void enqueue(const Step& step, double frame, const Passes& passes = {});
   /// Waits for it. `time`: of that state [s]; `frame`: since the last one [s]; `step`: steps so
   /// far.
   [[nodiscard]] Detections collect(double time, double frame, std::uint32_t step);
 
   [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
+  [[nodiscard]] std::uint64_t cavity_searches() const noexcept { return cavities_.searches(); }
   [[nodiscard]] std::uint64_t bubbles_dropped() const noexcept { return bubbles_.dropped(); }
 
  private:
   [[nodiscard]] std::vector<SurfacePoint> surface() const;
+  void enqueue_contacts(const Step& step);
 
   Fluid& fluid_;
   std::vector<BodyPoint> surface_points_;

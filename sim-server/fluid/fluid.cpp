@@ -12,11 +12,20 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 26 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 27 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 19 * sizeof(float));
 static_assert(sizeof(BodyShape) == 6 * sizeof(float));
 
-static_assert(sizeof(SurveyPart) == 32);
+static_assert(sizeof(SurveyPart) == 56);
+
+/// A step of about the golden section of the packets of four groups, prime to their number: it
+/// visits all of them, and neighbours far apart (kernels/group.h).
+int deal_step(std::size_t groups) {
+  const std::size_t packets = std::max<std::size_t>((groups + 3) / 4, 1);
+  std::size_t step = std::max<std::size_t>(packets * 618 / 1000, 1);
+  while (std::gcd(step, packets) != 1) ++step;
+  return static_cast<int>(step);
+}
 
 /// Parts of the fluid that are surveyed side by side.
 constexpr int kParts = 64;
@@ -33,6 +42,7 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
     : device_(device), params_(params), body_count_(static_cast<int>(shapes.size())) {
   load_particles(particles);
   params_.capacity = sorted_.stride;
+  if (device_.lanes() > 1) params_.deal = deal_step(groups());
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   load_boundary(boundary, shapes);
   build_kernels(relaxed);
@@ -56,6 +66,9 @@ void Fluid::load_particles(const std::vector<Vector3>& particles) {
   water_density_ = Buffer<float>(device_, stride + kReadAhead);
   pressure_term_ = Buffer<float>(device_, stride + kReadAhead);
   acceleration_ = Buffer<float>(device_, 3 * stride);
+  density_before_ = Buffer<float>(device_, stride + kReadAhead);
+  water_density_before_ = Buffer<float>(device_, stride + kReadAhead);
+  moving_ = Buffer<int>(device_, stride + kReadAhead);
 }
 
 void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
@@ -95,6 +108,7 @@ void Fluid::build_kernels(bool relaxed) {
       NeighbourGrid(device_, program, params_, static_cast<std::size_t>(boundary_count_), 1);
   place_bodies_ = Kernel(program, "place_bodies");
   gather_body_volumes_ = Kernel(program, "gather_body_volumes");
+  sleep_ = Sleep(device_, program, params_);
   const std::size_t group = device_.lanes() > 1 ? 4 : 64;
   compute_density_ = Kernel(program, "compute_density", group);
   compute_acceleration_ = Kernel(program, "compute_acceleration", group);
@@ -115,6 +129,7 @@ void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
 void Fluid::prepare(const Step& step) {
   place_bodies(step);
   sort_particles();
+  wake_and_sleep(step);
   compute_density(step);
 }
 
@@ -137,7 +152,21 @@ void Fluid::place_bodies(const Step& step) {
 
 void Fluid::sort_particles() {
   std::swap(sorted_, unsorted_);
+  std::swap(density_, density_before_);
+  std::swap(water_density_, water_density_before_);
   grid_.sort(device_.queue(), params_buffer_, params_.count, unsorted_, sorted_);
+}
+
+void Fluid::let_sleep(const SleepRule& rule) {
+  sleep_.set_rule(rule);
+  sleep_.wake(device_);
+}
+
+void Fluid::wake_and_sleep(const Step& step) {
+  if (!sleep_.allowed() || !step.opens_frame) return;
+  sleep_.update(device_.queue(), params_, params_buffer_, grid_, sorted_.velocity, body_steps_,
+                static_cast<int>(uploaded_steps_.size()),
+                params_.piston >= 0 && step.piston_speed != 0.0, step.piston);
 }
 
 std::size_t Fluid::groups() const {
@@ -146,26 +175,28 @@ std::size_t Fluid::groups() const {
 
 void Fluid::compute_density(const Step& step) {
   compute_density_.run(device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
-                       sorted_.position.memory(), body_grid_.cell_start(),
-                       body_sorted_.position.memory(), body_volume_.memory(), body_sorted_.stride,
-                       body_steps_.memory(), step.first_body, body_count_, as_float(step.piston),
-                       density_.memory(), water_density_.memory(), pressure_term_.memory());
+                       sleep_.cells(), grid_.source(), density_before_.memory(),
+                       water_density_before_.memory(), sorted_.position.memory(),
+                       body_grid_.cell_start(), body_sorted_.position.memory(),
+                       body_volume_.memory(), body_sorted_.stride, body_steps_.memory(),
+                       step.first_body, body_count_, as_float(step.piston), density_.memory(),
+                       water_density_.memory(), pressure_term_.memory());
 }
 
 void Fluid::compute_acceleration(const Step& step) {
   compute_acceleration_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
       sorted_.position.memory(), sorted_.velocity.memory(), pressure_term_.memory(),
       body_grid_.cell_start(), body_sorted_.position.memory(), body_sorted_.velocity.memory(),
       body_volume_.memory(), body_sorted_.stride, body_steps_.memory(), step.first_body,
-      body_count_, as_float(step.piston), acceleration_.memory());
+      body_count_, as_float(step.piston), acceleration_.memory(), moving_.memory());
 }
 
 void Fluid::integrate(const Step& step) {
   integrate_.run(device_.queue(), groups(), params_buffer_.memory(), as_float(step.dt),
                  as_float(step.piston), as_float(step.piston_speed), body_shapes_.memory(),
                  body_steps_.memory(), step.first_body, body_count_, acceleration_.memory(),
-                 sorted_.position.memory(), sorted_.velocity.memory());
+                 sorted_.position.memory(), sorted_.velocity.memory(), moving_.memory());
 }
 
 void Fluid::still() {
@@ -180,7 +211,7 @@ void Fluid::drop_last_wall() {
 void Fluid::enqueue_survey() {
   survey_.run(device_.queue(), kParts, params_buffer_.memory(), kParts, sorted_.position.memory(),
               sorted_.velocity.memory(), acceleration_.memory(), density_.memory(),
-              sorted_.id.memory(), survey_parts_.memory());
+              sorted_.id.memory(), moving_.memory(), survey_parts_.memory());
   survey_parts_.enqueue_read(device_, survey_read_);
 }
 
@@ -192,6 +223,8 @@ Survey Fluid::survey() {
 
 Survey Fluid::survey_result() const {
   Survey total;
+  total.lower.fill(std::numeric_limits<double>::infinity());
+  total.upper.fill(-std::numeric_limits<double>::infinity());
   int first_bad = std::numeric_limits<int>::max();
   for (const SurveyPart& part : survey_read_) {
     total.speed = std::max(total.speed, std::sqrt(static_cast<double>(part.speed2)));
@@ -201,6 +234,11 @@ Survey Fluid::survey_result() const {
     total.max_excess = std::max(total.max_excess, static_cast<double>(part.excess_max));
     total.not_finite += part.not_finite;
     total.runaway += part.runaway;
+    total.asleep += part.asleep;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      total.lower[axis] = std::min(total.lower[axis], static_cast<double>(part.lower[axis]));
+      total.upper[axis] = std::max(total.upper[axis], static_cast<double>(part.upper[axis]));
+    }
     first_bad = std::min(first_bad, part.first_bad);
   }
   total.mean_excess /= std::max(params_.count, 1);
@@ -218,6 +256,7 @@ void Fluid::restore(const Snapshot& snapshot) {
   sorted_.position.write(device_, snapshot.position);
   sorted_.velocity.write(device_, snapshot.velocity);
   sorted_.id.write(device_, snapshot.id);
+  sleep_.wake(device_);
 }
 
 }  // namespace splash::sim

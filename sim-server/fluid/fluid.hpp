@@ -9,6 +9,7 @@
 #include "sim-server/fluid/boundary_point.hpp"
 #include "sim-server/fluid/fluid_params.h"
 #include "sim-server/fluid/neighbour_grid.hpp"
+#include "sim-server/fluid/sleep.hpp"
 
 namespace splash::sim {
 
@@ -18,6 +19,7 @@ struct Step {
   double piston = 0.0;        ///< offset of the wave maker [m]
   double piston_speed = 0.0;  ///< [m/s]
   int first_body = 0;         ///< where this step's bodies begin among those of the frame
+  bool opens_frame = false;   ///< first of a frame: what wakes and what sleeps is looked at anew
 };
 
 /// Health and limits of the whole fluid.
@@ -26,9 +28,12 @@ struct Survey {
   double acceleration = 0.0;  ///< largest [m/s2]
   double mean_excess = 0.0;   ///< mean of max(rho / rho0 - 1, 0) [1]
   double max_excess = 0.0;
-  int not_finite = 0;  ///< particles that are no numbers any more
-  int first_bad = -1;  ///< smallest id of such a particle, -1: none
-  int runaway = 0;     ///< particles at the speed limit
+  int not_finite = 0;               ///< particles that are no numbers any more
+  int first_bad = -1;               ///< smallest id of such a particle, -1: none
+  int runaway = 0;                  ///< particles at the speed limit
+  int asleep = 0;                   ///< particles that did not take part in the last step
+  Vector3 lower = {0.0, 0.0, 0.0};  ///< box around all particles [m]
+  Vector3 upper = {0.0, 0.0, 0.0};
 };
 
 /// Partial results of the survey; host and kernel agree on the layout (kernels/survey.cl).
@@ -40,7 +45,9 @@ struct SurveyPart {
   int not_finite = 0;
   int first_bad = 0;
   int runaway = 0;
-  int unused = 0;
+  int asleep = 0;
+  float lower[3] = {};
+  float upper[3] = {};
 };
 
 /// A copy of the state that can be put back.
@@ -69,6 +76,9 @@ class Fluid {
   /// Second half: forces, and the state moves on by step.dt.
   void advance(const Step& step);
 
+  /// From now on water at rest may sleep: steps that open a frame say when that is looked at.
+  void let_sleep(const SleepRule& rule);
+
   /// Stops all particles where they are.
   void still();
   /// Takes away the last wall, which a gate is; waits.
@@ -92,6 +102,8 @@ class Fluid {
   [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
   [[nodiscard]] const Buffer<float>& pressure_term() const noexcept { return pressure_term_; }
   [[nodiscard]] const Buffer<float>& acceleration() const noexcept { return acceleration_; }
+  /// Of each particle: 0 if it slept through the last step.
+  [[nodiscard]] const Buffer<int>& moving() const noexcept { return moving_; }
   [[nodiscard]] const PointArrays& boundary() const noexcept { return body_sorted_; }
   [[nodiscard]] const PointArrays& boundary_by_sample() const noexcept { return body_points_; }
   [[nodiscard]] const NeighbourGrid& body_grid() const noexcept { return body_grid_; }
@@ -106,6 +118,7 @@ class Fluid {
                      const std::vector<BodyShape>& shapes);
   void build_kernels(bool relaxed);
   void place_bodies(const Step& step);
+  void wake_and_sleep(const Step& step);
   void sort_particles();
   void compute_density(const Step& step);
   void compute_acceleration(const Step& step);
@@ -125,7 +138,11 @@ class Fluid {
   Buffer<float> water_density_;  ///< without the bodies' part
   Buffer<float> pressure_term_;
   Buffer<float> acceleration_;
+  Buffer<float> density_before_;  ///< of the step before, in its order
+  Buffer<float> water_density_before_;
+  Buffer<int> moving_;  ///< 0: slept through the last step
   NeighbourGrid grid_;
+  Sleep sleep_;
 
   Buffer<float> body_sample_;
   Buffer<int> body_owner_;

@@ -44,6 +44,8 @@ typedef struct {
   int piston;           // index of the wall that moves along its normal, -1: none
   int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
                         // is the nearer, -1: none
+  int deal;             // step in which packets of groups are handed to work-items, prime to their
+                        // number
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
 

@@ -34,6 +34,7 @@ NeighbourGrid::NeighbourGrid(Device& device, const cl::Program& program, const F
   count_ = Buffer<int>(device, cells * static_cast<std::size_t>(chunks));
   block_sum_ = Buffer<int>(device, static_cast<std::size_t>(blocks_));
   cell_start_ = Buffer<int>(device, cells + 1);
+  source_ = Buffer<int>(device, max_points);
 }
 
 void NeighbourGrid::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, int points,
@@ -48,7 +49,8 @@ void NeighbourGrid::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& par
                    count_.memory(), cell_start_.memory());
   sort_points_.run(queue, chunks, params.memory(), points, from.stride, chunks_, cells_.memory(),
                    count_.memory(), from.position.memory(), from.velocity.memory(),
-                   from.id.memory(), to.position.memory(), to.velocity.memory(), to.id.memory());
+                   from.id.memory(), to.position.memory(), to.velocity.memory(), to.id.memory(),
+                   source_.memory());
 }
 
 }  // namespace splash::sim

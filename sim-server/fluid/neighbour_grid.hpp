@@ -34,6 +34,8 @@ class NeighbourGrid {
   void sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, int points,
             const PointArrays& from, const PointArrays& to);
 
+  /// Where each sorted point was before the sort.
+  [[nodiscard]] const cl::Buffer& source() const noexcept { return source_.memory(); }
   /// First point of each cell; one more entry than cells.
   [[nodiscard]] const cl::Buffer& cell_start() const noexcept { return cell_start_.memory(); }
 
@@ -44,6 +46,7 @@ class NeighbourGrid {
   Buffer<int> count_;
   Buffer<int> block_sum_;
   Buffer<int> cell_start_;
+  Buffer<int> source_;
   Kernel count_cells_;
   Kernel sum_blocks_;
   Kernel place_cells_;

@@ -184,6 +184,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.layer_weight = static_cast<float>(1.0 / (lattice_sum(step, support) * spacing * spacing));
   p.speed_limit = static_cast<float>(sound);
   const auto walls = tank_walls(scene);
+  p.deal = 1;
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);
   p.piston = scene.wave_maker.present ? 1 : -1;

@@ -156,6 +156,17 @@ struct GaugesSettings {
 };
 
 /// Pacing and sending.
+/// What is left undone where a scene does not need it.
+struct SkipSettings {
+  bool sleep = true;          ///< water at rest is not moved
+  double sleep_speed = 0.02;  ///< what counts as rest [m/s]
+  double sleep_after = 1.0;   ///< for so long [s]
+  bool idle = true;           ///< nothing at all is done while everything sleeps and nothing moves
+  bool contacts = true;       ///< no look for impacts while no body is near the water
+  bool bubbles = true;        ///< none for bubbles while no water is fast and no bubble lives
+  bool cavities = true;       ///< none for cavities while no bubble has enough others around it
+};
+
 struct ServeSettings {
   double frame_rate = 160.0;  ///< frames per second: detection, sending and pacing [1/s]
   double latency_ms = 15.0;   ///< bubbles and cavities are played this long after they happened
@@ -175,6 +186,7 @@ struct Scene {
   std::vector<BodySettings> bodies;
   GaugesSettings gauges;
   DetectSettings detect;
+  SkipSettings skip;
   ServeSettings serve;
 };
 

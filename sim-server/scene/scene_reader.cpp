@@ -157,7 +157,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   Scene scene;
   map.read(scene_fields(),
            {"fluid", "tank", "slope", "wave_maker", "water", "gate", "flow", "bodies", "gauges",
-            "detect", "serve"},
+            "detect", "skip", "serve"},
            scene);
   if (scene.name.empty()) scene.name = file_stem;
   read_basin(map, scene);
@@ -168,6 +168,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   if (const auto gauges = map.optional_child("gauges")) {
     scene.gauges = read_gauges(*gauges, scene);
   }
+  if (const auto skip = map.optional_child("skip")) skip->read(skip_fields(), {}, scene.skip);
   if (const auto detect = map.optional_child("detect")) {
     detect->read(detect_fields(), {}, scene.detect);
     check_detect(*detect, scene.detect);

@@ -93,6 +93,7 @@ std::string scene_reference() {
          section("### `gauges` (optional): what `--gauges FILE.csv` writes", gauges_fields()) +
          section("### `probes` of the gauges: a list", gauge_fields()) +
          section("### `detect` (optional)", detect_fields()) +
+         section("### `skip` (optional)", skip_fields()) +
          section("### `serve` (optional)", serve_fields());
 }
 

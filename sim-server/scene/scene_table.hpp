@@ -58,6 +58,7 @@ struct GaugeEntry : GaugeSettings {
 [[nodiscard]] const Fields<GaugesSettings>& gauges_fields();
 [[nodiscard]] const Fields<GaugeEntry>& gauge_fields();
 [[nodiscard]] const Fields<DetectSettings>& detect_fields();
+[[nodiscard]] const Fields<SkipSettings>& skip_fields();
 [[nodiscard]] const Fields<ServeSettings>& serve_fields();
 
 }  // namespace splash::sim

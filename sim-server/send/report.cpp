@@ -86,6 +86,11 @@ std::string to_json(const RunReport& report) {
   json["lost"] = known_or_null(report.lost);
   json["behind"] = report.behind;
   json["slipped_seconds"] = finite_or_null(report.slipped_seconds);
+  json["skipped"] = {{"idle_frames", report.idle_frames},
+                     {"contact_passes", report.without_contacts},
+                     {"bubble_passes", report.without_bubbles},
+                     {"cavity_searches", report.without_cavities},
+                     {"asleep", finite_or_null(report.asleep)}};
   json["resets"] = report.resets;
   // A device may call itself anything: bytes that are no UTF-8 are replaced.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -122,6 +127,10 @@ std::string summary(const RunReport& report) {
        << " bubbles, " << report.events.cavities << " cavities\n";
   text << "receivers late " << known_or_dash(report.late) << ", lost " << known_or_dash(report.lost)
        << ", refused by the network " << report.send_failures << '\n';
+  text << "skipped   " << 100.0 * report.asleep << " % of the water asleep, of " << report.frames
+       << " frames " << report.idle_frames << " idle, " << report.without_contacts
+       << " without contacts, " << report.without_bubbles << " without bubbles, "
+       << report.without_cavities << " without cavities\n";
   text << "pacing    " << report.behind << " of " << report.frames << " frames behind, "
        << std::setprecision(3) << report.slipped_seconds << " s slipped, " << report.resets
        << " resets\n";

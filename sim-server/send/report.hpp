@@ -26,14 +26,19 @@ struct RunReport {
   double mean_density_error = 0.0;     ///< of the compressed part, in the rest density [1]
   double maximum_density_error = 0.0;  ///< same [1]
   EventTotals events;
-  std::uint64_t invalid_events = 0;   ///< outside the wire's ranges, not sent
-  std::uint64_t overdue_events = 0;   ///< their moment had passed when they were sent
-  std::uint64_t send_failures = 0;    ///< datagrams the kernel refused, all targets
-  std::optional<std::uint64_t> late;  ///< events the targets got too late; empty: none answered
-  std::optional<std::uint64_t> lost;  ///< bundles the targets missed; empty: none answered
-  std::uint64_t behind = 0;           ///< frames that were late against the wall clock
-  double slipped_seconds = 0.0;       ///< simulated time given up to stay in real time
-  std::uint64_t resets = 0;           ///< times the fluid had to be set up anew
+  std::uint64_t invalid_events = 0;    ///< outside the wire's ranges, not sent
+  std::uint64_t overdue_events = 0;    ///< their moment had passed when they were sent
+  std::uint64_t send_failures = 0;     ///< datagrams the kernel refused, all targets
+  std::optional<std::uint64_t> late;   ///< events the targets got too late; empty: none answered
+  std::optional<std::uint64_t> lost;   ///< bundles the targets missed; empty: none answered
+  std::uint64_t behind = 0;            ///< frames that were late against the wall clock
+  double slipped_seconds = 0.0;        ///< simulated time given up to stay in real time
+  std::uint64_t idle_frames = 0;       ///< nothing was computed: all water slept
+  std::uint64_t without_contacts = 0;  ///< frames that did not look for impacts
+  std::uint64_t without_bubbles = 0;   ///< same for bubbles
+  std::uint64_t without_cavities = 0;  ///< same for cavities
+  double asleep = 0.0;                 ///< share of the particles that slept, on average [1]
+  std::uint64_t resets = 0;            ///< times the fluid had to be set up anew
 
   /// Per second of wall time [1/s]; not a number when no time passed.
   [[nodiscard]] double steps_per_second() const noexcept;

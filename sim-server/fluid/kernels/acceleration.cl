@@ -8,6 +8,7 @@
 // the particle's compression gives (Akinci et al. 2012 eq. 9). Mirroring the pressure as well
 // (2 P_i) keeps a little more distance, but is not the gradient of any energy: a pool at rest then
 // simmers at 33 mm/s where this form calms to 4. Walls do not rub.
+// Particles that sleep are not accelerated, and flagged as not moving.
 
 // What the pair forces need of the particles they act on.
 typedef struct {
@@ -73,21 +74,29 @@ static void push_by_bodies(constant FluidParams* p, const Group* g, const Movers
 }
 
 kernel void compute_acceleration(constant FluidParams* p, global const int* cell_start,
+                                 global const int* awake,
                                  global const float* position, global const float* velocity,
                                  global const float* pressure_term,
                                  global const int* body_start, global const float* body_position,
                                  global const float* body_velocity,
                                  global const float* body_volume, int body_stride,
                                  global const BodyStep* bodies, int first_body, int body_count,
-                                 float piston, global float* acceleration) {
+                                 float piston, global float* acceleration,
+                                 global int* moving) {
   const int n = p->capacity;
-  const int first = get_global_id(0) * LANES;
+  const int first = group_of(p, get_global_id(0)) * LANES;
   const int last = min(first + LANES, p->count);
   // grad W = -20 sigma / H^2 (1 - q)^3 x
   const float gradient = 20.0f * p->kernel_norm * p->inverse_support * p->inverse_support;
   Push a = {0.0f, 0.0f, 0.0f};
+  lane_flags move = 0;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
+    if (!awake_near(p, awake, &g, WAKES_MOTION)) {
+      turn = g.next;
+      continue;
+    }
+    move |= g.mine;
     const Movers movers = {g.x, g.y, g.z, LOAD(velocity, first), LOAD(velocity + n, first),
                            LOAD(velocity + 2 * n, first), LOAD(pressure_term, first)};
     Push by = push_by_fluid(p, &g, &movers, cell_start, position, velocity, pressure_term);
@@ -103,6 +112,7 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
     turn = g.next;
   }
   if (first >= last) return;
+  STORE(move, moving, first);
   STORE(a.x, acceleration, first);
   STORE(a.y, acceleration + n, first);
   STORE(a.z, acceleration + 2 * n, first);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Sort, second half: every point to its place, cells in order, x fastest.
+// Sort, second half: every point to its place, cells in order, x fastest. `source`: where each
+// came from.
 
 kernel void sort_points(constant FluidParams* p, int points, int stride, int chunks,
                         global const int* cells, global int* place,
                         global const float* position, global const float* velocity,
                         global const int* id, global float* position_out,
-                        global float* velocity_out, global int* id_out) {
+                        global float* velocity_out, global int* id_out, global int* source) {
   const int chunk = get_global_id(0);
   if (chunk >= chunks) return;
   const int cell_count = p->cells_x * p->cells_y * p->cells_z;
@@ -19,5 +20,6 @@ kernel void sort_points(constant FluidParams* p, int points, int stride, int chu
       velocity_out[axis * stride + to] = velocity[axis * stride + i];
     }
     id_out[to] = id[i];
+    source[to] = i;
   }
 }

@@ -5,6 +5,7 @@
 //   p_i   = max(0, c0^2 (rho_i - rho0))
 // The force needs p / rho^2 only, so that is what is stored.
 // The part without bodies is kept, too: it tells water from the film that a body carries along.
+// Where the water sleeps all three are what they were before the sort.
 
 static lanes shape_at(constant FluidParams* p, const Group* g, global const float* position,
                       int stride, int j) {
@@ -44,17 +45,35 @@ static lanes sum_bodies(constant FluidParams* p, const Group* g, global const in
   return sum;
 }
 
+// What sleeping particles `first` to `last` had, before the sort.
+static lanes kept(global const float* before, global const int* source, int first, int last) {
+  float part[LANES];
+  for (int lane = 0; lane < LANES; ++lane) {
+    part[lane] = before[source[min(first + lane, last - 1)]];
+  }
+  return LOAD(part, 0);
+}
+
 kernel void compute_density(constant FluidParams* p, global const int* cell_start,
+                            global const int* awake, global const int* source,
+                            global const float* density_before,
+                            global const float* water_density_before,
                             global const float* position, global const int* body_start,
                             global const float* body_position, global const float* body_volume,
                             int body_stride, global const BodyStep* bodies, int first_body,
                             int body_count, float piston, global float* density,
                             global float* water_density, global float* pressure_term) {
-  const int first = get_global_id(0) * LANES;
+  const int first = group_of(p, get_global_id(0)) * LANES;
   const int last = min(first + LANES, p->count);
   lanes water = p->rest_density, rho = p->rest_density;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
+    if (!awake_near(p, awake, &g, WAKES_DENSITY)) {
+      water = select(water, kept(water_density_before, source, first, last), g.mine);
+      rho = select(rho, kept(density_before, source, first, last), g.mine);
+      turn = g.next;
+      continue;
+    }
     const lanes share = wall_field(p, g.x, g.y, g.z, piston).share;
     const lanes fluid = p->kernel_norm * p->mass * sum_fluid(p, &g, cell_start, position) +
                         p->rest_density * share;

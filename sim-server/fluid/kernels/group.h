@@ -13,6 +13,15 @@ typedef struct {
   float3 lower, upper;  // the box around the turn's particles [m]
 } Group;
 
+// Which group a work-item handles. Awake ones often lie together, and drivers hand work-items out
+// in long runs: packets of four groups are dealt round in steps that are prime to their number.
+static int group_of(constant FluidParams* p, int work_item) {
+  const int packets = ((p->count + LANES - 1) / LANES + 3) / 4;
+  const int packet = work_item / 4;
+  if (packet >= packets) return work_item;  // padding
+  return (int)((ulong)packet * p->deal % packets) * 4 + work_item % 4;
+}
+
 // The particles of the work-item's `first` to `last` (not included), from `turn` on.
 static Group load_group(constant FluidParams* p, global const int* cell_start,
                         global const float* position, int first, int last, int turn) {
@@ -34,7 +43,7 @@ static Group load_group(constant FluidParams* p, global const int* cell_start,
   const lanes far = FAR_AWAY;
   g.lower = (float3)(least(select(far, g.x, g.mine)), least(select(far, g.y, g.mine)),
                      least(select(far, g.z, g.mine)));
-  g.upper = -(float3)(least(select(far, -g.x, g.mine)), least(select(far, -g.y, g.mine)),
-                      least(select(far, -g.z, g.mine)));
+  g.upper = (float3)(most(select(-far, g.x, g.mine)), most(select(-far, g.y, g.mine)),
+                     most(select(-far, g.z, g.mine)));
   return g;
 }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Symplectic Euler: v += a dt, x += v dt. Then nobody is left behind a wall, and nobody outruns
-// the speed limit; nobody is caught in a body.
+// the speed limit; nobody is caught in a body. Sleeping particles stay where they are, and keep
+// their speed for when they wake.
 
 kernel void integrate(constant FluidParams* p, float dt, float piston, float piston_speed,
                       constant BodyShape* shapes, global const BodyStep* bodies, int first_body,
                       int body_count, global const float* acceleration, global float* position,
-                      global float* velocity) {
-  const int i = get_global_id(0) * LANES;
+                      global float* velocity, global const int* moving) {
+  const int i = group_of(p, get_global_id(0)) * LANES;
   if (i >= p->count) return;
+  const lane_flags move = LOAD(moving, i) != 0;
+  if (!any_lane(move)) return;
   const int n = p->capacity;
   lanes u = LOAD(velocity, i) + dt * LOAD(acceleration, i);
   lanes v = LOAD(velocity + n, i) + dt * LOAD(acceleration + n, i);
@@ -35,10 +38,10 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
     v -= stopped * ny;
     w -= stopped * nz;
   }
-  STORE(x, position, i);
-  STORE(y, position + n, i);
-  STORE(z, position + 2 * n, i);
-  STORE(u, velocity, i);
-  STORE(v, velocity + n, i);
-  STORE(w, velocity + 2 * n, i);
+  STORE(select(LOAD(position, i), x, move), position, i);
+  STORE(select(LOAD(position + n, i), y, move), position + n, i);
+  STORE(select(LOAD(position + 2 * n, i), z, move), position + 2 * n, i);
+  STORE(select(LOAD(velocity, i), u, move), velocity, i);
+  STORE(select(LOAD(velocity + n, i), v, move), velocity + n, i);
+  STORE(select(LOAD(velocity + 2 * n, i), w, move), velocity + 2 * n, i);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Nobody is caught inside a body. The water around a body pushes with the pressure that the body
-// itself causes, and that has no direction deep inside: a drop that got there on its own would stay.
+// itself causes, and that has no direction deep inside: a drop that got there alone would stay.
 // So what is deeper than half a spacing is put back to that depth below the nearest face, and its
 // motion into the body ends. Water in contact never is that deep (0.35 spacings at 1.5 m/s).
 
@@ -64,7 +64,7 @@ static void keep_lanes_out(constant FluidParams* p, constant BodyShape* shapes,
                            global const BodyStep* bodies, int first_body, int body_count,
                            lanes* x, lanes* y, lanes* z, lanes* u, lanes* v, lanes* w) {
   const float3 lower = (float3)(least(*x), least(*y), least(*z));
-  const float3 upper = -(float3)(least(-*x), least(-*y), least(-*z));
+  const float3 upper = (float3)(most(*x), most(*y), most(*z));
   if (!bodies_near_box(bodies, first_body, body_count, lower, upper)) return;
   float place[3][LANES], speed[3][LANES];
   STORE(*x, place[0], 0);

@@ -54,6 +54,12 @@ static float least(lanes a) { return a; }
 #error "LANES must be 1, 8 or 16"
 #endif
 
+static float most(lanes a) { return -least(-a); }
+
+static bool any_lane(lane_flags flags) {
+  return least(select((lanes)(0.0f), (lanes)(-1.0f), flags)) < 0.0f;
+}
+
 // LOAD of x coordinates of a run that ends before `end`: lanes past it are sent far away, for the
 // arrays go on there with particles of other runs, which may be neighbours in their own right.
 static lanes load_x(global const float* array, int index, int end) {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Health and limits of the whole fluid, once a frame, in a program of its own that is built
-// without relaxed mathematics: finiteness is read from the exponent bits.
+// without relaxed mathematics: only of finite numbers is the difference to themselves zero.
 
 #ifdef __FAST_RELAXED_MATH__
 #error "the survey guards against infinities: build it without relaxed mathematics"
 #endif
-
-static bool is_finite(float a) { return (as_uint(a) & 0x7F800000u) != 0x7F800000u; }
 
 typedef struct {
   float speed2;        // largest [m2/s2]
@@ -16,39 +14,80 @@ typedef struct {
   int not_finite;      // particles with a coordinate, speed or density that is no number
   int first_bad;       // the smallest id of such a particle, 2^31 - 1: none
   int runaway;         // particles at the speed limit
-  int unused;
+  int asleep;          // particles that did not take part in the last step
+  float lower[3];      // box around all particles [m]
+  float upper[3];
 } SurveyPart;
+
+// The sums of one part of the fluid, lane by lane.
+typedef struct {
+  lanes speed2, acceleration2, excess_sum, excess_max, runaway, asleep;
+  lanes lower[3], upper[3];
+} Tally;
+
+// Adds the particles of the lanes that are `here`; returns those that are no numbers.
+static lane_flags tally(constant FluidParams* p, global const float* position,
+                        global const float* velocity, global const float* acceleration,
+                        global const float* density, global const int* moving, int i,
+                        lane_flags here, Tally* t) {
+  const int n = p->capacity;
+  lanes speed2 = 0.0f, acceleration2 = 0.0f;
+  lanes doubt = LOAD(density, i) - LOAD(density, i);
+  for (int axis = 0; axis < 3; ++axis) {
+    const lanes x = LOAD(position + axis * n, i);
+    const lanes v = LOAD(velocity + axis * n, i);
+    const lanes a = LOAD(acceleration + axis * n, i);
+    doubt += (x - x) + (v - v) + (a - a);
+    speed2 += v * v;
+    acceleration2 += a * a;
+  }
+  const lanes none = 0.0f, one = 1.0f;
+  const lane_flags fine = here & (doubt == none);
+  for (int axis = 0; axis < 3; ++axis) {
+    const lanes x = LOAD(position + axis * n, i);
+    t->lower[axis] = fmin(t->lower[axis], select((lanes)(FAR_AWAY), x, fine));
+    t->upper[axis] = fmax(t->upper[axis], select((lanes)(-FAR_AWAY), x, fine));
+  }
+  const lanes excess =
+      select(none, fmax(LOAD(density, i) / p->rest_density - 1.0f, 0.0f), fine);
+  t->speed2 = fmax(t->speed2, select(none, speed2, fine));
+  t->acceleration2 = fmax(t->acceleration2, select(none, acceleration2, fine));
+  t->excess_sum += excess;
+  t->excess_max = fmax(t->excess_max, excess);
+  t->runaway += select(
+      none, one, fine & (speed2 >= (lanes)(0.98f * p->speed_limit * p->speed_limit)));
+  t->asleep += select(none, one, fine & (LOAD(moving, i) == 0));
+  return here & (doubt != none);
+}
 
 kernel void survey(constant FluidParams* p, int parts, global const float* position,
                    global const float* velocity, global const float* acceleration,
-                   global const float* density, global const int* id,
+                   global const float* density, global const int* id, global const int* moving,
                    global SurveyPart* out) {
   const int part = get_global_id(0);
   if (part >= parts) return;
-  const int n = p->capacity;
-  SurveyPart s = {0.0f, 0.0f, 0.0f, 0.0f, 0, 0x7FFFFFFF, 0, 0};
+  Tally t = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+             {FAR_AWAY, FAR_AWAY, FAR_AWAY}, {-FAR_AWAY, -FAR_AWAY, -FAR_AWAY}};
+  int bad = 0, first_bad = 0x7FFFFFFF;
   const int size = (p->count + parts - 1) / parts;
   const int last = min((part + 1) * size, p->count);
-  for (int i = part * size; i < last; ++i) {
-    bool finite = is_finite(density[i]);
-    float speed2 = 0.0f, acceleration2 = 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float v = velocity[axis * n + i], a = acceleration[axis * n + i];
-      finite = finite && is_finite(position[axis * n + i]) && is_finite(v) && is_finite(a);
-      speed2 += v * v;
-      acceleration2 += a * a;
+  for (int i = part * size; i < last; i += LANES) {
+    const lane_flags here = LANE_NUMBERS < (lane_flags)(last - i);
+    const lane_flags wrong =
+        tally(p, position, velocity, acceleration, density, moving, i, here, &t);
+    if (!any_lane(wrong)) continue;
+    int flag[LANES];
+    STORE(wrong, flag, 0);
+    for (int lane = 0; lane < LANES; ++lane) {
+      if (flag[lane] == 0) continue;
+      ++bad;
+      first_bad = min(first_bad, id[i + lane]);
     }
-    if (!finite) {
-      ++s.not_finite;
-      s.first_bad = min(s.first_bad, id[i]);
-      continue;
-    }
-    const float excess = fmax(density[i] / p->rest_density - 1.0f, 0.0f);
-    s.speed2 = fmax(s.speed2, speed2);
-    s.acceleration2 = fmax(s.acceleration2, acceleration2);
-    s.excess_sum += excess;
-    s.excess_max = fmax(s.excess_max, excess);
-    s.runaway += speed2 >= 0.98f * p->speed_limit * p->speed_limit;
   }
+  const SurveyPart s = {most(t.speed2), most(t.acceleration2), total(t.excess_sum),
+                        most(t.excess_max), bad, first_bad, (int)total(t.runaway),
+                        (int)total(t.asleep),
+                        {least(t.lower[0]), least(t.lower[1]), least(t.lower[2])},
+                        {most(t.upper[0]), most(t.upper[1]), most(t.upper[2])}};
   out[part] = s;
 }

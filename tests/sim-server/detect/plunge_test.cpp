@@ -95,6 +95,32 @@ TEST_P(Plunge, EntrapsAir) {
   EXPECT_EQ(run.totals.bubbles_dropped, 0U);
 }
 
+// Every skip off, every skip on: the same impact, bubbles and cavities as many as from one run of a
+// splash to the next.
+TEST(PlungeSkips, DoNotChangeWhatIsHeard) {
+  const std::string lazy = scene_text("plunge.yaml");
+  const std::string busy = lazy +
+                           "\nskip: {sleep: false, idle: false, contacts: false, bubbles: false, "
+                           "cavities: false}\n";
+  const SceneRun some = run_scene(lazy, 3.0);
+  const SceneRun all = run_scene(busy, 3.0);
+  std::printf(
+      "skips on / off: impact %.4f / %.4f s, %zu / %zu bubbles, %zu / %zu cavities; asleep "
+      "%.2f of the water\n",
+      some.found.impacts.at(0).time, all.found.impacts.at(0).time, some.found.bubbles.size(),
+      all.found.bubbles.size(), some.found.cavities.size(), all.found.cavities.size(),
+      some.totals.skipped.asleep_sum / static_cast<double>(some.totals.frames));
+  ASSERT_EQ(some.found.impacts.size(), all.found.impacts.size());
+  EXPECT_NEAR(some.found.impacts.front().time, all.found.impacts.front().time, 0.002);
+  EXPECT_NEAR(some.found.impacts.front().speed, all.found.impacts.front().speed, 1.0e-3);
+  const auto bubbles = static_cast<double>(all.found.bubbles.size());
+  EXPECT_NEAR(static_cast<double>(some.found.bubbles.size()), bubbles, 0.2 * bubbles);
+  EXPECT_GT(some.totals.skipped.contacts, 50U);
+  EXPECT_GT(some.totals.skipped.bubbles, 50U);
+  EXPECT_GT(some.totals.skipped.asleep_sum, 20.0);
+  EXPECT_EQ(all.totals.skipped.idle + all.totals.skipped.contacts + all.totals.skipped.bubbles, 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Speeds, Plunge, ::testing::Values(0.5, 1.0, 2.0), [](const auto& speed) {
   return std::to_string(static_cast<int>(10.0 * speed.param)) + "_dm_per_s";
 });

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Water at rest sleeps. A cell is awake while anything in it is fast, and for some frames after
+// that; a body or a wall that moves wakes what it reaches. Particles within one cell of an awake
+// one move, within two their density is kept up, so that whatever moves finds its neighbours'
+// pressures right. All others stay as they are: still neighbours, like a wall.
+
+#define WAKES_MOTION 1   // [cells]
+#define WAKES_DENSITY 2
+
+// Whether a cell within `reach` cells of the group's is awake.
+static bool awake_near(constant FluidParams* p, global const int* awake, const Group* g,
+                       int reach) {
+  const int at_y = g->row % p->cells_y, at_z = g->row / p->cells_y;
+  for (int z = max(at_z - reach, 0); z <= min(at_z + reach, p->cells_z - 1); ++z) {
+    for (int y = max(at_y - reach, 0); y <= min(at_y + reach, p->cells_y - 1); ++y) {
+      global const int* row = awake + (z * p->cells_y + y) * p->cells_x;
+      const int last = min(g->to + reach, p->cells_x - 1);
+      for (int x = max(g->from - reach, 0); x <= last; ++x) {
+        if (row[x] > 0) return true;
+      }
+    }
+  }
+  return false;
+}

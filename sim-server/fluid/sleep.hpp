@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Which cells of the fluid are awake (kernels/sleep.h says what that means).
+#pragma once
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/program.hpp"
+#include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/neighbour_grid.hpp"
+
+namespace splash::sim {
+
+/// When water may sleep.
+struct SleepRule {
+  double speed = 0.0;  ///< slower water may sleep [m/s]; 0: none ever does
+  int frames = 1;      ///< after that many frames in a row
+};
+
+class Sleep {
+ public:
+  Sleep() = default;
+  /// All cells are awake.
+  Sleep(Device& device, const cl::Program& program, const FluidParams& params);
+
+  void set_rule(const SleepRule& rule) noexcept { rule_ = rule; }
+  [[nodiscard]] bool allowed() const noexcept { return rule_.speed > 0.0; }
+
+  /// Once a frame, after the particles have been sorted. `bodies`: entries of all its steps;
+  /// `piston_moves`: the wave maker wakes the cells in its reach, up to its `piston` [m].
+  void update(cl::CommandQueue& queue, const FluidParams& params,
+              const Buffer<FluidParams>& params_buffer, const NeighbourGrid& grid,
+              const Buffer<float>& velocity, const Buffer<BodyStep>& bodies, int body_count,
+              bool piston_moves, double piston);
+  /// Wakes everything.
+  void wake(Device& device);
+
+  /// Frames that each cell stays awake, 0: asleep.
+  [[nodiscard]] const cl::Buffer& cells() const noexcept { return awake_.memory(); }
+
+ private:
+  SleepRule rule_;
+  std::size_t rows_ = 0;
+  Buffer<int> awake_;
+  Kernel keep_awake_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/needs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splash::sim {
+namespace {
+
+/// Part of the bubble speed below which nobody reaches it within a frame: at 1 m/s and 160 frames
+/// per second that takes 8 g.
+constexpr double kCalm = 0.5;
+
+/// Bodies slower than this are at rest: trackers tremble (as in kernels/sleep.cl) [m/s].
+constexpr double kTremble = 1e-3;
+
+double speed_of(const BodyStep& b) {
+  const float reach =
+      0.5F * std::hypot(b.upper_x - b.lower_x, b.upper_y - b.lower_y, b.upper_z - b.lower_z);
+  const float speed = std::hypot(b.vx, b.vy, b.vz) + reach * std::hypot(b.wx, b.wy, b.wz);
+  return static_cast<double>(speed);
+}
+
+bool meets(const BodyStep& b, const Survey& water, double margin) {
+  return static_cast<double>(b.upper_x) > water.lower[0] - margin &&
+         static_cast<double>(b.lower_x)<water.upper[0] + margin&& static_cast<double>(b.upper_y)>
+                 water.lower[1] -
+             margin &&
+         static_cast<double>(b.lower_y)<water.upper[1] + margin&& static_cast<double>(b.upper_z)>
+                 water.lower[2] -
+             margin &&
+         static_cast<double>(b.lower_z) < water.upper[2] + margin;
+}
+
+}  // namespace
+
+bool near_water(const std::vector<BodyStep>& bodies, const Survey& water, double margin) {
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [&](const BodyStep& b) { return meets(b, water, margin); });
+}
+
+bool moving_near_water(const std::vector<BodyStep>& bodies, const Survey& water) {
+  return std::any_of(bodies.begin(), bodies.end(), [&](const BodyStep& b) {
+    return speed_of(b) > kTremble && meets(b, water, 0.0);
+  });
+}
+
+FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const Survey& last, double frame,
+                           bool piston_moves, std::size_t bubbles) {
+  FrameNeeds needs;
+  if (!known_) {
+    known_ = true;
+    calm_before_ = false;
+    return needs;
+  }
+  const bool asleep = last.asleep == particles_;
+  needs.steps = !(skip_.idle && skip_.sleep && asleep && bubbles == 0 && !piston_moves &&
+                  !moving_near_water(bodies, last));
+  needs.contacts = !skip_.contacts || near_water(bodies, last, last.speed * frame);
+  double fastest = last.speed;
+  for (const BodyStep& b : bodies) {
+    if (meets(b, last, last.speed * frame)) fastest = std::max(fastest, speed_of(b));
+  }
+  const bool calm = bubbles == 0 && fastest < kCalm * bubble_speed_;
+  // One more pass after all has calmed down, for the particles' memories.
+  needs.bubbles = !(skip_.bubbles && calm && calm_before_);
+  calm_before_ = calm;
+  return needs;
+}
+
+}  // namespace splash::sim
