@@ -8,6 +8,7 @@
 #include "protocol/control.hpp"
 #include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
+#include "synth-server/voice_options.hpp"
 
 namespace splash::synth {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 struct Texts {
   std::string listen = "127.0.0.1:" + std::to_string(protocol::kSynthPort);
   std::vector<std::string> allow;
-  std::string chirp = "literal";
+  VoiceTexts voices;
   double latency_ms = 0.0;
   double late_ms = 50.0;
   double horizon_ms = 2000.0;
@@ -81,13 +82,6 @@ void add_playing(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("MS")
       ->capture_default_str();
   app.add_flag("--muted", options.muted, "Silent until /mute 0 comes");
-  app.add_option("--chirp", texts.chirp,
-                 "Bubbles as sin(2 pi t f(t)), as the paper prints it, or with integrated f")
-      ->check(CLI::IsMember({"literal", "integrated"}))
-      ->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the impacts' noise")
-      ->type_name("N")
-      ->capture_default_str();
   app.add_option("--duration", options.duration, "End after so many seconds (default: never)")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name("S");
@@ -110,7 +104,7 @@ void apply(const Texts& texts, Options& options) {
   for (const auto& host : texts.allow) {
     options.allow.push_back(protocol::parse_endpoint(host, 0).address);
   }
-  options.literal_chirp = texts.chirp == "literal";
+  apply(texts.voices, options.engine);
   options.latency = 1e-3 * texts.latency_ms;
   options.late_window = 1e-3 * texts.late_ms;
   options.horizon = 1e-3 * texts.horizon_ms;
@@ -127,6 +121,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_sources(app, options, texts);
   add_output(app, options);
   add_playing(app, options, texts);
+  add_voices(app, texts.voices, options.engine);
   try {
     app.parse(argc, argv);
     check(options);

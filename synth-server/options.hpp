@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "protocol/udp_socket.hpp"
+#include "synth-server/render/engine.hpp"
 
 namespace splash::synth {
 
@@ -33,9 +34,8 @@ struct Options {
   double late_window = 0.050;  ///< [s]
   double horizon = 2.0;        ///< further ahead no time tag is believed [s]
   bool muted = false;          ///< silent until /mute 0
-  bool literal_chirp = true;
-  std::uint64_t seed = 1;
-  double duration = 0.0;  ///< [s]; 0: until it is stopped
+  EngineSettings engine;       ///< what concerns the sound; whoever renders knows the rest
+  double duration = 0.0;       ///< [s]; 0: until it is stopped
   bool verbose = false;
 };
 

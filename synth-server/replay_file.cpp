@@ -51,10 +51,11 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
       static_cast<unsigned long long>(report.events), static_cast<unsigned long long>(c.impacts),
       static_cast<unsigned long long>(c.bubbles), static_cast<unsigned long long>(c.cavities));
   std::printf(
-      "left out: %llu above every output's band, %llu unheard or out of reach, %llu without a "
-      "voice, %llu out of range\n",
+      "left out: %llu above every output's band, %llu unheard or out of reach, %llu masked, %llu "
+      "without a voice, %llu out of range\n",
       static_cast<unsigned long long>(c.dropped_band),
       static_cast<unsigned long long>(c.dropped_unheard),
+      static_cast<unsigned long long>(c.dropped_masked),
       static_cast<unsigned long long>(c.dropped_pool) + c.dropped_queue,
       static_cast<unsigned long long>(c.dropped_refused));
 }
@@ -65,9 +66,8 @@ void render_log(const Options& options, const Rig& rig) {
   const auto log = protocol::failing_with(protocol::kExitData,
                                           [&] { return protocol::read_log(options.replay); });
   ReplaySettings settings;
+  settings.engine = options.engine;
   settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
-  settings.engine.seed = options.seed;
-  settings.engine.literal_chirp = options.literal_chirp;
   const auto report = protocol::failing_with(
       protocol::kExitIo, [&] { return render_to(options.render, log, rig, settings); });
   print(report, options.render, rig, static_cast<int>(settings.engine.sample_rate));

@@ -25,11 +25,9 @@ void log(const std::string& line) {
 }
 
 EngineSettings engine_settings(const Options& options, int sample_rate) {
-  EngineSettings settings;
+  EngineSettings settings = options.engine;
   settings.sample_rate = sample_rate;
   settings.max_block = kMaxBlock;
-  settings.seed = options.seed;
-  settings.literal_chirp = options.literal_chirp;
   settings.start_ramp = 0.0;  // the player's gate opens slowly
   return settings;
 }

@@ -18,7 +18,7 @@ TEST(Options, HaveSafeDefaults) {
   ASSERT_TRUE(parsed.options);
   EXPECT_EQ(protocol::to_string(parsed.options->listen), "127.0.0.1:57310");
   EXPECT_TRUE(parsed.options->allow.empty());
-  EXPECT_TRUE(parsed.options->literal_chirp);
+  EXPECT_TRUE(parsed.options->engine.literal_chirp);
   EXPECT_DOUBLE_EQ(parsed.options->late_window, 0.050);
 }
 
@@ -29,10 +29,27 @@ TEST(Options, ReadWhatIsGiven) {
   ASSERT_TRUE(parsed.options);
   EXPECT_EQ(protocol::to_string(parsed.options->listen), "0.0.0.0:9000");
   EXPECT_EQ(parsed.options->allow, (std::vector<std::uint32_t>{0x0A000005, 0x0A000006}));
-  EXPECT_FALSE(parsed.options->literal_chirp);
+  EXPECT_FALSE(parsed.options->engine.literal_chirp);
   EXPECT_DOUBLE_EQ(parsed.options->latency, 0.020);
   EXPECT_DOUBLE_EQ(parsed.options->late_window, 0.100);
-  EXPECT_EQ(parsed.options->seed, 7U);
+  EXPECT_EQ(parsed.options->engine.seed, 7U);
+}
+
+TEST(Options, ChooseHowVoicesSound) {
+  const auto parsed = parse({"--rig", "x.yaml", "--bubbles", "physical", "--water-level", "-0.5",
+                             "--impact-exponent", "1.5", "--precision", "fast", "--max-voices",
+                             "60000", "--no-skip", "masked", "--no-skip", "unfelt"});
+  ASSERT_TRUE(parsed.options);
+  const EngineSettings& engine = parsed.options->engine;
+  EXPECT_EQ(engine.bubbles, BubbleModel::physical);
+  EXPECT_DOUBLE_EQ(engine.water_level, -0.5);
+  EXPECT_DOUBLE_EQ(engine.impact_exponent, 1.5);
+  EXPECT_EQ(engine.precision, Precision::fast);
+  EXPECT_EQ(engine.max_voices, 60000);
+  EXPECT_FALSE(engine.skip_masked);
+  EXPECT_FALSE(engine.skip_unfelt);
+  EXPECT_TRUE(engine.skip_silent);
+  EXPECT_TRUE(engine.skip_out_of_band);
 }
 
 TEST(Options, RefuseNonsenseAsUsage) {
@@ -48,6 +65,9 @@ TEST(Options, RefuseNonsenseAsUsage) {
            {"--rig", "x", "--block", "1"},
            {"--rig", "x", "--sample-rate", "nan"},
            {"--rig", "x", "--chirp", "up"},
+           {"--rig", "x", "--bubbles", "soap"},
+           {"--rig", "x", "--max-voices", "0"},
+           {"--rig", "x", "--no-skip", "all"},
            {"--rig", "x", "--api", "oss"},
            {"--rig", "x", "--late-ms", "-1"},
            {"--rig", "x", "--replay", "a", "--render", "b", "--record-audio", "c"}}) {

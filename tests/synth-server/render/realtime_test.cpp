@@ -62,5 +62,49 @@ TEST(Realtime, ScheduleAndRenderNeitherAllocateNorLock) {
   EXPECT_GT(counters.late, 0U);
 }
 
+/// A second of a full pool on 36 channels, with a flood on top: 300 events in every cell.
+void flood_full_pool(Precision precision, BubbleModel model) {
+  auto settings = file_settings();
+  settings.precision = precision;
+  settings.bubbles = model;
+  settings.max_voices = 2000;
+  settings.mask_from = 0.9;
+  Rig rig = floor_rig();
+  rig.outputs[0].threshold = {Sense::touch, -70.0};
+  Engine engine(rig, settings);
+  auto events = splashes(4000, 1);
+  for (std::size_t i = 0; i < events.size(); i += 2) {  // weak ones, for strong ones to mask
+    if (auto* weak = std::get_if<protocol::Bubble>(&events[i].event)) weak->epsilon *= 0.02F;
+  }
+  Channels out(36, std::vector<float>(kCell));
+  std::vector<float*> pointers;
+  for (auto& channel : out) pointers.push_back(channel.data());
+  std::size_t next = 0;
+  std::uint64_t least = 1U << 20U;
+  const Calls calls = count([&] {
+    for (int cell = 0; cell < 750; ++cell) {
+      for (int i = 0; i < 300; ++i) {
+        TimedEvent event = events[next++ % events.size()];
+        event.sample = engine.clock() + i % kCell;
+        engine.schedule(event);
+      }
+      // Whole cells and cut ones.
+      engine.render(pointers.data(), cell % 3 == 0 ? 40 : kCell);
+      if (cell % 3 == 0) engine.render(pointers.data(), kCell - 40);
+      if (cell > 100) least = std::min(least, engine.counters().voices);
+    }
+  });
+  EXPECT_EQ(calls.allocations, 0);
+  EXPECT_EQ(calls.locks, 0);
+  EXPECT_GE(least, 2000U) << "the pool was not full";
+  EXPECT_GT(engine.counters().stolen, 10000U);
+  EXPECT_GT(engine.counters().dropped_masked, 100U);
+}
+
+TEST(Realtime, AFullPoolOn36ChannelsNeitherAllocatesNorLocks) {
+  flood_full_pool(Precision::exact, BubbleModel::paper);
+  flood_full_pool(Precision::fast, BubbleModel::physical);
+}
+
 }  // namespace
 }  // namespace splash::synth

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/voice_options.hpp"
+
+namespace splash::synth {
+
+void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
+  app.add_option("--bubbles", texts.bubbles,
+                 "The paper's bubbles, or those of linear theory (Minnaert, heat, depth)")
+      ->check(CLI::IsMember({"paper", "physical"}))
+      ->capture_default_str();
+  app.add_option("--chirp", texts.chirp,
+                 "The paper's as sin(2 pi t f(t)), as it prints them, or with integrated f")
+      ->check(CLI::IsMember({"literal", "integrated"}))
+      ->capture_default_str();
+  app.add_option("--water-level", engine.water_level,
+                 "z of the surface, for the depths of physical bubbles (default: they lie at it)")
+      ->check(CLI::Range(-1e6, 1e6))
+      ->type_name("M");
+  app.add_option("--impact-exponent", engine.impact_exponent,
+                 "An impact's amplitude grows with its speed to this power")
+      ->check(CLI::Range(0.0, 6.0))
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--precision", texts.precision,
+                 "Bubbles within -140 dB of their formula, or within -95 dB for half the time")
+      ->check(CLI::IsMember({"exact", "fast"}))
+      ->capture_default_str();
+  app.add_option("--max-voices", engine.max_voices,
+                 "Bubbles and cavities at once; beyond, the quietest is faded out")
+      ->check(CLI::Range(1, 131072))
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--no-skip", texts.no_skip,
+                 "Do not leave out: silent channels, bubbles above a band, voices below a rig's "
+                 "threshold, bubbles that louder ones mask (repeatable)")
+      ->check(CLI::IsMember({"silent", "band", "unfelt", "masked"}));
+  app.add_option("--seed", engine.seed, "Of the impacts' noise")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void apply(const VoiceTexts& texts, EngineSettings& engine) {
+  engine.bubbles = texts.bubbles == "physical" ? BubbleModel::physical : BubbleModel::paper;
+  engine.literal_chirp = texts.chirp == "literal";
+  engine.precision = texts.precision == "fast" ? Precision::fast : Precision::exact;
+  for (const std::string& kind : texts.no_skip) {
+    if (kind == "silent") engine.skip_silent = false;
+    if (kind == "band") engine.skip_out_of_band = false;
+    if (kind == "unfelt") engine.skip_unfelt = false;
+    if (kind == "masked") engine.skip_masked = false;
+  }
+}
+
+}  // namespace splash::synth
