@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The real program on PulseAudio, and on ALSA through its plugin: the tone of a channel arrives on
+// that channel, and a server that dies and comes back is survived.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
+#include "tests/synth-server/live/pulse_server.hpp"
+
+namespace splash::synth {
+namespace {
+
+using tests::peak;
+using tests::rig_path;
+
+constexpr std::size_t kHeard = 9600;  ///< 0.2 s
+constexpr double kPatience = 40.0;    ///< [s]
+constexpr int kTries = 40;
+
+tests::Arguments tone(const std::string& rig, const std::string& api, const std::string& channel) {
+  return tests::command("synth-server",
+                        {"--rig", rig_path(rig), "--api", api, "--test-tone", channel});
+}
+
+/// Plays the tone again and again until the sink hears it: it lasts a second, and Pulse may be
+/// slow.
+std::vector<std::vector<float>> heard(const PulseServer& pulse, const tests::Arguments& command,
+                                      std::string& output) {
+  std::vector<std::vector<float>> channels;
+  float loudest = 0.0F;
+  for (int k = 0; k < kTries && loudest < 0.05F; ++k) {
+    tests::ChildProcess program(command);
+    for (int look = 0; look < 4 && loudest < 0.05F && program.running(); ++look) {
+      channels = pulse.listen(kHeard);
+      loudest = 0.0F;
+      for (const auto& channel : channels) loudest = std::max(loudest, peak(channel));
+    }
+    EXPECT_EQ(program.wait_for_end(kPatience), 0) << program.output();
+    output = program.output();
+  }
+  return channels;
+}
+
+TEST(Pulse, PlaysEachToneOnItsChannel) {
+  const PulseServer pulse(4);
+  std::string output;
+  const auto channels = heard(pulse, tone("shoes.yaml", "pulse", "3"), output);
+  EXPECT_THAT(output, testing::HasSubstr("output: pulse device 'Null Output', 4 channels"));
+  ASSERT_EQ(channels.size(), 4U);
+  EXPECT_NEAR(peak(channels[2]), 0.09F, 0.005F) << output;
+  for (const std::size_t c : {0U, 1U, 3U}) EXPECT_LT(peak(channels[c]), 1e-4F) << c;
+}
+
+TEST(Alsa, PlaysThroughItsDefaultDevice) {
+  const PulseServer pulse(2);
+  std::string output;
+  const auto channels = heard(pulse, tone("stereo.yaml", "alsa", "1"), output);
+  EXPECT_THAT(output, testing::HasSubstr("output: alsa device 'default', 2 channels"));
+  ASSERT_EQ(channels.size(), 2U);
+  EXPECT_NEAR(peak(channels[0]), 0.09F, 0.005F) << output;
+  EXPECT_LT(peak(channels[1]), 1e-3F);
+}
+
+class Lost : public testing::TestWithParam<const char*> {};
+
+TEST_P(Lost, ServersAreSurvivedAndTakenBack) {
+  PulseServer pulse(2);
+  tests::Synth synth({"--rig", rig_path("stereo.yaml"), "--api", GetParam()});
+  ASSERT_THAT(synth.process().output(),
+              testing::HasSubstr(std::string("output: ") + GetParam() + " device"));
+  pulse.kill();
+  ASSERT_TRUE(synth.process().wait_for_text("going on without it", kPatience))
+      << synth.process().output();
+  EXPECT_EQ(synth.ask({"/sync", {7}}, "/synced").address, "/synced") << "it still answers";
+  pulse.start();
+  ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of", kPatience))
+      << synth.process().output();
+  synth.process().signal(SIGTERM);
+  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("1 device losses"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Apis, Lost, testing::Values("pulse", "alsa"),
+                         [](const auto& api) { return std::string(api.param); });
+
+}  // namespace
+}  // namespace splash::synth
