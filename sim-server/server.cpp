@@ -19,7 +19,13 @@ std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
 
 std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Scene& scene) {
   if (path.empty()) return std::nullopt;
-  return protocol::failing_with(protocol::kExitIo, [&] { return GaugeFile(path, scene); });
+  try {
+    return GaugeFile(path, scene);
+  } catch (const std::invalid_argument& error) {
+    throw protocol::Failure(protocol::kExitConfig, error.what());
+  } catch (const std::runtime_error& error) {
+    throw protocol::Failure(protocol::kExitIo, error.what());
+  }
 }
 
 protocol::UdpSocket open_socket(const std::vector<protocol::Endpoint>& targets) {

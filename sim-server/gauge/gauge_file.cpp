@@ -9,9 +9,9 @@ namespace {
 
 const Scene& with_probes(const Scene& scene) {
   if (!scene.gauges.probes.empty()) return scene;
-  throw std::runtime_error("the scene " + scene.name +
-                           " names no gauges; add 'gauges:' with 'probes:' to it "
-                           "(configs/README.md) or leave out --gauges");
+  throw std::invalid_argument("the scene " + scene.name +
+                              " names no gauges; add 'gauges:' with 'probes:' to it "
+                              "(configs/README.md) or leave out --gauges");
 }
 
 }  // namespace

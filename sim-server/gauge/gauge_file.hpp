@@ -11,8 +11,8 @@ namespace splash::sim {
 
 class GaugeFile {
  public:
-  /// Opens the file and writes the columns' names. Throws std::runtime_error when the scene names
-  /// no gauges or the file cannot be written.
+  /// Opens the file and writes the columns' names. Throws std::invalid_argument when the scene
+  /// names no gauges, std::runtime_error when the file cannot be written.
   GaugeFile(const std::filesystem::path& path, const Scene& scene);
 
   /// Writes a sample if one is due at `seconds`, the end of a frame. Throws std::runtime_error.

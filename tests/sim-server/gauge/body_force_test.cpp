@@ -69,6 +69,21 @@ TEST(BodyForce, GrowsWhereTheBodyRunsIntoTheWater) {
   EXPECT_DOUBLE_EQ(body_force(pair.water, pair.points, 0, pair.state).force[0], still);
 }
 
+TEST(BodyForce, IsTheSameEverywhere) {
+  const Pair here;
+  const double force = body_force(here.water, here.points, 0, here.state).force[0];
+  for (int k = -9; k <= 9; ++k) {
+    Pair there;
+    const Vector3 away = {0.0037 * k, -0.0051 * k, 0.0043 * k};
+    there.state.position = there.state.position + away;
+    there.water.position[0] = there.water.position[0] + away;
+    EXPECT_NEAR(body_force(there.water, there.points, 0, there.state).force[0] / force, 1.0, 1e-9);
+    // And from the other side.
+    there.water.position[0][0] -= 0.024;
+    EXPECT_NEAR(body_force(there.water, there.points, 0, there.state).force[0] / force, -1.0, 1e-9);
+  }
+}
+
 constexpr const char* kSunkBox = R"(
 fluid: {spacing: 0.02}
 tank: {lower: [0, 0, 0], upper: [0.4, 0.4, 0.6]}

@@ -24,6 +24,7 @@ TEST(Front, FollowsAFilmButNoDrops) {
   water.position.insert(water.position.end(), film.position.begin(), film.position.end());
   water.position.push_back({0.4, 0.03, 0.005});
   water.position.push_back({0.405, 0.03, 0.005});
+  water.position.push_back({0.389, 0.05, 0.005});  // half a row, but not in one slab
   EXPECT_NEAR(front_position(water, 0, 1.0, 0.06), 0.3, 1e-12);
   water.position.push_back({0.402, 0.01, 0.005});  // half a row: a front
   EXPECT_NEAR(front_position(water, 0, 1.0, 0.06), 0.41, 1e-12);

@@ -131,7 +131,7 @@ TEST_F(GaugeFiles, RefuseASceneWithoutGauges) {
   try {
     const GaugeFile file(path_, parse_scene(kScene, "bare.yaml"));
     FAIL();
-  } catch (const std::runtime_error& error) {
+  } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("bare"));
     EXPECT_THAT(error.what(), HasSubstr("leave out --gauges"));
   }

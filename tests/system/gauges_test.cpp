@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The simulator writes its scene's gauges, and says what to do when there are none.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/programs.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Ended simulate(const std::string& scene, const std::string& gauges) {
+  return run_program("sim-server", {"--scene", scene, "--gauges", gauges, "--duration", "0.1",
+                                    "--faster-than-real-time", "--listen", "127.0.0.1:0"});
+}
+
+TEST(Gauges, AreWritten) {
+  const std::string csv = temporary_path("gauges.csv");
+  const auto [code, text] =
+      simulate(std::string(SPLASH_SOURCE_DIR) + "/tests/validation/scenes/closed_box.yaml", csv);
+  EXPECT_EQ(code, 0) << text;
+  std::ifstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line,
+            "time,sum_kinetic,sum_potential,sum_compression,sum_total,all_x,all_y,all_z,"
+            "all_fastest,all_rms");
+  std::getline(in, line);
+  EXPECT_THAT(line, StartsWith("0,"));
+  int lines = 1;
+  while (std::getline(in, line)) ++lines;
+  EXPECT_GE(lines, 5) << "50 a second";
+  EXPECT_LE(lines, 7);
+  std::filesystem::remove(csv);
+}
+
+TEST(Gauges, OfASceneWithoutAnyAreAMistakeOfTheScene) {
+  const SmallScene scene(plunging());
+  const auto [code, text] = simulate(scene.path(), temporary_path("none.csv"));
+  EXPECT_EQ(code, 78);
+  EXPECT_THAT(text, HasSubstr("names no gauges"));
+  const auto unwritable =
+      simulate(std::string(SPLASH_SOURCE_DIR) + "/tests/validation/scenes/closed_box.yaml",
+               "/nowhere/g.csv");
+  EXPECT_EQ(unwritable.code, 74);
+  EXPECT_THAT(unwritable.text, HasSubstr("/nowhere/g.csv"));
+}
+
+}  // namespace
+}  // namespace splash::tests
