@@ -88,7 +88,8 @@ WavSignal read_samples(Bytes data, const Format& format) {
 }
 
 WavSignal parse(Bytes bytes) {
-  if (bytes.size() < 12 || !has_tag(bytes, 0, "RIFF") || !has_tag(bytes, 8, "WAVE")) {
+  const bool riff = bytes.size() >= 12 && (has_tag(bytes, 0, "RIFF") || has_tag(bytes, 0, "RF64"));
+  if (!riff || !has_tag(bytes, 8, "WAVE")) {
     throw std::runtime_error("it does not begin like a WAV file (RIFF ... WAVE)");
   }
   Format format;

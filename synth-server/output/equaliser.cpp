@@ -29,10 +29,11 @@ double gain_db_of(const std::vector<Biquad>& sections, double frequency, double 
 }
 
 double loudest_db(const std::vector<Biquad>& sections, double sample_rate) {
+  const int points = static_cast<int>(kPointsPerOctave * std::log2(0.5 * sample_rate / kLowest));
   double loudest = gain_db_of(sections, kLowest, sample_rate);
-  const double ratio = std::exp2(1.0 / kPointsPerOctave);
-  for (double f = kLowest; f < 0.5 * sample_rate; f *= ratio) {
-    loudest = std::max(loudest, gain_db_of(sections, f, sample_rate));
+  for (int point = 1; point <= points; ++point) {
+    const double frequency = kLowest * std::exp2(static_cast<double>(point) / kPointsPerOctave);
+    loudest = std::max(loudest, gain_db_of(sections, frequency, sample_rate));
   }
   return loudest;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // RIFF/WAVE as in Microsoft's "Multiple channel audio data and WAVE files" (2007): IEEE float, and
 // WAVE_FORMAT_EXTENSIBLE above two channels, without a speaker mask, since tiles have no place in
-// a living room.
+// a living room. Beyond 4 GiB the file becomes RF64 (EBU Tech 3306): its true sizes stand in a
+// chunk for which room is kept from the start.
 #include "synth-server/output/wav_file.hpp"
 
 #include <array>
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +28,7 @@ class Header {
   void text(const char* four) { bytes_.append(four, 4); }
   void u16(std::uint64_t value) { number(value, 2); }
   void u32(std::uint64_t value) { number(value, 4); }
+  void u64(std::uint64_t value) { number(value, 8); }
   void bytes(const unsigned char* data, std::size_t size) {
     for (std::size_t i = 0; i < size; ++i) bytes_.push_back(static_cast<char>(data[i]));
   }
@@ -40,15 +41,29 @@ class Header {
   std::string bytes_;
 };
 
-std::string header(int channels, int sample_rate, std::int64_t frames) {
+/// What a chunk's size says when the true one stands in ds64, and the size of that chunk.
+constexpr std::uint64_t kSeeElsewhere = 0xFFFFFFFF;
+constexpr std::uint64_t kBigSizes = 28;
+
+/// `limit`: largest RIFF size; beyond it the header is RF64's.
+std::string header(int channels, int sample_rate, std::int64_t frame_count, std::uint64_t limit) {
   const bool extensible = channels > 2;
+  const auto frames = static_cast<std::uint64_t>(frame_count);
   const auto frame_size = static_cast<std::uint64_t>(channels) * sizeof(float);
-  const std::uint64_t data_size = static_cast<std::uint64_t>(frames) * frame_size;
+  const std::uint64_t data_size = frames * frame_size;
   const std::uint64_t format_size = extensible ? 40 : 18;
+  const std::uint64_t riff_size = 4 + (8 + kBigSizes) + (8 + format_size) + (8 + 4) + 8 + data_size;
+  const bool big = riff_size > limit;
   Header h;
-  h.text("RIFF");
-  h.u32(4 + (8 + format_size) + (8 + 4) + 8 + data_size);
+  h.text(big ? "RF64" : "RIFF");
+  h.u32(big ? kSeeElsewhere : riff_size);
   h.text("WAVE");
+  h.text(big ? "ds64" : "JUNK");
+  h.u32(kBigSizes);
+  h.u64(big ? riff_size : 0);
+  h.u64(big ? data_size : 0);
+  h.u64(big ? frames : 0);
+  h.u32(0);  // no further sizes
   h.text("fmt ");
   h.u32(format_size);
   h.u16(extensible ? kExtensible : kFloatFormat);
@@ -66,16 +81,17 @@ std::string header(int channels, int sample_rate, std::int64_t frames) {
   }
   h.text("fact");
   h.u32(4);
-  h.u32(static_cast<std::uint64_t>(frames));
+  h.u32(big ? kSeeElsewhere : frames);
   h.text("data");
-  h.u32(data_size);
+  h.u32(big ? kSeeElsewhere : data_size);
   return h.str();
 }
 
 }  // namespace
 
-WavFile::WavFile(const std::filesystem::path& path, int channels, int sample_rate)
-    : path_(path), channels_(channels), sample_rate_(sample_rate) {
+WavFile::WavFile(const std::filesystem::path& path, int channels, int sample_rate,
+                 std::uint64_t riff_limit)
+    : path_(path), channels_(channels), sample_rate_(sample_rate), riff_limit_(riff_limit) {
   // The format counts channels, and bytes per frame, in 16 bits.
   if (channels < 1 || channels > 16383) {
     throw std::invalid_argument(path.string() + ": a WAV file has 1 to 16383 float channels, not " +
@@ -101,7 +117,7 @@ void WavFile::fail(const std::string& action) const {
 
 void WavFile::write_header() {
   errno = 0;
-  const std::string bytes = header(channels_, sample_rate_, frames_);
+  const std::string bytes = header(channels_, sample_rate_, frames_, riff_limit_);
   if (!file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()))) fail("write");
   header_frames_ = frames_;
 }
@@ -118,14 +134,6 @@ void WavFile::update_header() {
 
 void WavFile::write(const float* const* planar, int frames) {
   const auto width = static_cast<std::size_t>(channels_);
-  const std::uint64_t size =
-      (static_cast<std::uint64_t>(frames_) + static_cast<std::uint64_t>(frames)) * width *
-      sizeof(float);
-  if (size + 1024 > std::numeric_limits<std::uint32_t>::max()) {
-    throw std::runtime_error(path_.string() + ": a WAV file ends at 4 GiB, here after " +
-                             std::to_string(frames_ / sample_rate_) +
-                             " s; render a shorter part or a rig with fewer channels");
-  }
   const auto count = static_cast<std::size_t>(frames);
   interleaved_.resize(count * width);
   for (std::size_t c = 0; c < width; ++c) {

@@ -12,15 +12,18 @@ namespace splash::synth {
 /// All methods throw std::runtime_error naming the file and the cause when the disk refuses.
 class WavFile {
  public:
-  /// Replaces `path`. `channels` 1 to 65535, `sample_rate` whole Hz.
-  WavFile(const std::filesystem::path& path, int channels, int sample_rate);
+  /// The largest RIFF file; a larger one is RF64, which most programs read as well.
+  static constexpr std::uint64_t kRiffLimit = 0xFFFFFFFE;
+
+  /// Replaces `path`. `channels` 1 to 16383, `sample_rate` whole Hz.
+  WavFile(const std::filesystem::path& path, int channels, int sample_rate,
+          std::uint64_t riff_limit = kRiffLimit);
   /// Closes, silently giving up on errors: call close() to hear of them.
   ~WavFile();
   WavFile(const WavFile&) = delete;
   WavFile& operator=(const WavFile&) = delete;
 
-  /// Appends `frames` samples of each channel: planar[channel][frame]. Refuses to grow beyond
-  /// 4 GiB, the format's limit.
+  /// Appends `frames` samples of each channel: planar[channel][frame].
   void write(const float* const* planar, int frames);
   /// Completes header and file. Nothing may be written afterwards.
   void close();
@@ -36,6 +39,7 @@ class WavFile {
   std::ofstream file_;
   int channels_;
   int sample_rate_;
+  std::uint64_t riff_limit_;  ///< [bytes]
   std::int64_t frames_ = 0;
   std::int64_t header_frames_ = 0;  ///< what the header on disk speaks of
   std::vector<float> interleaved_;

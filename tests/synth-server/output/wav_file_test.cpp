@@ -106,16 +106,28 @@ TEST_F(Wav, SaysThatTheDiskIsFull) {
   }
 }
 
-TEST_F(Wav, RefusesToPassFourGibibytes) {
-  WavFile file(path_, 16383, 48000);
-  const std::vector<float> silence(70000, 0.0F);
-  const std::vector<const float*> planar(16383, silence.data());
-  try {
-    file.write(planar.data(), 70000);  // 4.6 GB: refused before it is copied
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("4 GiB"));
+TEST_F(Wav, BecomesRf64BeyondTheLimitOfRiff) {
+  for (const std::uint64_t limit : {std::uint64_t{0xFFFFFFFE}, std::uint64_t{100000}}) {
+    WavFile file(path_, 3, 1000, limit);
+    for (int first = 0; first < 10000; first += 1000) write(file, 3, first, 1000);  // 120 kB
+    EXPECT_EQ(read_wav(path_).samples.size(), 30000U) << "also while it is written";
+    file.close();
+    const WavContent content = read_wav(path_);
+    EXPECT_EQ(content.rf64, limit < 120000);
+    expect_content(content, 3, 10000);
+    if (!content.rf64) continue;
+    EXPECT_EQ(content.riff_size, 0xFFFFFFFFU);
+    EXPECT_EQ(content.big_riff_size + 8, std::filesystem::file_size(path_));
+    EXPECT_EQ(content.big_frames, 10000U);
   }
+}
+
+TEST_F(Wav, LimitIsThatOfThe32BitsOfRiff) {
+  WavFile file(path_, 1, 48000);
+  write(file, 1, 0, 10);
+  file.close();
+  EXPECT_FALSE(read_wav(path_).rf64);
+  static_assert(WavFile::kRiffLimit < 0xFFFFFFFF, "that value means RF64");
 }
 
 TEST_F(Wav, RefusesImpossibleChannels) {

@@ -19,6 +19,9 @@ struct WavContent {
   int channels = 0;
   int sample_rate = 0;
   std::uint32_t riff_size = 0;
+  bool rf64 = false;
+  std::uint64_t big_riff_size = 0;  ///< RF64: as its ds64 chunk has it
+  std::uint64_t big_frames = 0;
   std::vector<float> samples;  ///< interleaved
 };
 
@@ -31,15 +34,26 @@ inline WavContent read_wav(const std::filesystem::path& path) {
     std::memcpy(&value, bytes.data() + at, size);
     return value;
   };
-  if (bytes.substr(0, 4) != "RIFF" || bytes.substr(8, 4) != "WAVE") {
+  const auto number64 = [&](std::size_t at) {
+    return number(at, 4) | static_cast<std::uint64_t>(number(at + 4, 4)) << 32U;
+  };
+  WavContent content;
+  content.rf64 = bytes.substr(0, 4) == "RF64";
+  if ((bytes.substr(0, 4) != "RIFF" && !content.rf64) || bytes.substr(8, 4) != "WAVE") {
     throw std::runtime_error("WAV: no RIFF/WAVE");
   }
-  WavContent content;
+  std::uint64_t big_data_size = 0;
   content.riff_size = number(4, 4);
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::string id = bytes.substr(at, 4);
-    const std::size_t size = number(at + 4, 4);
+    const bool elsewhere = content.rf64 && id == "data" && number(at + 4, 4) == 0xFFFFFFFFU;
+    const std::size_t size = elsewhere ? big_data_size : number(at + 4, 4);
     if (at + 8 + size > bytes.size()) throw std::runtime_error("WAV: chunk passes the end");
+    if (id == "ds64") {
+      content.big_riff_size = number64(at + 8);
+      big_data_size = number64(at + 16);
+      content.big_frames = number64(at + 24);
+    }
     if (id == "fmt ") {
       content.format = static_cast<int>(number(at + 8, 2));
       content.channels = static_cast<int>(number(at + 10, 2));
