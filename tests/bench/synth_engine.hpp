@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What the whole engine costs: events, pool, voices, mix, filters, limiters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "synth-server/render/engine.hpp"
+
+namespace splash::bench {
+
+struct EngineCase {
+  std::string precision = "fast";
+  std::string instructions = "best";
+  int voices = 16384;   ///< sounding all the time
+  int tiles = 0;        ///< per side of a floor, each bubble spread over its neighbours; 0: mono
+  int block = 64;       ///< frames per call
+  double routes = 1.0;  ///< channels per voice, on average
+  double cost = 0.0;    ///< of one core, in real time at 44.1 kHz [1]
+  /// Voices that would fill a core at this cost.
+  [[nodiscard]] double voices_per_core() const { return voices / cost; }
+};
+
+/// Fills in `routes` and `cost`: processor time of `seconds` of sound, median of five.
+[[nodiscard]] EngineCase measure_engine(EngineCase wanted, double seconds = 0.1);
+
+/// Bubbles per second that one core could start and play: radii such that they last 10 to 300 ms
+/// (60 dB), spread over 36 tiles if `tiles` is 6.
+struct OnsetCase {
+  std::string precision;
+  std::string instructions;
+  int tiles = 0;
+  double onsets = 0.0;  ///< per second and core
+  double voices = 0.0;  ///< sounding on average while it was measured
+};
+[[nodiscard]] OnsetCase measure_onsets(const std::string& precision,
+                                       const std::string& instructions, int tiles);
+
+}  // namespace splash::bench

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/synth_peers.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "synth-server/figure/wav_reader.hpp"
+#include "synth-server/voices/paper_bubble.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace splash::bench {
+namespace {
+
+double children_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+}  // namespace
+
+double run_peer(const std::vector<std::string>& arguments, const std::string& package) {
+  const double before = children_seconds();
+  tests::ChildProcess program(arguments);
+  const int status = program.wait_for_end(300.0);
+  if (status == 127) {
+    throw std::runtime_error(arguments[0] + " is not there: apt-get install " + package);
+  }
+  if (status != 0) {
+    throw std::runtime_error(arguments[0] + " ended with " + std::to_string(status) + ": " +
+                             program.output());
+  }
+  return children_seconds() - before;
+}
+
+double bubble_error(const std::filesystem::path& wav) {
+  const std::vector<float> samples = synth::read_wav(wav).channels.at(0);
+  const synth::BubbleTone tone =
+      synth::paper_bubble(kErrorRadius, 1.0 / kErrorRadius, synth::Chirp::integrated);
+  const auto length = static_cast<int>(6.9 / tone.damping * 44100.0);
+  double best = std::numeric_limits<double>::infinity();
+  for (int shift = -2; shift <= 130; ++shift) {
+    double worst = 0.0;
+    for (int n = 0; n < length; ++n) {
+      const int at = n + shift;
+      const bool there = at >= 0 && at < static_cast<int>(samples.size());
+      const double found = there ? static_cast<double>(samples[static_cast<std::size_t>(at)]) : 0.0;
+      worst = std::max(worst, std::abs(found - pressure(tone, n / 44100.0)));
+    }
+    best = std::min(best, worst);
+  }
+  return 20.0 * std::log10(best);
+}
+
+}  // namespace splash::bench
