@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The sounding bubbles and cavities: a fixed number of them in packs of sixteen, mixed in the order
-// of their places. When all are taken, the quietest is faded out. Places are given back at the end
-// of a cell only, so that who sits where does not depend on how rendering is cut into blocks.
+// The sounding bubbles and cavities: a fixed number of them in packs of sixteen. Neighbours share a
+// pack, since a pack is mixed as a whole into all the channels that any of its voices reaches. When
+// all voices are taken, the quietest is faded out. Places are given back at the end of a cell only,
+// so that who sits where does not depend on how rendering is cut into blocks.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct PoolSettings {
   InstructionSet instructions = InstructionSet::best;
   int max_voices = 1;  ///< sounding at once, fading ones not counted
   int max_routes = 1;  ///< of one voice
+  int groups = 1;      ///< of voices that share packs, see Routing::Reach
   int channels = 1;
   double sample_rate = 48000.0;  ///< [Hz]
 };
@@ -47,7 +49,7 @@ class BubblePool {
   /// A voice begins at `sample`, which lies in the cell that is being mixed and not before what was
   /// mixed. Refused when all voices are louder than it.
   virtual Started start(const BubbleTone& tone, const VoiceLife& life,
-                        std::span<const Route> routes, std::int64_t sample) noexcept = 0;
+                        std::span<const Route> routes, int group, std::int64_t sample) noexcept = 0;
   /// Adds samples [from, to) of all voices; both within one cell.
   virtual void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept = 0;
   /// At the end of a cell: gives back the places of voices that are over before `sample`.

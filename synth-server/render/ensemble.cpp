@@ -6,8 +6,9 @@
 namespace splash::synth {
 namespace {
 
-PoolSettings pool_settings(const Rig& rig, const EngineSettings& s, int max_routes) {
-  return {s.precision, s.instructions, s.max_voices, max_routes, channel_count(rig), s.sample_rate};
+PoolSettings pool_settings(const Rig& rig, const EngineSettings& s, const Routing& routing) {
+  return {s.precision,      s.instructions,     s.max_voices, routing.max_routes(),
+          routing.groups(), channel_count(rig), s.sample_rate};
 }
 
 }  // namespace
@@ -16,7 +17,7 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
     : settings_(settings),
       routing_(rig, {settings.skip_out_of_band, settings.skip_unfelt}),
       routes_(static_cast<std::size_t>(routing_.max_routes())),
-      bubbles_(make_bubble_pool(pool_settings(rig, settings, routing_.max_routes()))),
+      bubbles_(make_bubble_pool(pool_settings(rig, settings, routing_))),
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       masking_(channel_count(rig), settings.sample_rate) {}
 
@@ -62,7 +63,7 @@ bool Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
     counts_.pool.add();
     return false;
   }
-  const BubblePool::Started started = bubbles_->start(tone, life, reached, sample);
+  const BubblePool::Started started = bubbles_->start(tone, life, reached, reach.group, sample);
   if (started.result == BubblePool::Start::refused) {
     counts_.pool.add();
     return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which places are free, as bits under bits: the lowest free one is found in a few steps however
-// many there are. The lowest, so that voices stay close together in few packs.
+// many there are. The lowest, so that those in use stay close
+// together.
 #pragma once
 
 #include <bit>
@@ -11,7 +12,7 @@ namespace splash::synth {
 
 class FreePlaces {
  public:
-  /// All `count` places, a multiple of 16 and up to 262144, are free.
+  /// All `count` places are free.
   explicit FreePlaces(std::size_t count)
       : bits_((count + 63) / 64), words_((bits_.size() + 63) / 64), left_(count) {
     for (std::size_t place = 0; place < count; ++place) mark(static_cast<std::uint32_t>(place));

@@ -17,6 +17,25 @@ int most_routes(const Output& output) {
   return std::min(across, output.tiles_x) * std::min(across, output.tiles_y);
 }
 
+/// Of many groups, some share a number: their voices just share packs less well.
+constexpr int kMostGroups = 65536;
+
+/// A quarter of a tile: the channels in reach are nearly the same from everywhere in it.
+int places_of(const Output& output) {
+  return output.kind == OutputKind::tiles ? 4 * output.tiles_x * output.tiles_y : 1;
+}
+
+int place_in(const Output& output, const protocol::Vec3& position) noexcept {
+  if (output.kind != OutputKind::tiles) return 0;
+  const auto half = [&](double offset, int tiles) {
+    const double halves = std::floor(offset / (0.5 * output.tile_size));
+    return static_cast<int>(std::clamp(halves, 0.0, 2.0 * tiles - 1.0));
+  };
+  const int x = half(static_cast<double>(position.x) - output.place[0], output.tiles_x);
+  const int y = half(static_cast<double>(position.y) - output.place[1], output.tiles_y);
+  return y * 2 * output.tiles_x + x;
+}
+
 }  // namespace
 
 Routing::Routing(const Rig& rig, const Skips& skips) : skips_(skips), outputs_(rig.outputs) {
@@ -30,6 +49,9 @@ Routing::Routing(const Rig& rig, const Skips& skips) : skips_(skips), outputs_(r
     }
     widest = std::max(widest, channels);
     max_routes_ += most_routes(output);
+    // Not reached, or reached at one of its places.
+    const std::int64_t product = std::int64_t{groups_} * (1 + places_of(output));
+    groups_ = static_cast<int>(std::min<std::int64_t>(kMostGroups, product));
   }
   gains_.resize(widest);
 }
@@ -38,6 +60,7 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
   Reach reach;
   reach.floor = std::numeric_limits<double>::infinity();
   bool in_band = false;
+  std::uint64_t group = 0;
   int first = 0;
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
     const Output& output = outputs_[o];
@@ -56,9 +79,12 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
       routes[static_cast<std::size_t>(reach.routes++)] = {begin + c, gain};
       loudest = std::max(loudest, gain);
     }
+    group *= 1U + static_cast<unsigned>(places_of(output));
     if (loudest <= 0.0) continue;
+    group += 1U + static_cast<unsigned>(place_in(output, source.position));
     reach.floor = std::min(reach.floor, audibility_[o].floor(source.frequency) / loudest);
   }
+  reach.group = static_cast<int>(group % static_cast<unsigned>(groups_));
   if (reach.routes > 0) {
     reach.result = Result::heard;
   } else if (!in_band) {

@@ -37,11 +37,13 @@ class Routing {
     Result result = Result::unheard;
     int routes = 0;      ///< written
     double floor = 0.0;  ///< amplitude under which none of them needs the voice [m]
+    int group = 0;       ///< sources of one group reach almost the same channels
   };
   /// Writes up to max_routes() routes.
   Reach route(const Source& source, std::span<Route> routes) noexcept;
 
   [[nodiscard]] int max_routes() const noexcept { return max_routes_; }
+  [[nodiscard]] int groups() const noexcept { return groups_; }
 
  private:
   Skips skips_;
@@ -50,6 +52,7 @@ class Routing {
   std::vector<double> levels_;          ///< of each channel [1/m]
   std::vector<double> gains_;           ///< of one output's channels, for spread()
   int max_routes_ = 0;
+  int groups_ = 1;
 };
 
 }  // namespace splash::synth

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -22,19 +23,20 @@ struct VoiceSpan {
     end = std::min(end, fade + length);
   }
 
-  /// Makes nil of what lies outside, and fades. `samples`: from sample `from` of the clock on.
+  /// Makes nil of what lies outside, and fades. `samples`: from sample `from` of the clock on,
+  /// `stride` apart.
   template <class Real>
-  void shape(std::int64_t from, int count, Real* samples) const noexcept {
-    const auto at = [&](std::int64_t sample) {
-      return static_cast<int>(std::clamp<std::int64_t>(sample - from, 0, count));
-    };
-    std::fill(samples, samples + at(start), Real{0});
-    std::fill(samples + at(end), samples + count, Real{0});
-    if (fade >= end) return;
+  void shape(std::int64_t from, int count, Real* samples, int stride = 1) const noexcept {
     const auto length = static_cast<double>(end - fade);
-    for (int i = at(std::max(fade, start)); i < at(end); ++i) {
-      const double left = 1.0 - static_cast<double>(from + i - fade) / length;
-      samples[i] *= static_cast<Real>(left * left * (3.0 - 2.0 * left));
+    for (int i = 0; i < count; ++i) {
+      Real& sample = samples[static_cast<std::ptrdiff_t>(i) * stride];
+      const std::int64_t now = from + i;
+      if (now < start || now >= end) {
+        sample = 0;
+      } else if (now > fade) {
+        const double left = 1.0 - static_cast<double>(now - fade) / length;
+        sample *= static_cast<Real>(left * left * (3.0 - 2.0 * left));
+      }
     }
   }
 };

@@ -13,23 +13,26 @@ namespace splash::synth {
 /// In rising order; `best`: what this processor has.
 enum class InstructionSet { portable, avx2, avx512, best };
 
-/// Where a voice goes and how loudly.
+/// How loudly each voice of a pack goes to one channel.
 template <class Real>
-struct Feed {
-  std::int32_t channel = 0;
-  Real gain = 0;  ///< from metres to full scale [1/m]
+struct alignas(64) PackFeed {
+  Real gains[kPackVoices] = {};  ///< from metres to full scale [1/m]
 };
+
+/// The values of a cell, sample by sample: those of all lanes side by side.
+inline constexpr int kRows = kCell * kPackVoices;
 
 template <class Pack>
 struct PackKernels {
   using Real = typename Pack::Real;
-  /// Samples [from, to) of the cell, lane by lane: samples[64 lane + n] [m]. `samples` lies at a
-  /// multiple of 64 bytes, as all that follows.
-  void (*advance)(Pack& pack, int from, int to, Real* samples);
-  /// Adds them to their channels: channels[64 channel + n] [full scale]. Lane k has counts[k] feeds
-  /// from feeds[k stride] on.
-  void (*mix)(const Real* samples, int from, int to, const Feed<Real>* feeds, int stride,
-              const std::int32_t* counts, Real* channels);
+  /// Samples [from, to) of the cell: rows[16 n + lane] [m]. `rows` lies at a multiple of 64 bytes,
+  /// as all that follows.
+  void (*advance)(Pack& pack, int from, int to, Real* rows);
+  /// Adds them to `count` channels, of which each has kRows values of `sums`, some lanes apart.
+  void (*mix)(const Real* rows, int from, int to, const PackFeed<Real>* feeds,
+              const std::int32_t* channels, int count, Real* sums);
+  /// Adds up the lanes of one channel, always in the same order, and clears them.
+  void (*collect)(Real* sums, int from, int to, double* out);
 };
 
 /// The best set not above `wanted` that this program and this processor have.

@@ -5,7 +5,7 @@
 // never be linked into the rest of the program.
 #pragma once
 
-#include <utility>
+#include <cstddef>
 
 #include "synth-server/voices/pack_kernels.hpp"
 
@@ -13,40 +13,14 @@ namespace splash::synth {
 namespace {
 
 inline constexpr int kVectorBytes = SPLASH_VECTOR_BYTES;
-inline constexpr std::ptrdiff_t kRow = kCell;  ///< from a lane's samples to the next one's
-
 template <class Real>
 struct Lanes {
   using Vector __attribute__((vector_size(kVectorBytes), may_alias)) = Real;
   static constexpr int kCount = kVectorBytes / static_cast<int>(sizeof(Real));
-  using Order = std::make_integer_sequence<int, kCount>;
 };
 
 template <class Real>
 using Vector = typename Lanes<Real>::Vector;
-
-/// low: a0 b0 a1 b1 ..., high: the same of the upper halves.
-template <class V, int... I>
-[[gnu::always_inline]] inline void interleave(const V& a, const V& b, V& low, V& high,
-                                              std::integer_sequence<int, I...>) {
-  constexpr int kCount = static_cast<int>(sizeof...(I));
-  low = __builtin_shufflevector(a, b, (I / 2 + (I % 2) * kCount)...);
-  high = __builtin_shufflevector(a, b, (kCount / 2 + I / 2 + (I % 2) * kCount)...);
-}
-
-/// Rows become columns: log2 kCount perfect shuffles.
-template <class Real>
-[[gnu::always_inline]] inline void transpose(Vector<Real>* rows) {
-  constexpr int kCount = Lanes<Real>::kCount;
-  for (int width = 1; width < kCount; width *= 2) {
-    Vector<Real> shuffled[kCount];
-    for (int i = 0; i < kCount / 2; ++i) {
-      interleave(rows[i], rows[i + kCount / 2], shuffled[2 * i], shuffled[2 * i + 1],
-                 typename Lanes<Real>::Order{});
-    }
-    for (int i = 0; i < kCount; ++i) rows[i] = shuffled[i];
-  }
-}
 
 /// z <- z w
 template <class V>
@@ -85,30 +59,6 @@ struct Turning {
     turn(turn_re[parity], turn_im[parity], rise_re, rise_im);
   }
 };
-
-/// As many samples as a vector has lanes, from `out` on, lane by lane; the first of them even.
-template <class Real>
-[[gnu::always_inline]] inline void render_block(Turning<Real>& voices, Real* out) {
-  constexpr int kCount = Lanes<Real>::kCount;
-  Vector<Real> rows[kCount];
-  for (int k = 0; k < kCount; ++k) {
-    rows[k] = voices.im[k % 2];
-    voices.step(k % 2);
-  }
-  transpose<Real>(rows);
-  for (int lane = 0; lane < kCount; ++lane) {
-    *reinterpret_cast<Vector<Real>*>(out + lane * kRow) = rows[lane];
-  }
-}
-
-/// One sample, where a block of the device cuts a cell.
-template <class Real>
-[[gnu::always_inline]] inline void render_sample(Turning<Real>& voices, int parity, Real* out) {
-  for (int lane = 0; lane < Lanes<Real>::kCount; ++lane) {
-    out[lane * kRow] = voices.im[parity][lane];
-  }
-  voices.step(parity);
-}
 
 [[gnu::always_inline]] inline void multiply(ComplexLanes<double>& a,
                                             const ComplexLanes<double>& b) {
@@ -151,59 +101,75 @@ inline void begin_cell(FastPack& pack) {
   multiply(pack.pair_turn, pack.pair_turn_rise);
 }
 
+/// Samples [from, to) of a vector's worth of lanes.
+template <class Real>
+[[gnu::always_inline]] inline void render(TurningLanes<Real>& pack, int lane, int from, int to,
+                                          Real* rows) {
+  Turning<Real> voices{};
+  voices.load(pack, lane);
+  int n = from;
+  const auto emit = [&](int parity) __attribute__((always_inline)) {
+    *reinterpret_cast<Vector<Real>*>(&rows[n * kPackVoices + lane]) = voices.im[parity];
+    voices.step(parity);
+    ++n;
+  };
+  if (n % 2 == 1 && n < to) emit(1);
+  while (n + 2 <= to) {
+    emit(0);
+    emit(1);
+  }
+  if (n < to) emit(0);
+  voices.store(pack, lane);
+}
+
 template <class Pack>
-void advance(Pack& pack, int from, int to, typename Pack::Real* samples) {
+void advance(Pack& pack, int from, int to, typename Pack::Real* rows) {
   using Real = typename Pack::Real;
-  constexpr int kCount = Lanes<Real>::kCount;
   if (from == 0) begin_cell(pack);
-  for (int lane = 0; lane < kPackVoices; lane += kCount) {
-    Turning<Real> voices{};
-    voices.load(pack, lane);
-    Real* const out = samples + lane * kRow;
-    for (int n = from; n < to;) {
-      if (n % kCount == 0 && n + kCount <= to) {
-        render_block(voices, out + n);
-        n += kCount;
-      } else {
-        render_sample(voices, n % 2, out + n);
-        ++n;
+  for (int lane = 0; lane < kPackVoices; lane += Lanes<Real>::kCount) {
+    render<Real>(pack, lane, from, to, rows);
+  }
+}
+
+/// Lanes of a channel's sum. Of doubles always eight, so that the order of adding, and with it
+/// every bit, is the same on each processor.
+template <class Real>
+inline constexpr int kSumLanes = sizeof(Real) == sizeof(double) ? 8 : Lanes<Real>::kCount;
+
+template <class Real>
+void mix(const Real* rows, int from, int to, const PackFeed<Real>* feeds,
+         const std::int32_t* channels, int count, Real* sums) {
+  using V = Vector<Real>;
+  constexpr int kParts = kPackVoices / kSumLanes<Real>;
+  for (int f = 0; f < count; ++f) {
+    Real* const channel = &sums[std::ptrdiff_t{channels[f]} * kRows];
+    for (int lane = 0; lane < kSumLanes<Real>; lane += Lanes<Real>::kCount) {
+      V gains[kParts];
+      for (int part = 0; part < kParts; ++part) {
+        gains[part] = *reinterpret_cast<const V*>(feeds[f].gains + part * kSumLanes<Real> + lane);
+      }
+      for (int n = from; n < to; ++n) {
+        V& sum = *reinterpret_cast<V*>(&channel[n * kSumLanes<Real> + lane]);
+        V added = sum;
+        for (int part = 0; part < kParts; ++part) {
+          const int at = n * kPackVoices + part * kSumLanes<Real> + lane;
+          added += gains[part] * *reinterpret_cast<const V*>(&rows[at]);
+        }
+        sum = added;
       }
     }
-    voices.store(pack, lane);
-  }
-}
-
-/// A whole cell: the voice stays in registers while its channels pass by.
-template <class Real>
-[[gnu::always_inline]] inline void mix_cell(const Real* samples, const Feed<Real>* feeds, int count,
-                                            Real* channels) {
-  constexpr int kVectors = kCell / Lanes<Real>::kCount;
-  constexpr int kHeld = kVectors < 8 ? kVectors : 8;
-  for (int first = 0; first < kVectors; first += kHeld) {
-    Vector<Real> held[kHeld];
-    for (int k = 0; k < kHeld; ++k) {
-      held[k] = reinterpret_cast<const Vector<Real>*>(samples)[first + k];
-    }
-    for (int f = 0; f < count; ++f) {
-      auto* const out = reinterpret_cast<Vector<Real>*>(channels + feeds[f].channel * kRow);
-      for (int k = 0; k < kHeld; ++k) out[first + k] += feeds[f].gain * held[k];
-    }
   }
 }
 
 template <class Real>
-void mix(const Real* samples, int from, int to, const Feed<Real>* feeds, int stride,
-         const std::int32_t* counts, Real* channels) {
-  const bool whole = from == 0 && to == kCell;
-  for (int lane = 0; lane < kPackVoices; ++lane, feeds += stride, samples += kRow) {
-    if (whole) {
-      mix_cell<Real>(samples, feeds, counts[lane], channels);
-      continue;
+void collect(Real* sums, int from, int to, double* out) {
+  for (int n = from; n < to; ++n) {
+    Real* const row = &sums[n * kSumLanes<Real>];
+    for (int half = kSumLanes<Real> / 2; half > 0; half /= 2) {
+      for (int lane = 0; lane < half; ++lane) row[lane] += row[lane + half];
     }
-    for (int f = 0; f < counts[lane]; ++f) {
-      Real* const out = channels + feeds[f].channel * kRow;
-      for (int n = from; n < to; ++n) out[n] += feeds[f].gain * samples[n];
-    }
+    out[n] += static_cast<double>(row[0]);
+    for (int lane = 0; lane < kSumLanes<Real>; ++lane) row[lane] = Real{0};
   }
 }
 

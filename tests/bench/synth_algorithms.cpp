@@ -52,7 +52,7 @@ class Sixteen {
   virtual void render() = 0;
   [[nodiscard]] virtual double at(std::size_t lane, std::size_t n) const = 0;
   /// Adds all voices to one channel.
-  virtual void mix(double* channel) const {
+  virtual void mix(double* channel) {
     for (std::size_t lane = 0; lane < kPackVoices; ++lane) {
       for (std::size_t n = 0; n < kCell; ++n) channel[n] += at(lane, n);
     }
@@ -135,7 +135,7 @@ class FloatAlone final : public Sixteen {
   [[nodiscard]] double at(std::size_t lane, std::size_t n) const override {
     return static_cast<double>(samples_[n * kPackVoices + lane]);
   }
-  void mix(double* channel) const override {
+  void mix(double* channel) override {
     for (std::size_t n = 0; n < kCell; ++n) {
       float sum = 0.0F;
       for (std::size_t lane = 0; lane < kPackVoices; ++lane)
@@ -172,35 +172,32 @@ class FloatAlone final : public Sixteen {
 template <class Pack>
 class Product final : public Sixteen {
  public:
-  explicit Product(const synth::PackKernels<Pack>& kernels) : kernels_(kernels) {}
+  explicit Product(const synth::PackKernels<Pack>& kernels) : kernels_(kernels) {
+    for (Real& gain : feed_.gains) gain = Real{1};
+  }
   void seat(std::size_t lane, const BubbleTone& tone) override {
     set_lane(pack_, lane, tone, kRate, 0);
   }
-  void render() override { kernels_.advance(pack_, 0, kCell, samples_.data()); }
+  void render() override { kernels_.advance(pack_, 0, kCell, rows_.data()); }
   [[nodiscard]] double at(std::size_t lane, std::size_t n) const override {
-    return static_cast<double>(samples_[lane * kCell + n]);
+    return static_cast<double>(rows_[n * kPackVoices + lane]);
   }
-  void mix(double* channel) const override {
-    alignas(64) std::array<Real, kCell> sum{};
-    static const std::array<synth::Feed<Real>, kPackVoices> kFeeds = [] {
-      std::array<synth::Feed<Real>, kPackVoices> feeds{};
-      for (auto& feed : feeds) feed.gain = Real{1};
-      return feeds;
-    }();
-    static const std::array<std::int32_t, kPackVoices> kOne = [] {
-      std::array<std::int32_t, kPackVoices> ones{};
-      ones.fill(1);
-      return ones;
-    }();
-    kernels_.mix(samples_.data(), 0, kCell, kFeeds.data(), 1, kOne.data(), sum.data());
-    for (std::size_t n = 0; n < kCell; ++n) channel[n] += static_cast<double>(sum[n]);
+  void mix(double* channel) override {
+    constexpr std::int32_t kChannel = 0;
+    kernels_.mix(rows_.data(), 0, kCell, &feed_, &kChannel, 1, sums_.data());
+    if (++mixed_ % kPacks == 0) kernels_.collect(sums_.data(), 0, kCell, channel);
   }
 
  private:
   using Real = typename Pack::Real;
+  /// A pool's worth of packs shares the collecting of a channel's lanes.
+  static constexpr int kPacks = 64;
   synth::PackKernels<Pack> kernels_;
   Pack pack_{};
-  alignas(64) std::array<Real, kPackVoices * kCell> samples_{};
+  synth::PackFeed<Real> feed_;
+  alignas(64) std::array<Real, synth::kRows> rows_{};
+  alignas(64) std::array<Real, synth::kRows> sums_{};
+  int mixed_ = 0;
 };
 
 using Make = std::function<std::unique_ptr<Sixteen>()>;
@@ -275,7 +272,7 @@ std::vector<Algorithm> measure_algorithms() {
   const synth::FlushDenormals flush;
   std::vector<Algorithm> all;
   all.push_back(measure(
-      "sin and exp", "portable", [] { return std::make_unique<ClosedForm>(); }, 0.05));
+      "sin and exp (reference)", "portable", [] { return std::make_unique<ClosedForm>(); }, 0.05));
   all.push_back(
       measure("double, one by one", "portable", [] { return std::make_unique<ScalarDouble>(); }));
   for (const InstructionSet set : sets()) {

@@ -17,15 +17,15 @@ class PackPlayer {
   void seat(std::size_t lane, const BubbleTone& tone, double rate, int ahead) {
     set_lane(pack_, lane, tone, rate, ahead);
   }
-  void render(int from, int to) { kernels_.advance(pack_, from, to, samples_.data()); }
+  void render(int from, int to) { kernels_.advance(pack_, from, to, rows_.data()); }
   [[nodiscard]] typename Pack::Real at(std::size_t lane, int n) const {
-    return samples_[lane * kCell + static_cast<std::size_t>(n)];
+    return rows_[static_cast<std::size_t>(n) * kPackVoices + lane];
   }
 
  private:
   PackKernels<Pack> kernels_;
   Pack pack_{};
-  alignas(64) std::array<typename Pack::Real, kPackVoices * kCell> samples_{};
+  alignas(64) std::array<typename Pack::Real, kRows> rows_{};
 };
 
 }  // namespace splash::synth
