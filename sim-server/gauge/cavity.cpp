@@ -27,7 +27,9 @@ class Cells {
 
   [[nodiscard]] int count(std::size_t axis) const { return count_[axis]; }
   [[nodiscard]] std::size_t index(int i, int j, int k) const {
-    return static_cast<std::size_t>((k * count_[1] + j) * count_[0] + i);
+    const auto row = static_cast<std::size_t>(k) * static_cast<std::size_t>(count_[1]) +
+                     static_cast<std::size_t>(j);
+    return row * static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(i);
   }
   [[nodiscard]] Vector3 middle(int i, int j, int k) const {
     return {lower_[0] + (i + 0.5) * edge_[0], lower_[1] + (j + 0.5) * edge_[1],

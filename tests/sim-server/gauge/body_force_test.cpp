@@ -29,7 +29,7 @@ struct Pair {
     points.resize(2);
     points[0].place = {0.0, 0.002, 0.0};
     points[0].volume = 3.0e-7;
-    points[1].place = {0.012, 0.002, 0.0};
+    points[1].place = {0.004, 0.002, 0.0};
     points[1].owner = 1;
     points[1].volume = 1.0;
     state.position = {0.0, -0.002, 0.0};
