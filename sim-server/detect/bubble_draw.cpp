@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -21,13 +22,29 @@ double power_law(double share, double low, double high, double exponent) {
   return std::clamp(std::pow(a + share * (b - a), 1.0 / power), low, high);
 }
 
-Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle) {
+double power_law_moment(double low, double high, double exponent, double power) {
+  // The integral of x^p from low to high.
+  const auto integral = [low, high](double p) {
+    if (std::abs(p + 1.0) < 1e-9) return std::log(high / low);
+    return (std::pow(high, p + 1.0) - std::pow(low, p + 1.0)) / (p + 1.0);
+  };
+  if (high <= low) return std::pow(low, power);
+  return integral(power - exponent) / integral(-exponent);
+}
+
+double mean_volume(const DetectSettings& settings) {
+  return 4.0 / 3.0 * std::numbers::pi *
+         power_law_moment(settings.radius_min, settings.radius_max, settings.radius_exponent, 3.0);
+}
+
+Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle, int bubble) {
   const r123::Philox4x32 generator;
   const r123::Philox4x32::key_type key = {{seed, 0x62756262U}};  // "bubb"
-  const r123::Philox4x32::ctr_type counter = {{step, particle, 0U, 0U}};
+  const r123::Philox4x32::ctr_type counter = {
+      {step, particle, static_cast<std::uint32_t>(bubble), 0U}};
   const auto bits = generator(counter, key);
   constexpr double kUnit = 1.0 / 4294967296.0;  // 2^-32
-  return {bits[0] * kUnit, bits[1] * kUnit, bits[2] * kUnit};
+  return {bits[0] * kUnit, bits[1] * kUnit, bits[2] * kUnit, bits[3] * kUnit};
 }
 
 }  // namespace splash::sim

@@ -7,6 +7,8 @@
 
 #include "sim-server/scene/scene.hpp"
 
+#include "sim-server/scene/scene.hpp"
+
 namespace splash::sim {
 
 /// The value whose share of a power law x^-exponent on [low, high] is `share` in [0, 1]:
@@ -19,7 +21,16 @@ struct Draws {
   double radius = 0.0;
   double epsilon = 0.0;
   double moment = 0.0;
+  double chance = 0.0;
 };
-[[nodiscard]] Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle);
+/// `bubble`: number of the particle's bubble in this step.
+[[nodiscard]] Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle,
+                         int bubble = 0);
+
+/// Mean of x^power where x follows x^-exponent on [low, high].
+[[nodiscard]] double power_law_moment(double low, double high, double exponent, double power);
+
+/// Mean volume of the bubbles drawn [m3].
+[[nodiscard]] double mean_volume(const DetectSettings& settings);
 
 }  // namespace splash::sim

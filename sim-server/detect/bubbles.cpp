@@ -2,6 +2,7 @@
 #include "sim-server/detect/bubbles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -10,7 +11,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(Spawn) == 32 && sizeof(BubbleState) == 24);
+static_assert(sizeof(Spawn) == 40 && sizeof(BubbleState) == 24);
 
 /// Spawns read without asking how many there are: more in one frame are rare.
 constexpr std::size_t kReadAtOnce = 128;
@@ -31,8 +32,8 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
       room_(room),
       spawn_count_(fluid.device(), 1),
       spawn_count_read_(1),
-      spawns_read_(room),
-      spawns_(fluid.device(), room),
+      spawns_read_(static_cast<std::size_t>(fluid.params().count)),
+      spawns_(fluid.device(), spawns_read_.size()),
       points_(fluid.device(), room),
       sorted_(fluid.device(), room),
       grid_(fluid.device(), program, fluid.params(), room, 1),
@@ -73,6 +74,7 @@ void Bubbles::enqueue(const Step& step, double frame) {
 void Bubbles::skip() {
   carried_ = 0;
   states_.clear();
+  spawned_.clear();
   spawn_count_read_.front() = 0;
 }
 
@@ -81,18 +83,20 @@ void Bubbles::look_for_spawns(const Step& step) {
   spawn_count_.enqueue_clear(device);
   // The threshold is in units of the gradient at a flat surface; its outermost particles, half a
   // spacing below, see 0.65 of that (the planar marginal there over the one at the centre).
-  spawn_bubbles_.run(
-      device.queue(), static_cast<std::size_t>(fluid_.params().count),
-      fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
-      fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
-      fluid_.particles().id.memory(), fluid_.body_grid().cell_start(),
-      fluid_.boundary().position.memory(), fluid_.boundary_volume().memory(),
-      fluid_.boundary().stride, fluid_.body_steps().memory(), step.first_body, fluid_.body_count(),
-      grid_.cell_start(), sorted_.position.memory(), sorted_.stride, carried_,
-      as_float(step.piston), as_float(settings_.bubble_speed), as_float(settings_.bubble_gradient),
-      static_cast<int>(room_), memory_.memory(), spawn_count_.memory(), spawns_.memory());
+  spawn_bubbles_.run(device.queue(), static_cast<std::size_t>(fluid_.params().count),
+                     fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
+                     fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
+                     fluid_.water_density().memory(), fluid_.particles().id.memory(),
+                     fluid_.body_grid().cell_start(), fluid_.boundary().position.memory(),
+                     fluid_.boundary_volume().memory(), fluid_.boundary().stride,
+                     fluid_.body_steps().memory(), step.first_body, fluid_.body_count(),
+                     grid_.cell_start(), sorted_.position.memory(), sorted_.stride, carried_,
+                     as_float(step.piston), as_float(settings_.bubble_speed),
+                     as_float(settings_.bubble_gradient), static_cast<int>(spawns_read_.size()),
+                     memory_.memory(), spawn_count_.memory(), spawns_.memory());
   spawn_count_.enqueue_read(device, spawn_count_read_);
-  spawns_.enqueue_read(device, std::span(spawns_read_).first(std::min(kReadAtOnce, room_)));
+  spawns_.enqueue_read(device,
+                       std::span(spawns_read_).first(std::min(kReadAtOnce, spawns_read_.size())));
 }
 
 void Bubbles::carry(const Step& step, double frame) {
@@ -108,40 +112,58 @@ void Bubbles::carry(const Step& step, double frame) {
   state_buffer_.enqueue_read(fluid_.device(), states_);
 }
 
-std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step) {
+std::vector<Spawn> Bubbles::read_spawns() {
   const auto found = static_cast<std::size_t>(spawn_count_read_.front());
-  const std::size_t kept = std::min(found, room_);
-  if (kept > kReadAtOnce) {
-    spawns_.read(fluid_.device(), std::span(spawns_read_).subspan(kReadAtOnce, kept - kReadAtOnce),
+  if (found > kReadAtOnce) {
+    spawns_.read(fluid_.device(), std::span(spawns_read_).subspan(kReadAtOnce, found - kReadAtOnce),
                  kReadAtOnce);
   }
   std::vector<Spawn> spawns(spawns_read_.begin(),
-                            spawns_read_.begin() + static_cast<std::ptrdiff_t>(kept));
+                            spawns_read_.begin() + static_cast<std::ptrdiff_t>(found));
   // Atomics give no order: particles do.
   std::sort(spawns.begin(), spawns.end(),
             [](const Spawn& a, const Spawn& b) { return a.id < b.id; });
-  dropped_ += found - spawns.size();
-
-  std::vector<DetectedBubble> fresh;
-  fresh.reserve(spawns.size());
-  for (const Spawn& spawn : spawns) {
-    const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
-    const double part = spawn.before >= 0.0F ? static_cast<double>(spawn.before) : draws.moment;
-    DetectedBubble bubble;
-    bubble.time = time - frame * (1.0 - std::min(part, 1.0));
-    bubble.particle = spawn.id;
-    bubble.radius = power_law(draws.radius, settings_.radius_min, settings_.radius_max,
-                              settings_.radius_exponent);
-    bubble.epsilon = power_law(draws.epsilon, settings_.epsilon_min, settings_.epsilon_max,
-                               settings_.epsilon_exponent);
-    bubble.position = {static_cast<double>(spawn.x), static_cast<double>(spawn.y),
-                       static_cast<double>(spawn.z)};
-    fresh.push_back(bubble);
-  }
-  return fresh;
+  return spawns;
 }
 
-void Bubbles::renew(double time, const std::vector<DetectedBubble>& fresh) {
+int Bubbles::bubbles_of(const Spawn& spawn, double frame, double chance) const {
+  if (settings_.bubble_per_particle) return spawn.fresh;
+  if (spawn.dense == 0) return 0;
+  const FluidParams& p = fluid_.params();
+  const double water = static_cast<double>(p.mass / p.rest_density);
+  const auto speed = static_cast<double>(std::hypot(spawn.u, spawn.v, spawn.w));
+  const double air = settings_.bubble_air * speed * frame * water;
+  return static_cast<int>(std::floor(air / mean_volume(settings_) + chance));
+}
+
+std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step) {
+  std::vector<DetectedBubble> heard;
+  spawned_.clear();
+  for (const Spawn& spawn : read_spawns()) {
+    const Vector3 place = {static_cast<double>(spawn.x), static_cast<double>(spawn.y),
+                           static_cast<double>(spawn.z)};
+    if (spawn.fresh != 0) spawned_.push_back(place);
+    Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
+    const int count = bubbles_of(spawn, frame, draws.chance);
+    for (int k = 0; k < count; ++k) {
+      if (k > 0) draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id), k);
+      const bool crossed = settings_.bubble_per_particle && spawn.before >= 0.0F;
+      const double part = crossed ? static_cast<double>(spawn.before) : draws.moment;
+      DetectedBubble bubble;
+      bubble.time = time - frame * (1.0 - std::min(part, 1.0));
+      bubble.particle = spawn.id;
+      bubble.radius = power_law(draws.radius, settings_.radius_min, settings_.radius_max,
+                                settings_.radius_exponent);
+      bubble.epsilon = power_law(draws.epsilon, settings_.epsilon_min, settings_.epsilon_max,
+                                 settings_.epsilon_exponent);
+      bubble.position = place;
+      heard.push_back(bubble);
+    }
+  }
+  return heard;
+}
+
+void Bubbles::renew(double time) {
   std::vector<bool> lives(pool_.size(), false);
   for (const BubbleState& state : states_) {
     PoolBubble& bubble = pool_[static_cast<std::size_t>(state.id)];
@@ -155,12 +177,12 @@ void Bubbles::renew(double time, const std::vector<DetectedBubble>& fresh) {
   for (std::size_t i = 0; i < pool_.size(); ++i) {
     if (lives[i]) next.push_back(pool_[i]);
   }
-  for (const DetectedBubble& bubble : fresh) {
+  for (const Vector3& place : spawned_) {
     if (next.size() >= room_) {
       ++dropped_;
       continue;
     }
-    next.push_back({bubble.position, time, serial_++, -1});
+    next.push_back({place, time, serial_++, -1});
   }
   pool_ = std::move(next);
 }

@@ -26,6 +26,8 @@ struct Spawn {
   float x = 0.0F, y = 0.0F, z = 0.0F;
   float u = 0.0F, v = 0.0F, w = 0.0F;
   float before = 0.0F;
+  int fresh = 0;
+  int dense = 0;
 };
 
 struct PoolBubble {
@@ -33,6 +35,7 @@ struct PoolBubble {
   double born = 0.0;                   ///< [s]
   int serial = 0;                      ///< counts all bubbles ever spawned
   int cavity = -1;                     ///< serial of the cavity it is part of, -1: none
+  double volume = 0.0;                 ///< space it takes up among the others [m3]
 };
 
 class Bubbles {
@@ -45,9 +48,9 @@ class Bubbles {
   void enqueue(const Step& step, double frame);
   /// Instead of it, where no water is fast and no bubble lives.
   void skip();
-  /// What was found, once the queue is finished: new bubbles as events, in the order of their
-  /// particles' ids; the pool moves on to `time`. `frame`: seconds since the last call; `step`:
-  /// counts the steps.
+  /// What was found, once the queue is finished: bubbles to be heard, in the order of their
+  /// particles' ids: one for each bubble particle that is spawned, or as many as the entrapped air
+  /// fills. `frame`: seconds since the last call; `step`: counts the steps.
   [[nodiscard]] std::vector<DetectedBubble> collect(double time, double frame, std::uint32_t step);
 
   [[nodiscard]] std::vector<PoolBubble>& pool() noexcept { return pool_; }
@@ -60,20 +63,24 @@ class Bubbles {
   [[nodiscard]] int carried() const noexcept { return carried_; }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
 
-  /// Drops the dead, keeps the order, and adds the new; called by collect's owner after cavities
-  /// have been searched among the states.
-  void renew(double time, const std::vector<DetectedBubble>& fresh);
+  /// Drops the dead, keeps the order, and adds what collect found to be spawned; called by its
+  /// owner after cavities have been searched among the states.
+  void renew(double time);
 
  private:
   void upload();
   void look_for_spawns(const Step& step);
   void carry(const Step& step, double frame);
+  [[nodiscard]] std::vector<Spawn> read_spawns();
+  /// Bubbles that one particle makes in a frame.
+  [[nodiscard]] int bubbles_of(const Spawn& spawn, double frame, double chance) const;
 
   Fluid& fluid_;
   DetectSettings settings_;
   std::uint32_t seed_;
   std::size_t room_;
   std::vector<PoolBubble> pool_;
+  std::vector<Vector3> spawned_;  ///< places of the bubble particles that are to be added
   std::vector<BubbleState> states_;
   int carried_ = 0;
   int serial_ = 0;

@@ -105,7 +105,7 @@ Detections Detector::collect(double time, double frame, std::uint32_t step) {
   found.impacts = impacts_.observe(time, frame, surface());
   found.bubbles = bubbles_.collect(time, frame, step);
   found.cavities = cavities_.search(time, bubbles_);
-  bubbles_.renew(time, found.bubbles);
+  bubbles_.renew(time);
   return found;
 }
 

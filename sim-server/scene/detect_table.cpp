@@ -47,6 +47,21 @@ Fields<D> bubble_fields() {
         .max = 10,
         .source = "paper, section 4"},
        &D::bubble_gradient},
+      {{.key = "bubble_per_particle",
+        .unit = "",
+        .meaning =
+            "true: each particle makes one bubble when it begins to entrap air, so that finer "
+            "water makes far more; false: as many as the entrapped air fills.",
+        .source = "paper, section 4, for true"},
+       &D::bubble_per_particle},
+      {{.key = "bubble_air",
+        .unit = "1/m",
+        .meaning =
+            "Air entrapped for each metre that folding water moves, as a part of its volume; "
+            "not used with bubble_per_particle.",
+        .min = 0,
+        .max = 1000},
+       &D::bubble_air},
       {{.key = "bubble_life",
         .unit = "s",
         .meaning = "A bubble particle is dropped after this.",
@@ -96,6 +111,12 @@ Fields<D> bubble_fields() {
 
 Fields<D> cavity_fields() {
   return {
+      {{.key = "cavity_by_count",
+        .unit = "",
+        .meaning = "true: the radius is linear in the number of bubbles; false: that of the sphere "
+                   "that their volume fills.",
+        .source = "paper, section 5.3.2, for true"},
+       &D::cavity_by_count},
       {{.key = "cavity_colour",
         .unit = "1",
         .meaning = "Bubbles whose colour field c_b is above this seed a cavity.",
@@ -105,13 +126,13 @@ Fields<D> cavity_fields() {
        &D::cavity_colour},
       {{.key = "cavity_bubbles_min",
         .unit = "1",
-        .meaning = "Number of bubbles N_b that makes the smallest cavity.",
+        .meaning = "Number of bubbles N_b that makes the smallest cavity, with cavity_by_count.",
         .min = 1,
         .max = 1'000'000},
        &D::cavity_bubbles_min},
       {{.key = "cavity_bubbles_max",
         .unit = "1",
-        .meaning = "Number of bubbles N_b that makes the largest cavity.",
+        .meaning = "Number of bubbles N_b that makes the largest cavity, with cavity_by_count.",
         .min = 2,
         .max = 1'000'000},
        &D::cavity_bubbles_max},

@@ -120,13 +120,17 @@ struct DetectSettings {
   double impact_release = 0.006;    ///< gap at which a body may make its next impact [m]
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
   double bubble_gradient = 0.15;    ///< least upward colour gradient, in that of a flat surface [1]
-  double bubble_life = 0.5;         ///< a bubble particle is dropped after this [s]
-  double radius_min = 0.003;        ///< bubble radii follow r^-radius_exponent [m]
-  double radius_max = 0.030;        ///< [m]
+  bool bubble_per_particle =
+      false;                  ///< the paper's rule: every particle that entraps air makes one
+  double bubble_air = 10.0;   ///< air in the volume of water that entraps it, per metre [1/m]
+  double bubble_life = 0.5;   ///< a bubble particle is dropped after this [s]
+  double radius_min = 0.003;  ///< bubble radii follow r^-radius_exponent [m]
+  double radius_max = 0.030;  ///< [m]
   double radius_exponent = 10.0 / 3.0;  ///< Deane & Stokes 2002, above the Hinze scale [1]
   double epsilon_min = 0.01;            ///< excitations follow epsilon^-epsilon_exponent [1]
   double epsilon_max = 0.1;             ///< [1]
   double epsilon_exponent = 2.0;        ///< [1]
+  bool cavity_by_count = false;      ///< the paper's rule: radius linear in the number of bubbles
   double cavity_colour = 0.3;        ///< colour field c_b above which a bubble seeds a cavity [1]
   int cavity_bubbles_min = 5;        ///< N_b that is mapped to cavity_radius_min
   int cavity_bubbles_max = 100;      ///< N_b that is mapped to cavity_radius_max
@@ -155,7 +159,6 @@ struct GaugesSettings {
   std::vector<GaugeSettings> probes;
 };
 
-/// Pacing and sending.
 /// What is left undone where a scene does not need it.
 struct SkipSettings {
   bool sleep = true;          ///< water at rest is not moved
@@ -167,6 +170,7 @@ struct SkipSettings {
   bool cavities = true;       ///< none for cavities while no bubble has enough others around it
 };
 
+/// Pacing and sending.
 struct ServeSettings {
   double frame_rate = 160.0;  ///< frames per second: detection, sending and pacing [1/s]
   double latency_ms = 15.0;   ///< bubbles and cavities are played this long after they happened

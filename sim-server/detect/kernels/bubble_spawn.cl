@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fluid particle entraps air when it is fast and has most of the matter above it (paper,
-// section 4). It does so once: it may spawn again only after either has ceased.
+// A fluid particle entraps air while it is fast and has most of the matter above it (paper,
+// section 4). It spawns a bubble particle once: again only after either has ceased.
 
 typedef struct {
   int id;                // of the particle
@@ -8,6 +8,8 @@ typedef struct {
   float u, v, w;         // [m/s]
   float before;          // part of the frame that had passed when the threshold was crossed; below
                          // zero: not known
+  int fresh;             // it has just begun to entrap air: a bubble particle is spawned
+  int dense;             // it belongs to a body of water, and is not spray
 } Spawn;
 
 // `memory`: of each particle by id, its last upward gradient; kSlow: it was slow, kSpent: it has
@@ -17,7 +19,8 @@ typedef struct {
 
 kernel void spawn_bubbles(constant FluidParams* p, global const int* cell_start,
                           global const float* position, global const float* velocity,
-                          global const int* id, global const int* body_start,
+                          global const float* density, global const int* id,
+                          global const int* body_start,
                           global const float* body_position, global const float* body_volume,
                           int body_stride, global const BodyStep* bodies, int first_body,
                           int body_count, global const int* bubble_start,
@@ -45,10 +48,12 @@ kernel void spawn_bubbles(constant FluidParams* p, global const int* cell_start,
     return;
   }
   memory[id[i]] = SPENT;
-  if (last == SPENT) return;
+  const int fresh = last != SPENT;
+  const int dense = density[i] >= LEAST_DENSITY * p->rest_density;
+  if (!fresh && !dense) return;
   const int place = atomic_inc(counts);
   if (place >= room) return;
-  const float before = last == SLOW ? -1.0f : (least_gradient - last) / (now - last);
-  const Spawn spawn = {id[i], x, y, z, u, v, w, before};
+  const float before = last == SLOW || !fresh ? -1.0f : (least_gradient - last) / (now - last);
+  const Spawn spawn = {id[i], x, y, z, u, v, w, before, fresh, dense};
   out[place] = spawn;
 }

@@ -174,5 +174,19 @@ TEST(Draw, IsPhilox) {
   }
 }
 
+TEST(PowerLaw, MomentsAreThoseOfTheDraws) {
+  for (const Law& law : {Law{"radius", 0.003, 0.030, 10.0 / 3.0}, Law{"fourth", 0.001, 0.01, 4.0},
+                         Law{"uniform", 1.0, 2.0, 0.0}}) {
+    SCOPED_TRACE(law.name);
+    double sum = 0.0;  // midpoint rule over the shares
+    for (int k = 0; k < kDraws; ++k) {
+      sum += std::pow(power_law((k + 0.5) / kDraws, law.low, law.high, law.exponent), 3.0);
+    }
+    EXPECT_NEAR(power_law_moment(law.low, law.high, law.exponent, 3.0), sum / kDraws,
+                2.0e-3 * sum / kDraws);
+  }
+  EXPECT_DOUBLE_EQ(power_law_moment(0.01, 0.01, 2.0, 3.0), 1.0e-6);
+}
+
 }  // namespace
 }  // namespace splash::sim

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
+#include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/detect/bubbles.hpp"
 #include "tests/sim-server/detect/detect_rig.hpp"
 #include "tests/sim-server/detect/detect_twin.hpp"
@@ -14,11 +17,18 @@ namespace {
 
 constexpr double kFrame = 0.004;
 
+/// One bubble for each particle that spawns.
+DetectSettings literal() {
+  DetectSettings settings;
+  settings.bubble_per_particle = true;
+  return settings;
+}
+
 class Pool : public ::testing::Test {
  protected:
   Pool() : water_(hanging_block()) { water_.start(device_); }
 
-  Bubbles& make(std::size_t room, const DetectSettings& settings = {}) {
+  Bubbles& make(std::size_t room, const DetectSettings& settings = literal()) {
     bubbles_ = std::make_unique<Bubbles>(*water_.fluid, detect_program(device_), settings, 1, room);
     return *bubbles_;
   }
@@ -27,7 +37,7 @@ class Pool : public ::testing::Test {
   std::vector<DetectedBubble> live_until(double time, std::uint32_t step = 1) {
     detect(water_, *bubbles_, kFrame);
     auto fresh = bubbles_->collect(time, kFrame, step);
-    bubbles_->renew(time, fresh);
+    bubbles_->renew(time);
     return fresh;
   }
 
@@ -116,7 +126,7 @@ TEST_F(Pool, MovesWithTheWater) {
   fill_pool(bubbles, places);
   detect(water_, bubbles, kFrame);
   const std::vector<BubbleState> states = bubbles.states();
-  bubbles.renew(0.1, {});
+  bubbles.renew(0.1);
   ASSERT_EQ(bubbles.pool().size(), 2U);
   for (const BubbleState& state : states) {
     const PoolBubble& bubble = bubbles.pool()[static_cast<std::size_t>(state.id)];
@@ -130,7 +140,7 @@ TEST_F(Pool, MovesWithTheWater) {
 class Spawns : public Pool {
  protected:
   static DetectSettings eager() {
-    DetectSettings settings;
+    DetectSettings settings = literal();
     settings.bubble_gradient = -0.4;
     return settings;
   }
@@ -175,11 +185,12 @@ TEST_F(Spawns, AreAllRead) {
   EXPECT_EQ(bubbles.dropped(), 0U);
 }
 
+// Heard they are all the same: the pool is for cavities.
 TEST_F(Spawns, BeyondTheRoomAreCounted) {
   Bubbles& bubbles = make(150, eager());
   drop();
   const auto fresh = live_until(0.1);
-  EXPECT_EQ(fresh.size(), 150U);
+  EXPECT_EQ(fresh.size(), 400U);
   EXPECT_EQ(bubbles.pool().size(), 150U);
   EXPECT_EQ(bubbles.dropped(), 250U);
 }
@@ -194,6 +205,42 @@ TEST_F(Spawns, BeyondThePoolsRoomAreCounted) {
   EXPECT_EQ(bubbles.dropped(), 1U);
   // The old ones keep their places.
   EXPECT_EQ(bubbles.pool()[1].serial, 1);
+}
+
+// By the entrapped air: from particles of the body of water, in proportion to speed and volume, as
+// often as their air fills bubbles.
+TEST_F(Spawns, AreHeardAsOftenAsTheirAirFillsBubbles) {
+  DetectSettings settings = eager();
+  settings.bubble_per_particle = false;
+  settings.bubble_air = 50.0;
+  Bubbles& bubbles = make(800, settings);
+  drop();
+  std::size_t heard = 0;
+  constexpr int kFrames = 40;
+  for (int k = 0; k < kFrames; ++k) {
+    detect(water_, bubbles, kFrame);
+    for (const DetectedBubble& bubble : bubbles.collect(0.1, kFrame, static_cast<unsigned>(k))) {
+      ++heard;
+      EXPECT_LT(bubble.particle, 400);
+      EXPECT_GE(bubble.time, 0.1 - kFrame);
+      EXPECT_LE(bubble.time, 0.1);
+    }
+  }
+  // Those whose density is that of a body of water, at 1 m/s.
+  const auto count = static_cast<std::size_t>(water_.params.count);
+  const std::vector<float> density = water_.fluid->water_density().read(device_, count);
+  const std::vector<int> id = water_.fluid->particles().id.read(device_, count);
+  int dense = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    dense += id[i] < 400 && density[i] >= 0.82F * water_.params.rest_density;
+  }
+  ASSERT_GT(dense, 100);
+  const double volume = static_cast<double>(water_.params.mass / water_.params.rest_density);
+  const double expected =
+      kFrames * dense * settings.bubble_air * 1.0 * kFrame * volume / mean_volume(settings);
+  std::printf("%zu bubbles of %d particles, %.0f expected\n", heard, dense, expected);
+  ASSERT_GT(expected, 200.0);
+  EXPECT_NEAR(static_cast<double>(heard), expected, 5.0 * std::sqrt(expected));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ DetectSettings settings() {
   DetectSettings settings;
   settings.bubble_speed = 0.8;  // not its own square
   settings.bubble_gradient = 0.3;
+  settings.bubble_per_particle = true;
   return settings;
 }
 

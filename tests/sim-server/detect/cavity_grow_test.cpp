@@ -20,6 +20,7 @@ constexpr std::size_t kRoom = 2000;
 /// Every group that has a seed is a cavity.
 DetectSettings all_groups() {
   DetectSettings settings;
+  settings.cavity_by_count = true;
   settings.cavity_bubbles_min = 1;
   settings.cavity_colour = 0.5;
   return settings;
