@@ -18,7 +18,7 @@ struct Texts {
   std::string listen = "127.0.0.1:" + std::to_string(protocol::kSynthPort);
   std::vector<std::string> allow;
   VoiceTexts voices;
-  double latency_ms = 0.0;
+  double latency_ms = -1.0;
   double late_ms = 50.0;
   double horizon_ms = 2000.0;
 };
@@ -68,7 +68,8 @@ void add_output(CLI::App& app, Options& options) {
 
 void add_playing(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--latency-ms", texts.latency_ms,
-                 "Added to each time tag; at least one block (default: 1.5 blocks, 5 ms or more)")
+                 "Added to each time tag; 0 for a simulator whose tags lie ahead (default: 1.5 "
+                 "blocks, 5 ms or more)")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("MS");
   app.add_option("--late-ms", texts.late_ms,

@@ -30,7 +30,7 @@ struct Options {
   int sample_rate = 0;                 ///< [Hz]; 0: the device's, 48000 without one
   int block = 256;                     ///< wanted frames per callback
 
-  double latency = 0.0;        ///< added to each event's moment [s]; 0: from the block size
+  double latency = -1.0;       ///< added to each event's moment [s]; negative: by the block
   double late_window = 0.050;  ///< [s]
   double horizon = 2.0;        ///< further ahead no time tag is believed [s]
   bool muted = false;          ///< silent until /mute 0

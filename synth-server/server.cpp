@@ -119,10 +119,11 @@ void Server::start_receiver(protocol::UdpSocket socket) {
 }
 
 void Server::warn_of_latency(const AudioFormat& format) const {
-  const double latency = latency_for(options_.latency, format.block, format.sample_rate);
-  if (options_.latency == 0.0 || latency == options_.latency) return;
+  const double block = static_cast<double>(format.block) / format.sample_rate;
+  if (options_.latency < 0.0 || options_.latency >= block) return;
   log("--latency-ms " + milliseconds_text(options_.latency) + " is less than a block of " +
-      std::to_string(format.block) + " frames: using " + milliseconds_text(latency));
+      std::to_string(format.block) + " frames: events whose tags do not lie " +
+      milliseconds_text(block - options_.latency) + " ahead will be late");
 }
 
 void Server::introduce() const {

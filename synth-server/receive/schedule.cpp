@@ -15,7 +15,7 @@ constexpr double kLeastLatency = 0.005;  ///< [s]
 
 double latency_for(double wanted, int block, double sample_rate) noexcept {
   const double block_seconds = block / sample_rate;
-  if (wanted > 0.0) return std::max(wanted, block_seconds);
+  if (wanted >= 0.0) return wanted;
   return std::max(kLeastLatency, kLatencyBlocks * block_seconds);
 }
 

@@ -11,7 +11,7 @@
 namespace splash::synth {
 
 struct ScheduleSettings {
-  double latency = 0.0;        ///< wanted, added to every moment [s]; 0: what the block needs
+  double latency = -1.0;       ///< wanted, added to every moment [s]; negative: by the block
   double late_window = 0.050;  ///< later than this an event is dropped [s]
   double horizon = 2.0;        ///< further ahead a time tag is taken for a wrong clock [s]
 };
@@ -28,8 +28,9 @@ struct Placement {
   std::int64_t sample = 0;  ///< never before the block's start; meaningless when too late
 };
 
-/// The wanted latency, or at least one block: a block is asked for that long before its last sample
-/// sounds. Without a wish, half a block more for late callbacks, and 5 ms or more [s].
+/// The wanted latency; without a wish (negative) one block, since that long before its last sample
+/// sounds a block is asked for, and half a block more for late callbacks, and 5 ms or more [s].
+/// A sender whose tags lie ahead by as much needs none: its events sound at their moment.
 [[nodiscard]] double latency_for(double wanted, int block, double sample_rate) noexcept;
 
 /// An event without a time: as soon as it can be, `offset` [s] into the block, no latency added.

@@ -168,6 +168,38 @@ TEST_F(LiveNull, OutlivesKillersAndAnswersControl) {
   EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
 }
 
+TEST_F(LiveNull, IsSilentUntilItIsUnmutedAndShowsItsLevel) {
+  auto muted = arguments();
+  muted.emplace_back("--muted");
+  Synth synth(muted);
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("muted: until /mute 0"));
+  int id = 0;
+  const auto level_after = [&](double seconds) {
+    for (double t = 0.0; t < seconds; t += 0.1) {
+      synth.send(protocol::encode(bubble(++id, 0.05F)));
+      sleep(0.1);
+    }
+    const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
+    return status ? *status : protocol::SynthStatus{};
+  };
+  const protocol::SynthStatus before = level_after(0.6);
+  EXPECT_GT(before.voices, 0U);
+  EXPECT_EQ(before.level, 0.0F);
+  EXPECT_EQ(before.loudest, 0U);
+  EXPECT_EQ(synth.ask({"/mute", {0}}, "/done").address, "/done");
+  const protocol::SynthStatus after = level_after(2.2);
+  EXPECT_GT(after.level, 0.1F);
+  EXPECT_GE(after.loudest, 1U);
+  EXPECT_EQ(synth.ask({"/mute", {1}}, "/done").address, "/done");
+  EXPECT_EQ(level_after(0.8).level, 0.0F);
+  synth.process().signal(SIGTERM);
+  ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  const Recording recording = tests::read_recording(wav_);
+  EXPECT_LT(onset(recording.channels[0], 0.0F), static_cast<std::int64_t>(2 * kRate));
+  EXPECT_GT(onset(recording.channels[0], 0.0F), static_cast<std::int64_t>(kRate / 2))
+      << "nothing before /mute 0";
+}
+
 TEST_F(LiveNull, CountsWhatComesTooLateAndTooEarly) {
   Synth synth(arguments());
   sleep(0.3);

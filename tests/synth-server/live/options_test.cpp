@@ -20,6 +20,8 @@ TEST(Options, HaveSafeDefaults) {
   EXPECT_TRUE(parsed.options->allow.empty());
   EXPECT_TRUE(parsed.options->engine.literal_chirp);
   EXPECT_DOUBLE_EQ(parsed.options->late_window, 0.050);
+  EXPECT_LT(parsed.options->latency, 0.0) << "by the block";
+  EXPECT_FALSE(parsed.options->muted);
 }
 
 TEST(Options, ReadWhatIsGiven) {

@@ -121,7 +121,7 @@ TEST_F(PlayerTest, AnXrunMovesTheSamplesAndTheClockFollows) {
 
 TEST_F(PlayerTest, CutsBlocksThatAreLargerThanTheEngines) {
   call(0.0, 10000);
-  play(kStart + 0.010);  // the latency is the block's, longer than the one wanted
+  play(kStart + 10000.0 / kRate);
   call(0.0, 10000);
   const std::int64_t heard = onset_after(0);
   EXPECT_GE(heard, 10480);

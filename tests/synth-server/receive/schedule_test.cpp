@@ -68,11 +68,11 @@ TEST_F(Schedule, PlaysWhatHasNoTimeWithTheNextBlock) {
   EXPECT_EQ(wild.sample, kBlockStart + 96000);
 }
 
-TEST(Latency, IsWhatIsWantedButABlockAtLeast) {
+TEST(Latency, IsWhatIsWantedOrWhatTheBlockNeeds) {
   EXPECT_DOUBLE_EQ(latency_for(0.020, 256, kRate), 0.020);
-  EXPECT_DOUBLE_EQ(latency_for(0.002, 256, kRate), 256.0 / kRate);
-  EXPECT_DOUBLE_EQ(latency_for(0.0, 1024, kRate), 1536.0 / kRate);
-  EXPECT_DOUBLE_EQ(latency_for(0.0, 64, kRate), 0.005);
+  EXPECT_DOUBLE_EQ(latency_for(0.0, 256, kRate), 0.0);
+  EXPECT_DOUBLE_EQ(latency_for(-1.0, 1024, kRate), 1536.0 / kRate);
+  EXPECT_DOUBLE_EQ(latency_for(-1.0, 64, kRate), 0.005);
 }
 
 }  // namespace
