@@ -57,8 +57,9 @@ void run(const Options& options) {
   if (options.list_devices) return print_devices();
   const Scene scene = load_scene(options.scene);
   const double start = protocol::monotonic_now();
-  Device device =
-      protocol::failing_with(protocol::kExitUnavailable, [&] { return Device(options.device); });
+  Device device = protocol::failing_with(protocol::kExitUnavailable, [&] {
+    return Device(options.device, false, scene.fluid.kernels == KernelKind::reference ? 1 : 0);
+  });
   std::printf("device  %s\n", describe(device.facts()).c_str());
   std::printf("compiling kernels (the first start on a machine takes some seconds)\n");
   std::fflush(stdout);

@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 27 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 30 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 19 * sizeof(float));
 static_assert(sizeof(BodyShape) == 6 * sizeof(float));
 
@@ -46,6 +46,7 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   load_boundary(boundary, shapes);
   build_kernels(relaxed);
+  solver_ = make_pressure_solver(device_, params_, relaxed);
 }
 
 void Fluid::load_particles(const std::vector<Vector3>& particles) {
@@ -131,10 +132,11 @@ void Fluid::prepare(const Step& step) {
   sort_particles();
   wake_and_sleep(step);
   compute_density(step);
+  solver_->recall_pressure(*this);
 }
 
 void Fluid::advance(const Step& step) {
-  compute_acceleration(step);
+  solver_->accelerate(*this, step);
   integrate(step);
 }
 
@@ -183,10 +185,10 @@ void Fluid::compute_density(const Step& step) {
                        water_density_.memory(), pressure_term_.memory());
 }
 
-void Fluid::compute_acceleration(const Step& step) {
+void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
   compute_acceleration_.run(
       device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
-      sorted_.position.memory(), sorted_.velocity.memory(), pressure_term_.memory(),
+      sorted_.position.memory(), velocity.memory(), pressure_term_.memory(),
       body_grid_.cell_start(), body_sorted_.position.memory(), body_sorted_.velocity.memory(),
       body_volume_.memory(), body_sorted_.stride, body_steps_.memory(), step.first_body,
       body_count_, as_float(step.piston), acceleration_.memory(), moving_.memory());
@@ -213,6 +215,7 @@ void Fluid::enqueue_survey() {
               sorted_.velocity.memory(), acceleration_.memory(), density_.memory(),
               sorted_.id.memory(), moving_.memory(), survey_parts_.memory());
   survey_parts_.enqueue_read(device_, survey_read_);
+  solver_->enqueue_work(device_);
 }
 
 Survey Fluid::survey() {
@@ -249,13 +252,15 @@ Survey Fluid::survey_result() const {
 Snapshot Fluid::snapshot() {
   const auto stride = static_cast<std::size_t>(sorted_.stride);
   return {sorted_.position.read(device_, 3 * stride), sorted_.velocity.read(device_, 3 * stride),
-          sorted_.id.read(device_, static_cast<std::size_t>(params_.count))};
+          sorted_.id.read(device_, static_cast<std::size_t>(params_.count)),
+          solver_->pressure(device_)};
 }
 
 void Fluid::restore(const Snapshot& snapshot) {
   sorted_.position.write(device_, snapshot.position);
   sorted_.velocity.write(device_, snapshot.velocity);
   sorted_.id.write(device_, snapshot.id);
+  solver_->restore_pressure(device_, snapshot.pressure);
   sleep_.wake(device_);
 }
 

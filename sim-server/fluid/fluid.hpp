@@ -2,6 +2,7 @@
 // The water: its particles on the device and the stages of a time step.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
@@ -9,18 +10,11 @@
 #include "sim-server/fluid/boundary_point.hpp"
 #include "sim-server/fluid/fluid_params.h"
 #include "sim-server/fluid/neighbour_grid.hpp"
+#include "sim-server/fluid/pressure_solver.hpp"
 #include "sim-server/fluid/sleep.hpp"
+#include "sim-server/fluid/step.hpp"
 
 namespace splash::sim {
-
-/// One step of a frame.
-struct Step {
-  double dt = 0.0;            ///< [s]
-  double piston = 0.0;        ///< offset of the wave maker [m]
-  double piston_speed = 0.0;  ///< [m/s]
-  int first_body = 0;         ///< where this step's bodies begin among those of the frame
-  bool opens_frame = false;   ///< first of a frame: what wakes and what sleeps is looked at anew
-};
 
 /// Health and limits of the whole fluid.
 struct Survey {
@@ -55,6 +49,7 @@ struct Snapshot {
   std::vector<float> position;
   std::vector<float> velocity;
   std::vector<int> id;
+  std::vector<float> pressure;  ///< what the solver keeps from step to step
 };
 
 /// Everything is enqueued on the device's in-order queue; only survey, snapshot and restore wait
@@ -92,12 +87,19 @@ class Fluid {
   [[nodiscard]] Snapshot snapshot();
   void restore(const Snapshot& snapshot);
 
+  /// For solvers: accelerations from the present pressure_term() and the given velocities.
+  void compute_acceleration(const Step& step, const Buffer<float>& velocity);
+  /// Work of the pressure solver until the last survey.
+  [[nodiscard]] SolverWork solver_work() const { return solver_->work(); }
+
   // What detectors read between prepare and advance.
   [[nodiscard]] Device& device() noexcept { return device_; }
   [[nodiscard]] const FluidParams& params() const noexcept { return params_; }
   [[nodiscard]] const Buffer<FluidParams>& params_buffer() const noexcept { return params_buffer_; }
   [[nodiscard]] const PointArrays& particles() const noexcept { return sorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
+  /// Frames that each cell stays awake (kernels/sleep.h).
+  [[nodiscard]] const cl::Buffer& awake_cells() const noexcept { return sleep_.cells(); }
   [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
   [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
   [[nodiscard]] const Buffer<float>& pressure_term() const noexcept { return pressure_term_; }
@@ -121,7 +123,6 @@ class Fluid {
   void wake_and_sleep(const Step& step);
   void sort_particles();
   void compute_density(const Step& step);
-  void compute_acceleration(const Step& step);
   void integrate(const Step& step);
   /// Work-items of the stages that handle a vector of particles at once.
   [[nodiscard]] std::size_t groups() const;
@@ -143,6 +144,7 @@ class Fluid {
   Buffer<int> moving_;  ///< 0: slept through the last step
   NeighbourGrid grid_;
   Sleep sleep_;
+  std::unique_ptr<PressureSolver> solver_;
 
   Buffer<float> body_sample_;
   Buffer<int> body_owner_;

@@ -6,6 +6,10 @@
 
 #define SPLASH_MAX_WALLS 8
 
+// Where pressure comes from.
+#define SPLASH_WEAKLY_COMPRESSIBLE 0
+#define SPLASH_DIVERGENCE_FREE 1
+
 #ifdef __cplusplus
 namespace splash::sim {
 #endif
@@ -44,6 +48,9 @@ typedef struct {
   int piston;           // index of the wall that moves along its normal, -1: none
   int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
                         // is the nearer, -1: none
+  int solver;           // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_DIVERGENCE_FREE
+  float wave_speed;     // sqrt(g H) of the deepest water [m/s]
+  float tolerance;      // divergence-free: mean density error at which a solve is done [1]
   int deal;             // step in which packets of groups are handed to work-items, prime to their
                         // number
   WallPlane walls[SPLASH_MAX_WALLS];

@@ -3,6 +3,7 @@
 
 namespace splash::sim {
 namespace kernels {
+std::vector<KernelSource> divergence_free();
 std::vector<KernelSource> fluid();
 std::vector<KernelSource> survey();
 std::vector<KernelSource> shared();
@@ -23,6 +24,9 @@ std::vector<KernelSource> shared_sources() {
 }
 std::vector<KernelSource> fluid_sources() {
   return join(kernels::shared(), kernels::fluid());
+}
+std::vector<KernelSource> divergence_free_sources() {
+  return join(kernels::shared(), kernels::divergence_free());
 }
 std::vector<KernelSource> survey_sources() {
   return join(kernels::shared(), kernels::survey());

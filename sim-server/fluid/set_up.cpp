@@ -8,6 +8,7 @@
 
 #include "sim-server/fluid/wendland.hpp"
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 namespace {
@@ -80,20 +81,27 @@ void lay_grid(const Scene& scene, double support, FluidParams& params) {
   params.origin_z = static_cast<float>(lower[2] - support);
 }
 
-/// g / c0^2 [1/m]: relative growth of density per depth.
-double stratification(const Scene& scene) {
-  const double sound = scene_sound_speed(scene);
+bool is_divergence_free(const Scene& scene) {
+  return scene.fluid.solver == PressureKind::divergence_free;
+}
+
+bool falls_down(const Scene& scene) {
   const Vector3& g = scene.fluid.gravity;
-  const bool downward = g[0] == 0.0 && g[1] == 0.0 && g[2] < 0.0;
-  return downward ? -g[2] / (sound * sound) : 0.0;
+  return g[0] == 0.0 && g[1] == 0.0 && g[2] < 0.0;
+}
+
+/// g / c0^2 [1/m]: relative growth of density per depth; none where nothing compresses.
+double stratification(const Scene& scene) {
+  if (!falls_down(scene) || is_divergence_free(scene)) return 0.0;
+  const double sound = scene_sound_speed(scene);
+  return -scene.fluid.gravity[2] / (sound * sound);
 }
 
 /// Part of its height that the deepest column loses when it settles; nothing without gravity.
 double settling_loss(const Scene& scene, double spacing) {
-  const double growth = stratification(scene);
-  if (growth <= 0.0) return 0.0;
+  if (!falls_down(scene)) return 0.0;
   const double depth = water_depth(scene);
-  return growth * depth / 2.0 + kSurfaceLoss * spacing / depth;
+  return stratification(scene) * depth / 2.0 + kSurfaceLoss * spacing / depth;
 }
 
 /// Height of the water's surface over x, y [m]; the floor's where there is none.
@@ -183,6 +191,9 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.spacing = static_cast<float>(spacing);
   p.layer_weight = static_cast<float>(1.0 / (lattice_sum(step, support) * spacing * spacing));
   p.speed_limit = static_cast<float>(sound);
+  p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;
+  p.wave_speed = static_cast<float>(std::sqrt(length(scene.fluid.gravity) * water_depth(scene)));
+  p.tolerance = static_cast<float>(scene.fluid.tolerance);
   const auto walls = tank_walls(scene);
   p.deal = 1;
   p.wall_count = static_cast<int>(walls.size());

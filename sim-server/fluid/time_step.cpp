@@ -8,6 +8,8 @@ namespace splash::sim {
 namespace {
 
 constexpr double kAcoustic = 0.75;
+constexpr double kWay = 0.3;
+constexpr double kLongest = 10.0e-3;  ///< [s]
 constexpr double kPush = 0.25;
 constexpr double kViscous = 0.125;
 /// Violent moments do not stretch a frame beyond this many steps: the push limit, which is about
@@ -20,11 +22,16 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
                          double factor) {
   const double support = static_cast<double>(params.support);
   const double h = support / 2.0;
+  const double nu = static_cast<double>(params.viscous + params.artificial) / 10.0;
+  const double viscous = kViscous * h * h / std::max(nu, 1.0e-12);
+  if (params.solver == SPLASH_DIVERGENCE_FREE) {
+    const double fastest = std::max(speed, static_cast<double>(params.wave_speed));
+    const double way = kWay * static_cast<double>(params.spacing) / std::max(fastest, 1.0e-9);
+    return factor * std::min({way, viscous, kLongest});
+  }
   const double sound = static_cast<double>(params.sound_speed);
   const double acoustic = kAcoustic * support / (sound + speed);
   const double push = kPush * std::sqrt(h / std::max(acceleration, 1.0e-9));
-  const double nu = static_cast<double>(params.viscous + params.artificial) / 10.0;
-  const double viscous = kViscous * h * h / std::max(nu, 1.0e-12);
   return factor * std::min({acoustic, viscous, std::max(push, kLeastShare * acoustic)});
 }
 

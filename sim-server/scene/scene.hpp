@@ -14,11 +14,20 @@ namespace splash::sim {
 using Vector3 = std::array<double, 3>;
 using Quaternion = std::array<double, 4>;  ///< x y z w, unit
 
+/// Where pressure comes from: sim-server/fluid.
+enum class PressureKind { weakly_compressible, divergence_free };
+
+/// vector: as suits the device; reference: one particle at a time.
+enum class KernelKind { vector, reference };
+
 /// The water itself and the numbers of its solver.
 struct FluidSettings {
-  double spacing = 0.0;         ///< particle spacing [m]; 0: from `particles`
-  int particles = 0;            ///< wanted number of particles; 0: from `spacing`
-  double density = 998.0;       ///< at rest [kg/m3]
+  double spacing = 0.0;    ///< particle spacing [m]; 0: from `particles`
+  int particles = 0;       ///< wanted number of particles; 0: from `spacing`
+  double density = 998.0;  ///< at rest [kg/m3]
+  PressureKind solver = PressureKind::weakly_compressible;
+  KernelKind kernels = KernelKind::vector;
+  double tolerance = 0.001;     ///< divergence-free: mean density error that ends a solve [1]
   double sound_speed = 0.0;     ///< of the weakly compressible model [m/s]; 0: from the scene
   double viscosity = 1.0e-3;    ///< kinematic [m2/s]
   double artificial = 0.1;      ///< Monaghan's artificial viscosity alpha [1]

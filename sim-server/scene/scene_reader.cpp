@@ -153,6 +153,20 @@ void read_basin(const ConfigMap& map, Scene& scene) {
   read_flow(map, scene);
 }
 
+FluidSettings read_fluid(const ConfigMap& map) {
+  static const std::map<std::string, PressureKind> kSolvers = {
+      {"weakly_compressible", PressureKind::weakly_compressible},
+      {"divergence_free", PressureKind::divergence_free}};
+  FluidEntry entry;
+  map.read(fluid_fields(), {}, entry);
+  entry.solver = kSolvers.at(entry.solver_name);
+  entry.kernels = entry.kernels_name == "reference" ? KernelKind::reference : KernelKind::vector;
+  if (map.has("density_tolerance") && entry.solver != PressureKind::divergence_free) {
+    throw map.error("density_tolerance", "has no meaning for the solver " + entry.solver_name);
+  }
+  return entry;
+}
+
 Scene build(const ConfigMap& map, const std::string& file_stem) {
   Scene scene;
   map.read(scene_fields(),
@@ -162,7 +176,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   if (scene.name.empty()) scene.name = file_stem;
   read_basin(map, scene);
   const ConfigMap fluid = map.child("fluid");
-  fluid.read(fluid_fields(), {}, scene.fluid);
+  scene.fluid = read_fluid(fluid);
   check_resolution(fluid, scene);
   read_bodies(map, scene);
   if (const auto gauges = map.optional_child("gauges")) {

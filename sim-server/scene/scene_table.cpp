@@ -21,66 +21,6 @@ const Fields<Scene>& scene_fields() {
   return kFields;
 }
 
-const Fields<FluidSettings>& fluid_fields() {
-  using F = FluidSettings;
-  static const Fields<F> kFields = {
-      {{.key = "spacing",
-        .unit = "m",
-        .meaning = "Particle spacing at rest. Give this or `particles`, not both.",
-        .min = 0.001,
-        .max = 0.2},
-       &F::spacing},
-      {{.key = "particles",
-        .unit = "1",
-        .meaning = "Wanted number of particles; the spacing follows from the water's volume.",
-        .min = 100,
-        .max = 4'000'000},
-       &F::particles},
-      {{.key = "density",
-        .unit = "kg/m3",
-        .meaning = "Density at rest.",
-        .min = 100,
-        .max = 5000,
-        .source = "fresh water at 21 C"},
-       &F::density},
-      {{.key = "sound_speed",
-        .unit = "m/s",
-        .meaning = "Speed of sound of the weakly compressible model; left out: from the depth and "
-                   "the speeds in the scene.",
-        .min = 1,
-        .max = 1500,
-        .source = "Monaghan 1994: ten times the largest speed keeps density within 1 %"},
-       &F::sound_speed},
-      {{.key = "viscosity",
-        .unit = "m2/s",
-        .meaning = "Kinematic viscosity of the laminar term.",
-        .min = 0,
-        .max = 1},
-       &F::viscosity},
-      {{.key = "artificial",
-        .unit = "1",
-        .meaning = "Monaghan's artificial viscosity alpha.",
-        .min = 0,
-        .max = 2,
-        .source = "Monaghan 1992"},
-       &F::artificial},
-      {{.key = "time_step_factor",
-        .unit = "1",
-        .meaning = "Multiplies the safe time step; smaller is slower and steadier.",
-        .min = 0.05,
-        .max = 2},
-       &F::time_step_factor},
-      {{.key = "gravity",
-        .unit = "m/s2",
-        .meaning = "Acceleration of gravity, x y z.",
-        .min = -100,
-        .max = 100,
-        .source = "standard gravity"},
-       &F::gravity},
-  };
-  return kFields;
-}
-
 const Fields<Tank>& tank_fields() {
   static const Fields<Tank> kFields = {
       {{.key = "lower",

@@ -14,6 +14,12 @@ namespace splash::sim {
 template <class Struct>
 using Fields = std::vector<protocol::Field<Struct>>;
 
+/// The fluid as its mapping spells it.
+struct FluidEntry : FluidSettings {
+  std::string solver_name = "weakly_compressible";
+  std::string kernels_name = "vector";
+};
+
 /// A shape as its mapping spells it: the kind is still a word.
 struct ShapeEntry : Shape {
   std::string kind_name = "box";
@@ -43,7 +49,7 @@ struct GaugeEntry : GaugeSettings {
 };
 
 [[nodiscard]] const Fields<Scene>& scene_fields();
-[[nodiscard]] const Fields<FluidSettings>& fluid_fields();
+[[nodiscard]] const Fields<FluidEntry>& fluid_fields();
 [[nodiscard]] const Fields<Tank>& tank_fields();
 [[nodiscard]] const Fields<Slope>& slope_fields();
 [[nodiscard]] const Fields<WaveMaker>& wave_maker_fields();

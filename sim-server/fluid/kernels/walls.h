@@ -14,6 +14,7 @@
 typedef struct {
   lanes share;       // part of the kernel's weight inside walls [1]
   lanes gx, gy, gz;  // its gradient [1/m]: points into the walls
+  lanes swept;       // its growth per way of the piston [1/m]
 } WallField;
 
 static lanes wall_distance(constant FluidParams* p, int k, lanes x, lanes y, lanes z,
@@ -38,7 +39,7 @@ static lanes behind_wall(constant FluidParams* p, lanes d, bool mirrors, lanes* 
 }
 
 static WallField wall_field(constant FluidParams* p, lanes x, lanes y, lanes z, float piston) {
-  WallField field = {0.0f, 0.0f, 0.0f, 0.0f};
+  WallField field = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   lanes open = 1.0f;
   for (int k = 0; k < p->wall_count; ++k) {
     lanes d = wall_distance(p, k, x, y, z, piston);
@@ -56,11 +57,13 @@ static WallField wall_field(constant FluidParams* p, lanes x, lanes y, lanes z, 
     field.gx -= pull * p->walls[k].nx;
     field.gy -= pull * p->walls[k].ny;
     field.gz -= pull * p->walls[k].nz;
+    if (k == p->piston) field.swept = pull;
     open *= left;
   }
   field.share = 1.0f - open;
   field.gx *= open;
   field.gy *= open;
   field.gz *= open;
+  field.swept *= open;
   return field;
 }

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/divergence_free.hpp"
+
+#include <cmath>
+
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/kernel_sources.hpp"
+
+namespace splash::sim {
+namespace {
+
+static_assert(sizeof(SolveState) == 32);
+
+/// Work-items that judge a solve side by side (kernels/pressure_solve.cl).
+constexpr std::size_t kJudges = 64;
+
+/// Iterations of the two solves, at least and at most. A fresh lattice would want a hundred; it is
+/// given several steps for it.
+struct Iterations {
+  int least;
+  int most;
+};
+constexpr std::array<Iterations, 2> kIterations = {{{1, 10}, {1, 20}}};
+
+/// How much of a step's pressures goes into what the next density solve starts from. A solve that
+/// starts from all of the last one's overshoots, step by step more where its few iterations do not
+/// reach: 14 layers of still water exploded. A mean over some hundred steps holds the weight of the
+/// water, for which a solve would need many iterations, and leaves to it what is new.
+constexpr float kFollow = 0.01F;
+
+}  // namespace
+
+DivergenceFree::DivergenceFree(Device& device, const FluidParams& params, bool relaxed)
+    : particles_(static_cast<std::size_t>(params.count)),
+      groups_((particles_ + static_cast<std::size_t>(device.lanes()) - 1) /
+              static_cast<std::size_t>(device.lanes())),
+      stride_(static_cast<std::size_t>(params.capacity)),
+      gradient_(device, 3 * stride_),
+      response_(device, stride_),
+      boundary_rate_(device, stride_),
+      guess_(device, 3 * stride_),
+      offset_(device, stride_),
+      divergence_pressure_(device, stride_),
+      jacobi_(device, stride_),
+      change_(device, stride_),
+      warm_(device, stride_),
+      all_(device, stride_),
+      error_part_(device, 2 * groups_),
+      state_{Buffer<SolveState>(device, 1), Buffer<SolveState>(device, 1)},
+      state_read_{} {
+  const cl::Program program = build_program(device, divergence_free_sources(), {}, relaxed);
+  const std::size_t group = device.lanes() > 1 ? 4 : 64;
+  recall_pressure_ = Kernel(program, "recall_pressure");
+  measure_response_ = Kernel(program, "measure_response", group);
+  begin_divergence_solve_ = Kernel(program, "begin_divergence_solve");
+  begin_density_solve_ = Kernel(program, "begin_density_solve");
+  correct_pressure_ = Kernel(program, "correct_pressure", group);
+  judge_solve_ = Kernel(program, "judge_solve", kJudges);
+  push_by_pressure_ = Kernel(program, "push_by_pressure", group);
+  end_solves_ = Kernel(program, "end_solves");
+}
+
+void DivergenceFree::recall_pressure(Fluid& fluid) {
+  recall_pressure_.run(fluid.device().queue(), particles_, fluid.params_buffer().memory(),
+                       fluid.particles().id.memory(), all_.memory(),
+                       fluid.pressure_term().memory());
+}
+
+void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
+  cl::CommandQueue& queue = fluid.device().queue();
+  const cl::Buffer& params = fluid.params_buffer().memory();
+  const PointArrays& particles = fluid.particles();
+  const auto dt = static_cast<float>(step.dt);
+  measure_response(fluid, step);
+  begin_divergence_solve_.run(queue, particles_, params, fluid.density().memory(),
+                              particles.velocity.memory(), guess_.memory(), offset_.memory(),
+                              divergence_pressure_.memory());
+  solve(fluid, step.dt, kDivergence, divergence_pressure_);
+  recall_pressure_.run(queue, particles_, params, particles.id.memory(), warm_.memory(),
+                       fluid.pressure_term().memory());
+  fluid.compute_acceleration(step, guess_);
+  begin_density_solve_.run(queue, particles_, params, dt, fluid.density().memory(),
+                           fluid.acceleration().memory(), guess_.memory(), offset_.memory());
+  solve(fluid, step.dt, kDensity, fluid.pressure_term());
+  end_solves_.run(queue, particles_, params, dt, kFollow, particles.id.memory(),
+                  particles.velocity.memory(), guess_.memory(), divergence_pressure_.memory(),
+                  fluid.pressure_term().memory(), warm_.memory(), all_.memory(),
+                  fluid.acceleration().memory());
+}
+
+void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
+  measure_response_.run(fluid.device().queue(), groups_, fluid.params_buffer().memory(),
+                        fluid.grid().cell_start(), fluid.awake_cells(),
+                        fluid.particles().position.memory(), fluid.body_grid().cell_start(),
+                        fluid.boundary().position.memory(), fluid.boundary().velocity.memory(),
+                        fluid.boundary_volume().memory(), fluid.boundary().stride,
+                        fluid.body_steps().memory(), step.first_body, fluid.body_count(),
+                        static_cast<float>(step.piston), static_cast<float>(step.piston_speed),
+                        gradient_.memory(), response_.memory(), boundary_rate_.memory());
+}
+
+void DivergenceFree::solve(Fluid& fluid, double dt, std::size_t number,
+                           const Buffer<float>& pressure) {
+  cl::CommandQueue& queue = fluid.device().queue();
+  const cl::Buffer& params = fluid.params_buffer().memory();
+  const cl::Buffer& cells = fluid.grid().cell_start();
+  const cl::Buffer& awake = fluid.awake_cells();
+  const cl::Buffer& places = fluid.particles().position.memory();
+  const cl::Buffer& state = state_[number].memory();
+  const auto step = static_cast<float>(dt);
+  const auto [least, most] = kIterations[number];
+  double t = 1.0;  // Nesterov's sequence
+  for (int k = 0; k < most; ++k) {
+    const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
+    const auto beta = static_cast<float>((t - 1.0) / next);
+    t = next;
+    correct_pressure_.run(queue, groups_, params, k, state, beta, step, cells, awake, places,
+                          guess_.memory(), gradient_.memory(), response_.memory(),
+                          boundary_rate_.memory(), offset_.memory(), pressure.memory(),
+                          jacobi_.memory(), change_.memory(), error_part_.memory());
+    judge_solve_.run(queue, kJudges, params, static_cast<int>(groups_), k, least, most,
+                     error_part_.memory(), state);
+    push_by_pressure_.run(queue, groups_, params, k, state, step, cells, awake, places,
+                          gradient_.memory(), change_.memory(), pressure.memory(), guess_.memory());
+  }
+}
+
+void DivergenceFree::enqueue_work(Device& device) {
+  for (std::size_t s = 0; s < 2; ++s) state_[s].enqueue_read(device, state_read_[s]);
+}
+
+SolverWork DivergenceFree::work() const {
+  const auto of = [this](std::size_t number) -> SolveWork {
+    const SolveState& s = state_read_[number][0];
+    return {s.solves, s.total, s.most, s.given_up, static_cast<double>(s.error)};
+  };
+  return {of(kDivergence), of(kDensity)};
+}
+
+std::vector<float> DivergenceFree::pressure(Device& device) {
+  std::vector<float> kept = warm_.read(device, particles_);
+  const std::vector<float> all = all_.read(device, particles_);
+  kept.insert(kept.end(), all.begin(), all.end());
+  return kept;
+}
+
+void DivergenceFree::restore_pressure(Device& device, const std::vector<float>& pressure) {
+  const std::span<const float> both(pressure);
+  warm_.write(device, both.first(particles_));
+  all_.write(device, both.last(particles_));
+}
+
+}  // namespace splash::sim

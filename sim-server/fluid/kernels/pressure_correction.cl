@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// First half of an iteration: what the velocities would do to densities within the step, and by how
+// much each particle's pressure has to change:
+//   error_i = offset_i + dt Drho_i/Dt                      [kg/m3]
+//   Q_i     = max(P_i + omega error_i / (dt^2 D_i), 0)     relaxed Jacobi, never negative
+//   P_i     = max(Q_i + beta (Q_i - last Q_i), 0)          Nesterov's momentum
+// with offset rho_i - rho0 where densities are to be at rest after the step, and 0 where motion is
+// to stop compressing (Bender & Koschier 2017, sections 3.3 and 3.4). A particle with a sparse
+// neighbourhood does not compress by coming closer: its offset is very low. Particles that sleep
+// keep their pressures.
+
+// The inverse of the largest eigenvalue of the system scaled by its diagonal: 2.7 on the lattice,
+// 3.3 when it is shaken by 0.2 spacings, 4 at random places.
+#define RELAXATION 0.3f
+
+// Sum of m v_j . grad W_ij, divided by -20 sigma / H^2.
+static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
+                              global const int* cell_start, global const float* position,
+                              global const float* velocity) {
+  const int n = p->capacity;
+  lanes sum = 0.0f;
+  Near near;
+  begin_search(&near);
+  while (search(p, g, cell_start, position, n, &near)) {
+    for (int k = 0; k < near.count; ++k) {
+      const int j = NEAR(near, k);
+      const Pair pair = pair_with(p, g, position, n, j);
+      sum += pair.slope * (velocity[j] * pair.dx + velocity[n + j] * pair.dy +
+                           velocity[2 * n + j] * pair.dz);
+    }
+  }
+  return p->mass * sum;
+}
+
+// `jacobi`: Q. `error_part`: of the group's particles that move, the sum of what Jacobi's step
+// answers to, which is errors but not those below zero of particles without pressure [kg/m3]; and
+// their number.
+kernel void correct_pressure(constant FluidParams* p, int k, global const SolveState* state,
+                             float beta, float dt, global const int* cell_start,
+                             global const int* awake, global const float* position,
+                             global const float* velocity, global const float* gradient,
+                             global const float* response, global const float* boundary_rate,
+                             global const float* offset, global const float* pressure,
+                             global float* jacobi, global float* change,
+                             global float* error_part) {
+  if (is_done(state, k)) return;
+  const int n = p->capacity;
+  const int first = group_of(p, get_global_id(0)) * LANES;
+  const int last = min(first + LANES, p->count);
+  if (first >= last) return;
+  const float scale = -20.0f * p->kernel_norm * p->inverse_support * p->inverse_support;
+  lanes carried = 0.0f;
+  lane_flags moves = 0;
+  for (int turn = first; turn < last;) {
+    const Group g = load_group(p, cell_start, position, first, last, turn);
+    if (!awake_near(p, awake, &g, WAKES_MOTION)) {
+      turn = g.next;
+      continue;
+    }
+    moves |= g.mine;
+    carried = select(carried, carried_by_fluid(p, &g, cell_start, position, velocity), g.mine);
+    turn = g.next;
+  }
+  const lanes own = LOAD(velocity, first) * LOAD(gradient, first) +
+                    LOAD(velocity + n, first) * LOAD(gradient + n, first) +
+                    LOAD(velocity + 2 * n, first) * LOAD(gradient + 2 * n, first);
+  const lanes rate = own - scale * carried + LOAD(boundary_rate, first);
+  const lanes error = LOAD(offset, first) + dt * rate;
+  // A lone particle answers to no pressure, and gets next to none.
+  const float least = scale * p->mass * p->support;
+  const lanes d = fmax(LOAD(response, first), 1.0e-4f * least * least);
+  const lanes step = RELAXATION / (dt * dt) * error / d;
+  const lanes now = LOAD(pressure, first);
+  const lanes better = fmax(now + step, 0.0f);
+  const lanes before = k > 0 ? LOAD(jacobi, first) : now;
+  STORE(better, jacobi, first);
+  const lanes next = fmax(better + beta * (better - before), 0.0f);
+  const lanes none = 0.0f, one = 1.0f;
+  STORE(select(none, next - now, moves), change, first);
+  const lanes found = fabs(better - now) * d * (dt * dt / RELAXATION);
+  error_part[2 * (first / LANES)] = total(select(none, found, moves));
+  error_part[2 * (first / LANES) + 1] = total(select(none, one, moves));
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/pressure_solver.hpp"
+
+#include "sim-server/fluid/divergence_free.hpp"
+#include "sim-server/fluid/fluid.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Pressure by the state equation: the density kernel has it already, and nothing is kept.
+class WeaklyCompressible : public PressureSolver {
+ public:
+  void recall_pressure(Fluid& /*fluid*/) override {}
+  void accelerate(Fluid& fluid, const Step& step) override {
+    fluid.compute_acceleration(step, fluid.particles().velocity);
+  }
+  void enqueue_work(Device& /*device*/) override {}
+  [[nodiscard]] SolverWork work() const override { return {}; }
+  [[nodiscard]] std::vector<float> pressure(Device& /*device*/) override { return {}; }
+  void restore_pressure(Device& /*device*/, const std::vector<float>& /*pressure*/) override {}
+};
+
+}  // namespace
+
+std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
+                                                     bool relaxed) {
+  if (params.solver == SPLASH_DIVERGENCE_FREE) {
+    return std::make_unique<DivergenceFree>(device, params, relaxed);
+  }
+  return std::make_unique<WeaklyCompressible>();
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The rows of a scene file that say what the water is and how its motion is solved.
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+
+const Fields<FluidEntry>& fluid_fields() {
+  using F = FluidEntry;
+  static const Fields<F> kFields = {
+      {{.key = "spacing",
+        .unit = "m",
+        .meaning = "Particle spacing at rest. Give this or `particles`, not both.",
+        .min = 0.001,
+        .max = 0.2},
+       &F::spacing},
+      {{.key = "particles",
+        .unit = "1",
+        .meaning = "Wanted number of particles; the spacing follows from the water's volume.",
+        .min = 100,
+        .max = 4'000'000},
+       &F::particles},
+      {{.key = "density",
+        .unit = "kg/m3",
+        .meaning = "Density at rest.",
+        .min = 100,
+        .max = 5000,
+        .source = "fresh water at 21 C"},
+       &F::density},
+      {{.key = "solver",
+        .unit = "",
+        .meaning = "Where pressure comes from: weakly_compressible, a state equation; "
+                   "divergence_free, the demand that nothing compresses (sim-server/fluid/README "
+                   "says which suits what).",
+        .choices = {"weakly_compressible", "divergence_free"},
+        .source = "Monaghan 2005; Bender & Koschier 2017"},
+       &F::solver_name},
+      {{.key = "kernels",
+        .unit = "",
+        .meaning = "vector: as suits the device; reference: one particle at a time, slow, for "
+                   "comparison.",
+        .choices = {"vector", "reference"}},
+       &F::kernels_name},
+      {{.key = "density_tolerance",
+        .unit = "1",
+        .meaning = "divergence_free: mean compression at which a solve ends.",
+        .min = 1.0e-5,
+        .max = 0.05},
+       &F::tolerance},
+      {{.key = "sound_speed",
+        .unit = "m/s",
+        .meaning = "Speed of sound of the weakly compressible model, and scale of the artificial "
+                   "viscosity; left out: from the depth and the speeds in the scene.",
+        .min = 1,
+        .max = 1500,
+        .source = "Monaghan 1994: ten times the largest speed keeps density within 1 %"},
+       &F::sound_speed},
+      {{.key = "viscosity",
+        .unit = "m2/s",
+        .meaning = "Kinematic viscosity of the laminar term.",
+        .min = 0,
+        .max = 1},
+       &F::viscosity},
+      {{.key = "artificial",
+        .unit = "1",
+        .meaning = "Monaghan's artificial viscosity alpha.",
+        .min = 0,
+        .max = 2,
+        .source = "Monaghan 1992"},
+       &F::artificial},
+      {{.key = "time_step_factor",
+        .unit = "1",
+        .meaning = "Multiplies the safe time step; smaller is slower and steadier.",
+        .min = 0.05,
+        .max = 2},
+       &F::time_step_factor},
+      {{.key = "gravity",
+        .unit = "m/s2",
+        .meaning = "Acceleration of gravity, x y z.",
+        .min = -100,
+        .max = 100,
+        .source = "standard gravity"},
+       &F::gravity},
+  };
+  return kFields;
+}
+
+}  // namespace splash::sim
