@@ -158,6 +158,11 @@ TEST(Gate, StaysShutWhileMutedAndOpensSlowlyAfterwards) {
   }
   EXPECT_GT(chain.last_sound(), muted + 0.01) << "a fade, not a click";
   EXPECT_LE(chain.last_sound(), muted + 0.0201);
+  chain.say(Command::Kind::unmute);
+  const double again = chain.now();
+  chain.run(0.05);
+  EXPECT_GT(chain.peak_since(again), 0.0F);
+  EXPECT_LT(chain.peak_since(again), 0.01F) << "slowly the second time, too";
 }
 
 TEST(Gate, OpensSlowlyForADeviceThatCameBack) {
