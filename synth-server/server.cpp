@@ -161,22 +161,27 @@ protocol::SynthStatus Server::complete(protocol::SynthStatus status) const {
   return status;
 }
 
+// The receiving thread asks for the status while it holds the receiver's lock: who wants both takes
+// the receiver's first.
 std::string Server::state() const {
+  const IntakeCounters taken = receiver_->counters();
+  const bool present = receiver_->sender_present();
   const std::lock_guard lock(mutex_);
-  return state_line(receiver_->counters(), receiver_->sender_present(), playing_->player.counters(),
-                    playing_->engine.counters()) +
+  return state_line(taken, present, playing_->player.counters(), playing_->engine.counters()) +
          ", " + level_text(playing_->player.meter(), channel_names(rig_));
 }
 
 Totals Server::totals() const {
+  Totals all;
+  all.seconds = protocol::monotonic_now() - started_;
+  all.taken = receiver_->counters();
+  all.dropped_by_kernel = receiver_->dropped_by_kernel();
+  all.device_losses = output_->losses();
+  all.scheduling = output_->scheduling();
   const std::lock_guard lock(mutex_);
-  return {protocol::monotonic_now() - started_,
-          receiver_->counters(),
-          receiver_->dropped_by_kernel(),
-          playing_->player.counters(),
-          playing_->engine.counters(),
-          output_->losses(),
-          output_->scheduling()};
+  all.player = playing_->player.counters();
+  all.engine = playing_->engine.counters();
+  return all;
 }
 
 void Server::await_silence() const {

@@ -34,13 +34,13 @@ std::string text_of(const List& list) {
 
 template <class Struct>
 std::string describe_fields(const std::vector<Field<Struct>>& fields) {
-  static const Struct fallback{};  // static: else g++ 12 warns of uninitialised strings
+  static const Struct kFallback{};  // static: else g++ 12 warns of uninitialised strings
   std::vector<Row> rows;
   std::vector<std::string> defaults;
   for (const Field<Struct>& field : fields) {
     rows.push_back(field.row);
     defaults.push_back(
-        std::visit([&](auto member) { return text_of(fallback.*member); }, field.member));
+        std::visit([&](auto member) { return text_of(kFallback.*member); }, field.member));
   }
   return protocol::describe(rows, defaults);
 }
