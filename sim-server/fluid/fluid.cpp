@@ -12,20 +12,11 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 30 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 29 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 19 * sizeof(float));
 static_assert(sizeof(BodyShape) == 6 * sizeof(float));
 
 static_assert(sizeof(SurveyPart) == 56);
-
-/// A step of about the golden section of the packets of four groups, prime to their number: it
-/// visits all of them, and neighbours far apart (kernels/group.h).
-int deal_step(std::size_t groups) {
-  const std::size_t packets = std::max<std::size_t>((groups + 3) / 4, 1);
-  std::size_t step = std::max<std::size_t>(packets * 618 / 1000, 1);
-  while (std::gcd(step, packets) != 1) ++step;
-  return static_cast<int>(step);
-}
 
 /// Parts of the fluid that are surveyed side by side.
 constexpr int kParts = 64;
@@ -42,7 +33,6 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
     : device_(device), params_(params), body_count_(static_cast<int>(shapes.size())) {
   load_particles(particles);
   params_.capacity = sorted_.stride;
-  if (device_.lanes() > 1) params_.deal = deal_step(groups());
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   load_boundary(boundary, shapes);
   build_kernels(relaxed);
@@ -172,7 +162,11 @@ void Fluid::wake_and_sleep(const Step& step) {
 }
 
 std::size_t Fluid::groups() const {
-  return static_cast<std::size_t>((params_.count + device_.lanes() - 1) / device_.lanes());
+  const int groups = (params_.count + device_.lanes() - 1) / device_.lanes();
+  if (device_.lanes() == 1) return static_cast<std::size_t>(groups);
+  // Whole strips of packets of four (kernels/group.h).
+  const int strip = (groups + 4 * SPLASH_STRIPS - 1) / (4 * SPLASH_STRIPS);
+  return static_cast<std::size_t>(4 * SPLASH_STRIPS * strip);
 }
 
 void Fluid::compute_density(const Step& step) {

@@ -5,6 +5,7 @@
 #define SPLASH_FLUID_PARAMS_H
 
 #define SPLASH_MAX_WALLS 8
+#define SPLASH_STRIPS 16  // of the fluid, from which work is dealt in turn (kernels/group.h)
 
 // Where pressure comes from.
 #define SPLASH_WEAKLY_COMPRESSIBLE 0
@@ -51,8 +52,6 @@ typedef struct {
   int solver;           // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_DIVERGENCE_FREE
   float wave_speed;     // sqrt(g H) of the deepest water [m/s]
   float tolerance;      // divergence-free: mean density error at which a solve is done [1]
-  int deal;             // step in which packets of groups are handed to work-items, prime to their
-                        // number
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
 

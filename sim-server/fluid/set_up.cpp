@@ -195,7 +195,6 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.wave_speed = static_cast<float>(std::sqrt(length(scene.fluid.gravity) * water_depth(scene)));
   p.tolerance = static_cast<float>(scene.fluid.tolerance);
   const auto walls = tank_walls(scene);
-  p.deal = 1;
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);
   p.piston = scene.wave_maker.present ? 1 : -1;

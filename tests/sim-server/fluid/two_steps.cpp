@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two steps of a small fluid with walls, slope, piston and bodies: every kernel once, small enough
-// for an OpenCL interpreter. Argument: particles per vector (1, 8 or 16).
+// Two steps of a small fluid with walls, slope, piston and bodies, and two in which it may sleep:
+// every kernel once, small enough for an OpenCL interpreter. Argument: particles per vector (1, 8
+// or 16).
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -21,6 +22,14 @@ int two_steps(int lanes) {
   water.start(device);
   water.step(1.0e-3);
   water.step(1.0e-3);
+  water.fluid->let_sleep({.speed = 0.05, .frames = 1});
+  Step sleepy = water.step_at(1.0e-3);
+  sleepy.opens_frame = true;
+  for (int k = 0; k < 2; ++k) {
+    water.fluid->still();
+    water.fluid->prepare(sleepy);
+    water.fluid->advance(sleepy);
+  }
   const Survey survey = water.fluid->survey();
   std::printf("%s: %d particles, %d body points, fastest %.3f m/s, %d faulty\n",
               device.facts().platform.c_str(), water.params.count, water.fluid->boundary_count(),

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// Compiled for the processor it is built on. Sixteen particles that follow each other in a row of
+// cells share one list of neighbours, weeded against the box around them (kernels/near.h has the
+// same idea); AVX-512 compresses the list, elsewhere a branch-free scalar loop does.
+#include "tests/bench/fluid_yardstick.hpp"
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+namespace splash::bench {
+namespace {
+
+constexpr int kLanes = 16;
+constexpr int kRoom = 4096;  // neighbours of one vector: ten times what a settled fluid has
+using Vector = float __attribute__((vector_size(4 * kLanes)));
+using Flags = std::int32_t __attribute__((vector_size(4 * kLanes)));
+
+Vector load(const float* from) {
+  Vector v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+
+Vector larger(Vector a, Vector b) {
+  return a > b ? a : b;
+}
+
+Vector inverse_root(Vector a) {
+#ifdef __AVX512F__
+  const Vector estimate = Vector(_mm512_rsqrt14_ps(__m512(a)));
+  return estimate * (1.5F - 0.5F * a * estimate * estimate);
+#else
+  Vector root;
+  for (int lane = 0; lane < kLanes; ++lane) root[lane] = 1.0F / __builtin_sqrtf(a[lane]);
+  return root;
+#endif
+}
+
+Vector inverse(Vector a) {
+#ifdef __AVX512F__
+  const Vector estimate = Vector(_mm512_rcp14_ps(__m512(a)));
+  return estimate * (2.0F - a * estimate);
+#else
+  return 1.0F / a;
+#endif
+}
+
+struct Box {
+  std::array<float, 3> lower;
+  std::array<float, 3> upper;
+};
+
+/// A vector of particles and the points near them.
+struct Group {
+  int first = 0;
+  int last = 0;  ///< one past the last of this turn
+  Vector x, y, z;
+  int near_count = 0;
+  std::array<int, kRoom + kLanes> near;
+};
+
+int cell_along(float x, float origin, float inverse_cell, int cells) {
+  return static_cast<int>(
+      std::clamp((x - origin) * inverse_cell, 1.0F, static_cast<float>(cells - 2)));
+}
+
+Box box_around(const Particles& p, int first, int last) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float* part = p.position.data() + axis * static_cast<std::size_t>(p.stride);
+    box.lower[axis] = *std::min_element(part + first, part + last);
+    box.upper[axis] = *std::max_element(part + first, part + last);
+  }
+  return box;
+}
+
+/// Appends the points from `from` to `to` that lie within the support of the box.
+void weed(const Particles& p, const Box& box, int from, int to, Group& group) {
+  const float* x = p.position.data();
+  const float* y = x + p.stride;
+  const float* z = y + p.stride;
+  const float reach2 = p.params.support * p.params.support;
+  const Vector none = {};
+  for (int j = from; j < to; j += kLanes) {
+    const Vector dx = larger(larger(box.lower[0] - load(x + j), load(x + j) - box.upper[0]), none);
+    const Vector dy = larger(larger(box.lower[1] - load(y + j), load(y + j) - box.upper[1]), none);
+    const Vector dz = larger(larger(box.lower[2] - load(z + j), load(z + j) - box.upper[2]), none);
+    const Vector r2 = dx * dx + dy * dy + dz * dz;
+    const int here = std::min(to - j, kLanes);
+#ifdef __AVX512F__
+    const __mmask16 inside = _mm512_cmp_ps_mask(__m512(r2), _mm512_set1_ps(reach2), _CMP_LT_OS) &
+                             static_cast<__mmask16>((1U << here) - 1U);
+    const __m512i numbers =
+        _mm512_add_epi32(_mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15),
+                         _mm512_set1_epi32(j));
+    _mm512_storeu_si512(group.near.data() + group.near_count,
+                        _mm512_maskz_compress_epi32(inside, numbers));
+    group.near_count += __builtin_popcount(inside);
+#else
+    for (int lane = 0; lane < here; ++lane) {
+      group.near[static_cast<std::size_t>(group.near_count)] = j + lane;
+      group.near_count += r2[lane] < reach2;
+    }
+#endif
+    group.near_count = std::min(group.near_count, kRoom);
+  }
+}
+
+/// The group that begins at particle `first`: those of up to 16 that share its row of cells.
+void gather(const Particles& p, int first, Group& group) {
+  const sim::FluidParams& s = p.params;
+  const float* x = p.position.data();
+  const float* y = x + p.stride;
+  const float* z = y + p.stride;
+  const int row = cell_along(z[first], s.origin_z, s.inverse_cell, s.cells_z) * s.cells_y +
+                  cell_along(y[first], s.origin_y, s.inverse_cell, s.cells_y);
+  const int row_end = p.cell_start[static_cast<std::size_t>((row + 1) * s.cells_x)];
+  group.first = first;
+  group.last = std::min(first + kLanes, row_end);
+  group.x = load(x + first);
+  group.y = load(y + first);
+  group.z = load(z + first);
+  group.near_count = 0;
+  const Box box = box_around(p, first, group.last);
+  const int from = cell_along(x[first], s.origin_x, s.inverse_cell, s.cells_x) - 1;
+  const int to = cell_along(x[group.last - 1], s.origin_x, s.inverse_cell, s.cells_x) + 2;
+  for (int k = 0; k < 9; ++k) {
+    const int base = (row + (k / 3 - 1) * s.cells_y + k % 3 - 1) * s.cells_x;
+    weed(p, box, p.cell_start[static_cast<std::size_t>(base + from)],
+         p.cell_start[static_cast<std::size_t>(base + to)], group);
+  }
+}
+
+/// First particles of all groups: row by row, so that none straddles two.
+std::vector<int> group_starts(const Particles& p) {
+  std::vector<int> starts;
+  const int rows = p.params.cells_y * p.params.cells_z;
+  for (int row = 0; row < rows; ++row) {
+    const int end = p.cell_start[static_cast<std::size_t>((row + 1) * p.params.cells_x)];
+    for (int first = p.cell_start[static_cast<std::size_t>(row * p.params.cells_x)]; first < end;
+         first += kLanes) {
+      starts.push_back(first);
+    }
+  }
+  return starts;
+}
+
+void store(const Group& group, Vector value, float* to) {
+  for (int i = group.first; i < group.last; ++i) to[i] = value[i - group.first];
+}
+
+void density_of(const Particles& p, const Group& group, std::vector<float>& density) {
+  const float* x = p.position.data();
+  const float* y = x + p.stride;
+  const float* z = y + p.stride;
+  Vector sum = {};
+  const Vector none = {};
+  for (int k = 0; k < group.near_count; ++k) {
+    const int j = group.near[static_cast<std::size_t>(k)];
+    const Vector dx = group.x - x[j];
+    const Vector dy = group.y - y[j];
+    const Vector dz = group.z - z[j];
+    const Vector r2 = dx * dx + dy * dy + dz * dz;
+    const Vector r = r2 * inverse_root(r2 + 1e-12F);
+    const Vector u = larger(1.0F - r * p.params.inverse_support, none);
+    const Vector u2 = u * u;
+    sum += u2 * u2 * (5.0F - 4.0F * u);
+  }
+  store(group, p.params.kernel_norm * p.params.mass * sum, density.data());
+}
+
+void acceleration_of(const Particles& p, const Group& group, std::vector<float>& acceleration) {
+  const sim::FluidParams& s = p.params;
+  const auto n = static_cast<std::size_t>(p.stride);
+  const float* x = p.position.data();
+  const float* u = p.velocity.data();
+  const float eta2 = 0.01F * 0.25F * s.support * s.support;
+  const float viscous = s.viscous / s.rest_density;
+  const float artificial = s.artificial / s.rest_density;
+  const Vector own_u = load(u + group.first);
+  const Vector own_v = load(u + n + group.first);
+  const Vector own_w = load(u + 2 * n + group.first);
+  const Vector own = load(p.pressure.data() + group.first);
+  const Vector none = {};
+  Vector ax = {};
+  Vector ay = {};
+  Vector az = {};
+  for (int k = 0; k < group.near_count; ++k) {
+    const auto j = static_cast<std::size_t>(group.near[static_cast<std::size_t>(k)]);
+    const Vector dx = group.x - x[j];
+    const Vector dy = group.y - x[n + j];
+    const Vector dz = group.z - x[2 * n + j];
+    const Vector r2 = dx * dx + dy * dy + dz * dz;
+    const Vector r = r2 * inverse_root(r2 + 1e-12F);
+    const Vector q = larger(1.0F - r * s.inverse_support, none);
+    const Vector closing =
+        (own_u - u[j]) * dx + (own_v - u[n + j]) * dy + (own_w - u[2 * n + j]) * dz;
+    const Vector towards = closing < 0.0F ? closing : none;
+    const Vector rub = (viscous * closing + artificial * towards) * inverse(r2 + eta2);
+    const Vector f = q * q * q * (own + p.pressure[j] - rub);
+    ax += f * dx;
+    ay += f * dy;
+    az += f * dz;
+  }
+  const float gradient = 20.0F * s.kernel_norm * s.inverse_support * s.inverse_support * s.mass;
+  store(group, gradient * ax, acceleration.data());
+  store(group, gradient * ay, acceleration.data() + n);
+  store(group, gradient * az, acceleration.data() + 2 * n);
+}
+
+template <class Sum>
+void for_each_group(const Particles& p, int threads, const Sum& sum) {
+  const std::vector<int> starts = group_starts(p);
+  const int count = static_cast<int>(starts.size());
+#pragma omp parallel num_threads(threads)
+  {
+    Group group;
+#pragma omp for schedule(dynamic, 16)
+    for (int k = 0; k < count; ++k) {
+      gather(p, starts[static_cast<std::size_t>(k)], group);
+      sum(group);
+    }
+  }
+}
+
+}  // namespace
+
+int yardstick_lanes() {
+  return kLanes;
+}
+
+void density_by_hand(const Particles& particles, int threads, std::vector<float>& density) {
+  for_each_group(particles, threads,
+                 [&](const Group& group) { density_of(particles, group, density); });
+}
+
+void acceleration_by_hand(const Particles& particles, int threads,
+                          std::vector<float>& acceleration) {
+  for_each_group(particles, threads,
+                 [&](const Group& group) { acceleration_of(particles, group, acceleration); });
+}
+
+}  // namespace splash::bench
