@@ -94,7 +94,9 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   largest_step_ = largest_time_step(fluid_.params(), fastest, std::abs(scene_.fluid.gravity[2]),
                                     scene_.fluid.time_step_factor);
   good_ = fluid_.snapshot();
-  if (scene_.skip.sleep) fluid_.let_sleep(sleep_rule(scene_));
+  // The divergence-free solver balances all of the water in every step: none of it may sleep.
+  const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
+  if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
 }
 
 std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
