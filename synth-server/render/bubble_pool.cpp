@@ -38,11 +38,11 @@ PackKernels<Pack> kernels_for(InstructionSet set) noexcept {
 /// What the kernels need not know of the voices of a pack.
 struct Sitters {
   static constexpr std::uint32_t kFull = 0xffffU;
-  std::array<VoiceSpan, kLanes> spans;
   std::uint32_t taken = 0;                   ///< a bit per lane
   std::uint32_t leaving = 0;                 ///< of these, those that were told to make room
   std::int64_t calm_from = 0;                ///< all have started by then
   std::int64_t calm_to = VoiceSpan::kNever;  ///< none ends or fades before
+  std::array<VoiceSpan, kLanes> spans;
 
   void note(const VoiceSpan& span) noexcept {
     calm_from = std::max(calm_from, span.start);
@@ -87,7 +87,6 @@ class Pool final : public BubblePool {
     feeds_.add(found, lane, routes);
     const auto place = static_cast<std::uint32_t>(pack * kLanes + lane);
     ranking_.enter(place, life, sample, std::min(span.end, span.fade));
-    used_packs_ = std::max(used_packs_, pack + 1);
     ++size_;
     ++lasting_;
     return {result, place};
@@ -96,17 +95,26 @@ class Pool final : public BubblePool {
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept override {
     const auto begin = static_cast<int>(from % kCell);
     const auto end = begin + static_cast<int>(to - from);
-    alignas(64) std::array<Real, kRows> rows;  // NOLINT: all that is read is written
-    for (std::size_t p = 0; p < used_packs_; ++p) {
-      const Sitters& sitters = sitters_[p];
-      if (sitters.taken == 0) continue;
-      kernels_.advance(packs_[p], begin, end, rows.data());
-      if (from < sitters.calm_from || to > sitters.calm_to) {
-        shape(sitters, from, static_cast<int>(to - from),
-              rows.data() + static_cast<std::size_t>(begin) * kLanes);
+    const std::vector<int>& packs = seating_.packs();
+    alignas(64) std::array<Real, kMixedPacks * kRows> rows;  // NOLINT: all that is read is written
+    for (std::size_t first = 0; first < packs.size(); first += kMixedPacks) {
+      const std::size_t count = std::min<std::size_t>(kMixedPacks, packs.size() - first);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto p = static_cast<std::size_t>(packs[first + k]);
+        Real* const own = rows.data() + k * kRows;
+        if (first + k + 1 < packs.size()) fetch(static_cast<std::size_t>(packs[first + k + 1]));
+        kernels_.advance(packs_[p], begin, end, own);
+        const Sitters& sitters = sitters_[p];
+        if (from < sitters.calm_from || to > sitters.calm_to) {
+          const auto skipped = static_cast<std::size_t>(begin) * kLanes;
+          shape(sitters, from, static_cast<int>(to - from), own + skipped);
+        }
+        feeds_.join(p, own);
       }
-      const auto feeds = feeds_.of(p);
-      kernels_.mix(rows.data(), begin, end, feeds.gains, feeds.channels, feeds.count, sums_.data());
+      for (const auto& [channel, together] : feeds_.joined()) {
+        kernels_.mix(together, begin, end, &sums_[static_cast<std::size_t>(channel) * kRows]);
+      }
+      feeds_.part();
     }
     mixed_ = end % kCell;
     for (std::size_t c = 0; c < mix.touched.size(); ++c) {
@@ -117,18 +125,21 @@ class Pool final : public BubblePool {
   }
 
   void release(std::int64_t sample) noexcept override {
-    for (std::size_t p = 0; p < used_packs_; ++p) {
-      if (sitters_[p].taken != 0 && sitters_[p].calm_to <= sample) release_from(p, sample);
+    for (std::size_t i = seating_.packs().size(); i-- > 0;) {  // backwards: it may lose this one
+      const auto p = static_cast<std::size_t>(seating_.packs()[i]);
+      if (sitters_[p].calm_to <= sample) release_from(p, sample);
     }
-    while (used_packs_ > 0 && sitters_[used_packs_ - 1].taken == 0) --used_packs_;
   }
 
   void fade_all(std::int64_t sample) noexcept override {
-    for (std::uint32_t place = 0; place < used_packs_ * kLanes; ++place) {
-      const Sitters& sitters = sitters_[place / kLanes];
-      const VoiceSpan& span = sitters.spans[place % kLanes];
-      const bool taken = (sitters.taken >> place % kLanes & 1U) != 0;
-      if (taken && std::min(span.end, span.fade) > sample) fade_out(place, sample);
+    for (const int pack : seating_.packs()) {
+      const Sitters& sitters = sitters_[static_cast<std::size_t>(pack)];
+      for (std::uint32_t left = sitters.taken; left != 0; left &= left - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+        const VoiceSpan& span = sitters.spans[lane];
+        if (std::min(span.end, span.fade) <= sample) continue;
+        fade_out(static_cast<std::uint32_t>(pack) * kPackVoices + lane, sample);
+      }
     }
   }
 
@@ -177,6 +188,14 @@ class Pool final : public BubblePool {
     copy_lane(latecomer, pack, lane);
   }
 
+  /// Neighbours in the order of mixing are none in memory: the processor is told what comes next.
+  void fetch(std::size_t p) const noexcept {
+    const char* const pack = reinterpret_cast<const char*>(&packs_[p]);
+    for (std::size_t line = 0; line < sizeof(Pack); line += 64) __builtin_prefetch(pack + line);
+    __builtin_prefetch(&sitters_[p]);
+    feeds_.fetch(p);
+  }
+
   static void shape(const Sitters& sitters, std::int64_t from, int count, Real* rows) noexcept {
     for (std::uint32_t left = sitters.taken; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
@@ -219,10 +238,9 @@ class Pool final : public BubblePool {
   Seating seating_;
   std::vector<Real, Aligned<Real>> sums_;  ///< kRows of each channel
   Ranking ranking_;
-  std::size_t used_packs_ = 0;  ///< packs from here on have no voice
-  std::size_t size_ = 0;        ///< voices
-  std::size_t lasting_ = 0;     ///< of them, those that were not told to make room
-  int mixed_ = 0;               ///< samples of this cell that are mixed
+  std::size_t size_ = 0;     ///< voices
+  std::size_t lasting_ = 0;  ///< of them, those that were not told to make room
+  int mixed_ = 0;            ///< samples of this cell that are mixed
 };
 
 }  // namespace

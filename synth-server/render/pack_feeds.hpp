@@ -38,7 +38,10 @@ class PackFeeds {
         gains_(packs * most_),
         channels_(packs * most_),
         counts_(packs, 0),
-        routes_(static_cast<std::size_t>(channels), 0) {}
+        routes_(static_cast<std::size_t>(channels), 0),
+        joined_at_(static_cast<std::size_t>(channels), -1) {
+    joined_.reserve(kMixedPacks * most_);
+  }
 
   /// Whether the pack has room for these channels beside its own.
   [[nodiscard]] bool fits(int pack, std::span<const Route> routes) const noexcept {
@@ -75,13 +78,36 @@ class PackFeeds {
     }
   }
 
-  struct Feeds {
-    const PackFeed<Real>* gains = nullptr;
-    const std::int32_t* channels = nullptr;
-    int count = 0;
+  /// One channel and the packs that go there together.
+  struct Joined {
+    std::int32_t channel = 0;
+    PackMix<Real> packs;
   };
-  [[nodiscard]] Feeds of(std::size_t pack) const noexcept {
-    return {&gains_[pack * most_], &channels_[pack * most_], counts_[pack]};
+  /// Adds a pack and its rows to those that are mixed together, kMixedPacks at most.
+  void join(std::size_t pack, const Real* rows) noexcept {
+    for (std::int32_t slot = 0; slot < counts_[pack]; ++slot) {
+      const std::int32_t channel = channels_[at(pack, slot)];
+      std::int32_t& place = joined_at_[static_cast<std::size_t>(channel)];
+      if (place < 0) {
+        place = static_cast<std::int32_t>(joined_.size());
+        joined_.push_back({channel, {}});  // within what was reserved
+      }
+      PackMix<Real>& packs = joined_[static_cast<std::size_t>(place)].packs;
+      packs.rows[packs.count] = rows;
+      packs.feeds[packs.count++] = &gains_[at(pack, slot)];
+    }
+  }
+  [[nodiscard]] const std::vector<Joined>& joined() const noexcept { return joined_; }
+  void part() noexcept {
+    for (const Joined& one : joined_) joined_at_[static_cast<std::size_t>(one.channel)] = -1;
+    joined_.clear();
+  }
+
+  void fetch(std::size_t pack) const noexcept {
+    __builtin_prefetch(&channels_[pack * most_]);
+    for (std::int32_t slot = 0; slot < counts_[pack]; ++slot) {
+      __builtin_prefetch(&gains_[at(pack, slot)]);
+    }
   }
 
   /// Whether any voice goes to the channel.
@@ -108,7 +134,9 @@ class PackFeeds {
   std::vector<PackFeed<Real>, Aligned<PackFeed<Real>>> gains_;  ///< by pack, most_ each
   std::vector<std::int32_t> channels_;                          ///< the same
   std::vector<std::int32_t> counts_;                            ///< by pack: how many are used
-  std::vector<std::uint32_t> routes_;  ///< by channel: voices that go there
+  std::vector<std::uint32_t> routes_;    ///< by channel: voices that go there
+  std::vector<Joined> joined_;           ///< of the packs that are being mixed
+  std::vector<std::int32_t> joined_at_;  ///< by channel: where in joined_, -1: not
 };
 
 }  // namespace splash::synth

@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/render/seating.hpp"
 
+#include <algorithm>
+
 namespace splash::synth {
 
 Seating::Seating(std::size_t packs, int groups)
-    : heads_(static_cast<std::size_t>(groups), kNone), links_(packs), empty_(packs) {}
+    : heads_(static_cast<std::size_t>(groups), kNone), links_(packs), empty_(packs) {
+  order_.reserve(packs);
+}
+
+std::vector<int>::const_iterator Seating::place_of(int pack) const noexcept {
+  return std::lower_bound(order_.begin(), order_.end(), pack, [&](int a, int b) {
+    const int group_a = links_[static_cast<std::size_t>(a)].group;
+    const int group_b = links_[static_cast<std::size_t>(b)].group;
+    return group_a != group_b ? group_a < group_b : a < b;
+  });
+}
+
+void Seating::note_empty(int pack) noexcept {
+  unlink(pack);
+  order_.erase(place_of(pack));
+  empty_.give_back(static_cast<std::uint32_t>(pack));
+}
 
 void Seating::link(int pack) noexcept {
   Link& link = links_[static_cast<std::size_t>(pack)];

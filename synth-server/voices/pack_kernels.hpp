@@ -22,15 +22,23 @@ struct alignas(64) PackFeed {
 /// The values of a cell, sample by sample: those of all lanes side by side.
 inline constexpr int kRows = kCell * kPackVoices;
 
+/// Packs that go to one channel together: its sums are fetched and put back once for all of them.
+inline constexpr int kMixedPacks = 4;
+template <class Real>
+struct PackMix {
+  int count = 0;
+  const Real* rows[kMixedPacks] = {};
+  const PackFeed<Real>* feeds[kMixedPacks] = {};
+};
+
 template <class Pack>
 struct PackKernels {
   using Real = typename Pack::Real;
   /// Samples [from, to) of the cell: rows[16 n + lane] [m]. `rows` lies at a multiple of 64 bytes,
   /// as all that follows.
   void (*advance)(Pack& pack, int from, int to, Real* rows);
-  /// Adds them to `count` channels, of which each has kRows values of `sums`, some lanes apart.
-  void (*mix)(const Real* rows, int from, int to, const PackFeed<Real>* feeds,
-              const std::int32_t* channels, int count, Real* sums);
+  /// Adds up to kMixedPacks of them to one channel, whose sums are kRows values, some lanes apart.
+  void (*mix)(const PackMix<Real>& packs, int from, int to, Real* sums);
   /// Adds up the lanes of one channel, always in the same order, and clears them.
   void (*collect)(Real* sums, int from, int to, double* out);
 };

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "synth-server/voices/pack_kernels.hpp"
 
@@ -107,18 +108,17 @@ template <class Real>
                                           Real* rows) {
   Turning<Real> voices{};
   voices.load(pack, lane);
-  int n = from;
-  const auto emit = [&](int parity) __attribute__((always_inline)) {
-    *reinterpret_cast<Vector<Real>*>(&rows[n * kPackVoices + lane]) = voices.im[parity];
-    voices.step(parity);
-    ++n;
+  const auto emit = [&](int n) __attribute__((always_inline)) {
+    *reinterpret_cast<Vector<Real>*>(&rows[n * kPackVoices + lane]) = voices.im[n % 2];
+    voices.step(n % 2);
   };
-  if (n % 2 == 1 && n < to) emit(1);
-  while (n + 2 <= to) {
-    emit(0);
-    emit(1);
+  int n = from;
+  if (n % 2 == 1 && n < to) emit(n++);
+  for (; n + 2 <= to; n += 2) {
+    emit(n);
+    emit(n + 1);
   }
-  if (n < to) emit(0);
+  if (n < to) emit(n);
   voices.store(pack, lane);
 }
 
@@ -136,40 +136,108 @@ void advance(Pack& pack, int from, int to, typename Pack::Real* rows) {
 template <class Real>
 inline constexpr int kSumLanes = sizeof(Real) == sizeof(double) ? 8 : Lanes<Real>::kCount;
 
-template <class Real>
-void mix(const Real* rows, int from, int to, const PackFeed<Real>* feeds,
-         const std::int32_t* channels, int count, Real* sums) {
+/// Some of the packs: their gains fit into the registers.
+template <class Real, int kPacks>
+[[gnu::always_inline]] inline void mix_some(const PackMix<Real>& packs, int first, int from, int to,
+                                            Real* sums) {
   using V = Vector<Real>;
   constexpr int kParts = kPackVoices / kSumLanes<Real>;
-  for (int f = 0; f < count; ++f) {
-    Real* const channel = &sums[std::ptrdiff_t{channels[f]} * kRows];
-    for (int lane = 0; lane < kSumLanes<Real>; lane += Lanes<Real>::kCount) {
-      V gains[kParts];
+  for (int lane = 0; lane < kSumLanes<Real>; lane += Lanes<Real>::kCount) {
+    V gains[kPacks][kParts];
+    const Real* rows[kPacks];
+    for (int k = 0; k < kPacks; ++k) {
+      rows[k] = packs.rows[first + k];
       for (int part = 0; part < kParts; ++part) {
-        gains[part] = *reinterpret_cast<const V*>(feeds[f].gains + part * kSumLanes<Real> + lane);
+        const Real* const from_lane = packs.feeds[first + k]->gains + lane;
+        gains[k][part] = *reinterpret_cast<const V*>(&from_lane[part * kSumLanes<Real>]);
       }
-      for (int n = from; n < to; ++n) {
-        V& sum = *reinterpret_cast<V*>(&channel[n * kSumLanes<Real> + lane]);
-        V added = sum;
+    }
+    for (int n = from; n < to; ++n) {
+      V& sum = *reinterpret_cast<V*>(&sums[n * kSumLanes<Real> + lane]);
+      V added = sum;
+      for (int k = 0; k < kPacks; ++k) {
         for (int part = 0; part < kParts; ++part) {
           const int at = n * kPackVoices + part * kSumLanes<Real> + lane;
-          added += gains[part] * *reinterpret_cast<const V*>(&rows[at]);
+          added += gains[k][part] * *reinterpret_cast<const V*>(&rows[k][at]);
         }
-        sum = added;
       }
+      sum = added;
     }
   }
 }
 
 template <class Real>
-void collect(Real* sums, int from, int to, double* out) {
-  for (int n = from; n < to; ++n) {
-    Real* const row = &sums[n * kSumLanes<Real>];
-    for (int half = kSumLanes<Real> / 2; half > 0; half /= 2) {
-      for (int lane = 0; lane < half; ++lane) row[lane] += row[lane + half];
+void mix(const PackMix<Real>& packs, int from, int to, Real* sums) {
+  constexpr int kParts = kPackVoices / kSumLanes<Real>;
+  constexpr int kAtOnce = kParts < 4 ? 4 : 2;
+  int first = 0;
+  for (; first + kAtOnce <= packs.count; first += kAtOnce) {
+    mix_some<Real, kAtOnce>(packs, first, from, to, sums);
+  }
+  if constexpr (kAtOnce == 4) {
+    if (first + 3 == packs.count) return mix_some<Real, 3>(packs, first, from, to, sums);
+    if (first + 2 == packs.count) return mix_some<Real, 2>(packs, first, from, to, sums);
+  }
+  if (first < packs.count) mix_some<Real, 1>(packs, first, from, to, sums);
+}
+
+/// low: a0 b0 a1 b1 ..., high: the same of the upper halves.
+template <class V, int... I>
+[[gnu::always_inline]] inline void interleave(const V& a, const V& b, V& low, V& high,
+                                              std::integer_sequence<int, I...> /*order*/) {
+  constexpr int kCount = static_cast<int>(sizeof...(I));
+  low = __builtin_shufflevector(a, b, (I / 2 + (I % 2) * kCount)...);
+  high = __builtin_shufflevector(a, b, (kCount / 2 + I / 2 + (I % 2) * kCount)...);
+}
+
+/// As many samples as a sum has lanes, if that is a vector's worth: rows become columns by perfect
+/// shuffles, and columns are added.
+template <class Real>
+[[gnu::always_inline]] inline void collect_block(Real* sums, double* out) {
+  constexpr int kCount = Lanes<Real>::kCount;
+  Vector<Real> rows[kCount];
+  for (int k = 0; k < kCount; ++k) {
+    auto& row = reinterpret_cast<Vector<Real>*>(sums)[k];
+    rows[k] = row;
+    row = Vector<Real>{};
+  }
+  for (int width = 1; width < kCount; width *= 2) {
+    Vector<Real> shuffled[kCount];
+    for (int i = 0; i < kCount / 2; ++i) {
+      interleave(rows[i], rows[i + kCount / 2], shuffled[2 * i], shuffled[2 * i + 1],
+                 std::make_integer_sequence<int, kCount>{});
     }
-    out[n] += static_cast<double>(row[0]);
-    for (int lane = 0; lane < kSumLanes<Real>; ++lane) row[lane] = Real{0};
+    for (int i = 0; i < kCount; ++i) rows[i] = shuffled[i];
+  }
+  for (int half = kCount / 2; half > 0; half /= 2) {
+    for (int lane = 0; lane < half; ++lane) rows[lane] += rows[lane + half];
+  }
+  for (int k = 0; k < kCount; ++k) out[k] += static_cast<double>(rows[0][k]);
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void collect_sample(Real* row, double* out) {
+  for (int half = kSumLanes<Real> / 2; half > 0; half /= 2) {
+    for (int lane = 0; lane < half; ++lane) row[lane] += row[lane + half];
+  }
+  *out += static_cast<double>(row[0]);
+  for (int lane = 0; lane < kSumLanes<Real>; ++lane) row[lane] = Real{0};
+}
+
+template <class Real>
+void collect(Real* sums, int from, int to, double* out) {
+  constexpr int kCount = kSumLanes<Real>;
+  for (int n = from; n < to;) {
+    Real* const row = sums + std::ptrdiff_t{n} * kCount;
+    if constexpr (kCount == Lanes<Real>::kCount) {
+      if (n % kCount == 0 && n + kCount <= to) {
+        collect_block(row, &out[n]);
+        n += kCount;
+        continue;
+      }
+    }
+    collect_sample(row, &out[n]);
+    ++n;
   }
 }
 

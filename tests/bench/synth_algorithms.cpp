@@ -183,8 +183,12 @@ class Product final : public Sixteen {
     return static_cast<double>(rows_[n * kPackVoices + lane]);
   }
   void mix(double* channel) override {
-    constexpr std::int32_t kChannel = 0;
-    kernels_.mix(rows_.data(), 0, kCell, &feed_, &kChannel, 1, sums_.data());
+    packs_.rows[packs_.count] = rows_.data();
+    packs_.feeds[packs_.count] = &feed_;
+    if (++packs_.count == synth::kMixedPacks) {
+      kernels_.mix(packs_, 0, kCell, sums_.data());
+      packs_.count = 0;
+    }
     if (++mixed_ % kPacks == 0) kernels_.collect(sums_.data(), 0, kCell, channel);
   }
 
@@ -195,6 +199,7 @@ class Product final : public Sixteen {
   synth::PackKernels<Pack> kernels_;
   Pack pack_{};
   synth::PackFeed<Real> feed_;
+  synth::PackMix<Real> packs_;
   alignas(64) std::array<Real, synth::kRows> rows_{};
   alignas(64) std::array<Real, synth::kRows> sums_{};
   int mixed_ = 0;
