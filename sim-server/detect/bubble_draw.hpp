@@ -7,7 +7,6 @@
 
 #include "sim-server/scene/scene.hpp"
 
-#include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
 

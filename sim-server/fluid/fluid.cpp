@@ -162,11 +162,12 @@ void Fluid::wake_and_sleep(const Step& step) {
 }
 
 std::size_t Fluid::groups() const {
-  const int groups = (params_.count + device_.lanes() - 1) / device_.lanes();
-  if (device_.lanes() == 1) return static_cast<std::size_t>(groups);
+  const auto lanes = static_cast<std::size_t>(device_.lanes());
+  const std::size_t groups = (static_cast<std::size_t>(params_.count) + lanes - 1) / lanes;
+  if (lanes == 1) return groups;
   // Whole strips of packets of four (kernels/group.h).
-  const int strip = (groups + 4 * SPLASH_STRIPS - 1) / (4 * SPLASH_STRIPS);
-  return static_cast<std::size_t>(4 * SPLASH_STRIPS * strip);
+  constexpr std::size_t kWhole = 4 * SPLASH_STRIPS;
+  return (groups + kWhole - 1) / kWhole * kWhole;
 }
 
 void Fluid::compute_density(const Step& step) {
