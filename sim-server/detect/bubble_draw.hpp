@@ -7,7 +7,6 @@
 
 #include "sim-server/scene/scene.hpp"
 
-
 namespace splash::sim {
 
 /// The value whose share of a power law x^-exponent on [low, high] is `share` in [0, 1]:
