@@ -38,11 +38,13 @@ void write_block(std::ofstream& out, const std::string& name, const std::vector<
 
 void write_algorithm_chart(const SynthFigures& figures, const std::filesystem::path& script) {
   std::ofstream out = open_file(script);
-  out << "set terminal pngcairo size 1100,700\nset output 'algorithms.png'\n"
+  out << "set terminal pngcairo size 1100,700\nset output '"
+      << std::filesystem::path(script).replace_extension("png").string()
+      << "'\n"
          "set title 'A bubble, every way tried: one core, 44.1 kHz, largest error of radii from "
          "1 mm to 0.3 m'\n"
          "set logscale x\nset xlabel 'voices per core in real time'\n"
-         "set ylabel 'largest error [dB re A0]'\nset xrange [500:500000]\nset yrange [-170:100]\n"
+         "set ylabel 'largest error [dB re A0]'\nset xrange [500:500000]\nset yrange [-170:200]\n"
          "set grid\nset key outside\n";
   for (const char* set : {"portable", "AVX2", "AVX-512"}) {
     out << "$" << set[0] << (set[3] == '2' ? "2" : "") << (set[3] == '-' ? "5" : "") << " << EOD\n";
@@ -53,12 +55,17 @@ void write_algorithm_chart(const SynthFigures& figures, const std::filesystem::p
     }
     out << "EOD\n";
   }
-  out << "$peers << EOD\n";
+  out << "$one << EOD\n";
+  for (const Algorithm& a : figures.algorithms) {
+    if (a.name.starts_with("double"))
+      out << a.voices << ' ' << a.error_db << " \"" << a.name << "\"\n";
+  }
+  out << "EOD\n$peers << EOD\n";
   for (const Peer& peer : figures.peers) {
     out << peer.voices << ' ' << peer.error_db << " \"" << peer.name << "\"\n";
   }
   out << "EOD\nset arrow from graph 0, first -90 to graph 1, first -90 nohead dashtype 2\n";
-  out << "plot '$p' with points pt 7 lc 1 title 'portable', '$p' with labels left offset 1,0 "
+  out << "plot '$p' with points pt 7 lc 1 title 'portable', '$one' with labels left offset 1,0 "
          "notitle, '$A2' with points pt 7 lc 2 title 'AVX2', '$A5' with points pt 7 lc 3 title "
          "'AVX-512', '$A5' with labels left offset 1,0 notitle, '$peers' with points pt 5 lc 4 "
          "title 'others (5 mm)', '$peers' with labels left offset 1,0 notitle\n";
@@ -78,7 +85,9 @@ void write_engine_chart(const SynthFigures& figures, const std::filesystem::path
       return std::pair(static_cast<double>(c.block), 100.0 * c.cost);
     });
   }
-  out << "set terminal pngcairo size 1500,500\nset output 'engine.png'\nset grid\n"
+  out << "set terminal pngcairo size 1500,500\nset output '"
+      << std::filesystem::path(script).replace_extension("png").string()
+      << "'\nset grid\n"
          "set multiplot layout 1,3\nset logscale x 2\nset ylabel 'of one core [%]'\n"
          "set key top left\nset logscale y\n"
          "set xlabel 'voices (mono)'\nplot '$voices_f' with linespoints title 'fast', '$voices_e' "
