@@ -89,7 +89,7 @@ void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
 }
 
 void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
-  measure_response_.run(fluid.device().queue(), groups_, fluid.params_buffer().memory(),
+  measure_response_.run(fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
                         fluid.grid().cell_start(), fluid.awake_cells(),
                         fluid.particles().position.memory(), fluid.body_grid().cell_start(),
                         fluid.boundary().position.memory(), fluid.boundary().velocity.memory(),
@@ -107,6 +107,7 @@ void DivergenceFree::solve(Fluid& fluid, double dt, std::size_t number,
   const cl::Buffer& awake = fluid.awake_cells();
   const cl::Buffer& places = fluid.particles().position.memory();
   const cl::Buffer& state = state_[number].memory();
+  const std::size_t items = fluid.groups();
   const auto step = static_cast<float>(dt);
   const auto [least, most] = kIterations[number];
   double t = 1.0;  // Nesterov's sequence
@@ -114,13 +115,13 @@ void DivergenceFree::solve(Fluid& fluid, double dt, std::size_t number,
     const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     const auto beta = static_cast<float>((t - 1.0) / next);
     t = next;
-    correct_pressure_.run(queue, groups_, params, k, state, beta, step, cells, awake, places,
+    correct_pressure_.run(queue, items, params, k, state, beta, step, cells, awake, places,
                           guess_.memory(), gradient_.memory(), response_.memory(),
                           boundary_rate_.memory(), offset_.memory(), pressure.memory(),
                           jacobi_.memory(), change_.memory(), error_part_.memory());
     judge_solve_.run(queue, kJudges, params, static_cast<int>(groups_), k, least, most,
                      error_part_.memory(), state);
-    push_by_pressure_.run(queue, groups_, params, k, state, step, cells, awake, places,
+    push_by_pressure_.run(queue, items, params, k, state, step, cells, awake, places,
                           gradient_.memory(), change_.memory(), pressure.memory(), guess_.memory());
   }
 }

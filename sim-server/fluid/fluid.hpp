@@ -89,6 +89,10 @@ class Fluid {
 
   /// For solvers: accelerations from the present pressure_term() and the given velocities.
   void compute_acceleration(const Step& step, const Buffer<float>& velocity);
+  /// Work-items of the stages that handle a vector of particles at once.
+  [[nodiscard]] std::size_t groups() const;
+  /// For tests.
+  [[nodiscard]] const PressureSolver& solver() const noexcept { return *solver_; }
   /// Work of the pressure solver until the last survey.
   [[nodiscard]] SolverWork solver_work() const { return solver_->work(); }
 
@@ -124,8 +128,6 @@ class Fluid {
   void sort_particles();
   void compute_density(const Step& step);
   void integrate(const Step& step);
-  /// Work-items of the stages that handle a vector of particles at once.
-  [[nodiscard]] std::size_t groups() const;
 
   Device& device_;
   FluidParams params_;

@@ -4,6 +4,9 @@
 #include <random>
 
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/settle.hpp"
+#include "sim-server/fluid/time_step.hpp"
+#include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -83,6 +86,26 @@ Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size
     v[axis] = static_cast<double>(parts[part(fluid, axis, i)]);
   }
   return v;
+}
+
+Water fill(const Scene& scene, PressureKind solver) {
+  Water water;
+  water.scene = scene;
+  water.scene.fluid.solver = solver;
+  water.particles = initial_particles(scene);
+  water.settle = true;
+  return water;
+}
+
+void run(Water& water, double seconds) {
+  const double dt = largest_time_step(water.params, 3.0, 10.0, 1.0);
+  const double end = water.time + seconds;
+  while (water.time < end) water.step(dt);
+}
+
+void let_settle(Water& water) {
+  const double dt = largest_time_step(water.params, 0.0, 9.81, 1.0);
+  settle(*water.fluid, {}, 0.0, 1.0, dt);
 }
 
 double kinetic_energy(Fluid& fluid) {

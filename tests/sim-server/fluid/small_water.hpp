@@ -61,6 +61,13 @@ struct Water {
 /// Velocity or place of one particle of a snapshot.
 [[nodiscard]] Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size_t i);
 
+/// The scene's water as it stands under its own weight, for either solver.
+[[nodiscard]] Water fill(const Scene& scene, PressureKind solver);
+/// Runs for `seconds` in steps for particles of up to 3 m/s, pushed by gravity alone.
+void run(Water& water, double seconds);
+/// As a simulation does before its time begins.
+void let_settle(Water& water);
+
 /// Kinetic energy per mass [J/kg].
 [[nodiscard]] double kinetic_energy(Fluid& fluid);
 

@@ -43,6 +43,17 @@ TEST(TimeStep, FactorScalesIt) {
               0.5 * largest_time_step(params(), 1.0, 10.0, 1.0), 1.0e-12);
 }
 
+TEST(TimeStep, OfDivergenceFreeWaterIsSetByTheFastestOrTheLongestWave) {
+  FluidParams p = params();
+  p.solver = SPLASH_DIVERGENCE_FREE;
+  p.spacing = 0.02F;
+  p.wave_speed = 2.0F;
+  EXPECT_NEAR(largest_time_step(p, 0.0, 800.0, 1.0), 0.3 * 0.02 / 2.0, 1.0e-9);
+  EXPECT_NEAR(largest_time_step(p, 5.0, 800.0, 1.0), 0.3 * 0.02 / 5.0, 1.0e-9);
+  p.wave_speed = 0.0F;
+  EXPECT_NEAR(largest_time_step(p, 0.0, 0.0, 1.0), 0.01, 1.0e-9);
+}
+
 TEST(TimeStep, FrameIsTheNearestNumberOfLargestSteps) {
   EXPECT_EQ(steps_of_frame(0.004, 0.001).count, 4);
   EXPECT_EQ(steps_of_frame(0.0044, 0.001).count, 4);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Two steps of a small fluid with walls, slope, piston and bodies, and two in which it may sleep:
-// every kernel once, small enough for an OpenCL interpreter. Argument: particles per vector (1, 8
-// or 16).
+// every kernel once, small enough for an OpenCL interpreter. Arguments: particles per vector (1, 8
+// or 16), and whether the water is divergence-free (1).
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -10,12 +10,13 @@
 
 namespace {
 
-int two_steps(int lanes) {
+int two_steps(int lanes, bool divergence_free) {
   using namespace splash::sim;
   Device device(-1, false, lanes);
   Water water = two_bodies();
   water.particles = random_places(230, {0, 0, 0}, {0.4, 0.4, 0.14}, 51);
   for (int i = 0; i < 21; ++i) water.particles.push_back({0.2, 0.1 + 0.01 * i, 0.3});
+  if (divergence_free) water.scene.fluid.solver = PressureKind::divergence_free;
   water.scene.slope = {true, 0.2, 0.3};
   water.scene.wave_maker = {true, 0.1, 2.0};
   water.piston = {0.01, 0.2};
@@ -41,7 +42,7 @@ int two_steps(int lanes) {
 
 int main(int argc, char** argv) {
   try {
-    return two_steps(argc > 1 ? std::atoi(argv[1]) : 0);
+    return two_steps(argc > 1 ? std::atoi(argv[1]) : 0, argc > 2 && std::atoi(argv[2]) == 1);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return EXIT_FAILURE;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "tests/sim-server/fluid/divergence_free_twin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kRelaxation = 0.3;
+
+/// m grad W_ij for every j around i.
+struct Neighbour {
+  std::size_t j;
+  Vector3 gradient;
+};
+using Neighbours = std::vector<std::vector<Neighbour>>;
+
+Neighbours find_neighbours(const FluidState& s) {
+  const double support = static_cast<double>(s.params.support);
+  const double mass = static_cast<double>(s.params.mass);
+  Neighbours all(s.position.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const Vector3 x = s.position[i] - s.position[j];
+      if (dot(x, x) >= support * support) continue;
+      all[i].push_back({j, mass * kernel_gradient(length(x), support) * x});
+    }
+  }
+  return all;
+}
+
+/// Rate of density that velocities cause [kg/m3 s].
+double density_rate(const TwinResponse& r, const std::vector<Neighbour>& around,
+                    const std::vector<Vector3>& velocity, std::size_t i) {
+  double rate = dot(velocity[i], r.gradient[i]) + r.boundary_rate[i];
+  for (const Neighbour& n : around) rate -= dot(velocity[n.j], n.gradient);
+  return rate;
+}
+
+void push(const TwinResponse& r, const Neighbours& neighbours, const std::vector<double>& change,
+          double dt, std::vector<Vector3>& velocity) {
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    Vector3 a = change[i] * r.gradient[i];
+    for (const Neighbour& n : neighbours[i]) a = a + change[n.j] * n.gradient;
+    velocity[i] = velocity[i] - dt * a;
+  }
+}
+
+/// Growth of the walls' share per way of the piston, by a difference [1/m]. Behind the piston the
+/// share is that at its face.
+double swept_by_piston(const FluidState& s, std::size_t i) {
+  const FluidParams& p = s.params;
+  if (p.piston < 0) return 0.0;
+  const double way = 1.0e-7;  // [m]
+  Vector3 place = s.position[i];
+  place[0] += std::max(2.0 * way - wall_distance(p, p.piston, place, s.piston), 0.0);
+  return (twin_walls(p, place, s.piston + way).share - twin_walls(p, place, s.piston - way).share) /
+         (2.0 * way);
+}
+
+}  // namespace
+
+TwinResponse twin_response(const FluidState& s, double piston_speed) {
+  const double support = static_cast<double>(s.params.support);
+  const double rest = static_cast<double>(s.params.rest_density);
+  const Neighbours neighbours = find_neighbours(s);
+  const std::size_t count = s.position.size();
+  TwinResponse r = {std::vector<Vector3>(count), std::vector<double>(count),
+                    std::vector<double>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    Vector3 g = rest * twin_walls(s.params, s.position[i], s.piston).gradient;
+    for (const Neighbour& n : neighbours[i]) {
+      g = g + n.gradient;
+      r.response[i] += dot(n.gradient, n.gradient);
+    }
+    for (std::size_t b = 0; b < s.body_position.size(); ++b) {
+      const Vector3 x = s.position[i] - s.body_position[b];
+      const Vector3 of_point = rest * s.body_volume[b] * kernel_gradient(length(x), support) * x;
+      g = g + of_point;
+      r.boundary_rate[i] -= dot(s.body_velocity[b], of_point);
+    }
+    r.boundary_rate[i] += rest * piston_speed * swept_by_piston(s, i);
+    r.gradient[i] = g;
+    r.response[i] += dot(g, g);
+  }
+  return r;
+}
+
+TwinSolve twin_solve(const FluidState& s, const TwinResponse& r, const std::vector<double>& offset,
+                     double dt, int iterations, TwinSolve from) {
+  const Neighbours neighbours = find_neighbours(s);
+  const std::size_t count = s.position.size();
+  const double support = static_cast<double>(s.params.support);
+  const double strongest =
+      20.0 * kernel_norm(support) / support * static_cast<double>(s.params.mass);
+  const double least = 1.0e-4 * strongest * strongest;
+  TwinSolve solve = std::move(from);
+  std::vector<double> jacobi = solve.pressure;
+  std::vector<double> change(count);
+  double t = 1.0;
+  for (int k = 0; k <= iterations; ++k) {
+    const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
+    const double beta = (t - 1.0) / next;
+    t = next;
+    solve.error_before = solve.error;
+    solve.error = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double error = offset[i] + dt * density_rate(r, neighbours[i], solve.velocity, i);
+      const double per_error = kRelaxation / (dt * dt * std::max(r.response[i], least));
+      const double better = std::max(solve.pressure[i] + per_error * error, 0.0);
+      solve.error += std::abs(better - solve.pressure[i]) / per_error;
+      const double with_momentum = better + beta * (better - jacobi[i]);
+      change[i] = std::max(with_momentum, 0.0) - solve.pressure[i];
+      jacobi[i] = better;
+    }
+    solve.error /= static_cast<double>(count) * static_cast<double>(s.params.rest_density);
+    if (k == iterations) break;
+    for (std::size_t i = 0; i < count; ++i) solve.pressure[i] += change[i];
+    push(r, neighbours, change, dt, solve.velocity);
+  }
+  return solve;
+}
+
+}  // namespace splash::sim
