@@ -62,8 +62,8 @@ struct RtAudioOutput::Stream {
     } else {
       std::fill_n(output, static_cast<std::size_t>(count) * channels.size(), 0.0F);
     }
-    rendering = false;
     frames.store(frames.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
+    rendering = false;  // last: stop() takes it as the end of this call
   }
 
   void note_scheduling() noexcept {
