@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A peak limiter without delay: turns down at once, holds for the longest half-wave of the tactile
-// band, comes back slowly. Below its limit it does nothing at all. It does not look ahead: the first
-// half-wave over the limit is cut flat while it rises. To see that coming at 20 Hz it would have to
-// wait a quarter of a period, 12 ms, four times the latency of everything else.
+// band, comes back slowly. Below its limit it does nothing at all. It does not look ahead: the
+// first half-wave over the limit is cut flat while it rises. To see that coming at 20 Hz it would
+// have to wait a quarter of a period, 12 ms, four times the latency of everything else.
 #pragma once
 
 #include <algorithm>
