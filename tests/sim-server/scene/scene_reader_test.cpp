@@ -72,6 +72,22 @@ TEST(SceneReader, NamesANamelessSceneAfterItsFile) {
   EXPECT_EQ(parse_scene(text, "some/where/pond.yaml").name, "pond");
 }
 
+TEST(SceneReader, ReadsTheSolver) {
+  const auto with = [](const std::string& keys) {
+    std::string text = kGood;
+    return parse_scene(text.insert(text.find("  particles"), keys), "small.yaml").fluid;
+  };
+  EXPECT_EQ(with("").solver, PressureKind::weakly_compressible);
+  EXPECT_EQ(with("").kernels, KernelKind::vector);
+  const FluidSettings fluid =
+      with("  solver: divergence_free\n  kernels: reference\n  density_tolerance: 0.002\n");
+  EXPECT_EQ(fluid.solver, PressureKind::divergence_free);
+  EXPECT_EQ(fluid.kernels, KernelKind::reference);
+  EXPECT_DOUBLE_EQ(fluid.tolerance, 0.002);
+  EXPECT_THROW(static_cast<void>(with("  density_tolerance: 0.002\n")), protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  solver: magic\n")), protocol::ConfigError);
+}
+
 /// One change to the good scene, and what the error must say.
 struct Mistake {
   std::string name;
