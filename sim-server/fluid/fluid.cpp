@@ -166,7 +166,7 @@ std::size_t Fluid::groups() const {
   const std::size_t groups = (static_cast<std::size_t>(params_.count) + lanes - 1) / lanes;
   if (lanes == 1) return groups;
   // Whole strips of packets of four (kernels/group.h).
-  constexpr std::size_t kWhole = 4 * SPLASH_STRIPS;
+  constexpr std::size_t kWhole = std::size_t{4} * SPLASH_STRIPS;
   return (groups + kWhole - 1) / kWhole * kWhole;
 }
 
