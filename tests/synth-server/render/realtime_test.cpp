@@ -2,6 +2,8 @@
 // Scheduling and rendering neither allocate nor lock, under all the load they may meet.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <mutex>
 
@@ -62,7 +64,13 @@ TEST(Realtime, ScheduleAndRenderNeitherAllocateNorLock) {
   EXPECT_GT(counters.late, 0U);
 }
 
-/// A second of a full pool on 36 channels, with a flood on top: 300 events in every cell.
+/// How long a full pool is rendered: a second, or as SPLASH_REALTIME_SECONDS says [s].
+int seconds_of_flood() {
+  const char* asked = std::getenv("SPLASH_REALTIME_SECONDS");
+  return asked == nullptr ? 1 : std::max(std::atoi(asked), 1);
+}
+
+/// A full pool on 36 channels, with a flood on top: 300 events in every cell.
 void flood_full_pool(Precision precision, BubbleModel model) {
   auto settings = file_settings();
   settings.precision = precision;
@@ -80,9 +88,10 @@ void flood_full_pool(Precision precision, BubbleModel model) {
   std::vector<float*> pointers;
   for (auto& channel : out) pointers.push_back(channel.data());
   std::size_t next = 0;
+  const int cells = 750 * seconds_of_flood();
   std::uint64_t least = 1U << 20U;
   const Calls calls = count([&] {
-    for (int cell = 0; cell < 750; ++cell) {
+    for (int cell = 0; cell < cells; ++cell) {
       for (int i = 0; i < 300; ++i) {
         TimedEvent event = events[next++ % events.size()];
         event.sample = engine.clock() + i % kCell;
