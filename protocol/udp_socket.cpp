@@ -50,7 +50,8 @@ std::uint16_t parse_port(const std::string& text, const std::string& port) {
 }
 
 std::uint32_t resolve(const std::string& text, const std::string& host) {
-  if (host.empty()) return INADDR_LOOPBACK;
+  // By its name, too: a bare system has no /etc/hosts to ask (RFC 6761, section 6.3).
+  if (host.empty() || host == "localhost") return INADDR_LOOPBACK;
   addrinfo hints{};
   hints.ai_family = AF_INET;
   hints.ai_socktype = SOCK_DGRAM;
