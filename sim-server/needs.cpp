@@ -21,15 +21,17 @@ double speed_of(const BodyStep& b) {
   return static_cast<double>(speed);
 }
 
+/// Whether the ranges [a, b] and [lower, upper] overlap.
+bool overlap(float a, float b, double lower, double upper) {
+  return static_cast<double>(b) > lower && static_cast<double>(a) < upper;
+}
+
 bool meets(const BodyStep& b, const Survey& water, double margin) {
-  return static_cast<double>(b.upper_x) > water.lower[0] - margin &&
-         static_cast<double>(b.lower_x)<water.upper[0] + margin&& static_cast<double>(b.upper_y)>
-                 water.lower[1] -
-             margin &&
-         static_cast<double>(b.lower_y)<water.upper[1] + margin&& static_cast<double>(b.upper_z)>
-                 water.lower[2] -
-             margin &&
-         static_cast<double>(b.lower_z) < water.upper[2] + margin;
+  const auto along = [&](float lower, float upper, std::size_t axis) {
+    return overlap(lower, upper, water.lower[axis] - margin, water.upper[axis] + margin);
+  };
+  return along(b.lower_x, b.upper_x, 0) && along(b.lower_y, b.upper_y, 1) &&
+         along(b.lower_z, b.upper_z, 2);
 }
 
 }  // namespace

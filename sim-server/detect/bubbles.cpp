@@ -28,6 +28,7 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
                  std::size_t room)
     : fluid_(fluid),
       settings_(settings),
+      mean_volume_(mean_volume(settings)),
       seed_(static_cast<std::uint32_t>(seed)),
       room_(room),
       spawn_count_(fluid.device(), 1),
@@ -133,7 +134,7 @@ int Bubbles::bubbles_of(const Spawn& spawn, double frame, double chance) const {
   const double water = static_cast<double>(p.mass / p.rest_density);
   const auto speed = static_cast<double>(std::hypot(spawn.u, spawn.v, spawn.w));
   const double air = settings_.bubble_air * speed * frame * water;
-  return static_cast<int>(std::floor(air / mean_volume(settings_) + chance));
+  return static_cast<int>(std::floor(air / mean_volume_ + chance));
 }
 
 std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step) {

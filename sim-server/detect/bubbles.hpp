@@ -77,6 +77,7 @@ class Bubbles {
 
   Fluid& fluid_;
   DetectSettings settings_;
+  double mean_volume_;  ///< of the bubbles drawn [m3]
   std::uint32_t seed_;
   std::size_t room_;
   std::vector<PoolBubble> pool_;
