@@ -11,6 +11,7 @@
 #include "protocol/config_tree.hpp"
 #include "protocol/config_value.hpp"
 #include "protocol/nearest_name.hpp"
+#include "protocol/printable.hpp"
 
 namespace splash::protocol {
 
@@ -24,8 +25,12 @@ struct ConfigMap::Node {
 
 namespace {
 
+constexpr std::size_t kLongestKey = 64;       // shown of one that nobody knows
+constexpr std::size_t kLongestReason = 1000;  // whatever else a reason quotes
+
 std::string joined(const std::string& path, const std::string& key) {
-  return path.empty() ? key : path + '.' + key;
+  const std::string shown = printable(key, kLongestKey);
+  return path.empty() ? shown : path + '.' + shown;
 }
 
 template <class Out>
@@ -56,7 +61,8 @@ std::string read_text(const std::filesystem::path& path) {
 
 ConfigError::ConfigError(const Place& place, const std::string& reason)
     : std::runtime_error(place.file + ':' + std::to_string(place.line) + ':' +
-                         std::to_string(place.column) + ": error: " + reason),
+                         std::to_string(place.column) +
+                         ": error: " + printable(reason, kLongestReason)),
       place_(place),
       reason_(reason) {}
 

@@ -13,10 +13,14 @@
 #include <sstream>
 #include <utility>
 
+#include "protocol/printable.hpp"
+
 namespace splash::protocol {
 namespace {
 
 using Kind = ConfigTree::Kind;
+
+constexpr std::size_t kShown = 40;  // bytes of a value or a key that an error quotes
 
 Place to_place(const std::string& file, const YAML::Mark& mark) {
   // A null mark (-1) stands for "unknown": the file's start.
@@ -92,7 +96,7 @@ class TreeBuilder : public YAML::EventHandler {
   void refuse_extras(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) const {
     if (anchor != 0) throw error(mark, "anchors (&name) are not allowed; write the value out");
     if (!tag.empty() && tag != "?" && tag != "!") {
-      throw error(mark, "tags are not allowed (got '" + tag + "')");
+      throw error(mark, "tags are not allowed (got '" + printable(tag, kShown) + "')");
     }
   }
 
@@ -105,7 +109,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (name == "<<") throw error(mark, "merge keys (<<) are not allowed; write the keys out");
     for (const auto& [key, value] : level.tree.entries) {
       if (key.name == name) {
-        throw error(mark, "key '" + name + "': given twice, first in line " +
+        throw error(mark, "key '" + printable(name, kShown) + "': given twice, first in line " +
                               std::to_string(key.place.line));
       }
     }
@@ -182,7 +186,6 @@ ConfigTree parse_config_tree(const std::string& text, const std::string& file_na
 }
 
 std::string describe_kind(const ConfigTree& tree) {
-  constexpr std::size_t kShown = 40;
   switch (tree.kind) {
     case Kind::null:
       return "nothing";
@@ -193,8 +196,7 @@ std::string describe_kind(const ConfigTree& tree) {
     case Kind::scalar:
       break;
   }
-  const bool cut = tree.text.size() > kShown;
-  return "'" + tree.text.substr(0, kShown) + (cut ? "..." : "") + "'";
+  return "'" + printable(tree.text, kShown) + "'";
 }
 
 }  // namespace splash::protocol

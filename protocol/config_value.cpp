@@ -7,6 +7,7 @@
 
 #include "protocol/config_number.hpp"
 #include "protocol/nearest_name.hpp"
+#include "protocol/printable.hpp"
 
 namespace splash::protocol {
 
@@ -124,6 +125,8 @@ void convert(const ConfigValue& value, std::string& out) {
                       "text");
   }
   const auto& text = value.tree.text;
+  // Names are printed, on terminals too.
+  if (!is_printable(text)) throw value.error("has a control character", "printable UTF-8 text");
   bool known = choices.empty();
   std::string listed;
   for (const auto& choice : choices) {

@@ -19,7 +19,8 @@ constexpr std::uintmax_t kMaxLogBytes = std::uintmax_t{256} << 20U;
 constexpr std::uint32_t kBundleHead = 16;
 
 std::runtime_error cannot(const std::string& what, const std::filesystem::path& path) {
-  const std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
+  std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
+  if (errno == ENOSPC) cause += "; free space there or name a file elsewhere";
   return std::runtime_error("cannot " + what + " event log '" + path.string() + "': " + cause);
 }
 
@@ -45,7 +46,7 @@ LogEntry to_entry(const std::filesystem::path& path, std::uintmax_t offset, Byte
 }
 
 std::uint32_t read_size(const std::filesystem::path& path, std::uintmax_t offset,
-                        std::uintmax_t left, std::ifstream& file) {
+                        std::uintmax_t left, std::istream& file) {
   std::array<char, 4> bytes{};
   if (left < bytes.size() || !file.read(bytes.data(), bytes.size())) {
     refuse(path, offset, "the file ends inside a packet's size");
@@ -84,12 +85,18 @@ void LogWriter::append(double seconds, const std::vector<Message>& messages) {
   file_.write(size.data(), size.size());
   file_.write(reinterpret_cast<const char*>(packet.data()),
               static_cast<std::streamsize>(packet.size()));
-  if (!file_) throw cannot("write", path_);
+  if (!file_.flush()) give_up();
+  whole_bytes_ += size.size() + packet.size();
 }
 
-void LogWriter::flush() {
-  errno = 0;
-  if (!file_.flush()) throw cannot("write", path_);
+void LogWriter::give_up() {
+  const auto error = cannot("write", path_);
+  file_.close();
+  std::error_code ignored;  // a device cannot be cut, and the first error is the one to tell
+  if (std::filesystem::is_regular_file(path_, ignored)) {
+    std::filesystem::resize_file(path_, whole_bytes_, ignored);
+  }
+  throw error;
 }
 
 std::vector<LogEntry> read_log(const std::filesystem::path& path) {
@@ -99,14 +106,18 @@ std::vector<LogEntry> read_log(const std::filesystem::path& path) {
   if (error) {
     throw std::runtime_error("cannot read event log '" + path.string() + "': " + error.message());
   }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw cannot("read", path);
+  return read_log(file, total, path);
+}
+
+std::vector<LogEntry> read_log(std::istream& file, std::uintmax_t total,
+                               const std::filesystem::path& path) {
   if (total > kMaxLogBytes) {
     refuse(path, 0,
            "the file has " + std::to_string(total) + " bytes, at most " +
                std::to_string(kMaxLogBytes) + " are read");
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw cannot("read", path);
-
   std::vector<LogEntry> entries;
   std::array<std::byte, kMaxDatagram> packet{};
   for (std::uintmax_t offset = 0; offset < total;) {

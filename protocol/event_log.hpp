@@ -3,28 +3,33 @@
 // streams and of scsynth's score files; time tags count seconds from the log's start.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <istream>
 #include <vector>
 
 #include "protocol/message.hpp"
 
 namespace splash::protocol {
 
-/// Appends bundles to a log. Throws std::runtime_error (path and cause) when it cannot write.
+/// Appends bundles to a log. Throws std::runtime_error (path and cause) when it cannot write. What
+/// a killed program or a full disk leaves behind is a log of whole bundles.
 class LogWriter {
  public:
   explicit LogWriter(const std::filesystem::path& path);
   /// `seconds`: the bundle's time from the log's start [s], never smaller than the last one's
   /// (it is raised to it, so that the log is a legal score).
   void append(double seconds, const std::vector<Message>& messages);
-  /// Writes buffered bytes; throws when the disk refuses them.
-  void flush();
 
  private:
+  /// Cuts off what was written of a bundle, and throws.
+  [[noreturn]] void give_up();
+
   std::filesystem::path path_;
   std::ofstream file_;
   double last_seconds_ = 0.0;
+  std::uintmax_t whole_bytes_ = 0;  ///< of complete bundles
 };
 
 struct LogEntry {
@@ -35,5 +40,8 @@ struct LogEntry {
 /// Reads a whole log; every packet passes the gate. Throws std::runtime_error naming the file,
 /// the byte offset and the reason.
 [[nodiscard]] std::vector<LogEntry> read_log(const std::filesystem::path& path);
+/// The same from a stream of `total` bytes; `path` is what errors call it.
+[[nodiscard]] std::vector<LogEntry> read_log(std::istream& file, std::uintmax_t total,
+                                             const std::filesystem::path& path);
 
 }  // namespace splash::protocol

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the program ends, in the numbers of sysexits(3).
+// How the programs end, in the numbers of sysexits(3); README.md tells them to users.
 #pragma once
 
 namespace splash::protocol {
@@ -9,10 +9,10 @@ enum ExitCode : int {
   kExitUsage = 64,        ///< the command line
   kExitData = 65,         ///< a log that is none
   kExitNoInput = 66,      ///< a file that cannot be read
-  kExitUnavailable = 69,  ///< the port or the device
+  kExitUnavailable = 69,  ///< no port, no OpenCL, no such device
   kExitInternal = 70,     ///< a fault of ours
-  kExitIo = 74,           ///< a file that cannot be written
-  kExitConfig = 78,       ///< a rig file
+  kExitIo = 74,           ///< a file that cannot be written, now or on the way
+  kExitConfig = 78,       ///< a scene or rig file
 };
 
 }  // namespace splash::protocol

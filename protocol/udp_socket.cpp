@@ -76,7 +76,10 @@ std::runtime_error cannot_bind(const Endpoint& local, int error) {
 
 void apply_options(int descriptor) {
   const int on = 1;
-  // Both may be refused without harm: a smaller buffer, drops that are not counted.
+  // All may be refused without harm: smaller buffers, drops that are not counted. The sending one
+  // must hold what the kernel keeps for hosts that do not answer its ARP (208 KiB each, for
+  // seconds), else two of them cut off all others.
+  (void)setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &kWantedBuffer, sizeof kWantedBuffer);
   (void)setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kWantedBuffer, sizeof kWantedBuffer);
   (void)setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
 }

@@ -196,6 +196,19 @@ TEST(ConfigError, WhatYamlAllowsAndAConfigurationNeedsNot) {
   EXPECT_THAT(answer("depth: *d\n"), StartsWith("s.yaml:1:8: error: "));
 }
 
+// What a file says is repeated in its error: it must not get hold of the terminal, nor fill it.
+TEST(ConfigError, QuotesNothingThatATerminalObeys) {
+  EXPECT_THAT(answer("\"de\\e[2Jpth\": 1\n"),
+              StartsWith("s.yaml:1:1: error: key 'de\\x1b[2Jpth': unknown key (known here: "));
+  EXPECT_THAT(answer("depth: \"\\e[31m\"\n"),
+              StartsWith("s.yaml:1:8: error: key 'depth': text in quotes is no number (got "
+                         "'\\x1b[31m', expected "));
+  EXPECT_THAT(answer("depth: 1\nshape: \"bo\\ex\"\n"), HasSubstr("has a control character"));
+  EXPECT_LT(answer(std::string(5000, 'k') + ": 1\n").size(), 300U);
+  EXPECT_LT(answer("depth: " + std::string(5000, 'v') + "\n").size(), 300U);
+  EXPECT_LT(answer("depth: !" + std::string(5000, 't') + " 1\n").size(), 300U);
+}
+
 TEST(ConfigError, SyntaxErrorsHaveAPlace) {
   EXPECT_THAT(answer("depth: [1, 2\n"), StartsWith("s.yaml:2:1: error: not YAML: "));
   EXPECT_THAT(answer("depth: 1\n\tparticles: 5\n"), StartsWith("s.yaml:2:"));

@@ -3,8 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <stdexcept>
 #include <string>
 
@@ -55,7 +57,6 @@ TEST_F(EventLog, ComesBack) {
     log.append(0.0, {});
     log.append(0.25, {kFrame, kImpact});
     log.append(3600.5, {kFrame});
-    log.flush();
   }
   const auto entries = read_log(path());
   ASSERT_EQ(entries.size(), 3U);
@@ -169,13 +170,48 @@ TEST_F(EventLog, SaysWhyAFileCannotBeOpened) {
 TEST_F(EventLog, AFullDiskIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   LogWriter log("/dev/full");
-  log.append(0.0, {kFrame});
   try {
-    log.flush();
+    log.append(0.0, {kFrame});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("/dev/full"), HasSubstr("No space left")));
   }
+}
+
+/// As on a small disk: files of this process may not grow beyond `bytes`.
+class FileLimit {
+ public:
+  explicit FileLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    old_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FileLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    static_cast<void>(std::signal(SIGXFSZ, old_));
+  }
+  FileLimit(const FileLimit&) = delete;
+  FileLimit& operator=(const FileLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*old_)(int) = nullptr;
+};
+
+TEST_F(EventLog, ADiskThatFillsLeavesWholeBundles) {
+  std::size_t written = 0;
+  {
+    const FileLimit limit(1000);  // in the midst of a bundle
+    LogWriter log(path());
+    EXPECT_THROW(for (; written < 100; ++written)
+                     log.append(static_cast<double>(written), {kFrame, kImpact}),
+                 std::runtime_error);
+    EXPECT_THROW(log.append(1000.0, {kFrame}), std::runtime_error) << "it stays closed";
+  }
+  EXPECT_GT(written, 3U);
+  EXPECT_LT(written, 100U);
+  EXPECT_EQ(read_log(path()).size(), written);
 }
 
 }  // namespace

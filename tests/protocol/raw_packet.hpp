@@ -19,7 +19,8 @@ inline Raw bytes(std::string_view text) {
 }
 
 inline Raw operator+(Raw left, const Raw& right) {
-  left.insert(left.end(), right.begin(), right.end());
+  // g++ 12 believes that insert() of a whole vector passes its end.
+  for (const std::byte byte : right) left.push_back(byte);
   return left;
 }
 

@@ -32,6 +32,7 @@ class ChildProcess {
   bool wait_for_text(const std::string& text, double seconds = 60.0);
   void signal(int number) const;
   [[nodiscard]] bool running() { return !wait(0.0); }
+  [[nodiscard]] pid_t id() const noexcept { return pid_; }
   /// What it has printed so far, to stdout and stderr.
   [[nodiscard]] std::string output() const;
 

@@ -26,13 +26,15 @@ struct Ended {
 };
 /// Runs a program of ours until it ends.
 [[nodiscard]] Ended run_program(const std::string& name, const Arguments& arguments,
-                                double seconds = 120.0);
+                                double seconds = 120.0,
+                                const ChildProcess::Environment& environment = {});
 
 /// A program that says "listening: host:port", with the end of a socket to talk to it.
 class Daemon {
  public:
   /// Adds --listen with a free port unless `arguments` have one, and waits until it listens.
-  Daemon(const std::string& name, const Arguments& arguments);
+  Daemon(const std::string& name, const Arguments& arguments,
+         const ChildProcess::Environment& environment = {});
 
   ChildProcess& process() noexcept { return process_; }
   [[nodiscard]] protocol::Endpoint endpoint() const noexcept { return endpoint_; }
@@ -48,12 +50,14 @@ class Daemon {
 
 class Synth : public Daemon {
  public:
-  explicit Synth(const Arguments& arguments) : Daemon("synth-server", arguments) {}
+  explicit Synth(const Arguments& arguments, const ChildProcess::Environment& environment = {})
+      : Daemon("synth-server", arguments, environment) {}
 };
 
 class Simulator : public Daemon {
  public:
-  explicit Simulator(const Arguments& arguments) : Daemon("sim-server", arguments) {}
+  explicit Simulator(const Arguments& arguments, const ChildProcess::Environment& environment = {})
+      : Daemon("sim-server", arguments, environment) {}
 };
 
 /// The whole number that stands before the last `words` in `text`; -1: none.
