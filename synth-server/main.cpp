@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // synth-server: from the command line to an exit code.
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 
-#include "protocol/config.hpp"
 #include "protocol/failure.hpp"
+#include "protocol/input_file.hpp"
+#include "protocol/service_notice.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
 #include "synth-server/options.hpp"
@@ -29,6 +32,21 @@ sigset_t ending_signals() {
   return signals;
 }
 
+bool at_terminal() {
+  return isatty(STDIN_FILENO) != 0 || isatty(STDOUT_FILENO) != 0 || isatty(STDERR_FILENO) != 0;
+}
+
+/// A signal of `signals`, or SIGHUP, that comes within 50 ms; 0: none. Without a terminal SIGHUP
+/// asks a daemon to begin its files anew, and SIGHUP it is; a terminal that closes takes its
+/// programs along, as SIGTERM does.
+int await_signal(sigset_t signals, bool hangs_up) {
+  sigaddset(&signals, SIGHUP);
+  const timespec slice{0, 50'000'000};
+  const int number = sigtimedwait(&signals, nullptr, &slice);
+  if (number <= 0) return 0;
+  return number == SIGHUP && hangs_up ? SIGTERM : number;
+}
+
 /// True once it is known; said when realtime was refused.
 bool say_scheduling(const Server& server) {
   const std::string scheduling = server.scheduling();
@@ -39,17 +57,22 @@ bool say_scheduling(const Server& server) {
 }
 
 /// Until a signal, /quit or the end of --duration. A second signal then ends the program at once.
-void play(const Options& options, Server& server) {
+void play(const Options& options, Server& server, protocol::ServiceNotice& service) {
   const sigset_t signals = ending_signals();
+  const bool hangs_up = at_terminal();
   const double start = protocol::monotonic_now();
   double next_line = start + 1.0;
   bool knows_scheduling = false;
   for (;;) {
-    const timespec slice{0, 50'000'000};
-    const bool ended = sigtimedwait(&signals, nullptr, &slice) > 0;
+    const int signal = await_signal(signals, hangs_up);
     const double now = protocol::monotonic_now();
+    if (service.is_due() && server.alive()) service.alive();
     if (!knows_scheduling) knows_scheduling = say_scheduling(server);
-    if (ended || server.asked_to_quit()) break;
+    if (signal == SIGHUP) {
+      server.reopen();
+    } else if (signal != 0 || server.asked_to_quit()) {
+      break;
+    }
     if (options.duration > 0.0 && now - start >= options.duration) break;
     if (options.verbose && now >= next_line) {
       next_line += 1.0;
@@ -57,6 +80,7 @@ void play(const Options& options, Server& server) {
       std::fflush(stdout);
     }
   }
+  service.stopping();
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 
@@ -71,29 +95,35 @@ void print_devices(const std::string& api) {
 }
 
 Rig load_rig(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw protocol::Failure(protocol::kExitNoInput,
-                            "--rig " + path.string() + ": there is no such file");
-  }
+  protocol::require_readable("--rig", path);
   return protocol::failing_with(protocol::kExitConfig, [&] { return read_rig(path); });
+}
+
+/// Blocked before any thread starts, so that all inherit it and only who waits for them sees them.
+/// What nohup ignores stays ignored.
+sigset_t block_signals() {
+  sigset_t all = ending_signals();
+  struct sigaction before {};
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaddset(&all, SIGHUP);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  return all;
 }
 
 void run(const Options& options) {
   if (options.list_devices) return print_devices(options.api);
+  protocol::ServiceNotice service;
   const Rig rig = load_rig(options.rig);
   if (!options.replay.empty()) {
-    if (!std::filesystem::is_regular_file(options.replay)) {
-      throw protocol::Failure(protocol::kExitNoInput,
-                              "--replay " + options.replay.string() + ": there is no such file");
-    }
+    protocol::require_readable("--replay", options.replay);
     return render_log(options, rig);
   }
-  // Blocked before any thread starts, so that all inherit it and only play() sees them.
-  const sigset_t signals = ending_signals();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  const sigset_t signals = block_signals();
   if (!options.test_tone.empty()) return play_test_tone(options, rig, signals);
   Server server(options, rig);
-  play(options, server);
+  service.ready(rig.name + ", " + std::to_string(channel_count(rig)) + " channels, on " +
+                protocol::to_string(server.local()));
+  play(options, server, service);
   server.finish();
 }
 
@@ -102,6 +132,7 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   const auto [options, exit_code] = parse_options(argc, argv);
   if (!options) return exit_code;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
   try {
     run(*options);
     return protocol::kExitOk;

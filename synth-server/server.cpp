@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -96,7 +98,45 @@ void Server::start_recorder() {
       std::make_unique<WavFile>(options_.record_audio, format_.channels, format_.sample_rate);
   recorder_ = std::make_unique<Recorder>(
       format_.channels, format_.sample_rate, kMaxBlock, kRecorderSeconds,
-      [this](const float* const* channels, int frames) { recording_->write(channels, frames); });
+      [this](const float* const* channels, int frames) { record(channels, frames); });
+}
+
+void Server::record(const float* const* channels, int frames) {
+  try {
+    if (renew_recording_.exchange(false)) {
+      recording_->close();
+      recording_ =
+          std::make_unique<WavFile>(options_.record_audio, format_.channels, format_.sample_rate);
+      log("began " + options_.record_audio.string() + " anew");
+    }
+    recording_->write(channels, frames);
+  } catch (const std::exception& error) {
+    log(std::string(error.what()) + ". Playing goes on, the recording ends here");
+    throw;
+  }
+}
+
+void Server::reopen() {
+  if (recorder_ == nullptr) return;
+  std::error_code ignored;
+  if (std::filesystem::exists(options_.record_audio, ignored)) {
+    log(options_.record_audio.string() + " is still there: move it away, then send SIGHUP");
+  } else {
+    renew_recording_ = true;
+  }
+}
+
+bool Server::alive() {
+  std::uint64_t blocks = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    blocks = playing_->player.counters().blocks;
+  }
+  const std::uint64_t turns = receiver_->turns();
+  if (blocks == blocks_seen_ || turns == turns_seen_) return false;
+  blocks_seen_ = blocks;
+  turns_seen_ = turns;
+  return true;
 }
 
 void Server::start_receiver(protocol::UdpSocket socket) {
@@ -204,8 +244,8 @@ void Server::finish() {
   if (recorder_ != nullptr) {
     recorder_->finish();
     protocol::failing_with(protocol::kExitIo, [&] {
-      recording_->close();
       if (!recorder_->error().empty()) throw std::runtime_error(recorder_->error());
+      recording_->close();
     });
   }
   std::printf("%s", summary(all).c_str());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -33,6 +34,12 @@ class Server {
   [[nodiscard]] bool asked_to_quit() const noexcept { return quit_; }
   /// One line on what is going on.
   [[nodiscard]] std::string state() const;
+  /// Whether both sound and receiver have moved on since this was last asked.
+  [[nodiscard]] bool alive();
+  /// Begins the recording anew, if somebody has moved its file away.
+  void reopen();
+  [[nodiscard]] const Rig& rig() const noexcept { return rig_; }
+  [[nodiscard]] protocol::Endpoint local() const noexcept { return receiver_->local(); }
   /// How the rendering thread is scheduled; empty before the first block.
   [[nodiscard]] std::string scheduling() const { return output_->scheduling(); }
 
@@ -54,6 +61,8 @@ class Server {
   BlockSource& adapt(const AudioFormat& format);
   void start_output(OpenedOutput opened);
   void start_recorder();
+  /// In the recorder's thread.
+  void record(const float* const* channels, int frames);
   void start_receiver(protocol::UdpSocket socket);
   void introduce() const;
   void warn_of_latency(const AudioFormat& format) const;
@@ -69,9 +78,12 @@ class Server {
   CommandQueue queue_;
   AudioFormat format_;  ///< at the start
   std::unique_ptr<WavFile> recording_;
+  std::atomic<bool> renew_recording_{false};
   std::unique_ptr<Recorder> recorder_;
   mutable std::mutex mutex_;  ///< guards playing_; the audio thread never takes it
   std::unique_ptr<Playing> playing_;
+  std::uint64_t blocks_seen_ = 0;
+  std::uint64_t turns_seen_ = 0;
   std::unique_ptr<DeviceWatch> output_;
   std::unique_ptr<Receiver> receiver_;
 };

@@ -120,7 +120,9 @@ void play_test_tone(const Options& options, const Rig& rig, const sigset_t& sign
   std::unique_ptr<WavFile> file;
   std::unique_ptr<Recorder> recorder;
   if (!options.record_audio.empty()) {
-    file = std::make_unique<WavFile>(options.record_audio, channels, format.sample_rate);
+    file = protocol::failing_with(protocol::kExitIo, [&] {
+      return std::make_unique<WavFile>(options.record_audio, channels, format.sample_rate);
+    });
     recorder = std::make_unique<Recorder>(
         channels, format.sample_rate, kLongestBlock, kRecorderSeconds,
         [&file](const float* const* planar, int frames) { file->write(planar, frames); });
@@ -132,8 +134,10 @@ void play_test_tone(const Options& options, const Rig& rig, const sigset_t& sign
   opened.output->start(tapped);
   play_each(tone, wanted, names, signals);
   opened.output->stop();
-  if (recorder != nullptr) recorder->finish();
-  if (file != nullptr) file->close();
+  if (recorder == nullptr) return;
+  recorder->finish();
+  if (!recorder->error().empty()) throw protocol::Failure(protocol::kExitIo, recorder->error());
+  protocol::failing_with(protocol::kExitIo, [&] { file->close(); });
 }
 
 }  // namespace splash::synth

@@ -13,13 +13,13 @@ namespace splash::synth {
 class Limiter {
  public:
   Limiter() = default;
-  /// `limit` [full scale], `sample_rate` [Hz].
-  Limiter(double limit, double sample_rate) noexcept
-      : limit_(limit),
-        hold_(static_cast<int>(kHold * sample_rate)),
+  /// `sample_rate` [Hz]
+  explicit Limiter(double sample_rate) noexcept
+      : hold_(static_cast<int>(kHold * sample_rate)),
         release_(std::exp(-1.0 / (kRelease * sample_rate))) {}
 
-  [[nodiscard]] double process(double in) noexcept {
+  /// `limit` [full scale] may change from sample to sample, slowly.
+  [[nodiscard]] double process(double in, double limit) noexcept {
     const double size = std::abs(in);
     if (size >= peak_) {
       peak_ = size;
@@ -29,23 +29,26 @@ class Limiter {
     } else {
       peak_ *= release_;
     }
-    return limiting() ? in * (limit_ / peak_) : in;
+    limiting_ = peak_ > limit;
+    return limiting_ ? in * (limit / peak_) : in;
   }
 
-  [[nodiscard]] bool limiting() const noexcept { return peak_ > limit_; }
+  /// Whether the latest sample was turned down.
+  [[nodiscard]] bool limiting() const noexcept { return limiting_; }
   void reset() noexcept {
     peak_ = 0.0;
     held_ = 0;
+    limiting_ = false;
   }
 
  private:
   static constexpr double kHold = 0.025;    ///< half a period of 20 Hz [s]
   static constexpr double kRelease = 0.25;  ///< time constant [s]
-  double limit_ = 1.0;
-  int hold_ = 0;  ///< samples
+  int hold_ = 0;                            ///< samples
   double release_ = 0.0;
   double peak_ = 0.0;
   int held_ = 0;  ///< samples for which the peak still holds
+  bool limiting_ = false;
 };
 
 }  // namespace splash::synth

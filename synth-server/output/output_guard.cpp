@@ -31,8 +31,8 @@ constexpr double kSettled = 1.0e-12;  ///< states below this are nil: -240 dB
 OutputGuard::OutputGuard(const Output& output, double sample_rate, int channel)
     : band_(output.band, sample_rate),
       equaliser_(output, channel, sample_rate),
-      limiter_(output.ceiling, sample_rate),
-      ceiling_(rounded_down(output.ceiling)),
+      heat_(output.heat, rounded_down(output.ceiling), sample_rate),
+      limiter_(sample_rate),
       // A sine at the band's upper end and the ceiling changes by 2 pi f ceiling per second; twice
       // that never touches what the band lets through.
       slew_(2.0 * 2.0 * std::numbers::pi * std::min(output.band.high, 0.5 * sample_rate) *
@@ -57,19 +57,23 @@ void OutputGuard::process(const double* in, const double* fade, float* out, int 
     const double tame = std::clamp(checked(in[i]), -kMostInput, kMostInput);
     // Checked again: no filter of ours is unstable, but this is the place to be sure.
     const double even = checked(equaliser_.process(checked(band_.process(tame))));
-    const double limited = limiter_.process(even);
+    const double limit = heat_.limit();
+    const double limited = limiter_.process(even, limit);
     if (limiter_.limiting()) ++limited_;
     last_ += std::clamp(limited - last_, -slew_, slew_);
-    out[i] = static_cast<float>(std::clamp(last_ * fade[i], -ceiling_, ceiling_));
+    const double played = std::clamp(last_ * fade[i], -limit, limit);
+    heat_.note(played);
+    out[i] = static_cast<float>(played);
   }
 }
 
 bool OutputGuard::settle() noexcept {
   if (!band_.at_rest(kSettled) || !equaliser_.at_rest(kSettled) || limiter_.limiting() ||
-      std::abs(last_) > kSettled) {
+      std::abs(last_) > kSettled || !heat_.at_rest(kSettled)) {
     return false;
   }
   forget();
+  heat_.cool();
   last_ = 0.0;
   return true;
 }

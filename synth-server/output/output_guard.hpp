@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The last thing between the mix and a transducer, one per channel, in this order: finite check
-// before any state, DC block and band (the high-pass has its zeros at 0 Hz), equaliser, limiter,
-// slew limit, fade, hard clamp at the ceiling. Whatever comes in, what goes out is finite and
-// within it.
+// before any state, DC block and band (the high-pass has its zeros at 0 Hz), equaliser, limiter
+// (whose limit a heat budget may lower), slew limit, fade, hard clamp at the ceiling. Whatever
+// comes in, what goes out is finite and within it.
 #pragma once
 
 #include <cstdint>
 
 #include "synth-server/output/band_filter.hpp"
 #include "synth-server/output/equaliser.hpp"
+#include "synth-server/output/heat_budget.hpp"
 #include "synth-server/output/limiter.hpp"
 #include "synth-server/output/rig.hpp"
 
@@ -43,10 +44,10 @@ class OutputGuard {
 
   BandFilter band_;
   Equaliser equaliser_;
+  HeatBudget heat_;
   Limiter limiter_;
-  double ceiling_ = 1.0;  ///< representable as float
-  double slew_ = 1.0;     ///< largest change per sample [full scale]
-  double last_ = 0.0;     ///< of the slew limit
+  double slew_ = 1.0;  ///< largest change per sample [full scale]
+  double last_ = 0.0;  ///< of the slew limit
   std::uint64_t resets_ = 0;
   std::uint64_t limited_ = 0;
 };

@@ -53,6 +53,16 @@ void check_parts(const Output& output) {
   }
 }
 
+void check_heat(const Output& output) {
+  const Heat& heat = output.heat;
+  if (heat.rms != 0.0 && !(heat.rms >= 0.05 && heat.rms <= 1.0)) {
+    refuse(output, "heat.rms", heat.rms, "must be in [0.05, 1], or 0 for no budget");
+  }
+  if (!(heat.seconds >= 0.1 && heat.seconds <= 600.0)) {
+    refuse(output, "heat.seconds", heat.seconds, "must be in [0.1, 600]");
+  }
+}
+
 void check_output(const Output& output) {
   if (output.name.empty()) throw std::invalid_argument("an output needs a name");
   const Band& band = output.band;
@@ -61,6 +71,7 @@ void check_output(const Output& output) {
   if (!(output.ceiling > 0.0 && output.ceiling <= 1.0)) {
     refuse(output, "ceiling", output.ceiling, "must be in (0, 1]");
   }
+  check_heat(output);
   if (!(output.full_scale > 0.0)) {
     refuse(output, "full_scale", output.full_scale, "must be positive");
   }

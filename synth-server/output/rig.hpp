@@ -55,6 +55,12 @@ struct Threshold {
                             ///< at this level [dB re full scale]
 };
 
+/// What a transducer bears for ever, see output/heat_budget.hpp.
+struct Heat {
+  double rms = 0.0;      ///< effective value [full scale]; 0: not known, no budget
+  double seconds = 5.0;  ///< thermal time constant [s]
+};
+
 struct Output {
   std::string name;
   OutputKind kind = OutputKind::single;
@@ -75,6 +81,7 @@ struct Output {
   std::vector<std::string> parts;  ///< worn: where on the body, one channel each
   std::vector<Equalisation> equalisers;
   Threshold threshold;
+  Heat heat;
 };
 
 struct Rig {

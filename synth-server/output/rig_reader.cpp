@@ -57,7 +57,7 @@ Output read_output(const ConfigMap& map) {
                                                            {"worn", OutputKind::worn},
                                                            {"stereo", OutputKind::stereo}};
   OutputEntry entry;
-  map.read(output_fields(), {"band", "tiles", "stereo", "equalisers", "threshold"}, entry);
+  map.read(output_fields(), {"band", "tiles", "stereo", "equalisers", "threshold", "heat"}, entry);
   entry.kind = kKinds.at(entry.kind_name);
   map.child("band").read(band_fields(), {}, entry.band);
   read_part(map, "tiles", entry.kind == OutputKind::tiles, tile_fields(), entry);
@@ -70,6 +70,9 @@ Output read_output(const ConfigMap& map) {
   }
   if (const std::optional<ConfigMap> threshold = map.optional_child("threshold")) {
     entry.threshold = read_threshold(*threshold);
+  }
+  if (const std::optional<ConfigMap> heat = map.optional_child("heat")) {
+    heat->read(heat_fields(), {}, entry.heat);
   }
   return entry;
 }

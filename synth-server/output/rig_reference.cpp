@@ -56,7 +56,8 @@ std::string describe_rig_keys() {
          describe_fields(equaliser_fields()) + "\n### Each of `sections` of an equaliser\n\n" +
          describe_fields(section_fields()) + "\n### `response` of an equaliser\n\n" +
          describe_fields(response_fields()) + "\n### `threshold` of an output\n\n" +
-         describe_fields(threshold_fields());
+         describe_fields(threshold_fields()) + "\n### `heat` of an output\n\n" +
+         describe_fields(heat_fields());
 }
 
 }  // namespace splash::synth

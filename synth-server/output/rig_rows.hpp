@@ -33,5 +33,6 @@ struct ThresholdEntry : Threshold {
 [[nodiscard]] std::vector<Field<SectionEntry>> section_fields();
 [[nodiscard]] std::vector<Field<MeasuredResponse>> response_fields();
 [[nodiscard]] std::vector<Field<ThresholdEntry>> threshold_fields();
+[[nodiscard]] std::vector<Field<Heat>> heat_fields();
 
 }  // namespace splash::synth

@@ -111,7 +111,8 @@ WavFile::~WavFile() {
 }
 
 void WavFile::fail(const std::string& action) const {
-  const std::string cause = errno != 0 ? std::strerror(errno) : "unknown cause";
+  std::string cause = errno != 0 ? std::strerror(errno) : "an earlier write failed";
+  if (errno == ENOSPC) cause += "; free space there or name a file elsewhere";
   throw std::runtime_error(path_.string() + ": cannot " + action + ": " + cause);
 }
 

@@ -31,7 +31,10 @@ void Control::handle(const protocol::Message& message, const Arrived& arrived,
                      const protocol::SynthStatus& status, std::vector<Reply>& replies) {
   const protocol::Endpoint& from = arrived.from;
   if (message.address == "/ping" && !protocol::violation(message)) {
-    // Not limited: it is no larger than four stamps, and clocks are measured in bursts.
+    if (!pongs_.allow(from.address, arrived.monotonic)) {
+      ++withheld_;
+      return;
+    }
     replies.push_back({from, protocol::pong(std::get<protocol::TimeTag>(message.arguments[0]),
                                             protocol::to_time_tag(arrived.unix_time),
                                             protocol::to_time_tag(protocol::unix_now()))});

@@ -65,6 +65,7 @@ class Control {
   std::vector<std::uint32_t> allowed_;
   std::vector<protocol::Endpoint> clients_;
   ReplyLimit limit_;
+  ReplyLimit pongs_{100.0};  ///< no larger than four stamps; clocks are measured in bursts
   int dump_level_ = 0;
   bool reports_failures_ = true;
   std::uint64_t withheld_ = 0;

@@ -25,6 +25,7 @@ struct IntakeCounters {
   std::uint64_t forbidden = 0;     ///< commands from hosts that are not allowed
   std::uint64_t withheld = 0;      ///< replies beyond the limit
   std::uint64_t clock_steps = 0;   ///< times this host's clock was set
+  std::uint64_t sender_steps = 0;  ///< times a sender's clock was set, or ours against it
   std::uint64_t corrected = 0;     ///< bundles whose sender's clock was off
   std::uint64_t departures = 0;    ///< times the last sender went silent
   std::array<std::uint64_t, static_cast<std::size_t>(protocol::Refusal::count_)> refusals{};
@@ -40,8 +41,8 @@ class Intake {
   /// `arrival`: when it came [s, monotonic]. Replies and pings are appended to `replies`.
   void datagram(protocol::Bytes bytes, const protocol::Endpoint& from, double arrival,
                 std::vector<Reply>& replies);
-  /// To be called often, with the socket drained: leases, pings, this host's clock.
-  void tick(double now, std::vector<Reply>& replies);
+  /// To be called often, with the socket drained: leases and this host's clock.
+  void tick(double now);
   /// To all clients, at the end.
   void say_goodbye(std::vector<Reply>& replies) const { control_.say_goodbye(replies); }
 
@@ -62,8 +63,7 @@ class Intake {
   [[nodiscard]] std::optional<Timing> open_bundle(const protocol::Packet& packet,
                                                   const protocol::Endpoint& from, double arrival,
                                                   std::vector<Reply>& replies);
-  /// The peer's frame; false: a duplicate.
-  bool welcome(const protocol::Frame& frame, Sender& sender, double arrival);
+  protocol::Arrival welcome(const protocol::Frame& frame, Sender& sender, double arrival);
   void route(const protocol::Message& message, const Timing& timing, const protocol::Endpoint& from,
              double arrival, std::vector<Reply>& replies);
   void play(const protocol::Event& event, const Timing& timing);

@@ -52,12 +52,13 @@ void Receiver::run() {
   std::vector<Reply> replies;
   int since_tick = 0;
   while (!stopping_) {
+    ++turns_;
     const auto received = socket_.receive(buffer_.data(), buffer_.size(), patience());
     if (received) take(*received, replies);
     if (!received || ++since_tick >= kMostBetweenTicks) {
       since_tick = 0;
       const std::lock_guard lock(mutex_);
-      intake_.tick(protocol::monotonic_now(), replies);
+      intake_.tick(protocol::monotonic_now());
     }
     send(replies);
     dropped_by_kernel_ = socket_.dropped_by_kernel();

@@ -27,6 +27,8 @@ class Receiver {
   [[nodiscard]] protocol::Endpoint local() const noexcept { return socket_.local(); }
   [[nodiscard]] IntakeCounters counters() const;
   [[nodiscard]] bool sender_present() const;
+  /// How often the thread has looked, fifty times a second at least.
+  [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
   /// Datagrams the kernel dropped because they came faster than they were read.
   [[nodiscard]] std::uint64_t dropped_by_kernel() const noexcept { return dropped_by_kernel_; }
 
@@ -48,6 +50,7 @@ class Receiver {
   std::vector<std::byte> buffer_;
   double next_report_ = 0.0;  ///< [s, monotonic]
   std::atomic<std::uint64_t> dropped_by_kernel_{0};
+  std::atomic<std::uint64_t> turns_{0};
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

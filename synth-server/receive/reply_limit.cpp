@@ -6,8 +6,6 @@
 namespace splash::synth {
 namespace {
 
-constexpr double kRepliesPerSecond = 10.0;
-constexpr double kBurst = 10.0;
 constexpr std::size_t kMostHosts = 64;
 
 }  // namespace
@@ -20,9 +18,9 @@ bool ReplyLimit::allow(std::uint32_t address, double now) {
       hosts_.erase(std::min_element(hosts_.begin(), hosts_.end(),
                                     [](const Host& a, const Host& b) { return a.time < b.time; }));
     }
-    host = hosts_.insert(hosts_.end(), {address, kBurst, now});
+    host = hosts_.insert(hosts_.end(), {address, per_second_, now});
   }
-  host->tokens = std::min(kBurst, host->tokens + kRepliesPerSecond * (now - host->time));
+  host->tokens = std::min(per_second_, host->tokens + per_second_ * (now - host->time));
   host->time = now;
   if (host->tokens < 1.0) return false;
   host->tokens -= 1.0;

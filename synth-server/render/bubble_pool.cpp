@@ -15,6 +15,8 @@ namespace splash::synth {
 namespace {
 
 constexpr auto kLanes = static_cast<std::size_t>(kPackVoices);
+constexpr int kPiece = 32;  ///< samples
+constexpr std::size_t kPieceRows = kPiece * kLanes;
 
 /// Fading voices keep their places for 5 ms: room for all that can be stolen in that time. Each
 /// group may have packs that are half empty.
@@ -54,6 +56,7 @@ template <class Pack>
 class Pool final : public BubblePool {
  public:
   using Real = typename Pack::Real;
+  static constexpr bool kAfresh = std::is_same_v<Pack, FastPack>;  ///< each cell starts afresh
 
   explicit Pool(const PoolSettings& s)
       : kernels_(kernels_for<Pack>(s.instructions)),
@@ -95,26 +98,9 @@ class Pool final : public BubblePool {
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept override {
     const auto begin = static_cast<int>(from % kCell);
     const auto end = begin + static_cast<int>(to - from);
-    const std::vector<int>& packs = seating_.packs();
-    alignas(64) std::array<Real, kMixedPacks * kRows> rows;  // NOLINT: all that is read is written
+    const std::span<const int> packs = seating_.packs();
     for (std::size_t first = 0; first < packs.size(); first += kMixedPacks) {
-      const std::size_t count = std::min<std::size_t>(kMixedPacks, packs.size() - first);
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto p = static_cast<std::size_t>(packs[first + k]);
-        Real* const own = rows.data() + k * kRows;
-        if (first + k + 1 < packs.size()) fetch(static_cast<std::size_t>(packs[first + k + 1]));
-        kernels_.advance(packs_[p], begin, end, own);
-        const Sitters& sitters = sitters_[p];
-        if (from < sitters.calm_from || to > sitters.calm_to) {
-          const auto skipped = static_cast<std::size_t>(begin) * kLanes;
-          shape(sitters, from, static_cast<int>(to - from), own + skipped);
-        }
-        feeds_.join(p, own);
-      }
-      for (const auto& [channel, together] : feeds_.joined()) {
-        kernels_.mix(together, begin, end, &sums_[static_cast<std::size_t>(channel) * kRows]);
-      }
-      feeds_.part();
+      mix_some(packs.subspan(first), from - begin, begin, end);
     }
     mixed_ = end % kCell;
     for (std::size_t c = 0; c < mix.touched.size(); ++c) {
@@ -147,6 +133,37 @@ class Pool final : public BubblePool {
   [[nodiscard]] const Ranking& ranking() const noexcept override { return ranking_; }
 
  private:
+  /// The first kMixedPacks of these packs: samples [begin, end) of the cell that starts at `cell`.
+  /// Piece by piece, so that their rows and the sums of their channels stay next to the processor.
+  void mix_some(std::span<const int> packs, std::int64_t cell, int begin, int end) noexcept {
+    const std::size_t count = std::min<std::size_t>(kMixedPacks, packs.size());
+    // What is only needed within this call need not go to memory with the packs.
+    const bool passing = kAfresh && begin == 0 && end == kCell;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto p = static_cast<std::size_t>(packs[k]);
+      if (k + 1 < packs.size()) fetch(static_cast<std::size_t>(packs[k + 1]));
+      lanes_[k] = passing ? &passing_[k] : &packs_[p];
+      if (begin == 0) kernels_.begin(packs_[p], *lanes_[k]);
+      feeds_.join(p, &rows_[k * kPieceRows]);
+    }
+    for (int from = begin; from < end;) {
+      const int to = std::min(end, from + kPiece);
+      for (std::size_t k = 0; k < count; ++k) {
+        Real* const rows = &rows_[k * kPieceRows];
+        kernels_.turn(*lanes_[k], from, to, rows);
+        const Sitters& sitters = sitters_[static_cast<std::size_t>(packs[k])];
+        if (cell + from < sitters.calm_from || cell + to > sitters.calm_to) {
+          shape(sitters, cell + from, to - from, rows);
+        }
+      }
+      feeds_.for_each_joined([&](std::size_t channel, const PackMix<Real>& together) {
+        kernels_.mix(together, from, to, &sums_[channel * kRows]);
+      });
+      from = to;
+    }
+    feeds_.part();
+  }
+
   Start make_room(double log_amplitude, std::int64_t sample) noexcept {
     if (lasting_ < max_voices_) return Start::started;
     const std::uint32_t quietest = ranking_.quietest(sample);
@@ -241,6 +258,10 @@ class Pool final : public BubblePool {
   std::size_t size_ = 0;     ///< voices
   std::size_t lasting_ = 0;  ///< of them, those that were not told to make room
   int mixed_ = 0;            ///< samples of this cell that are mixed
+  // Of the packs that are being mixed:
+  std::array<TurningLanes<Real>*, kMixedPacks> lanes_{};
+  std::array<TurningLanes<Real>, kMixedPacks> passing_{};
+  alignas(64) std::array<Real, kMixedPacks * kPieceRows> rows_{};
 };
 
 }  // namespace

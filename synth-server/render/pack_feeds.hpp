@@ -39,8 +39,8 @@ class PackFeeds {
         channels_(packs * most_),
         counts_(packs, 0),
         routes_(static_cast<std::size_t>(channels), 0),
-        joined_at_(static_cast<std::size_t>(channels), -1) {
-    joined_.reserve(kMixedPacks * most_);
+        joined_(static_cast<std::size_t>(channels)) {
+    joined_channels_.reserve(static_cast<std::size_t>(channels));
   }
 
   /// Whether the pack has room for these channels beside its own.
@@ -78,29 +78,27 @@ class PackFeeds {
     }
   }
 
-  /// One channel and the packs that go there together.
-  struct Joined {
-    std::int32_t channel = 0;
-    PackMix<Real> packs;
-  };
-  /// Adds a pack and its rows to those that are mixed together, kMixedPacks at most.
+  /// Adds a pack, whose samples will lie in `rows`, to those that are mixed together: kMixedPacks
+  /// at most.
   void join(std::size_t pack, const Real* rows) noexcept {
     for (std::int32_t slot = 0; slot < counts_[pack]; ++slot) {
       const std::int32_t channel = channels_[at(pack, slot)];
-      std::int32_t& place = joined_at_[static_cast<std::size_t>(channel)];
-      if (place < 0) {
-        place = static_cast<std::int32_t>(joined_.size());
-        joined_.push_back({channel, {}});  // within what was reserved
-      }
-      PackMix<Real>& packs = joined_[static_cast<std::size_t>(place)].packs;
+      PackMix<Real>& packs = joined_[static_cast<std::size_t>(channel)];
+      if (packs.count == 0) joined_channels_.push_back(channel);  // within what was reserved
       packs.rows[packs.count] = rows;
       packs.feeds[packs.count++] = &gains_[at(pack, slot)];
     }
   }
-  [[nodiscard]] const std::vector<Joined>& joined() const noexcept { return joined_; }
+  /// mix(channel, packs) for each channel that they go to.
+  template <class MixOne>
+  void for_each_joined(const MixOne& mix) const noexcept {
+    for (const std::int32_t channel : joined_channels_) {
+      mix(static_cast<std::size_t>(channel), joined_[static_cast<std::size_t>(channel)]);
+    }
+  }
   void part() noexcept {
-    for (const Joined& one : joined_) joined_at_[static_cast<std::size_t>(one.channel)] = -1;
-    joined_.clear();
+    for (const std::int32_t c : joined_channels_) joined_[static_cast<std::size_t>(c)].count = 0;
+    joined_channels_.clear();
   }
 
   void fetch(std::size_t pack) const noexcept {
@@ -134,9 +132,9 @@ class PackFeeds {
   std::vector<PackFeed<Real>, Aligned<PackFeed<Real>>> gains_;  ///< by pack, most_ each
   std::vector<std::int32_t> channels_;                          ///< the same
   std::vector<std::int32_t> counts_;                            ///< by pack: how many are used
-  std::vector<std::uint32_t> routes_;    ///< by channel: voices that go there
-  std::vector<Joined> joined_;           ///< of the packs that are being mixed
-  std::vector<std::int32_t> joined_at_;  ///< by channel: where in joined_, -1: not
+  std::vector<std::uint32_t> routes_;          ///< by channel: voices that go there
+  std::vector<PackMix<Real>> joined_;          ///< by channel: of the packs that are being mixed
+  std::vector<std::int32_t> joined_channels_;  ///< those that any of them goes to
 };
 
 }  // namespace splash::synth

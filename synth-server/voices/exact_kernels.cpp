@@ -6,7 +6,7 @@ namespace splash::synth {
 
 /// Made here as exact_kernels_portable, exact_kernels_avx2 and exact_kernels_avx512.
 PackKernels<ExactPack> SPLASH_KERNELS() noexcept {
-  return {advance<ExactPack>, mix<ExactPack::Real>, collect<ExactPack::Real>};
+  return {begin, turn_lanes<ExactPack::Real>, mix<ExactPack::Real>, collect<ExactPack::Real>};
 }
 
 }  // namespace splash::synth

@@ -6,7 +6,7 @@ namespace splash::synth {
 
 /// Made here as fast_kernels_portable, fast_kernels_avx2 and fast_kernels_avx512.
 PackKernels<FastPack> SPLASH_KERNELS() noexcept {
-  return {advance<FastPack>, mix<FastPack::Real>, collect<FastPack::Real>};
+  return {begin, turn_lanes<FastPack::Real>, mix<FastPack::Real>, collect<FastPack::Real>};
 }
 
 }  // namespace splash::synth

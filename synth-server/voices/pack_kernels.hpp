@@ -23,7 +23,7 @@ struct alignas(64) PackFeed {
 inline constexpr int kRows = kCell * kPackVoices;
 
 /// Packs that go to one channel together: its sums are fetched and put back once for all of them.
-inline constexpr int kMixedPacks = 4;
+inline constexpr int kMixedPacks = 8;
 template <class Real>
 struct PackMix {
   int count = 0;
@@ -34,13 +34,23 @@ struct PackMix {
 template <class Pack>
 struct PackKernels {
   using Real = typename Pack::Real;
-  /// Samples [from, to) of the cell: rows[16 n + lane] [m]. `rows` lies at a multiple of 64 bytes,
-  /// as all that follows.
-  void (*advance)(Pack& pack, int from, int to, Real* rows);
-  /// Adds up to kMixedPacks of them to one channel, whose sums are kRows values, some lanes apart.
+  /// At the beginning of a cell: what turns in it, into `lanes`, and the pack goes on to the next
+  /// one. Of the exact setting, which is never started afresh, the lanes are the pack's own.
+  void (*begin)(Pack& pack, TurningLanes<Real>& lanes);
+  /// Samples [from, to) of the cell: rows[16 (n - from) + lane] [m]. `rows` lies at a multiple of
+  /// 64 bytes, as all that follows.
+  void (*turn)(TurningLanes<Real>& lanes, int from, int to, Real* rows);
+  /// Adds these samples of up to kMixedPacks packs to one channel, whose sums are kRows values,
+  /// some lanes apart.
   void (*mix)(const PackMix<Real>& packs, int from, int to, Real* sums);
   /// Adds up the lanes of one channel, always in the same order, and clears them.
   void (*collect)(Real* sums, int from, int to, double* out);
+
+  /// begin() where a cell begins, and turn(): for a pack that keeps its lanes.
+  void advance(Pack& pack, int from, int to, Real* rows) const {
+    if (from == 0) begin(pack, pack);
+    turn(pack, from, to, rows);
+  }
 };
 
 /// The best set not above `wanted` that this program and this processor have.

@@ -89,13 +89,14 @@ template <class Real>
   }
 }
 
-inline void begin_cell(ExactPack& /*pack*/) {}
+inline void begin(ExactPack& /*pack*/, TurningLanes<double>& /*lanes*/) {}
 
-inline void begin_cell(FastPack& pack) {
-  round(pack.cell_sound, pack.sound[0]);
-  round_product(pack.cell_sound, pack.first_turn, pack.sound[1]);
-  round(pack.pair_turn, pack.turn[0]);
-  round_product(pack.pair_turn, pack.half_rise, pack.turn[1]);
+inline void begin(FastPack& pack, TurningLanes<float>& lanes) {
+  lanes.rise = pack.rise;
+  round(pack.cell_sound, lanes.sound[0]);
+  round_product(pack.cell_sound, pack.first_turn, lanes.sound[1]);
+  round(pack.pair_turn, lanes.turn[0]);
+  round_product(pack.pair_turn, pack.half_rise, lanes.turn[1]);
   multiply(pack.cell_sound, pack.cell_leap);
   multiply(pack.cell_leap, pack.cell_leap_rise);
   multiply(pack.first_turn, pack.first_turn_rise);
@@ -107,27 +108,31 @@ template <class Real>
 [[gnu::always_inline]] inline void render(TurningLanes<Real>& pack, int lane, int from, int to,
                                           Real* rows) {
   Turning<Real> voices{};
+  Real* row = rows + lane;
   voices.load(pack, lane);
-  const auto emit = [&](int n) __attribute__((always_inline)) {
-    *reinterpret_cast<Vector<Real>*>(&rows[n * kPackVoices + lane]) = voices.im[n % 2];
-    voices.step(n % 2);
+  // Each parity is named, not computed: else its voices would go through memory for every sample.
+  const auto emit = [&](int parity) __attribute__((always_inline)) {
+    *reinterpret_cast<Vector<Real>*>(row) = voices.im[parity];
+    row += kPackVoices;
+    voices.step(parity);
   };
   int n = from;
-  if (n % 2 == 1 && n < to) emit(n++);
-  for (; n + 2 <= to; n += 2) {
-    emit(n);
-    emit(n + 1);
+  if (n % 2 == 1 && n < to) {
+    emit(1);
+    ++n;
   }
-  if (n < to) emit(n);
+  for (; n + 2 <= to; n += 2) {
+    emit(0);
+    emit(1);
+  }
+  if (n < to) emit(0);
   voices.store(pack, lane);
 }
 
-template <class Pack>
-void advance(Pack& pack, int from, int to, typename Pack::Real* rows) {
-  using Real = typename Pack::Real;
-  if (from == 0) begin_cell(pack);
+template <class Real>
+void turn_lanes(TurningLanes<Real>& lanes, int from, int to, Real* rows) {
   for (int lane = 0; lane < kPackVoices; lane += Lanes<Real>::kCount) {
-    render<Real>(pack, lane, from, to, rows);
+    render<Real>(lanes, lane, from, to, rows);
   }
 }
 
@@ -157,7 +162,7 @@ template <class Real, int kPacks>
       V added = sum;
       for (int k = 0; k < kPacks; ++k) {
         for (int part = 0; part < kParts; ++part) {
-          const int at = n * kPackVoices + part * kSumLanes<Real> + lane;
+          const int at = (n - from) * kPackVoices + part * kSumLanes<Real> + lane;
           added += gains[k][part] * *reinterpret_cast<const V*>(&rows[k][at]);
         }
       }
@@ -166,19 +171,20 @@ template <class Real, int kPacks>
   }
 }
 
+/// As many at once as registers hold, then half as many, and so on.
+template <class Real, int kPacks>
+[[gnu::always_inline]] inline void mix_from(const PackMix<Real>& packs, int first, int from, int to,
+                                            Real* sums) {
+  for (; first + kPacks <= packs.count; first += kPacks) {
+    mix_some<Real, kPacks>(packs, first, from, to, sums);
+  }
+  if constexpr (kPacks > 1) mix_from<Real, kPacks / 2>(packs, first, from, to, sums);
+}
+
 template <class Real>
 void mix(const PackMix<Real>& packs, int from, int to, Real* sums) {
   constexpr int kParts = kPackVoices / kSumLanes<Real>;
-  constexpr int kAtOnce = kParts < 4 ? 4 : 2;
-  int first = 0;
-  for (; first + kAtOnce <= packs.count; first += kAtOnce) {
-    mix_some<Real, kAtOnce>(packs, first, from, to, sums);
-  }
-  if constexpr (kAtOnce == 4) {
-    if (first + 3 == packs.count) return mix_some<Real, 3>(packs, first, from, to, sums);
-    if (first + 2 == packs.count) return mix_some<Real, 2>(packs, first, from, to, sums);
-  }
-  if (first < packs.count) mix_some<Real, 1>(packs, first, from, to, sums);
+  mix_from<Real, 8 / kParts>(packs, 0, from, to, sums);
 }
 
 /// low: a0 b0 a1 b1 ..., high: the same of the upper halves.

@@ -158,7 +158,6 @@ TEST(Offline, TheProgramConvertsALogFile) {
     for (const auto& entry : make_log({{0.25, bubble(0.0078125F, 0.0625F, {1.0F, 0.5F, 0.0F})}})) {
       writer.append(entry.seconds, entry.messages);
     }
-    writer.flush();
   }
   const std::string program = std::string(SPLASH_BINARY_DIR) + "/log-to-pd";
   tests::ChildProcess good({program, osc.string(), list.string()});

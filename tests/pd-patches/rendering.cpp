@@ -72,6 +72,7 @@ Channels render_with_synth(const std::vector<protocol::LogEntry>& log, const Rig
   const synth::Rig read = synth::read_rig(source("configs/rigs", rig.rig));
   synth::ReplaySettings settings;
   settings.engine.sample_rate = kRate;
+  settings.engine.skip_unfelt = false;  // Pd plays its voices to the end, felt or not
   settings.tail = static_cast<double>(frames) / kRate;  // the last event is never before 0
   Channels channels(static_cast<std::size_t>(synth::channel_count(read)));
   synth::replay(log, read, settings, [&](const float* const* blocks, int count) {

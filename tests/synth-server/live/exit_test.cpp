@@ -76,7 +76,6 @@ TEST(Exit, RendersAReplayAndItsStems) {
     writer.append(0.5, {protocol::to_message(protocol::Impact{1, 0, 2.0F, 2.0F, {}, 0.0F})});
     writer.append(1.0, {protocol::to_message(protocol::Bubble{2, 0, 0.01F, 0.1F, {}, 0.0F})});
     writer.append(1.5, {protocol::to_message(protocol::Cavity{3, 0, 0.05F, 0.1F, {}, 0.0F})});
-    writer.flush();
   }
   const End end =
       run({"--rig", rig_path("stereo.yaml"), "--replay", log, "--render", wav, "--stems"});

@@ -59,8 +59,7 @@ class Chain {
   }
   /// As the receiver's thread does while nothing comes.
   void tick_when_due(double until) {
-    std::vector<Reply> replies;
-    if (intake_.next_expiry() <= until) intake_.tick(intake_.next_expiry(), replies);
+    if (intake_.next_expiry() <= until) intake_.tick(intake_.next_expiry());
   }
   [[nodiscard]] float peak_since(double moment) const {
     float peak = 0.0F;

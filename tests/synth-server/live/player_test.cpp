@@ -119,6 +119,42 @@ TEST_F(PlayerTest, AnXrunMovesTheSamplesAndTheClockFollows) {
   EXPECT_EQ(player_.counters().clock_resets, 1U);
 }
 
+TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
+  Engine undisturbed(rig_, settings());
+  std::vector<float> expected;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> lost(0.0, 0.050);
+  for (int i = 0; i < 4000; ++i) {
+    const bool xrun = i % 4 == 3;
+    if (xrun) shift_ += lost(random);  // what the device played meanwhile is not known
+    if (i % 7 == 0 && i < 3600) {
+      Command command;
+      command.event = protocol::Bubble{i, 0, 0.01F, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F};
+      command.at_once = true;
+      ASSERT_TRUE(queue_.push(command));
+      undisturbed.schedule({command.event, undisturbed.clock()});
+    }
+    call(0.0, kBlock, xrun);
+    std::vector<float> left(kBlock);
+    std::vector<float> right(kBlock);
+    std::vector<float*> channels{left.data(), right.data()};
+    undisturbed.render(channels.data(), kBlock);
+    expected.insert(expected.end(), left.begin(), left.end());
+  }
+  EXPECT_EQ(player_.counters().xruns, 1000U);
+  EXPECT_EQ(player_.counters().clock_resets, 1000U);
+  EXPECT_EQ(engine_.counters().bubbles, 515U);
+  EXPECT_EQ(engine_.counters().voices, 0U) << "none hangs";
+  EXPECT_GT(onset_after(0), 0);
+  EXPECT_EQ(samples_, expected) << "what sounds does not notice";
+  const std::size_t before = samples_.size();
+  const double moment = kStart + shift_ + static_cast<double>(before) / kRate + 0.015;
+  play(moment);
+  for (int i = 0; i < 20; ++i) call();
+  const std::int64_t ideal = std::llround((moment + kLatency - kStart - shift_) * kRate);
+  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+}
+
 TEST_F(PlayerTest, CutsBlocksThatAreLargerThanTheEngines) {
   call(0.0, 10000);
   play(kStart + 10000.0 / kRate);

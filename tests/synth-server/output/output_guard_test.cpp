@@ -155,6 +155,46 @@ TEST(OutputGuard, LimitsTheSlewOfSteps) {
   }
 }
 
+/// Of the last `count` samples.
+double effective(const std::vector<float>& out, std::size_t count) {
+  double sum = 0.0;
+  for (std::size_t n = out.size() - count; n < out.size(); ++n) {
+    sum += static_cast<double>(out[n]) * static_cast<double>(out[n]);
+  }
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+TEST(OutputGuard, KeepsWithinTheHeatThatItsTransducerBears) {
+  Output output = tile();
+  output.heat = {0.2, 1.0};
+  OutputGuard guard(output, kRate);
+  const auto loud = [](int n) { return 2.8 * clean(n); };  // 0.7: effectively 0.49
+  const auto begin = run(guard, loud, 0, 20);
+  EXPECT_NEAR(effective(begin, 2400), 0.49, 0.02) << "a short sound is played as it is";
+  const auto warm = run(guard, loud, 20 * kBlock, 1880);  // ten seconds
+  EXPECT_LE(effective(warm, 48000), 0.2);
+  EXPECT_GT(effective(warm, 48000), 0.17) << "nor is it turned down by more than it must";
+  const auto half = [](int n) { return 0.5 * clean(n); };
+  OutputGuard cold(output, kRate);
+  run(cold, half, 0, 1000);
+  EXPECT_EQ(cold.limited(), 0U) << "what it bears for ever is left alone";
+  // As quiet afterwards as its coil cools: in three time constants all is as it was.
+  run(
+      guard, [](int) { return 0.0; }, 1900 * kBlock, 3 * 48000 / kBlock);
+  EXPECT_NEAR(effective(run(guard, loud, 0, 20), 2400), 0.49, 0.02);
+}
+
+TEST(OutputGuard, RemembersItsHeatWhenNumbersAreBad) {
+  Output output = tile();
+  output.heat = {0.2, 1.0};
+  OutputGuard guard(output, kRate);
+  const auto loud = [](int n) { return 2.8 * clean(n); };
+  run(guard, loud, 0, 1000);
+  run(
+      guard, [](int) { return std::numeric_limits<double>::quiet_NaN(); }, 0, 1);
+  EXPECT_LT(effective(run(guard, loud, 0, 20), 2400), 0.25);
+}
+
 TEST(OutputGuard, SettlesToExactSilence) {
   OutputGuard guard(tile(), kRate);
   run(guard, clean, 0, 10);

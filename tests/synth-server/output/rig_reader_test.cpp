@@ -58,12 +58,15 @@ TEST(ShippedRigs, ShoesGoByTheirFootAndAGloveByItsHand) {
   for (const Output& output : glove.outputs) EXPECT_EQ(output.body, 0);
 }
 
-TEST(ShippedRigs, AllOfThemRead) {
+TEST(ShippedRigs, AllOfThemReadAndKnowWhatIsPerceived) {
   int count = 0;
   const std::filesystem::path folder = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/rigs";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".yaml") continue;
-    EXPECT_NO_THROW(static_cast<void>(read_rig(entry.path()))) << entry.path();
+    for (const Output& output : read_rig(entry.path()).outputs) {
+      const bool felt = output.band.high < 1000.0;
+      EXPECT_EQ(output.threshold.sense, felt ? Sense::touch : Sense::hearing) << entry.path();
+    }
     ++count;
   }
   EXPECT_GE(count, 4);
@@ -111,6 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{
             "name: x\noutputs:\n  - name: a\n    kind: single\n    band: {low: 800, high: 750}\n",
             "rig.yaml:3:", "band.high"},
+        Broken{kBegin + kWorn + "    heat: {rms: 0}\n", "rig.yaml:7:", "rms"},
+        Broken{kBegin + kWorn + "    heat: {rms: 0.2, seconds: 0}\n", "rig.yaml:7:", "seconds"},
         Broken{"name: x\n", "rig.yaml:", "outputs"},
         Broken{"name: x\noutputs: []\n", "rig.yaml:", "outputs"}));
 
@@ -142,6 +147,12 @@ TEST(Rig, ReadsEqualisers) {
   EXPECT_DOUBLE_EQ(equalisers[0].sections[0].gain_db, 9.0);
   EXPECT_TRUE(equalisers[1].channels.empty());
   EXPECT_EQ(equalisers[1].response.level_db, (std::vector<double>{-8, 0, 4}));
+}
+
+TEST(Rig, ReadsWhatATransducerBears) {
+  const Rig rig = parse_rig(kBegin + kWorn + "    heat: {rms: 0.25, seconds: 2}\n", "rig.yaml");
+  EXPECT_DOUBLE_EQ(rig.outputs.at(0).heat.rms, 0.25);
+  EXPECT_DOUBLE_EQ(rig.outputs.at(0).heat.seconds, 2.0);
 }
 
 TEST(Rig, RefusesTwoOutputsOfOneName) {

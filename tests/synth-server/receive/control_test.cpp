@@ -127,15 +127,16 @@ TEST_F(ControlTest, SaysGoodbyeToItsClients) {
   EXPECT_EQ(replies[0].message, (Message{"/done", {std::string("/quit")}}));
 }
 
-TEST_F(ControlTest, LimitsRepliesButNotPongs) {
+TEST_F(ControlTest, LimitsRepliesAndPongsApart) {
   std::vector<Reply> replies;
   for (int i = 0; i < 100; ++i) control_.handle({"/version", {}}, {kLocal, 1.0, 1.0}, {}, replies);
   EXPECT_EQ(replies.size(), 10U);
   EXPECT_EQ(control_.withheld(), 90U);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     control_.handle({"/ping", {protocol::TimeTag{5}}}, {kLocal, 1.0, 1.0}, {}, replies);
   }
   EXPECT_EQ(replies.size(), 110U);
+  EXPECT_EQ(control_.withheld(), 190U);
 }
 
 }  // namespace

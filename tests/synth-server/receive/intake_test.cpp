@@ -122,16 +122,16 @@ TEST_F(IntakeTest, SilencesWhenTheSenderIsGoneAndResumes) {
 
   for (int beat = 1; beat <= 20; ++beat) {  // two seconds of heartbeats
     now_ += protocol::kHeartbeatPeriod;
-    intake_.tick(now_, replies_);
+    intake_.tick(now_);
     send(protocol::encode(tag(now_), {frame(1, beat)}));
   }
   EXPECT_TRUE(commands().empty());
 
   now_ += kLease - 0.01;
-  intake_.tick(now_, replies_);
+  intake_.tick(now_);
   EXPECT_TRUE(commands().empty());
   now_ += 0.02;
-  intake_.tick(now_, replies_);
+  intake_.tick(now_);
   seen = commands();
   ASSERT_EQ(seen.size(), 1U);
   EXPECT_EQ(seen[0].kind, Command::Kind::silence);
@@ -149,7 +149,7 @@ TEST_F(IntakeTest, SilencesWhenTheSenderIsGoneAndResumes) {
 TEST_F(IntakeTest, UnframedSendersAreNotWatched) {
   send(protocol::encode(bubble(1)));
   now_ += 10.0;
-  intake_.tick(now_, replies_);
+  intake_.tick(now_);
   EXPECT_EQ(commands().size(), 1U);
   EXPECT_TRUE(replies_.empty());
 }
@@ -207,6 +207,28 @@ TEST_F(IntakeTest, KeepsStrangersFromControl) {
   EXPECT_EQ(intake_.counters().forbidden, 5U);
   send(protocol::encode(bubble(1)), kOtherHost);
   EXPECT_EQ(played().size(), 1U) << "events are welcome from who can reach the port";
+}
+
+// A forged sender address must not make the synth a source of traffic towards it.
+TEST_F(IntakeTest, SendsAStrangerLessThanItSaid) {
+  std::size_t said = 0;
+  const auto say = [&](const std::vector<std::byte>& bytes) {
+    said += bytes.size();
+    send(bytes, kOtherHost);
+    std::size_t heard = 0;
+    for (const Reply& reply : replies_) heard += protocol::encode(reply.message).size();
+    EXPECT_LE(heard, said);
+  };
+  say(protocol::encode(frame(1, 0)));  // the shortest that draws a /ping
+  for (int i = 1; i <= 100; ++i) {
+    now_ += 0.02;
+    intake_.tick(now_);
+    if (i == 50) say(protocol::encode(frame(1, 1)));
+    say(protocol::encode(Message{"/ping", {tag(now_)}}));
+    say(protocol::encode(Message{"/status", {}}));
+  }
+  EXPECT_EQ(replies_.size(), 2U) << "one question for each frame, nothing else";
+  EXPECT_EQ(intake_.counters().forbidden, 200U);
 }
 
 TEST_F(IntakeTest, AnswersItsOwnHost) {

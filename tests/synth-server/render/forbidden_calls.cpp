@@ -2,19 +2,33 @@
 #include "tests/synth-server/render/forbidden_calls.hpp"
 
 #include <dlfcn.h>
+#include <poll.h>
 #include <pthread.h>
+#include <sys/select.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstddef>
+#include <ctime>
+#include <ostream>
+#include <typeinfo>
 
 namespace {
 
 thread_local bool watching = false;
-thread_local int allocation_count = 0;
-thread_local int lock_count = 0;
+thread_local splash::synth::ForbiddenCalls seen;
 
 void count_allocation() noexcept {
-  allocation_count += watching ? 1 : 0;
+  seen.allocations += watching ? 1 : 0;
+}
+void count_wait() noexcept {
+  seen.waits += watching ? 1 : 0;
+}
+
+/// The function that stands behind ours.
+template <class Function>
+Function* next(const char* name) noexcept {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
 }  // namespace
@@ -51,29 +65,85 @@ void free(void* block) {
   count_allocation();
   __libc_free(block);
 }
-int pthread_mutex_lock(pthread_mutex_t* mutex) {
-  using Lock = int (*)(pthread_mutex_t*);
-  static const auto real = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
-  lock_count += watching ? 1 : 0;
+
+int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
+  static const auto real = next<int(pthread_mutex_t*)>("pthread_mutex_lock");
+  seen.locks += watching ? 1 : 0;
   return real(mutex);
+}
+int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
+  static const auto real = next<int(pthread_mutex_t*)>("pthread_mutex_trylock");
+  seen.locks += watching ? 1 : 0;
+  return real(mutex);
+}
+
+int nanosleep(const timespec* time, timespec* left) {
+  static const auto real = next<int(const timespec*, timespec*)>("nanosleep");
+  count_wait();
+  return real(time, left);
+}
+int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* left) {
+  static const auto real = next<int(clockid_t, int, const timespec*, timespec*)>("clock_nanosleep");
+  count_wait();
+  return real(clock, flags, time, left);
+}
+int poll(pollfd* files, nfds_t count, int timeout) {
+  static const auto real = next<int(pollfd*, nfds_t, int)>("poll");
+  count_wait();
+  return real(files, count, timeout);
+}
+int select(int count, fd_set* in, fd_set* out, fd_set* other, timeval* timeout) {
+  static const auto real = next<int(int, fd_set*, fd_set*, fd_set*, timeval*)>("select");
+  count_wait();
+  return real(count, in, out, other, timeout);
+}
+ssize_t read(int file, void* data, std::size_t size) {
+  static const auto real = next<ssize_t(int, void*, std::size_t)>("read");
+  count_wait();
+  return real(file, data, size);
+}
+ssize_t write(int file, const void* data, std::size_t size) {
+  static const auto real = next<ssize_t(int, const void*, std::size_t)>("write");
+  count_wait();
+  return real(file, data, size);
+}
+
+[[noreturn]] void __cxa_throw(void* thrown, std::type_info* type, void (*destroy)(void*)) {
+  static const auto real = next<void(void*, std::type_info*, void (*)(void*))>("__cxa_throw");
+  seen.exceptions += watching ? 1 : 0;
+  real(thrown, type, destroy);
+  __builtin_unreachable();
 }
 }
 
 namespace splash::synth {
 
+ForbiddenCalls& ForbiddenCalls::operator+=(const ForbiddenCalls& other) noexcept {
+  allocations += other.allocations;
+  locks += other.locks;
+  waits += other.waits;
+  exceptions += other.exceptions;
+  system_calls += other.system_calls;
+  return *this;
+}
+
+std::ostream& operator<<(std::ostream& out, const ForbiddenCalls& calls) {
+  return out << calls.allocations << " allocations, " << calls.locks << " locks, " << calls.waits
+             << " waits, " << calls.exceptions << " exceptions, " << calls.system_calls
+             << " sections with system calls";
+}
+
 RealtimeScope::RealtimeScope() noexcept {
-  allocation_count = 0;
-  lock_count = 0;
+  seen = {};
   watching = true;
 }
 RealtimeScope::~RealtimeScope() {
   watching = false;
 }
-int RealtimeScope::allocations() noexcept {
-  return allocation_count;
-}
-int RealtimeScope::locks() noexcept {
-  return lock_count;
+ForbiddenCalls RealtimeScope::calls() noexcept {
+  ForbiddenCalls calls = seen;
+  calls.system_calls = SystemCallScope::any() ? 1 : 0;
+  return calls;
 }
 
 }  // namespace splash::synth

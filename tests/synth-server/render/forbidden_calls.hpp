@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: MIT
 // Counts what a real-time thread must not do. GCC 12 has no RealtimeSanitizer: forbidden_calls.cpp
-// puts itself in front of malloc, its kin and the locks, for the program that links it.
+// puts itself in front of malloc, its kin, the locks, the functions that wait and what throws, for
+// the program that links it; the kernel tells of every system call (system_calls.hpp).
 #pragma once
 
+#include <iosfwd>
+
+#include "tests/synth-server/render/system_calls.hpp"
+
 namespace splash::synth {
+
+struct ForbiddenCalls {
+  int allocations = 0;   ///< frees included
+  int locks = 0;         ///< taken, waited for or tried
+  int waits = 0;         ///< functions that sleep, poll, read or write
+  int exceptions = 0;    ///< thrown
+  int system_calls = 0;  ///< sections with any, where the kernel can tell
+
+  ForbiddenCalls& operator+=(const ForbiddenCalls& other) noexcept;
+  bool operator==(const ForbiddenCalls&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const ForbiddenCalls& calls);
 
 /// Calls of this thread are counted while one lives.
 class RealtimeScope {
@@ -13,8 +30,11 @@ class RealtimeScope {
   RealtimeScope(const RealtimeScope&) = delete;
   RealtimeScope& operator=(const RealtimeScope&) = delete;
 
-  [[nodiscard]] static int allocations() noexcept;  ///< since the scope began, frees included
-  [[nodiscard]] static int locks() noexcept;
+  /// Since the latest scope of this thread began.
+  [[nodiscard]] static ForbiddenCalls calls() noexcept;
+
+ private:
+  SystemCallScope system_calls_;
 };
 
 }  // namespace splash::synth

@@ -17,7 +17,9 @@ class PackPlayer {
   void seat(std::size_t lane, const BubbleTone& tone, double rate, int ahead) {
     set_lane(pack_, lane, tone, rate, ahead);
   }
-  void render(int from, int to) { kernels_.advance(pack_, from, to, rows_.data()); }
+  void render(int from, int to) {
+    kernels_.advance(pack_, from, to, &rows_[static_cast<std::size_t>(from) * kPackVoices]);
+  }
   [[nodiscard]] typename Pack::Real at(std::size_t lane, int n) const {
     return rows_[static_cast<std::size_t>(n) * kPackVoices + lane];
   }

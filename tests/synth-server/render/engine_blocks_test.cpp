@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Blocks of any size, at every usual rate, on one, two and 36 channels: finite, within the ceiling,
+// and the same sound to the last bit.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "synth-server/output/rig_reader.hpp"
+#include "tests/synth-server/render/rendering.hpp"
+
+namespace splash::synth {
+namespace {
+
+struct Setup {
+  std::string rig;
+  double rate = 48000.0;  ///< [Hz]
+};
+
+class AnyBlocks : public testing::TestWithParam<Setup> {};
+INSTANTIATE_TEST_SUITE_P(RigsAndRates, AnyBlocks,
+                         testing::Values(Setup{"handheld", 44100.0}, Setup{"handheld", 48000.0},
+                                         Setup{"handheld", 96000.0}, Setup{"stereo", 44100.0},
+                                         Setup{"stereo", 48000.0}, Setup{"stereo", 96000.0},
+                                         Setup{"tiles36", 44100.0}, Setup{"tiles36", 48000.0},
+                                         Setup{"tiles36", 96000.0}),
+                         [](const auto& setup) {
+                           return setup.param.rig + "_" +
+                                  std::to_string(static_cast<int>(setup.param.rate));
+                         });
+
+TEST_P(AnyBlocks, AreFiniteBoundedAndSoundTheSame) {
+  const Rig rig =
+      read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/" + GetParam().rig + ".yaml");
+  auto settings = file_settings();
+  settings.sample_rate = GetParam().rate;
+  settings.precision = Precision::fast;
+  const auto events = splashes(800, 6000);  // louder than the ceiling, on few channels
+  const auto rendered = [&](const std::vector<int>& blocks) {
+    Engine engine(rig, settings);
+    for (const TimedEvent& event : events) EXPECT_TRUE(engine.schedule(event));
+    return render(engine, 8192, blocks);
+  };
+  const Channels whole = rendered({4096});
+  double loudest = 0.0;
+  for (const auto& channel : whole) {
+    for (const float sample : channel) {
+      ASSERT_TRUE(std::isfinite(sample));
+      loudest = std::max(loudest, std::abs(static_cast<double>(sample)));
+    }
+  }
+  EXPECT_LE(loudest, rig.outputs[0].ceiling);
+  EXPECT_GT(loudest, 0.1) << "too quiet to prove anything";
+  for (const std::vector<int>& blocks :
+       std::vector<std::vector<int>>{{1}, {2, 3}, {16}, {100}, {128}, {333, 4096}, {1024}}) {
+    EXPECT_EQ(rendered(blocks), whole) << "first block of " << blocks.front();
+  }
+}
+
+}  // namespace
+}  // namespace splash::synth
