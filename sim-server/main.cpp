@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // sim-server: from the command line to an exit code.
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -7,8 +9,14 @@
 
 #include "protocol/config.hpp"
 #include "protocol/failure.hpp"
+#include "protocol/input_file.hpp"
+#include "protocol/service_notice.hpp"
 #include "protocol/time_tag.hpp"
+#include "sim-server/device/cache.hpp"
+#include "sim-server/device/cache_seal.hpp"
 #include "sim-server/device/device.hpp"
+#include "sim-server/device/device_error.hpp"
+#include "sim-server/device/last_words.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -19,12 +27,28 @@ namespace {
 using namespace splash;
 using namespace splash::sim;
 
-volatile std::sig_atomic_t signals_seen = 0;
+volatile std::sig_atomic_t asked_to_end = 0;
+volatile std::sig_atomic_t asked_to_reopen = 0;
 
 /// The first signal ends the run in peace, the second at once.
-extern "C" void note_signal(int number) {
-  if (signals_seen != 0) std::_Exit(128 + number);
-  signals_seen = 1;
+extern "C" void note_end(int number) {
+  if (asked_to_end != 0) std::_Exit(128 + number);
+  asked_to_end = 1;
+}
+
+extern "C" void note_reopen(int /*number*/) {
+  asked_to_reopen = 1;
+}
+
+/// Without a terminal SIGHUP asks a daemon to begin its files anew; a terminal that closes takes
+/// its programs along.
+void take_signals() {
+  const bool at_terminal =
+      isatty(STDIN_FILENO) != 0 || isatty(STDOUT_FILENO) != 0 || isatty(STDERR_FILENO) != 0;
+  std::signal(SIGINT, note_end);
+  std::signal(SIGTERM, note_end);
+  const auto before = std::signal(SIGHUP, at_terminal ? note_end : note_reopen);
+  if (before == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
 void print_devices() {
@@ -34,10 +58,7 @@ void print_devices() {
 }
 
 Scene load_scene(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw protocol::Failure(protocol::kExitNoInput,
-                            "--scene " + path.string() + ": there is no such file");
-  }
+  protocol::require_readable("--scene", path);
   return read_scene(path);
 }
 
@@ -53,10 +74,28 @@ void say_hello(const Simulation& simulation, const Server& server, double second
   std::fflush(stdout);
 }
 
+void serve(Server& server, protocol::ServiceNotice& service) {
+  server.run([&] {
+    if (service.is_due() && server.listens()) service.alive();
+    if (asked_to_reopen != 0) {
+      asked_to_reopen = 0;
+      server.reopen();
+    }
+    return asked_to_end != 0;
+  });
+  service.stopping();
+  std::printf("%s", summary(server.finish()).c_str());
+}
+
 void run(const Options& options) {
   if (options.list_devices) return print_devices();
+  protocol::ServiceNotice service;
   const Scene scene = load_scene(options.scene);
   const double start = protocol::monotonic_now();
+  const std::filesystem::path cache =
+      protocol::failing_with(protocol::kExitUnavailable, prepare_kernel_cache);
+  const CacheSeal seal(cache);
+  LastWords last_words(cache, protocol::kExitUnavailable);
   Device device = protocol::failing_with(protocol::kExitUnavailable, [&] {
     return Device(options.device, false, scene.fluid.kernels == KernelKind::reference ? 1 : 0);
   });
@@ -64,12 +103,15 @@ void run(const Options& options) {
   std::printf("compiling kernels (the first start on a machine takes some seconds)\n");
   std::fflush(stdout);
   Simulation simulation(device, scene, options.tracker);
+  last_words.built();
+  seal.renew();
   Server server(options, simulation, device.facts().name);
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
+  take_signals();
   say_hello(simulation, server, protocol::monotonic_now() - start);
-  server.run([] { return signals_seen != 0; });
-  std::printf("%s", summary(server.finish()).c_str());
+  service.ready(scene.name + ", " + std::to_string(simulation.particles()) + " particles, on " +
+                protocol::to_string(server.local()));
+  serve(server, service);
+  seal.renew();
 }
 
 }  // namespace
@@ -77,12 +119,16 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   const auto [options, exit_code] = parse_options(argc, argv);
   if (!options) return exit_code;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
   try {
-    run(*options);
+    naming_opencl_errors([&chosen = *options] { run(chosen); });
     return protocol::kExitOk;
   } catch (const protocol::ConfigError& error) {
     std::cerr << error.what() << '\n';
     return protocol::kExitConfig;
+  } catch (const DeviceError& error) {
+    std::cerr << "sim-server: " << error.what() << '\n';
+    return protocol::kExitUnavailable;
   } catch (const protocol::Failure& failure) {
     std::cerr << "sim-server: " << failure.what() << '\n';
     return failure.code();

@@ -2,7 +2,6 @@
 #include "sim-server/needs.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace splash::sim {
 namespace {
@@ -10,16 +9,6 @@ namespace {
 /// Part of the bubble speed below which nobody reaches it within a frame: at 1 m/s and 160 frames
 /// per second that takes 8 g.
 constexpr double kCalm = 0.5;
-
-/// Bodies slower than this are at rest: trackers tremble (as in kernels/sleep.cl) [m/s].
-constexpr double kTremble = 1e-3;
-
-double speed_of(const BodyStep& b) {
-  const float reach =
-      0.5F * std::hypot(b.upper_x - b.lower_x, b.upper_y - b.lower_y, b.upper_z - b.lower_z);
-  const float speed = std::hypot(b.vx, b.vy, b.vz) + reach * std::hypot(b.wx, b.wy, b.wz);
-  return static_cast<double>(speed);
-}
 
 /// Whether the ranges [a, b] and [lower, upper] overlap.
 bool overlap(float a, float b, double lower, double upper) {
@@ -43,7 +32,7 @@ bool near_water(const std::vector<BodyStep>& bodies, const Survey& water, double
 
 bool moving_near_water(const std::vector<BodyStep>& bodies, const Survey& water) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const BodyStep& b) {
-    return speed_of(b) > kTremble && meets(b, water, 0.0);
+    return b.speed > SPLASH_TREMBLE && meets(b, water, 0.0);
   });
 }
 
@@ -61,7 +50,8 @@ FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const Survey& la
   needs.contacts = !skip_.contacts || near_water(bodies, last, last.speed * frame);
   double fastest = last.speed;
   for (const BodyStep& b : bodies) {
-    if (meets(b, last, last.speed * frame)) fastest = std::max(fastest, speed_of(b));
+    if (meets(b, last, last.speed * frame))
+      fastest = std::max(fastest, static_cast<double>(b.speed));
   }
   const bool calm = bubbles == 0 && fastest < kCalm * bubble_speed_;
   // One more pass after all has calmed down, for the particles' memories.

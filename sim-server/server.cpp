@@ -3,13 +3,19 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "protocol/failure.hpp"
 
 namespace splash::sim {
 namespace {
 
-constexpr double kLinePeriod = 2.0;     ///< between two lines on the state [s]
+constexpr double kLinePeriod = 2.0;    ///< between two lines on the state [s]
+constexpr double kMishapPeriod = 1.0;  ///< between two lines on what went wrong [s]
+constexpr double kSlipLimit = 0.100;   ///< time slips when behind by more, while frames keep up [s]
+constexpr double kLeanGauges = 1.0;    ///< between two readings of the gauges under load [s]
 constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this long are silent [s]
 
 std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
@@ -56,7 +62,8 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       sender_(
           targets_, socket_, log_ ? &*log_ : nullptr,
           {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),
-      pacer_({.real_time = options.real_time}),
+      pacer_({.real_time = options.real_time, .slip_limit = kSlipLimit}),
+      overload_({.has_gauges = gauges_.has_value()}),
       target_status_(options.targets),
       control_(protocol::failing_with(protocol::kExitUnavailable, [&] {
         return ControlServer(
@@ -78,7 +85,16 @@ void Server::take_pose(const protocol::BodyPose& pose, double arrival) {
   if (body == nullptr) return;
   const Keyframe key = as_keyframe(pose);
   // Refused poses leave the body where its last good ones take it.
-  static_cast<void>(body->push(key.position, key.rotation, arrival - origin_.load()));
+  const PoseRefusal refusal = body->push(key.position, key.rotation, arrival - origin_.load());
+  if (refusal == PoseRefusal::none) return;
+  ++refused_poses_;
+  if (arrival < next_refusal_) return;
+  next_refusal_ = arrival + kMishapPeriod;
+  const auto index = static_cast<std::size_t>(pose.body);
+  std::fprintf(stderr, "sim-server: a pose of body '%s' was refused: %s (%llu refused so far)\n",
+               simulation_.scene().bodies[index].name.c_str(),
+               std::string(describe(refusal)).c_str(),
+               static_cast<unsigned long long>(refused_poses_.load()));
 }
 
 bool Server::is_over() const {
@@ -93,29 +109,101 @@ void Server::run(const std::function<bool()>& ended) {
   origin_ = started_ - simulation_.seconds();
   note_gauges();
   while (!ended() && !is_over()) {
+    const double before = simulation_.seconds();
+    const double begin = protocol::monotonic_now();
     const FrameResult frame = simulation_.advance();
+    const double computed = protocol::monotonic_now();
     pacer_.wait_until(frame.seconds);
-    origin_ = protocol::monotonic_now() - frame.seconds;
+    const double due = protocol::monotonic_now();
+    origin_ = due - frame.seconds;
     send(frame);
     note_gauges();
     note_status(frame);
     target_status_.poll();
-    if (protocol::monotonic_now() >= next_line_) print_progress();
+    const double end = protocol::monotonic_now();
+    if (end >= next_line_) print_progress();
+    note_load(frame.seconds - before, computed - begin + end - due);
   }
   wall_seconds_ = protocol::monotonic_now() - started_;
 }
 
-void Server::send(const FrameResult& frame) {
-  if (frame.restored) {
-    std::fprintf(stderr,
-                 "sim-server: at %.3f s particle %d was no number any more (%d in all); the water "
-                 "is taken back to its last good state, with shorter steps for a while\n",
-                 frame.seconds, frame.survey.first_bad, frame.survey.not_finite);
+void Server::note_load(double seconds, double spent) {
+  if (!options_.real_time || !overload_.note(seconds, spent)) return;
+  const Load level = overload_.level();
+  const double stretch = stable_stretch(simulation_.scene().fluid);
+  simulation_.set_stretch(level >= Load::coarse ? stretch : 1.0);
+  // Under a lasting load the backlog is given up frame by frame: what is told is told at once.
+  const double frame = 1.0 / simulation_.scene().serve.frame_rate;
+  pacer_.set_slip_limit(level == Load::slow ? frame : kSlipLimit);
+  std::fprintf(stderr, "sim-server: %s\n", describe(overload_, stretch).c_str());
+}
+
+void Server::say(const Mishap& mishap) {
+  const double now = protocol::monotonic_now();
+  if (now < next_mishap_) {
+    ++unsaid_;
+    return;
   }
+  next_mishap_ = now + kMishapPeriod;
+  std::fprintf(stderr, "sim-server: %s\n", describe(mishap).c_str());
+  if (unsaid_ > 0) std::fprintf(stderr, "sim-server: and %d more before that\n", unsaid_);
+  unsaid_ = 0;
+}
+
+void Server::send(const FrameResult& frame) {
+  if (frame.mishap) say(*frame.mishap);
   const FrameTime time = {simulation_.totals().steps, frame.seconds, pacer_.unix_origin()};
   const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
   auto events = number_events(frame.found, simulation_, latency, ids_);
-  protocol::failing_with(protocol::kExitIo, [&] { sender_.send_step(time, std::move(events)); });
+  keep_going([&] { sender_.send_step(time, std::move(events)); },
+             [this] { sender_.stop_logging(); });
+}
+
+void Server::keep_going(const std::function<void()>& write, const std::function<void()>& forget) {
+  try {
+    write();
+  } catch (const std::runtime_error& error) {  // which OpenCL's errors are not
+    if (!options_.real_time) throw protocol::Failure(protocol::kExitIo, error.what());
+    forget();
+    unwritten_ = error.what();
+    std::fprintf(stderr, "sim-server: %s. The run goes on without it\n", error.what());
+  }
+}
+
+bool Server::listens() {
+  const std::uint64_t turns = control_.turns();
+  return std::exchange(turns_seen_, turns) != turns;
+}
+
+void Server::reopen() {
+  const auto moved = [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return true;
+    std::fprintf(stderr, "sim-server: %s is still there: move it away, then send SIGHUP\n",
+                 path.c_str());
+    return false;
+  };
+  const auto began = [](const std::filesystem::path& path) {
+    std::printf("began %s anew\n", path.c_str());
+    std::fflush(stdout);
+  };
+  if (log_ && moved(options_.record)) {
+    keep_going(
+        [&] {
+          sender_.close(simulation_.seconds());
+          log_.emplace(options_.record);
+          began(options_.record);
+        },
+        [this] { sender_.stop_logging(); });
+  }
+  if (gauges_ && moved(options_.gauges)) {
+    keep_going(
+        [&] {
+          gauges_->reopen();
+          began(options_.gauges);
+        },
+        [this] { gauges_.reset(); });
+  }
 }
 
 void Server::note_status(const FrameResult& frame) {
@@ -130,17 +218,18 @@ void Server::note_status(const FrameResult& frame) {
   status_.cavities = sent.cavities;
   status_.late = pacer_.counts().behind;
   status_.unsent = sent.invalid + totals.bubbles_dropped;
-  status_.resets = totals.resets;
+  status_.resets = totals.retried + totals.calmed + totals.resets;
   status_.real_time_factor = static_cast<float>(frame.seconds / wall);
   status_.steps_per_second = static_cast<float>(static_cast<double>(totals.steps) / wall);
   status_.density_error = static_cast<float>(frame.survey.mean_excess);
 }
 
 void Server::note_gauges() {
-  if (!gauges_) return;
-  protocol::failing_with(protocol::kExitIo, [&] {
-    gauges_->note(simulation_.seconds(), simulation_.fluid(), simulation_.bodies());
-  });
+  if (!gauges_ || simulation_.seconds() < next_gauges_) return;
+  next_gauges_ = overload_.level() == Load::easy ? 0.0 : simulation_.seconds() + kLeanGauges;
+  keep_going(
+      [this] { gauges_->note(simulation_.seconds(), simulation_.fluid(), simulation_.bodies()); },
+      [this] { gauges_.reset(); });
 }
 
 void Server::print_progress() {
@@ -158,7 +247,7 @@ void Server::print_progress() {
 }
 
 RunReport Server::finish() {
-  protocol::failing_with(protocol::kExitIo, [&] { sender_.close(simulation_.seconds()); });
+  keep_going([this] { sender_.close(simulation_.seconds()); }, [this] { sender_.stop_logging(); });
   target_status_.finish(kAnswerTimeout);
   const RunTotals& totals = simulation_.totals();
   const SendCounts& sent = sender_.counts();
@@ -170,7 +259,7 @@ RunReport Server::finish() {
   report.frames = totals.frames;
   report.simulated_seconds = simulation_.seconds();
   report.wall_seconds = wall_seconds_;
-  const auto healthy = totals.frames - static_cast<std::int64_t>(totals.resets);
+  const auto healthy = totals.frames - static_cast<std::int64_t>(totals.calmed + totals.resets);
   report.mean_density_error =
       totals.mean_excess_sum / static_cast<double>(std::max<std::int64_t>(healthy, 1));
   report.maximum_density_error = totals.max_excess;
@@ -189,10 +278,18 @@ RunReport Server::finish() {
   report.lost = target_status_.lost();
   report.behind = pacer_.counts().behind;
   report.slipped_seconds = pacer_.counts().slipped;
+  report.most_behind = pacer_.counts().most_behind;
+  report.lean_seconds = overload_.spent_at(Load::lean);
+  report.coarse_seconds = overload_.spent_at(Load::coarse);
+  report.slow_seconds = overload_.spent_at(Load::slow);
+  report.refused_poses = refused_poses_;
+  report.retried = totals.retried;
+  report.calmed = totals.calmed;
   report.resets = totals.resets;
   if (!options_.report.empty()) {
     protocol::failing_with(protocol::kExitIo, [&] { write_report(options_.report, report); });
   }
+  if (!unwritten_.empty()) throw protocol::Failure(protocol::kExitIo, unwritten_);
   return report;
 }
 

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "sim-server/gauge/gauge_file.hpp"
 #include "sim-server/numbered_events.hpp"
 #include "sim-server/options.hpp"
+#include "sim-server/overload.hpp"
 #include "sim-server/send/clock_answers.hpp"
 #include "sim-server/send/control.hpp"
 #include "sim-server/send/event_sender.hpp"
@@ -29,17 +32,29 @@ class Server {
   /// Frame after frame, until `ended` says so, /quit comes or the duration is over. Prints a line
   /// on the state now and then.
   void run(const std::function<bool()>& ended);
-  /// Closes the log, asks the targets how they fared and writes the report.
+  /// Begins log and gauges anew, if somebody has moved the files away. Between two frames only.
+  void reopen();
+  /// Closes the log, asks the targets how they fared and writes the report. Throws
+  /// protocol::Failure when a file could not be written, now or before.
   [[nodiscard]] RunReport finish();
 
+  /// Whether the thread that listens has turned since this was last asked.
+  [[nodiscard]] bool listens();
   /// Where poses and control are listened for.
   [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 
  private:
   void take_pose(const protocol::BodyPose& pose, double arrival);
+  /// On stderr, not more often than once a second.
+  void say(const Mishap& mishap);
   void send(const FrameResult& frame);
   void note_status(const FrameResult& frame);
   void note_gauges();
+  /// What a frame cost; more gives way, or less.
+  void note_load(double seconds, double spent);
+  /// `write` puts something into a file. If it cannot: whoever plays in real time goes on without
+  /// the file, `forget` it; else the run ends.
+  void keep_going(const std::function<void()>& write, const std::function<void()>& forget);
   void print_progress();
   [[nodiscard]] bool is_over() const;
 
@@ -52,15 +67,23 @@ class Server {
   std::optional<GaugeFile> gauges_;
   EventSender sender_;
   Pacer pacer_;
+  Overload overload_;
+  double next_gauges_ = 0.0;  ///< simulated time before which they are not read [s]
   TargetStatus target_status_;
   EventIds ids_;
   std::atomic<bool> quit_ = false;
   std::atomic<double> origin_ = 0.0;  ///< monotonic time of simulated second 0 [s]
+  std::atomic<std::uint64_t> refused_poses_ = 0;
+  double next_refusal_ = 0.0;  ///< monotonic; the control thread's own [s]
   std::mutex status_mutex_;
   protocol::SimStatus status_;
+  std::uint64_t turns_seen_ = 0;
+  std::string unwritten_;      ///< why a file ends early; empty: none does
   double started_ = 0.0;       ///< monotonic [s]
   double wall_seconds_ = 0.0;  ///< of run()
   double next_line_ = 0.0;     ///< monotonic [s]
+  double next_mishap_ = 0.0;   ///< monotonic [s]
+  int unsaid_ = 0;             ///< mishaps since the last line on one
   ClockAnswers clock_answers_{socket_, targets_};
   ControlServer control_;  ///< last: its thread uses all of the above
 };

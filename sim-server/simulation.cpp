@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/settle.hpp"
@@ -16,8 +17,16 @@
 namespace splash::sim {
 namespace {
 
-/// Frames between two copies of the state: it is what a failure goes back to.
-constexpr std::int64_t kSnapshotFrames = 20;
+/// Water is stopped this far around a fault, and twice as far when that did not help [supports].
+constexpr double kCalmed = 4.0;
+
+/// What moves faster than this part of sound throws water that may reach the speed limit: splashes
+/// are some times as fast as what makes them [1]. It flies for so long [s].
+constexpr double kThrows = 1.0 / 8.0;
+constexpr double kFlight = 1.0;
+
+/// Share of the particles that is no longer a matter of single ones [1].
+constexpr double kMany = 0.01;
 
 /// The lattice is no stable packing: the water finds a better one in the first second, and would
 /// be heard doing so. It is given this long before time begins [s].
@@ -30,9 +39,9 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
     motions.push_back(make_motion(body, tracker));
     live.push_back(dynamic_cast<LiveMotion*>(motions.back().get()));
   }
-  const double support = support_radius(scene);
-  return {sample_bodies(scene.bodies, particle_spacing(scene), support), std::move(motions),
-          support};
+  const Smoothing smoothing = scene_smoothing(scene);
+  return {sample_bodies(scene.bodies, particle_spacing(scene), smoothing), std::move(motions),
+          smoothing.support};
 }
 
 std::vector<Vector3> particles_around(const Scene& scene, const Bodies& bodies) {
@@ -54,6 +63,19 @@ Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
 SleepRule sleep_rule(const Scene& scene) {
   return {scene.skip.sleep_speed,
           static_cast<int>(std::ceil(scene.skip.sleep_after * scene.serve.frame_rate))};
+}
+
+Vector3 place_at(const Snapshot& state, std::size_t i, const FluidParams& params) {
+  const auto stride = static_cast<std::size_t>(params.capacity);
+  return {static_cast<double>(state.position[i]), static_cast<double>(state.position[stride + i]),
+          static_cast<double>(state.position[2 * stride + i])};
+}
+
+/// Of the particle `id`; the origin if there is none of that name.
+Vector3 place_of(const Snapshot& state, int id, const FluidParams& params) {
+  const auto found = std::find(state.id.begin(), state.id.end(), id);
+  if (found == state.id.end()) return {};
+  return place_at(state, static_cast<std::size_t>(found - state.id.begin()), params);
 }
 
 /// Gives every particle the velocity of the scene's flow; the fastest of them [m/s].
@@ -84,19 +106,51 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
       fluid_(make_fluid(device, scene_, bodies_)),
       detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed, !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
-  largest_step_ =
-      largest_time_step(fluid_.params(), bodies_.fastest(0.0), std::abs(scene_.fluid.gravity[2]),
-                        scene_.fluid.time_step_factor);
-  const PistonState piston = piston_at(scene_.wave_maker, 0.0);
-  settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, largest_step_);
+  settle_in();
   if (scene_.gate.present) fluid_.drop_last_wall();
   const double fastest = std::max(start_flow(fluid_, scene_), bodies_.fastest(0.0));
   largest_step_ = largest_time_step(fluid_.params(), fastest, std::abs(scene_.fluid.gravity[2]),
                                     scene_.fluid.time_step_factor);
-  good_ = fluid_.snapshot();
+  start_ = fluid_.snapshot();
+  sound_.keep(device, state());
   // The divergence-free solver balances all of the water in every step: none of it may sleep.
   const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
+}
+
+void Simulation::settle_in() {
+  const Snapshot lattice = fluid_.snapshot();
+  const PistonState piston = piston_at(scene_.wave_maker, 0.0);
+  double dt = largest_time_step(fluid_.params(), bodies_.fastest(0.0),
+                                std::abs(scene_.fluid.gravity[2]), scene_.fluid.time_step_factor);
+  std::optional<Diagnosis> wrong;
+  for (int k = 0; k <= Recovery::kTries; ++k) {
+    settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, dt);
+    const Step step = {dt, piston.offset, 0.0, 0};
+    fluid_.begin_watch(1);
+    fluid_.prepare(step);
+    fluid_.advance(step);
+    static_cast<void>(fluid_.survey());
+    fluid_.end_watch();
+    wrong = fluid_.health().diagnosis();
+    fluid_.still();
+    if (!wrong) return;
+    fluid_.restore(lattice);
+    dt /= 2.0;
+  }
+  sound_.keep(fluid_.device(), state());
+  const Mishap mishap = examine(*wrong, dt);
+  throw std::runtime_error("the water of scene '" + scene_.name +
+                           "' does not come to rest before it begins, not even with steps an "
+                           "eighth as long: " +
+                           describe_fault(mishap));
+}
+
+std::vector<cl::Buffer> Simulation::state() const {
+  std::vector<cl::Buffer> all = fluid_.state();
+  const std::vector<cl::Buffer> detected = detector_.state();
+  all.insert(all.end(), detected.begin(), detected.end());
+  return all;
 }
 
 std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
@@ -113,20 +167,34 @@ std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
 }
 
 FrameResult Simulation::advance() {
-  const FrameSteps steps =
-      steps_of_frame(1.0 / scene_.serve.frame_rate, step_share_ * largest_step_);
-  std::vector<BodyStep> poses;
-  const std::vector<Step> plan = plan_frame(steps, poses);
-  const FrameNeeds needs =
-      needs_.of_frame(poses, survey_, steps.count * steps.dt, plan.front().piston_speed != 0.0,
-                      detector_.bubbles_alive());
-  count(needs);
-  if (needs.steps) {
+  std::optional<Mishap> mishap;
+  while (true) {
+    const FrameSteps steps =
+        steps_of_frame(1.0 / scene_.serve.frame_rate, recovery_.step_share() * largest_step_);
+    std::vector<BodyStep> poses;
+    const std::vector<Step> plan = plan_frame(steps, poses);
+    const FrameNeeds needs =
+        needs_.of_frame(poses, survey_, steps.count * steps.dt, plan.front().piston_speed != 0.0,
+                        detector_.bubbles_alive());
+    if (!mishap) count(needs);
+    if (!needs.steps) return hold_still(steps.count * steps.dt);
     fluid_.set_bodies(poses);
-    return compute(plan, needs);
+    if (auto result = attempt(plan, needs)) {
+      result->mishap = mishap;
+      totals_.retried += mishap.has_value();
+      return *result;
+    }
+    Mishap now = examine(*fluid_.health().diagnosis(), steps.dt);
+    if (!mishap) mishap = now;
+    mishap->tries = recovery_.failed_tries() + 1;
+    mishap->remedy = recovery_.failed();
+    if (mishap->remedy != Remedy::retry) return give_up(*mishap, steps.count * steps.dt);
   }
+}
+
+FrameResult Simulation::hold_still(double frame) {
   FrameResult still;
-  seconds_ += steps.count * steps.dt;
+  seconds_ += frame;
   detected_at_ = seconds_;
   still.seconds = seconds_;
   still.survey = survey_;
@@ -134,27 +202,41 @@ FrameResult Simulation::advance() {
   return still;
 }
 
-FrameResult Simulation::compute(const std::vector<Step>& plan, const FrameNeeds& needs) {
+void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since) {
+  fluid_.begin_watch(plan.size());
+  for (std::size_t k = 0; k < plan.size(); ++k) {
+    Step step = plan[k];
+    if (hook_) hook_(fluid_, step, Moment::before);
+    fluid_.prepare(step);
+    if (k + 1 == plan.size()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
+    if (hook_) hook_(fluid_, step, Moment::between);
+    fluid_.advance(step);
+  }
+  fluid_.enqueue_survey();
+  fluid_.device().queue().finish();
+}
+
+std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
+                                               const FrameNeeds& needs) {
   const double dt = plan.front().dt;
   const auto steps = static_cast<int>(plan.size());
   const double detect_time = seconds_ + (steps - 1) * dt;
   const double since = detect_time - detected_at_;
-  for (const Step& step : plan) {
-    fluid_.prepare(step);
-    if (&step == &plan.back()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
-    fluid_.advance(step);
+  const double mover = std::max(bodies_.fastest(seconds_), std::abs(plan.front().piston_speed));
+  if (mover > kThrows * static_cast<double>(fluid_.params().sound_speed)) {
+    thrown_until_ = seconds_ + kFlight;
   }
+  fluid_.health().expect_speed(seconds_ < thrown_until_);
+  enqueue(plan, needs, since);
+  if (fluid_.health().diagnosis()) return std::nullopt;
   seconds_ += steps * dt;
   totals_.steps += steps;
-  fluid_.enqueue_survey();
-  fluid_.device().queue().finish();
-
   FrameResult result;
   result.seconds = seconds_;
   result.found = detector_.collect(detect_time, since, static_cast<std::uint32_t>(totals_.steps));
-  survey_ = result.survey = fluid_.survey_result();
+  result.survey = fluid_.survey_result();
   detected_at_ = detect_time;
-  keep_healthy(result);
+  keep(result);
   return result;
 }
 
@@ -168,25 +250,67 @@ void Simulation::count(const FrameNeeds& needs) {
   skipped.asleep_sum += static_cast<double>(survey_.asleep) / fluid_.params().count;
 }
 
-void Simulation::keep_healthy(FrameResult& result) {
+void Simulation::keep(const FrameResult& result) {
+  fluid_.health().accept();
+  sound_.keep(fluid_.device(), state());
+  recovery_.succeeded();
+  survey_ = result.survey;
   totals_.bubbles_dropped = detector_.bubbles_dropped();
-  if (result.survey.not_finite > 0) {
-    // Nothing of a frame that went wrong is told; time goes on, with smaller steps for a while.
-    fluid_.restore(good_);
-    needs_.forget();
-    result.found = {};
-    result.restored = true;
+  totals_.mean_excess_sum += survey_.mean_excess;
+  totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
+  const double fastest = std::max(survey_.speed, bodies_.fastest(seconds_));
+  largest_step_ = largest_time_step(fluid_.params(), fastest, survey_.acceleration,
+                                    stretch_ * scene_.fluid.time_step_factor);
+}
+
+Mishap Simulation::examine(const Diagnosis& what, double dt) {
+  sound_.recall(fluid_.device(), state());
+  fluid_.note_recalled();
+  needs_.forget();
+  Mishap mishap;
+  mishap.what = what;
+  mishap.step = totals_.steps + what.step;
+  mishap.seconds = seconds_ + what.step * dt;
+  if (what.particle < 0) return mishap;
+  const Snapshot last = fluid_.snapshot();
+  mishap.place = place_of(last, what.particle, fluid_.params());
+  const int body = nearest_body(mishap.place);
+  if (body < 0) return mishap;
+  const auto b = static_cast<std::size_t>(body);
+  mishap.body = scene_.bodies[b].name;
+  mishap.distance = length(mishap.place - bodies_.state(b, mishap.seconds).position);
+  return mishap;
+}
+
+FrameResult Simulation::give_up(Mishap& mishap, double frame) {
+  if (mishap.remedy == Remedy::reset) {
+    fluid_.restore(start_);
     ++totals_.resets;
-    step_share_ = std::max(step_share_ / 2.0, 0.125);
-    return;
+  } else {
+    calm(mishap);
+    ++totals_.calmed;
   }
-  step_share_ = std::min(step_share_ * 1.02, 1.0);
-  totals_.mean_excess_sum += result.survey.mean_excess;
-  totals_.max_excess = std::max(totals_.max_excess, result.survey.max_excess);
-  const double fastest = std::max(result.survey.speed, bodies_.fastest(seconds_));
-  largest_step_ = largest_time_step(fluid_.params(), fastest, result.survey.acceleration,
-                                    scene_.fluid.time_step_factor);
-  if (totals_.frames % kSnapshotFrames == 0) good_ = fluid_.snapshot();
+  sound_.keep(fluid_.device(), state());
+  seconds_ += frame;
+  FrameResult result;
+  result.seconds = seconds_;
+  result.survey = survey_;
+  result.mishap = mishap;
+  return result;
+}
+
+void Simulation::calm(Mishap& mishap) {
+  const FluidParams& p = fluid_.params();
+  const bool many = mishap.what.particles == 0 || mishap.what.particles > kMany * p.count;
+  mishap.calmed = many ? std::numeric_limits<double>::infinity()
+                       : kCalmed * recovery_.given_up() * static_cast<double>(p.support);
+  Snapshot state = fluid_.snapshot();
+  const auto stride = static_cast<std::size_t>(p.capacity);
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    if (length(place_at(state, i, p) - mishap.place) > mishap.calmed) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) state.velocity[axis * stride + i] = 0.0F;
+  }
+  fluid_.restore(state);
 }
 
 LiveMotion* Simulation::live_body(int body) const noexcept {

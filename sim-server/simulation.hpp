@@ -4,14 +4,17 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <string>
+#include <functional>
+#include <optional>
 
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/detect/detector.hpp"
+#include "sim-server/fluid/checkpoint.hpp"
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/time_step.hpp"
+#include "sim-server/mishap.hpp"
 #include "sim-server/needs.hpp"
+#include "sim-server/recovery.hpp"
 #include "sim-server/tracking/live_motion.hpp"
 
 namespace splash::sim {
@@ -21,7 +24,7 @@ struct FrameResult {
   double seconds = 0.0;  ///< simulated time at its end [s]
   Detections found;
   Survey survey;
-  bool restored = false;  ///< the state had to be taken back to the last good one
+  std::optional<Mishap> mishap;  ///< something went wrong; found is of a sound try, or empty
 };
 
 /// Sums over a run.
@@ -30,10 +33,18 @@ struct RunTotals {
   std::int64_t frames = 0;
   double mean_excess_sum = 0.0;  ///< of the frames' mean density errors [1]
   double max_excess = 0.0;       ///< [1]
-  std::uint64_t resets = 0;
+  std::uint64_t retried = 0;     ///< frames that were sound only with shorter steps
+  std::uint64_t calmed = 0;      ///< frames given up, the water around a fault stopped
+  std::uint64_t resets = 0;      ///< frames given up, the scene begun anew
   std::uint64_t bubbles_dropped = 0;
   SkipTotals skipped;
 };
+
+/// Where in a step a hook is called.
+enum class Moment { before, between };
+
+/// For tests: may change what a step works on, and its length.
+using StepHook = std::function<void(Fluid&, Step&, Moment)>;
 
 class Simulation {
  public:
@@ -41,8 +52,12 @@ class Simulation {
   /// protocol::ConfigError for what the scene says wrong, std::runtime_error for the device.
   Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker);
 
-  /// Simulates one frame: some equal steps, the detectors in the last one.
+  /// Simulates one frame: some equal steps, the detectors in the last one. What is not sound is
+  /// done again or given up (Recovery); nothing of it is told.
   [[nodiscard]] FrameResult advance();
+  /// Steps are this many times as long as the scene wants, from the next frame on [1].
+  void set_stretch(double stretch) noexcept { stretch_ = stretch; }
+  void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
   [[nodiscard]] const RunTotals& totals() const noexcept { return totals_; }
@@ -59,10 +74,21 @@ class Simulation {
  private:
   [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps,
                                              std::vector<BodyStep>& poses) const;
-  /// All of a frame that computes anything.
-  [[nodiscard]] FrameResult compute(const std::vector<Step>& plan, const FrameNeeds& needs);
+  /// One try of a frame; nullopt: it was not sound.
+  [[nodiscard]] std::optional<FrameResult> attempt(const std::vector<Step>& plan,
+                                                   const FrameNeeds& needs);
+  void enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since);
+  [[nodiscard]] FrameResult hold_still(double frame);
+  void keep(const FrameResult& result);
   void count(const FrameNeeds& needs);
-  void keep_healthy(FrameResult& result);
+
+  [[nodiscard]] std::vector<cl::Buffer> state() const;
+  void settle_in();
+  /// Takes the state back to the last sound one, and notes what was wrong.
+  [[nodiscard]] Mishap examine(const Diagnosis& what, double dt);
+  /// Ends a frame that no try made sound.
+  [[nodiscard]] FrameResult give_up(Mishap& mishap, double frame);
+  void calm(Mishap& mishap);
 
   Scene scene_;
   std::vector<LiveMotion*> live_;
@@ -74,8 +100,12 @@ class Simulation {
   double seconds_ = 0.0;
   double detected_at_ = 0.0;   ///< time of the last detection [s]
   double largest_step_ = 0.0;  ///< [s]
-  double step_share_ = 1.0;    ///< of the largest step, less after a failure [1]
-  Snapshot good_;
+  double thrown_until_ = 0.0;  ///< water may be as fast as it can be [s]
+  double stretch_ = 1.0;       ///< of all steps [1]
+  Recovery recovery_;
+  Checkpoint sound_;  ///< the end of the last sound frame
+  Snapshot start_;    ///< when time began
+  StepHook hook_;
   RunTotals totals_;
 };
 

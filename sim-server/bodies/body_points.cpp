@@ -5,14 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 namespace {
 
 /// Points with less than this part of an unbounded lattice's colour lie at the surface. A flat
-/// face leaves 0.87 of it at support 2 spacings, two layers deep it is 1.
+/// face leaves 0.87 of it to the narrow kernel, 0.81 to the wide one, two layers deep it is 1.
 constexpr double kSurfaceColour = 0.95;
 
 struct Lattice {
@@ -71,11 +71,11 @@ Vector3 carried_to_skin(const Shape& shape, const Lattice& lattice, const Vector
   return {place[0] / radius, place[1] / radius, place[2] / radius};
 }
 
-void mark_surface(std::vector<BodyPoint>& points, double support) {
+void mark_surface(std::vector<BodyPoint>& points, const Smoothing& smoothing) {
   for (BodyPoint& point : points) {
     point.colour = 0.0;
     for (const BodyPoint& other : points) {
-      point.colour += other.volume * kernel_value(distance(point.place, other.place), support);
+      point.colour += other.volume * kernel_value(distance(point.place, other.place), smoothing);
     }
     point.surface = point.colour < kSurfaceColour;
   }
@@ -117,7 +117,8 @@ double volume_of(const Shape& shape) {
   return box - shape.size[0] * shape.size[1] * shape.rocker * (1.0 - shape.flat) / 3.0;
 }
 
-std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing, double support) {
+std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing,
+                                    const Smoothing& smoothing) {
   const Lattice lattice = fit_lattice(shape.size, spacing);
   std::vector<BodyPoint> points;
   for (int kz = 0; kz < lattice.count[2]; ++kz) {
@@ -140,15 +141,15 @@ std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacin
   for (BodyPoint& point : points) {
     point.volume = volume_of(shape) / static_cast<double>(points.size());
   }
-  mark_surface(points, support);
+  mark_surface(points, smoothing);
   return points;
 }
 
 std::vector<BodyPoint> sample_bodies(const std::vector<BodySettings>& bodies, double spacing,
-                                     double support) {
+                                     const Smoothing& smoothing) {
   std::vector<BodyPoint> all;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const auto points = sample_shape(bodies[b].shape, static_cast<int>(b), spacing, support);
+    const auto points = sample_shape(bodies[b].shape, static_cast<int>(b), spacing, smoothing);
     all.insert(all.end(), points.begin(), points.end());
   }
   return all;

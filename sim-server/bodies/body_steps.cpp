@@ -2,6 +2,7 @@
 #include "sim-server/bodies/body_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sim-server/scene/rotation.hpp"
@@ -14,6 +15,12 @@ float as_float(double value) {
 }
 
 }  // namespace
+
+float fastest_point(const BodyStep& b) noexcept {
+  const float reach =
+      0.5F * std::hypot(b.upper_x - b.lower_x, b.upper_y - b.lower_y, b.upper_z - b.lower_z);
+  return std::hypot(b.vx, b.vy, b.vz) + reach * std::hypot(b.wx, b.wy, b.wz);
+}
 
 Bodies::Bodies(std::vector<BodyPoint> points, std::vector<std::unique_ptr<Motion>> motions,
                double support)
@@ -76,6 +83,7 @@ std::vector<BodyStep> Bodies::at(double seconds) const {
     step.upper_x += grown;
     step.upper_y += grown;
     step.upper_z += grown;
+    step.speed = fastest_point(step);
   }
   return steps;
 }

@@ -11,6 +11,9 @@
 
 namespace splash::sim {
 
+/// Speed of a body's fastest point, at most: as if it reached to its box's corners [m/s].
+[[nodiscard]] float fastest_point(const BodyStep& body) noexcept;
+
 /// The bodies of a scene with what moves them.
 class Bodies {
  public:

@@ -60,6 +60,8 @@ class Bubbles {
   [[nodiscard]] const PointArrays& sorted() const noexcept { return sorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] const Buffer<BubbleState>& state_buffer() const noexcept { return state_buffer_; }
+  /// Of each particle by id (kernels/bubble_spawn.cl).
+  [[nodiscard]] const cl::Buffer& memory() const noexcept { return memory_.memory(); }
   [[nodiscard]] int carried() const noexcept { return carried_; }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
 

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sim-server/fluid/set_up.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -46,7 +48,7 @@ double cavity_radius(int bubbles, const DetectSettings& settings) {
 
 double bubble_volume(double colour, const FluidParams& params) {
   const auto unit = static_cast<double>(params.mass / params.rest_density);
-  return unit / (std::max(colour, 0.0) + unit * static_cast<double>(params.kernel_norm));
+  return unit / (std::max(colour, 0.0) + unit * kernel_value(0.0, smoothing_of(params)));
 }
 
 std::vector<DetectedCavity> name_cavities(std::vector<PoolBubble>& pool,

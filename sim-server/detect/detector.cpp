@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/set_up.hpp"
 
 namespace splash::sim {
 namespace kernels {
@@ -19,11 +20,11 @@ std::size_t bubble_room(int particles) {
   return std::clamp<std::size_t>(static_cast<std::size_t>(particles) / 4, 1024, 65536);
 }
 
-cl::Program build(Device& device) {
+cl::Program build(Device& device, int smoothing) {
   std::vector<KernelSource> sources = fluid_sources();
   const std::vector<KernelSource> own = kernels::detect();
   sources.insert(sources.end(), own.begin(), own.end());
-  return build_program(device, sources, {}, false);
+  return build_program(device, sources, smoothing_defines(smoothing), false);
 }
 
 std::vector<BodyPoint> surface_of(const std::vector<BodyPoint>& points) {
@@ -48,8 +49,7 @@ std::vector<int> owners(const std::vector<BodyPoint>& points) {
 }
 
 SurfaceDistance distance_of(const FluidParams& p) {
-  return {static_cast<double>(p.spacing), static_cast<double>(p.support),
-          static_cast<double>(p.layer_weight)};
+  return {static_cast<double>(p.spacing), smoothing_of(p), static_cast<double>(p.layer_weight)};
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
       owner_(fluid.device(), owners(surface_points_)),
       touches_(fluid.device(), surface_points_.size()),
       touches_read_(surface_points_.size()),
-      program_(build(fluid.device())),
+      program_(build(fluid.device(), fluid.params().smoothing)),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
       cavities_(fluid, program_, settings, bubble_room(fluid.params().count), search_always),

@@ -32,6 +32,9 @@ class Detector {
   /// far.
   [[nodiscard]] Detections collect(double time, double frame, std::uint32_t step);
 
+  /// What it remembers of the particles, on the device, for checkpoints.
+  [[nodiscard]] std::vector<cl::Buffer> state() const { return {bubbles_.memory()}; }
+
   [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
   [[nodiscard]] std::uint64_t cavity_searches() const noexcept { return cavities_.searches(); }
   [[nodiscard]] std::uint64_t bubbles_dropped() const noexcept { return bubbles_.dropped(); }

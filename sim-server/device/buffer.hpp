@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "sim-server/device/device.hpp"
+#include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
 
@@ -19,15 +19,16 @@ class Buffer {
 
  public:
   Buffer() = default;
-  /// `size` elements, all bytes zero. Throws std::runtime_error that names both sizes when the
+  /// `size` elements, all bytes zero. Throws DeviceError that names both sizes when the
   /// device cannot hold it.
   Buffer(Device& device, std::size_t size) : size_(size) {
     const std::size_t bytes = std::max<std::size_t>(size, 1) * sizeof(T);
     if (bytes > device.facts().allocation) {
-      throw std::runtime_error("a buffer of " + std::to_string(bytes >> 20) +
-                               " MiB is wanted, the device allows " +
-                               std::to_string(device.facts().allocation >> 20) +
-                               " MiB; raise the scene's particle spacing");
+      throw DeviceError("a buffer of " + std::to_string(bytes >> 20) +
+                        " MiB is wanted, the device allows " +
+                        std::to_string(device.facts().allocation >> 20) +
+                        " MiB; lower the scene's particles or raise their spacing, or choose "
+                        "another device (--list-devices)");
     }
     memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes);
     device.queue().enqueueFillBuffer(memory_, cl_uchar{0}, 0, bytes);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/device/cache.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -8,6 +10,8 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
+
+#include "sim-server/device/cache_seal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -34,6 +38,21 @@ void try_to_write(const std::filesystem::path& folder) {
   }
 }
 
+/// Takes part in using `folder` until the process ends. The first to come looks through it; who
+/// comes meanwhile waits for that.
+void join(const std::filesystem::path& folder) {
+  const int lock = open((folder / "splash-lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+  if (lock < 0) return;  // the folder was tried before: another limit, and no reason to give up
+  if (flock(lock, LOCK_EX | LOCK_NB) == 0) {
+    const int removed = remove_damaged_programs(folder);
+    if (removed > 0) {
+      std::cerr << "note: " << removed << " compiled programs in " << folder.string()
+                << " were damaged or left unfinished; they are compiled again\n";
+    }
+  }
+  flock(lock, LOCK_SH);
+}
+
 }  // namespace
 
 std::filesystem::path prepare_kernel_cache() {
@@ -41,6 +60,8 @@ std::filesystem::path prepare_kernel_cache() {
   std::filesystem::path folder =
       chosen != nullptr && *chosen != '\0' ? std::filesystem::path(chosen) : default_cache();
   try_to_write(folder);
+  static std::filesystem::path joined;
+  if (joined != folder) join(joined = folder);
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);
   // Without it Linux often keeps all of PoCL's workers on one core for seconds.
   setenv("POCL_AFFINITY", "1", 0);

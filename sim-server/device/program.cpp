@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/device/program.hpp"
 
-#include <stdexcept>
+#include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
 
@@ -20,9 +20,11 @@ cl::Program build_program(const Device& device, const std::vector<KernelSource>&
   try {
     program.build(device.handle(), options.c_str());
   } catch (const cl::Error& error) {
-    throw std::runtime_error("the kernels do not build on " + device.facts().name + " (error " +
-                             std::to_string(error.err()) + "):\n" +
-                             program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle()));
+    throw DeviceError("the kernels do not build on " + device.facts().name + " (error " +
+                      std::to_string(error.err()) + "):\n" +
+                      program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle()) +
+                      "Choose another device (--list-devices). If a kernel's line is named above, "
+                      "please report it; if none is, the disk of $POCL_CACHE_DIR may be full");
   }
   return program;
 }

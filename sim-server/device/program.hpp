@@ -17,7 +17,7 @@ struct KernelSource {
 /// Builds `sources` as one program. `defines`: "NAME=VALUE" build constants; keep them few, each
 /// combination is compiled and cached apart. `relaxed`: allow -cl-fast-relaxed-math, for programs
 /// whose error the double-precision twins bound; guards are built without it.
-/// Throws std::runtime_error with the compiler's log.
+/// Throws DeviceError with the compiler's log.
 [[nodiscard]] cl::Program build_program(const Device& device,
                                         const std::vector<KernelSource>& sources,
                                         const std::vector<std::string>& defines, bool relaxed);

@@ -5,6 +5,7 @@
 
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {
@@ -48,7 +49,8 @@ DivergenceFree::DivergenceFree(Device& device, const FluidParams& params, bool r
       error_part_(device, 2 * groups_),
       state_{Buffer<SolveState>(device, 1), Buffer<SolveState>(device, 1)},
       state_read_{} {
-  const cl::Program program = build_program(device, divergence_free_sources(), {}, relaxed);
+  const cl::Program program = build_program(device, divergence_free_sources(),
+                                            smoothing_defines(params.smoothing), relaxed);
   const std::size_t group = device.lanes() > 1 ? 4 : 64;
   recall_pressure_ = Kernel(program, "recall_pressure");
   measure_response_ = Kernel(program, "measure_response", group);
@@ -91,7 +93,8 @@ void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
 void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
   measure_response_.run(fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
                         fluid.grid().cell_start(), fluid.awake_cells(),
-                        fluid.particles().position.memory(), fluid.body_grid().cell_start(),
+                        fluid.particles().position.memory(), fluid.density().memory(),
+                        fluid.water_density().memory(), fluid.body_grid().cell_start(),
                         fluid.boundary().position.memory(), fluid.boundary().velocity.memory(),
                         fluid.boundary_volume().memory(), fluid.boundary().stride,
                         fluid.body_steps().memory(), step.first_body, fluid.body_count(),

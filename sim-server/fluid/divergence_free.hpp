@@ -33,6 +33,9 @@ class DivergenceFree : public PressureSolver {
   void accelerate(Fluid& fluid, const Step& step) override;
   void enqueue_work(Device& device) override;
   [[nodiscard]] SolverWork work() const override;
+  [[nodiscard]] std::vector<cl::Buffer> kept() const override {
+    return {warm_.memory(), all_.memory()};
+  }
   [[nodiscard]] std::vector<float> pressure(Device& device) override;
   void restore_pressure(Device& device, const std::vector<float>& pressure) override;
 

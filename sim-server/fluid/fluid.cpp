@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 29 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
-static_assert(sizeof(BodyStep) == 19 * sizeof(float));
+static_assert(sizeof(FluidParams) == 33 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(BodyStep) == 20 * sizeof(float));
 static_assert(sizeof(BodyShape) == 6 * sizeof(float));
 
 static_assert(sizeof(SurveyPart) == 56);
@@ -91,8 +92,9 @@ void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
 }
 
 void Fluid::build_kernels(bool relaxed) {
-  const cl::Program program = build_program(device_, fluid_sources(), {}, relaxed);
-  const cl::Program guard = build_program(device_, survey_sources(), {}, false);
+  const std::vector<std::string> defines = smoothing_defines(params_.smoothing);
+  const cl::Program program = build_program(device_, fluid_sources(), defines, relaxed);
+  const cl::Program guard = build_program(device_, survey_sources(), defines, false);
   const auto particles = static_cast<std::size_t>(params_.count);
   grid_ = NeighbourGrid(device_, program, params_, particles, device_.sort_chunks());
   body_grid_ =
@@ -105,6 +107,7 @@ void Fluid::build_kernels(bool relaxed) {
   compute_acceleration_ = Kernel(program, "compute_acceleration", group);
   integrate_ = Kernel(program, "integrate", group);
   survey_ = Kernel(guard, "survey");
+  health_ = Health(device_, guard, params_);
   survey_parts_ = Buffer<SurveyPart>(device_, kParts);
   survey_read_.resize(kParts);
 }
@@ -128,6 +131,29 @@ void Fluid::prepare(const Step& step) {
 void Fluid::advance(const Step& step) {
   solver_->accelerate(*this, step);
   integrate(step);
+  if (watched_) {
+    health_.look(
+        device_,
+        {params_buffer_, sorted_, unsorted_, density_, grid_.source(), body_steps_, body_count_},
+        step);
+  }
+}
+
+void Fluid::begin_watch(std::size_t steps) {
+  watched_ = true;
+  health_.begin(device_, steps);
+}
+
+std::vector<cl::Buffer> Fluid::state() const {
+  std::vector<cl::Buffer> all = {sorted_.position.memory(), sorted_.velocity.memory(),
+                                 sorted_.id.memory()};
+  const std::vector<cl::Buffer> kept = solver_->kept();
+  all.insert(all.end(), kept.begin(), kept.end());
+  return all;
+}
+
+void Fluid::note_recalled() {
+  sleep_.wake(device_);
 }
 
 void Fluid::place_bodies(const Step& step) {
@@ -181,12 +207,13 @@ void Fluid::compute_density(const Step& step) {
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
-  compute_acceleration_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
-      sorted_.position.memory(), velocity.memory(), pressure_term_.memory(),
-      body_grid_.cell_start(), body_sorted_.position.memory(), body_sorted_.velocity.memory(),
-      body_volume_.memory(), body_sorted_.stride, body_steps_.memory(), step.first_body,
-      body_count_, as_float(step.piston), acceleration_.memory(), moving_.memory());
+  compute_acceleration_.run(device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
+                            sleep_.cells(), sorted_.position.memory(), velocity.memory(),
+                            pressure_term_.memory(), density_.memory(), water_density_.memory(),
+                            body_grid_.cell_start(), body_sorted_.position.memory(),
+                            body_sorted_.velocity.memory(), body_volume_.memory(),
+                            body_sorted_.stride, body_steps_.memory(), step.first_body, body_count_,
+                            as_float(step.piston), acceleration_.memory(), moving_.memory());
 }
 
 void Fluid::integrate(const Step& step) {
@@ -198,6 +225,7 @@ void Fluid::integrate(const Step& step) {
 
 void Fluid::still() {
   sorted_.velocity.enqueue_clear(device_);
+  health_.forget();
 }
 
 void Fluid::drop_last_wall() {
@@ -210,6 +238,7 @@ void Fluid::enqueue_survey() {
               sorted_.velocity.memory(), acceleration_.memory(), density_.memory(),
               sorted_.id.memory(), moving_.memory(), survey_parts_.memory());
   survey_parts_.enqueue_read(device_, survey_read_);
+  if (watched_) health_.enqueue_read(device_);
   solver_->enqueue_work(device_);
 }
 
@@ -256,6 +285,7 @@ void Fluid::restore(const Snapshot& snapshot) {
   sorted_.velocity.write(device_, snapshot.velocity);
   sorted_.id.write(device_, snapshot.id);
   solver_->restore_pressure(device_, snapshot.pressure);
+  health_.forget();
   sleep_.wake(device_);
 }
 

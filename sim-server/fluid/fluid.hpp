@@ -9,6 +9,7 @@
 #include "sim-server/device/program.hpp"
 #include "sim-server/fluid/boundary_point.hpp"
 #include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/health.hpp"
 #include "sim-server/fluid/neighbour_grid.hpp"
 #include "sim-server/fluid/pressure_solver.hpp"
 #include "sim-server/fluid/sleep.hpp"
@@ -73,6 +74,16 @@ class Fluid {
 
   /// From now on water at rest may sleep: steps that open a frame say when that is looked at.
   void let_sleep(const SleepRule& rule);
+
+  /// A frame of so many steps begins: from now on the health of each is looked at
+  /// (Health::diagnosis, once the survey is there).
+  void begin_watch(std::size_t steps);
+  void end_watch() noexcept { watched_ = false; }
+  [[nodiscard]] Health& health() noexcept { return health_; }
+  /// All that the next step depends on, for checkpoints.
+  [[nodiscard]] std::vector<cl::Buffer> state() const;
+  /// A checkpoint was put back: all that slept is awake.
+  void note_recalled();
 
   /// Stops all particles where they are.
   void still();
@@ -165,6 +176,8 @@ class Fluid {
   Kernel compute_acceleration_;
   Kernel integrate_;
   Kernel survey_;
+  Health health_;
+  bool watched_ = false;
   Buffer<SurveyPart> survey_parts_;
   std::vector<SurveyPart> survey_read_;
 };

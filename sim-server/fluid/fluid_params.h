@@ -5,7 +5,12 @@
 #define SPLASH_FLUID_PARAMS_H
 
 #define SPLASH_MAX_WALLS 8
+#define SPLASH_SLICES 4   // of each cell along x, by which points are sorted (kernels/grid.h)
 #define SPLASH_STRIPS 16  // of the fluid, from which work is dealt in turn (kernels/group.h)
+
+// The smoothing kernel (kernels/smoothing.h).
+#define SPLASH_NARROW 0
+#define SPLASH_WIDE 1
 
 // Where pressure comes from.
 #define SPLASH_WEAKLY_COMPRESSIBLE 0
@@ -33,7 +38,8 @@ typedef struct {
   float inverse_cell;   // 1 / edge of a cell, the support radius [1/m]
   float support;        // H [m]
   float inverse_support;
-  float kernel_norm;    // sigma = 21 / (2 pi H^3) [1/m3]; Wendland C2 in three dimensions
+  float length;         // smoothing length h [m]
+  float kernel_norm;    // sigma of kernels/smoothing.h [1/m3]
   float mass;           // of a fluid particle [kg]
   float rest_density;   // [kg/m3]
   float sound_speed;    // [m/s]
@@ -44,11 +50,15 @@ typedef struct {
   float gravity_z;
   float spacing;        // [m]
   float layer_weight;   // mass of a particle per rho0 and area spacing^2: weighs a layer of it [m]
+  float least_density;  // of a particle in a body of water, not in spray or a film [kg/m3]
+  float contact_share;  // of the kernel's weight beyond a plane face half a spacing away, 0: bodies
+                        // have no image (kernels/body_image.h) [1]
   float speed_limit;    // no particle moves faster [m/s]
   int wall_count;
   int piston;           // index of the wall that moves along its normal, -1: none
   int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
                         // is the nearer, -1: none
+  int smoothing;        // SPLASH_NARROW or SPLASH_WIDE
   int solver;           // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_DIVERGENCE_FREE
   float wave_speed;     // sqrt(g H) of the deepest water [m/s]
   float tolerance;      // divergence-free: mean density error at which a solve is done [1]
@@ -63,7 +73,11 @@ typedef struct {
   float wx, wy, wz;              // angular velocity in the world [rad/s]
   float lower_x, lower_y, lower_z;  // box around its points, grown by the support radius [m]
   float upper_x, upper_y, upper_z;
+  float speed;                   // of its fastest point, at most [m/s]
 } BodyStep;
+
+// A body slower than this is at rest: trackers tremble [m/s].
+#define SPLASH_TREMBLE 1e-3f
 
 #define SPLASH_BOX 0
 #define SPLASH_SPHERE 1

@@ -27,7 +27,7 @@ NeighbourGrid::NeighbourGrid(Device& device, const cl::Program& program, const F
       sum_blocks_(program, "sum_blocks"),
       place_cells_(program, "place_cells"),
       sort_points_(program, "sort_points") {
-  const std::size_t cells = static_cast<std::size_t>(params.cells_x) *
+  const std::size_t cells = SPLASH_SLICES * static_cast<std::size_t>(params.cells_x) *
                             static_cast<std::size_t>(params.cells_y) *
                             static_cast<std::size_t>(params.cells_z);
   cells_ = Buffer<int>(device, max_points);

@@ -16,6 +16,7 @@ class WeaklyCompressible : public PressureSolver {
   }
   void enqueue_work(Device& /*device*/) override {}
   [[nodiscard]] SolverWork work() const override { return {}; }
+  [[nodiscard]] std::vector<cl::Buffer> kept() const override { return {}; }
   [[nodiscard]] std::vector<float> pressure(Device& /*device*/) override { return {}; }
   void restore_pressure(Device& /*device*/, const std::vector<float>& /*pressure*/) override {}
 };

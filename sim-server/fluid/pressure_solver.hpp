@@ -45,7 +45,9 @@ class PressureSolver {
   virtual void enqueue_work(Device& device) = 0;
   [[nodiscard]] virtual SolverWork work() const = 0;
 
-  /// What is kept from step to step, by particle id; waits.
+  /// What is kept from step to step, where it is on the device.
+  [[nodiscard]] virtual std::vector<cl::Buffer> kept() const = 0;
+  /// The same by particle id; waits.
   [[nodiscard]] virtual std::vector<float> pressure(Device& device) = 0;
   virtual void restore_pressure(Device& device, const std::vector<float>& pressure) = 0;
 };

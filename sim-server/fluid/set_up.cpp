@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 
@@ -15,11 +15,6 @@ namespace {
 
 /// Spray may rise this far above the tank before it shares the topmost cells [m].
 constexpr double kHeadroom = 0.5;
-
-/// The outermost layer has nothing above it and packs more densely than the lattice: settled water
-/// stands lower than its volume says by this many spacings, whatever its depth. Measured: 0.15 in
-/// 0.3 m of water, 0.15 to 0.18 in 0.2 m, 0.18 in 0.09 m, 0.2 in 0.5 m.
-constexpr double kSurfaceLoss = 0.17;
 
 /// Index of the slope among the walls: after the floor and the four sides.
 constexpr int kSlopeWall = 5;
@@ -44,18 +39,26 @@ double layer_distance(const std::vector<Vector3>& particles, std::size_t axis, d
 }
 
 /// Sum of W over an unbounded lattice [1/m3].
-double lattice_sum(const Vector3& step, double support) {
+double lattice_sum(const Vector3& step, const Smoothing& smoothing) {
   const auto reach = [&](std::size_t axis) {
-    return static_cast<int>(std::ceil(support / step[axis]));
+    return static_cast<int>(std::ceil(smoothing.support / step[axis]));
   };
   double sum = 0.0;
   for (int kx = -reach(0); kx <= reach(0); ++kx) {
     for (int ky = -reach(1); ky <= reach(1); ++ky) {
       for (int kz = -reach(2); kz <= reach(2); ++kz) {
-        sum += kernel_value(std::hypot(kx * step[0], ky * step[1], kz * step[2]), support);
+        sum += kernel_value(std::hypot(kx * step[0], ky * step[1], kz * step[2]), smoothing);
       }
     }
   }
+  return sum;
+}
+
+/// Sum of the planar marginals of all layers beyond a face half a spacing away [1/m].
+double half_space_sum(double spacing, const Smoothing& smoothing) {
+  double sum = 0.0;
+  const auto layers = static_cast<int>(std::lround(smoothing.support / spacing));
+  for (int k = 0; k < layers; ++k) sum += plane_marginal((k + 0.5) * spacing, smoothing);
   return sum;
 }
 
@@ -70,7 +73,8 @@ void lay_grid(const Scene& scene, double support, FluidParams& params) {
   params.cells_x = cells(0);
   params.cells_y = cells(1);
   params.cells_z = cells(2);
-  const double total = static_cast<double>(params.cells_x) * params.cells_y * params.cells_z;
+  const double total =
+      static_cast<double>(SPLASH_SLICES) * params.cells_x * params.cells_y * params.cells_z;
   if (total > 64.0e6) {
     throw std::runtime_error("the tank needs " + std::to_string(static_cast<long long>(total)) +
                              " grid cells, 64 million are allowed; make the tank smaller or the "
@@ -101,7 +105,8 @@ double stratification(const Scene& scene) {
 double settling_loss(const Scene& scene, double spacing) {
   if (!falls_down(scene)) return 0.0;
   const double depth = water_depth(scene);
-  return stratification(scene) * depth / 2.0 + kSurfaceLoss * spacing / depth;
+  return stratification(scene) * depth / 2.0 +
+         traits_of(scene.fluid.smoothing).surface_loss * spacing / depth;
 }
 
 /// Height of the water's surface over x, y [m]; the floor's where there is none.
@@ -118,8 +123,13 @@ double surface_height(const Scene& scene, const Vector3& place) {
 
 }  // namespace
 
-double support_radius(const Scene& scene) {
-  return kSupportSpacings * particle_spacing(scene);
+Smoothing scene_smoothing(const Scene& scene) {
+  const SmoothingKind kind = scene.fluid.smoothing;
+  return {traits_of(kind).support_spacings * particle_spacing(scene), kind};
+}
+
+Smoothing smoothing_of(const FluidParams& params) {
+  return {static_cast<double>(params.support), static_cast<SmoothingKind>(params.smoothing)};
 }
 
 std::vector<WallPlane> tank_walls(const Scene& scene) {
@@ -167,7 +177,9 @@ std::vector<BodyShape> body_shapes(const std::vector<BodySettings>& bodies) {
 
 FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles) {
   const double spacing = particle_spacing(scene);
-  const double support = support_radius(scene);
+  const Smoothing smoothing = scene_smoothing(scene);
+  const SmoothingTraits& traits = traits_of(smoothing.kind);
+  const double support = smoothing.support;
   const double sound = scene_sound_speed(scene);
   FluidParams p = {};
   p.count = static_cast<int>(particles.size());
@@ -175,21 +187,28 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.support = static_cast<float>(support);
   p.inverse_support = static_cast<float>(1.0 / support);
   p.inverse_cell = p.inverse_support;
-  p.kernel_norm = static_cast<float>(kernel_norm(support));
+  p.length = static_cast<float>(traits.length * support);
+  p.smoothing = static_cast<int>(smoothing.kind);
+  p.least_density = static_cast<float>(traits.least_density * scene.fluid.density);
+  p.kernel_norm = static_cast<float>(kernel_norm(smoothing));
   const Vector3 step = {layer_distance(particles, 0, spacing),
                         layer_distance(particles, 1, spacing),
                         layer_distance(particles, 2, spacing)};
   const double loss = settling_loss(scene, spacing);
-  p.mass = static_cast<float>((1.0 + loss) * scene.fluid.density / lattice_sum(step, support));
+  p.mass = static_cast<float>((1.0 + loss) * scene.fluid.density / lattice_sum(step, smoothing));
   p.rest_density = static_cast<float>(scene.fluid.density);
   p.sound_speed = static_cast<float>(sound);
   p.viscous = static_cast<float>(10.0 * scene.fluid.viscosity);
-  p.artificial = static_cast<float>(scene.fluid.artificial * sound * support / 2.0);
+  p.artificial = static_cast<float>(scene.fluid.artificial * sound * traits.length * support);
   p.gravity_x = static_cast<float>(scene.fluid.gravity[0]);
   p.gravity_y = static_cast<float>(scene.fluid.gravity[1]);
   p.gravity_z = static_cast<float>(scene.fluid.gravity[2]);
   p.spacing = static_cast<float>(spacing);
-  p.layer_weight = static_cast<float>(1.0 / (lattice_sum(step, support) * spacing * spacing));
+  const double layer = 1.0 / (lattice_sum(step, smoothing) * spacing * spacing);
+  p.layer_weight = static_cast<float>(layer);
+  if (smoothing.kind == SmoothingKind::wide) {
+    p.contact_share = static_cast<float>(layer * half_space_sum(spacing, smoothing));
+  }
   p.speed_limit = static_cast<float>(sound);
   p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;
   p.wave_speed = static_cast<float>(std::sqrt(length(scene.fluid.gravity) * water_depth(scene)));

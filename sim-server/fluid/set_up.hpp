@@ -5,16 +5,15 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
 
-/// Support radius over particle spacing: about 30 neighbours. Chosen on cost: see docs of the
-/// solver in sim-server/fluid/README.md.
-inline constexpr double kSupportSpacings = 2.0;
-
-/// Support radius H of a scene [m].
-[[nodiscard]] double support_radius(const Scene& scene);
+/// The smoothing kernel of a scene, with its support.
+[[nodiscard]] Smoothing scene_smoothing(const Scene& scene);
+/// The same from the numbers of a run.
+[[nodiscard]] Smoothing smoothing_of(const FluidParams& params);
 
 /// Walls: the floor first, then the sides (smallest x first: the piston), then the slope, then the
 /// gate.

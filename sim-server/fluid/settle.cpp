@@ -20,7 +20,7 @@ void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, do
   std::vector<BodyStep> still = bodies;
   for (BodyStep& body : still) {
     body.vx = body.vy = body.vz = 0.0F;
-    body.wx = body.wy = body.wz = 0.0F;
+    body.wx = body.wy = body.wz = body.speed = 0.0F;
   }
   fluid.set_bodies(still);
   const Step step = {dt, piston, 0.0, 0};

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/fluid/smoothing.hpp"
+
 namespace splash::sim {
 namespace {
 
-constexpr double kAcoustic = 0.75;
 constexpr double kWay = 0.3;
 constexpr double kLongest = 10.0e-3;  ///< [s]
 constexpr double kPush = 0.25;
@@ -21,7 +22,7 @@ constexpr double kLeastShare = 0.25;
 double largest_time_step(const FluidParams& params, double speed, double acceleration,
                          double factor) {
   const double support = static_cast<double>(params.support);
-  const double h = support / 2.0;
+  const double h = static_cast<double>(params.length);
   const double nu = static_cast<double>(params.viscous + params.artificial) / 10.0;
   const double viscous = kViscous * h * h / std::max(nu, 1.0e-12);
   if (params.solver == SPLASH_DIVERGENCE_FREE) {
@@ -30,7 +31,8 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
     return factor * std::min({way, viscous, kLongest});
   }
   const double sound = static_cast<double>(params.sound_speed);
-  const double acoustic = kAcoustic * support / (sound + speed);
+  const double share = traits_of(static_cast<SmoothingKind>(params.smoothing)).acoustic;
+  const double acoustic = share * support / (sound + speed);
   const double push = kPush * std::sqrt(h / std::max(acceleration, 1.0e-9));
   return factor * std::min({acoustic, viscous, std::max(push, kLeastShare * acoustic)});
 }

@@ -8,8 +8,8 @@
 namespace splash::sim {
 
 /// Largest step that is used [s]. Of the weakly compressible solver:
-///   acoustic  dt <= C H / (c0 + v)        C = 0.75: still and breaking water stay calm to 0.9,
-///                                          and grow rough at 1.05
+///   acoustic  dt <= C H / (c0 + v)        C of the smoothing kernel, a sixth below where still
+///                                          water grows rough (smoothing.cpp)
 ///   push      dt <= 0.25 sqrt(h / a)      Monaghan 1992
 ///   viscous   dt <= 0.125 h^2 / nu        Morris et al. 1997
 /// Of the divergence-free solver:
@@ -19,8 +19,8 @@ namespace splash::sim {
 ///                                          water; 0.4 and 0.7 failed
 ///   viscous   as above
 ///   longest   10 ms, so that nothing sudden is slept through
-/// with h = H / 2, dx the spacing, `speed` the fastest particle or body point [m/s], `acceleration`
-/// the largest [m/s2] and `factor` the scene's own (1: as above).
+/// with h the smoothing length, dx the spacing, `speed` the fastest particle or body point [m/s],
+/// `acceleration` the largest [m/s2] and `factor` the scene's own (1: as above).
 [[nodiscard]] double largest_time_step(const FluidParams& params, double speed, double acceleration,
                                        double factor);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -65,13 +65,13 @@ Vector3 push(const WaterState& water, std::size_t i, const Placed& point) {
   const Vector3 x = water.position[i] - point.place;
   const double r = length(x);
   if (r >= water.support) return {0.0, 0.0, 0.0};
-  const double h = water.support / 2.0;
+  const double h = traits_of(water.smoothing).length * water.support;
   const double closing = dot(water.velocity[i] - point.velocity, x);
   const double rub = (water.viscous * closing + water.artificial * std::min(closing, 0.0)) /
                      (water.rest_density * (r * r + 0.01 * h * h));
-  const double own = water.pressure[i] / (water.density[i] * water.density[i]);
+  const double own = water.rise[i] * water.pressure[i] / (water.density[i] * water.density[i]);
   return water.mass * water.rest_density * point.volume * (own - rub) *
-         kernel_gradient(r, water.support) * x;
+         kernel_gradient(r, water.kernel()) * x;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -54,7 +54,8 @@ class Cells {
   std::vector<double> colour_;
 };
 
-void paint(Cells& cells, const Vector3& point, double volume, double support) {
+void paint(Cells& cells, const Vector3& point, double volume, const Smoothing& smoothing) {
+  const double support = smoothing.support;
   const auto [i0, i1] = cells.range(0, point[0], support);
   const auto [j0, j1] = cells.range(1, point[1], support);
   const auto [k0, k1] = cells.range(2, point[2], support);
@@ -62,7 +63,7 @@ void paint(Cells& cells, const Vector3& point, double volume, double support) {
     for (int j = j0; j < j1; ++j) {
       for (int i = i0; i < i1; ++i) {
         const double r = length(cells.middle(i, j, k) - point);
-        cells.colour()[cells.index(i, j, k)] += volume * kernel_value(r, support);
+        cells.colour()[cells.index(i, j, k)] += volume * kernel_value(r, smoothing);
       }
     }
   }
@@ -115,7 +116,7 @@ int drain(const Cells& cells, std::vector<char>& air, int i, int j, int k) {
 Cavity find_cavity(std::span<const Vector3> points, const WaterState& water, const Vector3& lower,
                    const Vector3& upper, const std::function<bool(const Vector3&)>& solid) {
   Cells cells(lower, upper, water.spacing);
-  for (const Vector3& point : points) paint(cells, point, water.volume(), water.support);
+  for (const Vector3& point : points) paint(cells, point, water.volume(), water.kernel());
   std::vector<char> air = air_of(cells, solid);
   Cavity cavity;
   const int top = cells.count(2) - 1;

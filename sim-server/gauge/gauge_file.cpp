@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/gauge/gauge_file.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <stdexcept>
 
 namespace splash::sim {
@@ -14,10 +16,22 @@ const Scene& with_probes(const Scene& scene) {
                               "(configs/README.md) or leave out --gauges");
 }
 
+std::runtime_error cannot_write(const std::filesystem::path& path) {
+  std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
+  if (errno == ENOSPC) cause += "; free space there or name a file elsewhere";
+  return std::runtime_error("cannot write gauges to " + path.string() + ": " + cause);
+}
+
 }  // namespace
 
 GaugeFile::GaugeFile(const std::filesystem::path& path, const Scene& scene)
-    : path_(path), gauges_(with_probes(scene)), out_(path) {
+    : path_(path), gauges_(with_probes(scene)) {
+  reopen();
+}
+
+void GaugeFile::reopen() {
+  errno = 0;
+  out_ = std::ofstream(path_);
   out_.precision(9);
   const char* separator = "";
   for (const std::string& column : gauges_.columns()) {
@@ -25,18 +39,19 @@ GaugeFile::GaugeFile(const std::filesystem::path& path, const Scene& scene)
     separator = ",";
   }
   out_ << std::endl;  // so that what follows is lines, whoever reads along
-  if (!out_) throw std::runtime_error("cannot write gauges to " + path.string());
+  if (!out_) throw cannot_write(path_);
 }
 
 void GaugeFile::note(double seconds, Fluid& fluid, const Bodies& bodies) {
   if (!gauges_.is_due(seconds)) return;
+  errno = 0;
   const char* separator = "";
   for (const double value : gauges_.read(seconds, fluid, bodies)) {
     out_ << separator << value;
     separator = ",";
   }
-  out_ << '\n';
-  if (!out_) throw std::runtime_error("cannot write gauges to " + path_.string());
+  out_ << std::endl;
+  if (!out_) throw cannot_write(path_);
 }
 
 }  // namespace splash::sim

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "sim-server/gauge/gauges.hpp"
 
@@ -17,6 +18,8 @@ class GaugeFile {
 
   /// Writes a sample if one is due at `seconds`, the end of a frame. Throws std::runtime_error.
   void note(double seconds, Fluid& fluid, const Bodies& bodies);
+  /// Begins a new file at the same path, with the columns' names. Throws std::runtime_error.
+  void reopen();
 
  private:
   std::filesystem::path path_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/gauge/water_state.hpp"
 
+#include "sim-server/fluid/body_image.hpp"
+
 namespace splash::sim {
 
 namespace {
@@ -19,11 +21,17 @@ std::vector<Vector3> as_vectors(const std::vector<float>& parts, std::size_t cou
 void read_pressures(Fluid& fluid, WaterState& water) {
   const std::size_t count = water.position.size();
   const std::vector<float> density = fluid.density().read(fluid.device(), count);
+  const std::vector<float> alone = fluid.water_density().read(fluid.device(), count);
   const std::vector<float> term = fluid.pressure_term().read(fluid.device(), count);
   water.density.assign(density.begin(), density.end());
   water.pressure.resize(count);
+  water.rise.resize(count);
+  const auto rest = static_cast<double>(fluid.params().rest_density);
+  const auto contact = static_cast<double>(fluid.params().contact_share);
   for (std::size_t i = 0; i < count; ++i) {
     water.pressure[i] = static_cast<double>(term[i]) * water.density[i] * water.density[i];
+    const double image = (water.density[i] - static_cast<double>(alone[i])) / rest;
+    water.rise[i] = image_rise(image, contact);
   }
 }
 
@@ -41,6 +49,7 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   water.mass = static_cast<double>(p.mass);
   water.spacing = static_cast<double>(p.spacing);
   water.support = static_cast<double>(p.support);
+  water.smoothing = static_cast<SmoothingKind>(p.smoothing);
   water.rest_density = static_cast<double>(p.rest_density);
   water.sound_speed = static_cast<double>(p.sound_speed);
   water.viscous = static_cast<double>(p.viscous);

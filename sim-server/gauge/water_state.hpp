@@ -5,20 +5,23 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 
-/// Particles that all have the same mass. Density and pressure are empty unless they were asked
-/// for.
+/// Particles that all have the same mass. Density, pressure and rise are empty unless they were
+/// asked for.
 struct WaterState {
   std::vector<Vector3> position;  ///< [m]
   std::vector<Vector3> velocity;  ///< [m/s]
   std::vector<double> density;    ///< [kg/m3]
   std::vector<double> pressure;   ///< [Pa]
+  std::vector<double> rise;       ///< of the bodies' image with their share (body_image.hpp) [1]
 
-  double mass = 0.0;          ///< of one particle [kg]
-  double spacing = 0.0;       ///< dp [m]
-  double support = 0.0;       ///< H of the kernel [m]
+  double mass = 0.0;     ///< of one particle [kg]
+  double spacing = 0.0;  ///< dp [m]
+  double support = 0.0;  ///< H of the kernel [m]
+  SmoothingKind smoothing = SmoothingKind::narrow;
   double rest_density = 0.0;  ///< rho0 [kg/m3]
   double sound_speed = 0.0;   ///< c0 [m/s]
   double viscous = 0.0;       ///< 10 nu [m2/s], as in fluid_params.h
@@ -28,10 +31,11 @@ struct WaterState {
 
   /// Volume a particle takes up at rest [m3].
   [[nodiscard]] double volume() const { return mass / rest_density; }
+  [[nodiscard]] Smoothing kernel() const { return {support, smoothing}; }
 };
 
-/// Reads the fluid's state and waits for it; `pressures`: density and pressure, too, which must be
-/// those of the state (Fluid::prepare makes them so).
+/// Reads the fluid's state and waits for it; `pressures`: density, pressure and rise, too, which
+/// must be those of the state (Fluid::prepare makes them so).
 [[nodiscard]] WaterState read_water(Fluid& fluid, bool pressures);
 
 }  // namespace splash::sim

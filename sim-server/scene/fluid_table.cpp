@@ -4,9 +4,13 @@
 
 namespace splash::sim {
 
-const Fields<FluidEntry>& fluid_fields() {
-  using F = FluidEntry;
-  static const Fields<F> kFields = {
+namespace {
+
+using F = FluidEntry;
+
+/// What the water is made of, and how its motion is solved.
+Fields<F> method_fields() {
+  return {
       {{.key = "spacing",
         .unit = "m",
         .meaning = "Particle spacing at rest. Give this or `particles`, not both.",
@@ -34,6 +38,15 @@ const Fields<FluidEntry>& fluid_fields() {
         .choices = {"weakly_compressible", "divergence_free"},
         .source = "Monaghan 2005; Bender & Koschier 2017"},
        &F::solver_name},
+      {{.key = "smoothing",
+        .unit = "",
+        .meaning =
+            "Over how much water each particle averages: narrow, 2 spacings, 30 neighbours, "
+            "fast; wide, 2.5 spacings, 65 neighbours, more accurate (sim-server/fluid/README "
+            "compares both).",
+        .choices = {"narrow", "wide"},
+        .source = "Wendland 1995; Price 2012"},
+       &F::smoothing_name},
       {{.key = "kernels",
         .unit = "",
         .meaning = "vector: as suits the device; reference: one particle at a time, slow, for "
@@ -46,6 +59,12 @@ const Fields<FluidEntry>& fluid_fields() {
         .min = 1.0e-5,
         .max = 0.05},
        &F::tolerance},
+  };
+}
+
+/// What moves it and what holds it back.
+Fields<F> force_fields() {
+  return {
       {{.key = "sound_speed",
         .unit = "m/s",
         .meaning = "Speed of sound of the weakly compressible model, and scale of the artificial "
@@ -81,6 +100,17 @@ const Fields<FluidEntry>& fluid_fields() {
         .source = "standard gravity"},
        &F::gravity},
   };
+}
+
+Fields<F> joined(Fields<F> first, const Fields<F>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+}  // namespace
+
+const Fields<FluidEntry>& fluid_fields() {
+  static const Fields<F> kFields = joined(method_fields(), force_fields());
   return kFields;
 }
 

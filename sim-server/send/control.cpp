@@ -40,6 +40,7 @@ void ControlServer::count(std::uint64_t ControlCounts::*counter) {
 void ControlServer::listen(const std::stop_token& stop) {
   std::array<std::byte, kBuffer> buffer{};
   while (!stop.stop_requested()) {
+    ++turns_;
     const auto received = socket_.receive(buffer.data(), buffer.size(), kLookForStop);
     if (!received) continue;
     {

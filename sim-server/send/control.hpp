@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -62,6 +63,8 @@ class ControlServer {
 
   [[nodiscard]] protocol::Endpoint local() const noexcept { return socket_.local(); }
   [[nodiscard]] ControlCounts counts() const;
+  /// How often the listening thread has looked, ten times a second at least.
+  [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
 
  private:
   struct Request {
@@ -102,6 +105,7 @@ class ControlServer {
   RateLimit complaints_;
   DumpLevel dump_level_ = DumpLevel::off;
   bool complains_ = true;  ///< /error 1
+  std::atomic<std::uint64_t> turns_{0};
   mutable std::mutex mutex_;
   ControlCounts counts_;  ///< under mutex_
   std::jthread thread_;   ///< last: it uses all of the above

@@ -105,7 +105,6 @@ void EventSender::close(double end_seconds) {
   if (log_ == nullptr) return;
   const double end = std::max({end_seconds, last_moment_, logged_.last_time});
   log_->append(end, tell(logged_, {}, 0.0, end));
-  log_->flush();
 }
 
 void EventSender::say_frame(double now) {

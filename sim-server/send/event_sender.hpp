@@ -59,6 +59,8 @@ class EventSender {
   void idle();
   /// Ends the log with a /frame at `end_seconds` or at the last event's moment, the later one.
   void close(double end_seconds);
+  /// The log takes nothing more.
+  void stop_logging() noexcept { log_ = nullptr; }
 
   /// Of the wire: drawn from the system's entropy, in [1, 2^24).
   [[nodiscard]] std::int32_t session() const noexcept { return wire_.session; }

@@ -41,6 +41,9 @@ class Pacer {
   /// that it is over.
   void wait_until(double seconds);
 
+  /// Time slips when behind by more than this [s].
+  void set_slip_limit(double seconds) noexcept { settings_.slip_limit = seconds; }
+
   /// Unix time at which simulated second 0 was, slips included [s]: what FrameTime wants. Read it
   /// for each frame, since slips and corrections of the system clock move it.
   [[nodiscard]] double unix_origin() const;

@@ -86,12 +86,19 @@ std::string to_json(const RunReport& report) {
   json["lost"] = known_or_null(report.lost);
   json["behind"] = report.behind;
   json["slipped_seconds"] = finite_or_null(report.slipped_seconds);
+  json["most_behind"] = finite_or_null(report.most_behind);
+  json["overload"] = {{"lean_seconds", finite_or_null(report.lean_seconds)},
+                      {"coarse_seconds", finite_or_null(report.coarse_seconds)},
+                      {"slow_seconds", finite_or_null(report.slow_seconds)}};
   json["skipped"] = {{"idle_frames", report.idle_frames},
                      {"contact_passes", report.without_contacts},
                      {"bubble_passes", report.without_bubbles},
                      {"cavity_searches", report.without_cavities},
                      {"asleep", finite_or_null(report.asleep)}};
+  json["refused_poses"] = report.refused_poses;
   json["resets"] = report.resets;
+  json["retried_frames"] = report.retried;
+  json["calmed_frames"] = report.calmed;
   // A device may call itself anything: bytes that are no UTF-8 are replaced.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -133,7 +140,7 @@ std::string summary(const RunReport& report) {
        << report.without_cavities << " without cavities\n";
   text << "pacing    " << report.behind << " of " << report.frames << " frames behind, "
        << std::setprecision(3) << report.slipped_seconds << " s slipped, " << report.resets
-       << " resets\n";
+       << " resets, " << report.calmed << " frames given up, " << report.retried << " retried\n";
   return text.str();
 }
 

@@ -33,11 +33,18 @@ struct RunReport {
   std::optional<std::uint64_t> lost;   ///< bundles the targets missed; empty: none answered
   std::uint64_t behind = 0;            ///< frames that were late against the wall clock
   double slipped_seconds = 0.0;        ///< simulated time given up to stay in real time
+  double most_behind = 0.0;            ///< the latest frame [s]
+  double lean_seconds = 0.0;           ///< of wall time with gauges once a second only
+  double coarse_seconds = 0.0;         ///< same with longer steps as well
+  double slow_seconds = 0.0;           ///< same with simulated time behind the clock as well
   std::uint64_t idle_frames = 0;       ///< nothing was computed: all water slept
   std::uint64_t without_contacts = 0;  ///< frames that did not look for impacts
   std::uint64_t without_bubbles = 0;   ///< same for bubbles
   std::uint64_t without_cavities = 0;  ///< same for cavities
   double asleep = 0.0;                 ///< share of the particles that slept, on average [1]
+  std::uint64_t refused_poses = 0;     ///< of trackers: no numbers, impossible speeds, late ones
+  std::uint64_t retried = 0;           ///< frames that went well only with shorter steps
+  std::uint64_t calmed = 0;            ///< frames given up, and the water around a fault stopped
   std::uint64_t resets = 0;            ///< times the fluid had to be set up anew
 
   /// Per second of wall time [1/s]; not a number when no time passed.

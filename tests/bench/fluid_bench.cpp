@@ -82,7 +82,7 @@ Particles copy_of(Device& device, Block& block) {
   p.velocity = block.fluid.particles().velocity.read(device, 3 * stride);
   p.pressure = block.fluid.pressure_term().read(device, stride);
   for (auto* part : {&p.position, &p.velocity, &p.pressure}) part->resize(part->size() + 32);
-  const std::size_t cells = static_cast<std::size_t>(p.params.cells_x) *
+  const std::size_t cells = SPLASH_SLICES * static_cast<std::size_t>(p.params.cells_x) *
                             static_cast<std::size_t>(p.params.cells_y) *
                             static_cast<std::size_t>(p.params.cells_z);
   p.cell_start.resize(cells + 1);
@@ -152,9 +152,9 @@ struct MainKernels {
         nobody.memory(), 0, 0, 0.0F, rho.memory(), water.memory(), term.memory());
     set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
         f.particles().position.memory(), f.particles().velocity.memory(),
-        f.pressure_term().memory(), f.body_grid().cell_start(), f.boundary().position.memory(),
-        f.boundary().velocity.memory(), none.memory(), 0, nobody.memory(), 0, 0, 0.0F,
-        push.memory(), moving.memory());
+        f.pressure_term().memory(), f.density().memory(), f.water_density().memory(),
+        f.body_grid().cell_start(), f.boundary().position.memory(), f.boundary().velocity.memory(),
+        none.memory(), 0, nobody.memory(), 0, 0, 0.0F, push.memory(), moving.memory());
   }
 
   static std::size_t cells(const FluidParams& p) {

@@ -70,6 +70,12 @@ int cell_along(float x, float origin, float inverse_cell, int cells) {
       std::clamp((x - origin) * inverse_cell, 1.0F, static_cast<float>(cells - 2)));
 }
 
+int slice_of(const sim::FluidParams& p, float x) {
+  const float cell =
+      std::clamp((x - p.origin_x) * p.inverse_cell, 1.0F, static_cast<float>(p.cells_x));
+  return std::min(static_cast<int>(cell * SPLASH_SLICES), (p.cells_x - 1) * SPLASH_SLICES - 1);
+}
+
 Box box_around(const Particles& p, int first, int last) {
   Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -120,7 +126,8 @@ void gather(const Particles& p, int first, Group& group) {
   const float* z = y + p.stride;
   const int row = cell_along(z[first], s.origin_z, s.inverse_cell, s.cells_z) * s.cells_y +
                   cell_along(y[first], s.origin_y, s.inverse_cell, s.cells_y);
-  const int row_end = p.cell_start[static_cast<std::size_t>((row + 1) * s.cells_x)];
+  const int slices = SPLASH_SLICES * s.cells_x;
+  const int row_end = p.cell_start[static_cast<std::size_t>((row + 1) * slices)];
   group.first = first;
   group.last = std::min(first + kLanes, row_end);
   group.x = load(x + first);
@@ -128,10 +135,10 @@ void gather(const Particles& p, int first, Group& group) {
   group.z = load(z + first);
   group.near_count = 0;
   const Box box = box_around(p, first, group.last);
-  const int from = cell_along(x[first], s.origin_x, s.inverse_cell, s.cells_x) - 1;
-  const int to = cell_along(x[group.last - 1], s.origin_x, s.inverse_cell, s.cells_x) + 2;
+  const int from = slice_of(s, x[first]) - SPLASH_SLICES;
+  const int to = slice_of(s, x[group.last - 1]) + SPLASH_SLICES + 1;
   for (int k = 0; k < 9; ++k) {
-    const int base = (row + (k / 3 - 1) * s.cells_y + k % 3 - 1) * s.cells_x;
+    const int base = (row + (k / 3 - 1) * s.cells_y + k % 3 - 1) * slices;
     weed(p, box, p.cell_start[static_cast<std::size_t>(base + from)],
          p.cell_start[static_cast<std::size_t>(base + to)], group);
   }
@@ -141,9 +148,10 @@ void gather(const Particles& p, int first, Group& group) {
 std::vector<int> group_starts(const Particles& p) {
   std::vector<int> starts;
   const int rows = p.params.cells_y * p.params.cells_z;
+  const int slices = SPLASH_SLICES * p.params.cells_x;
   for (int row = 0; row < rows; ++row) {
-    const int end = p.cell_start[static_cast<std::size_t>((row + 1) * p.params.cells_x)];
-    for (int first = p.cell_start[static_cast<std::size_t>(row * p.params.cells_x)]; first < end;
+    const int end = p.cell_start[static_cast<std::size_t>((row + 1) * slices)];
+    for (int first = p.cell_start[static_cast<std::size_t>(row * slices)]; first < end;
          first += kLanes) {
       starts.push_back(first);
     }
@@ -180,7 +188,7 @@ void acceleration_of(const Particles& p, const Group& group, std::vector<float>&
   const auto n = static_cast<std::size_t>(p.stride);
   const float* x = p.position.data();
   const float* u = p.velocity.data();
-  const float eta2 = 0.01F * 0.25F * s.support * s.support;
+  const float eta2 = 0.01F * s.length * s.length;
   const float viscous = s.viscous / s.rest_density;
   const float artificial = s.artificial / s.rest_density;
   const Vector own_u = load(u + group.first);

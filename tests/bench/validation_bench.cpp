@@ -19,6 +19,7 @@ struct Options {
   std::filesystem::path out = std::filesystem::path(SPLASH_SOURCE_DIR) / "out" / "validation";
   int resolutions = 100;
   int device = -1;
+  Setting setting;
 };
 
 /// A line that says how far the run is, not more often than every two seconds.
@@ -50,6 +51,14 @@ void print(const std::string& what, const Result& result) {
   std::fflush(stdout);
 }
 
+/// What is not the default.
+std::string described(const Setting& setting) {
+  std::string text;
+  if (setting.smoothing == sim::SmoothingKind::wide) text += "; smoothing: wide";
+  if (setting.solver == sim::PressureKind::divergence_free) text += "; solver: divergence_free";
+  return text;
+}
+
 void bench(const Options& options) {
   std::vector<const Case*> wanted;
   for (const std::string& name : options.cases) wanted.push_back(&case_named(name));
@@ -68,11 +77,13 @@ void bench(const Options& options) {
       std::snprintf(what, sizeof what, "%-18s %s/dp = %-4.0f", item->name.c_str(),
                     item->size_name.c_str(), item->size / item->spacings[k]);
       Progress progress(what);
-      results.push_back(run_case(device, *item, item->spacings[k], options.out / "series",
+      Setting setting = options.setting;
+      setting.spacing = item->spacings[k];
+      results.push_back(run_case(device, *item, setting, options.out / "series",
                                  [&](double share) { progress(share); }));
       print(what, results.back());
       // After every run, so that a run that is broken off leaves what it found.
-      write_report(options.out, device.facts().name, results);
+      write_report(options.out, device.facts().name + described(options.setting), results);
     }
   }
   std::printf("report: %s\n", (options.out / "report.md").c_str());
@@ -89,6 +100,16 @@ int main(int argc, char** argv) {
   app.add_option("--resolutions", options.resolutions, "Only so many, coarse ones first")
       ->check(CLI::Range(1, 100));
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  const std::map<std::string, sim::SmoothingKind> smoothings = {
+      {"narrow", sim::SmoothingKind::narrow}, {"wide", sim::SmoothingKind::wide}};
+  const std::map<std::string, sim::PressureKind> solvers = {
+      {"weakly_compressible", sim::PressureKind::weakly_compressible},
+      {"divergence_free", sim::PressureKind::divergence_free}};
+  app.add_option("--smoothing", options.setting.smoothing, "Instead of the default: narrow or wide")
+      ->transform(CLI::CheckedTransformer(smoothings));
+  app.add_option("--solver", options.setting.solver,
+                 "Instead of the default: weakly_compressible or divergence_free")
+      ->transform(CLI::CheckedTransformer(solvers));
   CLI11_PARSE(app, argc, argv);
   try {
     bench(options);

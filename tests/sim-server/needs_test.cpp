@@ -28,6 +28,7 @@ BodyStep body(float height, float speed) {
   b.lower_z = height;
   b.upper_z = height + 0.2F;
   b.vz = -speed;
+  b.speed = fastest_point(b);
   return b;
 }
 
@@ -60,6 +61,7 @@ TEST(Needs, ABodyCountsWhenItMovesNearTheWater) {
   EXPECT_FALSE(look(needs, {body(1.1F, 5.0F)}, asleep).steps) << "far above";
   BodyStep turning = body(0.9F, 0.0F);
   turning.wy = 0.1F;
+  turning.speed = fastest_point(turning);
   EXPECT_TRUE(look(needs, {turning}, asleep).steps);
 }
 

@@ -98,17 +98,17 @@ void write_figures(const std::filesystem::path& path, const std::vector<Result>&
 
 }  // namespace
 
-Result run_case(sim::Device& device, const Case& item, double spacing,
+Result run_case(sim::Device& device, const Case& item, const Setting& setting,
                 const std::filesystem::path& series_folder,
                 const std::function<void(double)>& progress) {
   Result result;
   result.item = &item;
-  result.spacing = spacing;
+  result.spacing = setting.spacing;
   std::vector<Run> runs;
   const double scenes = static_cast<double>(item.scenes.size());
   for (const std::string& scene : item.scenes) {
     const double done = static_cast<double>(runs.size()) / scenes;
-    runs.push_back(run_scene(device, scene, spacing, item.seconds, [&](double share) {
+    runs.push_back(run_scene(device, scene, setting, item.seconds, [&](double share) {
       if (progress) progress(done + share / scenes);
     }));
     const Run& run = runs.back();
@@ -117,7 +117,7 @@ Result run_case(sim::Device& device, const Case& item, double spacing,
     result.wall += run.wall;
     result.processor += run.processor;
     if (!series_folder.empty()) {
-      run.gauges.write(series_folder / (scene + "-" + text(1e3 * spacing) + "mm.csv"));
+      run.gauges.write(series_folder / (scene + "-" + text(1e3 * setting.spacing) + "mm.csv"));
     }
   }
   result.outcome = item.evaluate(runs);

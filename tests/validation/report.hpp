@@ -22,7 +22,7 @@ struct Result {
 };
 
 /// Runs one case at one resolution. `progress` gets the share done [0, 1].
-[[nodiscard]] Result run_case(sim::Device& device, const Case& item, double spacing,
+[[nodiscard]] Result run_case(sim::Device& device, const Case& item, const Setting& setting,
                               const std::filesystem::path& series_folder,
                               const std::function<void(double)>& progress = {});
 

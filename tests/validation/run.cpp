@@ -34,11 +34,13 @@ Series reference_named(const std::string& name) {
   return Series::read(folder() / "reference" / (name + ".csv"));
 }
 
-Run run_scene(sim::Device& device, const std::string& name, double spacing, double seconds,
+Run run_scene(sim::Device& device, const std::string& name, const Setting& setting, double seconds,
               const std::function<void(double)>& progress) {
   Run run;
   run.scene = scene_named(name);
-  run.scene.fluid.spacing = spacing;
+  run.scene.fluid.spacing = setting.spacing;
+  run.scene.fluid.smoothing = setting.smoothing;
+  run.scene.fluid.solver = setting.solver;
   const double wall = protocol::monotonic_now();
   const double processor = processor_time();
   sim::Simulation simulation(device, run.scene, {});

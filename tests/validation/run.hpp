@@ -11,6 +11,13 @@
 
 namespace splash::validation {
 
+/// What a case is run with.
+struct Setting {
+  double spacing = 0.0;  ///< of particles [m]
+  sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
+  sim::PressureKind solver = sim::PressureKind::weakly_compressible;
+};
+
 struct Run {
   sim::Scene scene;
   Series gauges;  ///< the scene's, by their columns' names
@@ -26,8 +33,8 @@ struct Run {
 /// Reads tests/validation/reference/`name`.csv.
 [[nodiscard]] Series reference_named(const std::string& name);
 
-/// Runs for `seconds` with particles `spacing` apart [m]; `progress` gets the share done [0, 1].
-[[nodiscard]] Run run_scene(sim::Device& device, const std::string& name, double spacing,
+/// Runs for `seconds`; `progress` gets the share done [0, 1].
+[[nodiscard]] Run run_scene(sim::Device& device, const std::string& name, const Setting& setting,
                             double seconds, const std::function<void(double)>& progress = {});
 
 }  // namespace splash::validation

@@ -4,10 +4,6 @@
 // over particles that belong to a body of water. Spray and the film that a body carries along are
 // no surface that could be hit: their density, without the body's part of it, is lower.
 
-// Of the density at rest, on the lattice: a lone particle has 0.40, a film of one layer 0.75, the
-// top layer of a flat surface 0.88.
-#define LEAST_DENSITY 0.82f
-
 typedef struct {
   float colour;                // c_f [1]
   float gx, gy, gz;            // its gradient: points into the water [1/m]
@@ -32,19 +28,19 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
   const float3 motion = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
   const float x = b.px + arm.x, y = b.py + arm.y, z = b.pz + arm.z;
   const int row = cell_row(p, y, z);
-  const int cell = cell_x(p, x);
-  const float least = LEAST_DENSITY * p->rest_density;
+  const int slice = slice_x(p, x);
+  const float least = p->least_density;
   lanes c = 0.0f, gx = 0.0f, gy = 0.0f, gz = 0.0f, u = 0.0f, v = 0.0f, w = 0.0f;
   for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, cell_start, row, cell, cell, k);
+    const int2 run = neighbour_run(p, cell_start, row, slice, slice, k);
     for (int j = run.x; j < run.y; j += LANES) {
       const lanes dx = x - load_x(position, j, run.y);
       const lanes dy = y - LOAD(position + n, j);
       const lanes dz = z - LOAD(position + 2 * n, j);
       const lanes dense = step((lanes)(least), LOAD(density, j));
-      const lanes q1 = dense * one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support);
-      const lanes weight = kernel_shape(q1);
-      const lanes slope = q1 * q1 * q1;
+      const lanes r2 = dx * dx + dy * dy + dz * dz;
+      const lanes weight = dense * kernel_shape(r2, p->inverse_support);
+      const lanes slope = dense * kernel_slope(r2, p->inverse_support);
       c += weight;
       gx -= slope * dx;
       gy -= slope * dy;
@@ -55,7 +51,7 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
     }
   }
   const float volume = p->mass / p->rest_density;
-  const float gradient = 20.0f * p->kernel_norm * p->inverse_support * p->inverse_support * volume;
+  const float gradient = gradient_norm(p) * volume;
   const float sum = total(c);
   const float share = 1.0f / fmax(sum, TINY);
   const Touch touch = {volume * p->kernel_norm * sum, gradient * total(gx), gradient * total(gy),

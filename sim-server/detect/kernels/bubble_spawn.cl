@@ -49,7 +49,7 @@ kernel void spawn_bubbles(constant FluidParams* p, global const int* cell_start,
   }
   memory[id[i]] = SPENT;
   const int fresh = last != SPENT;
-  const int dense = density[i] >= LEAST_DENSITY * p->rest_density;
+  const int dense = density[i] >= p->least_density;
   if (!fresh && !dense) return;
   const int place = atomic_inc(counts);
   if (place >= room) return;

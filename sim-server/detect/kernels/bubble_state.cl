@@ -12,18 +12,18 @@ typedef struct {
 static float other_bubbles(constant FluidParams* p, global const int* bubble_start,
                            global const float* position, int stride, float x, float y, float z) {
   const int row = cell_row(p, y, z);
-  const int cell = cell_x(p, x);
+  const int slice = slice_x(p, x);
   lanes sum = 0.0f;
   for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, bubble_start, row, cell, cell, k);
+    const int2 run = neighbour_run(p, bubble_start, row, slice, slice, k);
     for (int j = run.x; j < run.y; j += LANES) {
       const lanes dx = x - load_x(position, j, run.y);
       const lanes dy = y - LOAD(position + stride, j);
       const lanes dz = z - LOAD(position + 2 * stride, j);
-      sum += kernel_shape(one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support));
+      sum += kernel_shape(dx * dx + dy * dy + dz * dz, p->inverse_support);
     }
   }
-  return p->kernel_norm * p->mass / p->rest_density * (total(sum) - 1.0f);  // less its own
+  return p->kernel_norm * p->mass / p->rest_density * (total(sum) - CENTRE_SHAPE);  // less its own
 }
 
 // The water's velocity at a place; (0, 0, 0, 0) far from all water.
@@ -32,16 +32,15 @@ static float4 water_velocity(constant FluidParams* p, global const int* cell_sta
                              float y, float z) {
   const int n = p->capacity;
   const int row = cell_row(p, y, z);
-  const int cell = cell_x(p, x);
+  const int slice = slice_x(p, x);
   lanes c = 0.0f, u = 0.0f, v = 0.0f, w = 0.0f;
   for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, cell_start, row, cell, cell, k);
+    const int2 run = neighbour_run(p, cell_start, row, slice, slice, k);
     for (int j = run.x; j < run.y; j += LANES) {
       const lanes dx = x - load_x(position, j, run.y);
       const lanes dy = y - LOAD(position + n, j);
       const lanes dz = z - LOAD(position + 2 * n, j);
-      const lanes weight = kernel_shape(one_minus_q(dx * dx + dy * dy + dz * dz,
-                                                    p->inverse_support));
+      const lanes weight = kernel_shape(dx * dx + dy * dy + dz * dz, p->inverse_support);
       c += weight;
       u += weight * LOAD(velocity, j);
       v += weight * LOAD(velocity + n, j);

@@ -18,11 +18,11 @@ kernel void grow_cavities(constant FluidParams* p, global const int* bubble_star
   if (i >= bubble_count) return;
   const float x = position[i], y = position[stride + i], z = position[2 * stride + i];
   const int row = cell_row(p, y, z);
-  const int cell = cell_x(p, x);
+  const int slice = slice_x(p, x);
   const float reach2 = p->support * p->support;
   int smallest = label[i];
   for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, bubble_start, row, cell, cell, k);
+    const int2 run = neighbour_run(p, bubble_start, row, slice, slice, k);
     for (int j = run.x; j < run.y; ++j) {
       const float dx = x - position[j];
       const float dy = y - position[stride + j];

@@ -2,20 +2,19 @@
 // The vertical part of the colour field's gradient over all matter: fluid, bodies, bubbles and
 // walls (paper, eq. 2). Positive: most of the matter around is above.
 
-// Sum of V (1-q)^3 (z_j - z) over one kind of point; with a volume each, or all alike.
+// Sum of slope (z_j - z) over one kind of point; with a volume each, or all alike.
 static float matter_above(constant FluidParams* p, global const int* cell_start,
                           global const float* position, int stride, float x, float y, float z) {
   const int row = cell_row(p, y, z);
-  const int cell = cell_x(p, x);
+  const int slice = slice_x(p, x);
   lanes sum = 0.0f;
   for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, cell_start, row, cell, cell, k);
+    const int2 run = neighbour_run(p, cell_start, row, slice, slice, k);
     for (int j = run.x; j < run.y; j += LANES) {
       const lanes dx = x - load_x(position, j, run.y);
       const lanes dy = y - LOAD(position + stride, j);
       const lanes dz = z - LOAD(position + 2 * stride, j);
-      const lanes q1 = one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support);
-      sum -= q1 * q1 * q1 * dz;
+      sum -= kernel_slope(dx * dx + dy * dy + dz * dz, p->inverse_support) * dz;
     }
   }
   return total(sum);
@@ -25,22 +24,22 @@ static float body_above(constant FluidParams* p, global const int* body_start,
                         global const float* body_position, global const float* body_volume,
                         int stride, float x, float y, float z) {
   const int row = cell_row(p, y, z);
-  const int cell = cell_x(p, x);
+  const int slice = slice_x(p, x);
   lanes sum = 0.0f;
   for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, body_start, row, cell, cell, k);
+    const int2 run = neighbour_run(p, body_start, row, slice, slice, k);
     for (int j = run.x; j < run.y; j += LANES) {
       const lanes dx = x - load_x(body_position, j, run.y);
       const lanes dy = y - LOAD(body_position + stride, j);
       const lanes dz = z - LOAD(body_position + 2 * stride, j);
-      const lanes q1 = one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support);
-      sum -= LOAD(body_volume, j) * q1 * q1 * q1 * dz;
+      const lanes slope = kernel_slope(dx * dx + dy * dy + dz * dz, p->inverse_support);
+      sum -= LOAD(body_volume, j) * slope * dz;
     }
   }
   return total(sum);
 }
 
-// All of it, in units of the gradient at a flat surface, 3 / (2 H).
+// All of it, in units of the gradient at a flat surface.
 static float upward_gradient(constant FluidParams* p, global const int* cell_start,
                              global const float* position, global const int* body_start,
                              global const float* body_position, global const float* body_volume,
@@ -56,7 +55,7 @@ static float upward_gradient(constant FluidParams* p, global const int* cell_sta
   if (near_bodies(bodies, first_body, body_count, x, y, z)) {
     sum += body_above(p, body_start, body_position, body_volume, body_stride, x, y, z);
   }
-  const float gradient = 20.0f * p->kernel_norm * p->inverse_support * p->inverse_support * sum +
+  const float gradient = gradient_norm(p) * sum +
                          first_lane(wall_field(p, (lanes)(x), (lanes)(y), (lanes)(z), piston).gz);
-  return gradient * p->support / 1.5f;
+  return gradient * p->support / PLANE_PEAK;
 }

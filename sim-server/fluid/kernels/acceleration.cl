@@ -12,9 +12,8 @@
 
 // What the pair forces need of the particles they act on.
 typedef struct {
-  lanes x, y, z;  // [m]
   lanes u, v, w;  // [m/s]
-  lanes own;      // p / rho^2
+  lanes own;      // p / rho^2; towards bodies, times the rise of their image
 } Movers;
 
 typedef struct {
@@ -23,24 +22,21 @@ typedef struct {
 
 // Adds what one neighbour does to the movers, divided by the factor of -grad W; `mass`: the
 // neighbour's, `theirs`: its p / rho^2.
-static void push(constant FluidParams* p, const Movers* m, global const float* position,
-                 global const float* velocity, int stride, int j, float mass, float theirs,
-                 Push* sum) {
-  const float eta2 = 0.01f * 0.25f * p->support * p->support;  // (0.1 h)^2, h = H / 2
+static void push(constant FluidParams* p, const Group* g, const Movers* m,
+                 global const float* position, global const float* velocity, int stride,
+                 int j, float mass, float theirs, Push* sum) {
+  const float eta2 = 0.01f * p->length * p->length;
   const float viscous = p->viscous / p->rest_density;
   const float artificial = p->artificial / p->rest_density;
-  const lanes dx = m->x - position[j];
-  const lanes dy = m->y - position[stride + j];
-  const lanes dz = m->z - position[2 * stride + j];
-  const lanes r2 = dx * dx + dy * dy + dz * dz;
-  const lanes q1 = one_minus_q(r2, p->inverse_support);
-  const lanes closing = (m->u - velocity[j]) * dx + (m->v - velocity[stride + j]) * dy +
-                        (m->w - velocity[2 * stride + j]) * dz;
-  const lanes rub = (viscous * closing + artificial * fmin(closing, 0.0f)) * inverse(r2 + eta2);
-  const lanes f = mass * q1 * q1 * q1 * (m->own + theirs - rub);
-  sum->x += f * dx;
-  sum->y += f * dy;
-  sum->z += f * dz;
+  const Pair pair = pair_with(p, g, position, stride, j);
+  const lanes closing = (m->u - velocity[j]) * pair.dx + (m->v - velocity[stride + j]) * pair.dy +
+                        (m->w - velocity[2 * stride + j]) * pair.dz;
+  const lanes rub =
+      (viscous * closing + artificial * fmin(closing, 0.0f)) * inverse(pair.r2 + eta2);
+  const lanes f = mass * pair.slope * (m->own + theirs - rub);
+  sum->x += f * pair.dx;
+  sum->y += f * pair.dy;
+  sum->z += f * pair.dz;
 }
 
 static Push push_by_fluid(constant FluidParams* p, const Group* g, const Movers* movers,
@@ -52,7 +48,7 @@ static Push push_by_fluid(constant FluidParams* p, const Group* g, const Movers*
   while (search(p, g, cell_start, position, p->capacity, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
-      push(p, movers, position, velocity, p->capacity, j, p->mass, pressure_term[j], &sum);
+      push(p, g, movers, position, velocity, p->capacity, j, p->mass, pressure_term[j], &sum);
     }
   }
   return sum;
@@ -67,8 +63,8 @@ static void push_by_bodies(constant FluidParams* p, const Group* g, const Movers
   while (search(p, g, body_start, body_position, stride, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
-      push(p, movers, body_position, body_velocity, stride, j, p->rest_density * body_volume[j],
-           0.0f, sum);
+      push(p, g, movers, body_position, body_velocity, stride, j,
+           p->rest_density * body_volume[j], 0.0f, sum);
     }
   }
 }
@@ -77,6 +73,8 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
                                  global const int* awake,
                                  global const float* position, global const float* velocity,
                                  global const float* pressure_term,
+                                 global const float* density,
+                                 global const float* water_density,
                                  global const int* body_start, global const float* body_position,
                                  global const float* body_velocity,
                                  global const float* body_volume, int body_stride,
@@ -86,8 +84,7 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
   const int n = p->capacity;
   const int first = group_of(p, get_global_id(0)) * LANES;
   const int last = min(first + LANES, p->count);
-  // grad W = -20 sigma / H^2 (1 - q)^3 x
-  const float gradient = 20.0f * p->kernel_norm * p->inverse_support * p->inverse_support;
+  const float gradient = gradient_norm(p);
   Push a = {0.0f, 0.0f, 0.0f};
   lane_flags move = 0;
   for (int turn = first; turn < last;) {
@@ -97,15 +94,17 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
       continue;
     }
     move |= g.mine;
-    const Movers movers = {g.x, g.y, g.z, LOAD(velocity, first), LOAD(velocity + n, first),
-                           LOAD(velocity + 2 * n, first), LOAD(pressure_term, first)};
+    Movers movers = {LOAD(velocity, first), LOAD(velocity + n, first),
+                     LOAD(velocity + 2 * n, first), LOAD(pressure_term, first)};
     Push by = push_by_fluid(p, &g, &movers, cell_start, position, velocity, pressure_term);
     if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
+      const lanes image = (LOAD(density, first) - LOAD(water_density, first)) / p->rest_density;
+      movers.own *= image_rise(p, image);
       push_by_bodies(p, &g, &movers, body_start, body_position, body_velocity, body_volume,
                      body_stride, &by);
     }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);
-    const lanes own = movers.own * p->rest_density;
+    const lanes own = LOAD(pressure_term, first) * p->rest_density;
     a.x = select(a.x, gradient * by.x - own * wall.gx + p->gravity_x, g.mine);
     a.y = select(a.y, gradient * by.y - own * wall.gy + p->gravity_y, g.mine);
     a.z = select(a.z, gradient * by.z - own * wall.gz + p->gravity_z, g.mine);

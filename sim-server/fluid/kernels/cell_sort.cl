@@ -9,7 +9,7 @@ kernel void sort_points(constant FluidParams* p, int points, int stride, int chu
                         global float* velocity_out, global int* id_out, global int* source) {
   const int chunk = get_global_id(0);
   if (chunk >= chunks) return;
-  const int cell_count = p->cells_x * p->cells_y * p->cells_z;
+  const int cell_count = p->cells_x * SLICES * p->cells_y * p->cells_z;
   global int* mine = place + (size_t)chunk * cell_count;
   const int size = (points + chunks - 1) / chunks;
   const int last = min((chunk + 1) * size, points);

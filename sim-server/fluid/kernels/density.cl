@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Density by summation over fluid, bodies (as the frozen fluid they displace, Akinci et al. 2012)
 // and walls; pressure from the weakly compressible state equation, never negative:
-//   rho_i = sum_j m W_ij + sum_b rho0 V_b W_ib + rho0 (share of the kernel inside walls)
+//   rho_i = sum_j m W_ij + rho0 f(sum_b V_b W_ib) + rho0 (share of the kernel inside walls)
 //   p_i   = max(0, c0^2 (rho_i - rho0))
 // The force needs p / rho^2 only, so that is what is stored.
 // The part without bodies is kept, too: it tells water from the film that a body carries along.
@@ -12,7 +12,7 @@ static lanes shape_at(constant FluidParams* p, const Group* g, global const floa
   const lanes dx = g->x - position[j];
   const lanes dy = g->y - position[stride + j];
   const lanes dz = g->z - position[2 * stride + j];
-  return kernel_shape(one_minus_q(dx * dx + dy * dy + dz * dz, p->inverse_support));
+  return kernel_shape(dx * dx + dy * dy + dz * dz, p->inverse_support);
 }
 
 // Sum of W / sigma over the fluid around each lane.
@@ -79,8 +79,9 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
                         p->rest_density * share;
     lanes all = fluid;
     if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
-      all += p->kernel_norm * p->rest_density *
-             sum_bodies(p, &g, body_start, body_position, body_volume, body_stride);
+      const lanes body = p->kernel_norm * sum_bodies(p, &g, body_start, body_position,
+                                                     body_volume, body_stride);
+      all += p->rest_density * image_of(p, body);
     }
     water = select(water, fluid, g.mine);
     rho = select(rho, all, g.mine);

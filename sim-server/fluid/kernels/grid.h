@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Which cell a point is in, and which runs of sorted points its neighbours are in. Cells are as
-// wide as the support and sorted x fastest, so the 27 cells around a point are nine runs. Points
-// beyond the grid count to its outermost inner cells: nobody is lost, no index leaves the arrays.
+// wide as the support and sorted x fastest, so the cells around a point are nine runs. Along x each
+// cell is cut into slices: runs end closer to the support, and points that follow each other lie
+// close together. Points beyond the grid count to its outermost inner cells: nobody is lost, no
+// index leaves the arrays.
+
+#define SLICES SPLASH_SLICES
 
 static int cell_along(float x, float origin, float inverse_cell, int cells) {
   // Clamped before it becomes an integer: NaN and infinity land in the grid, too.
   return (int)fmin(fmax((x - origin) * inverse_cell, 1.0f), (float)(cells - 2));
 }
 
-static int cell_x(constant FluidParams* p, float x) {
-  return cell_along(x, p->origin_x, p->inverse_cell, p->cells_x);
+static int slice_x(constant FluidParams* p, float x) {
+  const float cell = fmin(fmax((x - p->origin_x) * p->inverse_cell, 1.0f), (float)p->cells_x);
+  return min((int)(cell * SLICES), (p->cells_x - 1) * SLICES - 1);
 }
 
 // Row of cells along x that a point is in.
@@ -18,10 +23,10 @@ static int cell_row(constant FluidParams* p, float y, float z) {
          cell_along(y, p->origin_y, p->inverse_cell, p->cells_y);
 }
 
-// Run number `k` (0..8) around cells `from` to `to` of a row: first point and the one past the
+// Run number `k` (0..8) around slices `from` to `to` of a row: first point and the one past the
 // last.
 static int2 neighbour_run(constant FluidParams* p, global const int* cell_start, int row, int from,
                           int to, int k) {
-  const int base = (row + (k / 3 - 1) * p->cells_y + k % 3 - 1) * p->cells_x;
-  return (int2)(cell_start[base + from - 1], cell_start[base + to + 2]);
+  const int base = (row + (k / 3 - 1) * p->cells_y + k % 3 - 1) * p->cells_x * SLICES;
+  return (int2)(cell_start[base + from - SLICES], cell_start[base + to + SLICES + 1]);
 }

@@ -9,7 +9,7 @@ typedef struct {
   lane_flags mine;   // lanes whose turn it is
   int next;          // first particle after this turn
   int row;           // of cells; the turn's particles are in
-  int from, to;      // cells of the row
+  int from, to;      // slices of the row
   float3 lower, upper;  // the box around the turn's particles [m]
 } Group;
 
@@ -38,9 +38,9 @@ static Group load_group(constant FluidParams* p, global const int* cell_start,
   g.y = LOAD(position + n, first);
   g.z = LOAD(position + 2 * n, first);
   g.row = cell_row(p, position[n + turn], position[2 * n + turn]);
-  g.next = max(turn + 1, min(last, cell_start[(g.row + 1) * p->cells_x]));
-  g.from = cell_x(p, position[turn]);
-  g.to = cell_x(p, position[g.next - 1]);
+  g.next = max(turn + 1, min(last, cell_start[(g.row + 1) * p->cells_x * SLICES]));
+  g.from = slice_x(p, position[turn]);
+  g.to = slice_x(p, position[g.next - 1]);
 #if LANES > 1
   g.mine = (LANE_NUMBERS >= (lane_flags)(turn - first)) &
            (LANE_NUMBERS < (lane_flags)(g.next - first));

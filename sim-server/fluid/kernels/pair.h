@@ -4,7 +4,7 @@
 typedef struct {
   lanes dx, dy, dz;  // from the neighbour to the particle [m]
   lanes r2;          // their distance squared [m2]
-  lanes slope;       // (1 - q)^3: grad W = -20 sigma / H^2 slope x
+  lanes slope;       // grad W = -4 sigma / H slope x
 } Pair;
 
 static Pair pair_with(constant FluidParams* p, const Group* g, global const float* position,
@@ -14,7 +14,6 @@ static Pair pair_with(constant FluidParams* p, const Group* g, global const floa
   pair.dy = g->y - position[stride + j];
   pair.dz = g->z - position[2 * stride + j];
   pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
-  const lanes q1 = one_minus_q(pair.r2, p->inverse_support);
-  pair.slope = q1 * q1 * q1;
+  pair.slope = kernel_slope(pair.r2, p->inverse_support);
   return pair;
 }

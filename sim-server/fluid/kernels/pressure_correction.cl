@@ -13,7 +13,7 @@
 // 3.3 when it is shaken by 0.2 spacings, 4 at random places.
 #define RELAXATION 0.3f
 
-// Sum of m v_j . grad W_ij, divided by -20 sigma / H^2.
+// Sum of m v_j . grad W_ij, divided by -4 sigma / H.
 static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
                               global const int* cell_start, global const float* position,
                               global const float* velocity) {
@@ -48,7 +48,7 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   const int first = group_of(p, get_global_id(0)) * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last) return;
-  const float scale = -20.0f * p->kernel_norm * p->inverse_support * p->inverse_support;
+  const float scale = -gradient_norm(p);
   lanes carried = 0.0f;
   lane_flags moves = 0;
   for (int turn = first; turn < last;) {
@@ -67,7 +67,7 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   const lanes rate = own - scale * carried + LOAD(boundary_rate, first);
   const lanes error = LOAD(offset, first) + dt * rate;
   // A lone particle answers to no pressure, and gets next to none.
-  const float least = scale * p->mass * p->support;
+  const float least = scale * p->mass * SLOPE_UNIT;
   const lanes d = fmax(LOAD(response, first), 1.0e-4f * least * least);
   const lanes step = RELAXATION / (dt * dt) * error / d;
   const lanes now = LOAD(pressure, first);

@@ -37,7 +37,7 @@ kernel void push_by_pressure(constant FluidParams* p, int k, global const SolveS
   const int first = group_of(p, get_global_id(0)) * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last) return;
-  const float scale = -20.0f * p->kernel_norm * p->inverse_support * p->inverse_support;
+  const float scale = -gradient_norm(p);
   Shove shove = {0.0f, 0.0f, 0.0f};
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);

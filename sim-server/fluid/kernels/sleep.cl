@@ -7,14 +7,6 @@ static int2 cells_within(float lower, float upper, float origin, float inverse_c
                 (int)fmin((upper - origin) * inverse_cell, (float)(cells - 1)));
 }
 
-static bool moves(BodyStep b) {
-  const float reach = 0.5f * length((float3)(b.upper_x - b.lower_x, b.upper_y - b.lower_y,
-                                             b.upper_z - b.lower_z));
-  const float speed = length((float3)(b.vx, b.vy, b.vz)) +
-                      reach * length((float3)(b.wx, b.wy, b.wz));
-  return speed > 1e-3f;  // [m/s]: trackers tremble
-}
-
 // `bodies`: those of all steps of the frame; `piston_reach`: cells at the moving wall's side that
 // it wakes; `speed`: slower water may sleep [m/s]; `hold`: frames.
 kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
@@ -24,10 +16,10 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
   if (row >= p->cells_y * p->cells_z) return;
   const int n = p->capacity;
   awake += row * p->cells_x;
-  cell_start += row * p->cells_x;
+  cell_start += row * p->cells_x * SLICES;
   for (int x = 0; x < p->cells_x; ++x) {
     int frames = max(awake[x] - 1, 0);
-    for (int j = cell_start[x]; j < cell_start[x + 1]; ++j) {
+    for (int j = cell_start[x * SLICES]; j < cell_start[(x + 1) * SLICES]; ++j) {
       const float u = velocity[j], v = velocity[n + j], w = velocity[2 * n + j];
       // Not the other way round: what is no number stays awake.
       if (!(u * u + v * v + w * w <= speed * speed)) {
@@ -44,7 +36,9 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
                                  p->cells_y);
     const int2 zs = cells_within(body.lower_z, body.upper_z, p->origin_z, p->inverse_cell,
                                  p->cells_z);
-    if (y < ys.x || y > ys.y || z < zs.x || z > zs.y || !moves(body)) continue;
+    if (y < ys.x || y > ys.y || z < zs.x || z > zs.y || body.speed <= SPLASH_TREMBLE) {
+      continue;
+    }
     const int2 xs = cells_within(body.lower_x, body.upper_x, p->origin_x, p->inverse_cell,
                                  p->cells_x);
     for (int x = xs.x; x <= xs.y; ++x) awake[x] = hold;

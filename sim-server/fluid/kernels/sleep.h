@@ -14,8 +14,8 @@ static bool awake_near(constant FluidParams* p, global const int* awake, const G
   for (int z = max(at_z - reach, 0); z <= min(at_z + reach, p->cells_z - 1); ++z) {
     for (int y = max(at_y - reach, 0); y <= min(at_y + reach, p->cells_y - 1); ++y) {
       global const int* row = awake + (z * p->cells_y + y) * p->cells_x;
-      const int last = min(g->to + reach, p->cells_x - 1);
-      for (int x = max(g->from - reach, 0); x <= last; ++x) {
+      const int last = min(g->to / SLICES + reach, p->cells_x - 1);
+      for (int x = max(g->from / SLICES - reach, 0); x <= last; ++x) {
         if (row[x] > 0) return true;
       }
     }

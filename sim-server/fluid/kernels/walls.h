@@ -8,8 +8,10 @@
 // On a slope the water thins out to nothing, where an image at twice the height leaves a particle
 // no place to rest (a pool stayed at 0.35 m/s): there, and on the floor that it continues, the
 // layers stay where they are.
-// Walls that meet at a right angle leave the fluid the product of what each leaves; the sloped
-// floor replaces the floor where it is nearer.
+// Walls that meet at a right angle leave the fluid the product of what each leaves, and push with
+// its gradient. (To let each push with all of its image, corners included, brings the pressure at
+// rest in the edges of a tank from 21 % too high to 13 %, but is no gradient of an energy.) The
+// sloped floor replaces the floor where it is nearer.
 
 typedef struct {
   lanes share;       // part of the kernel's weight inside walls [1]
@@ -28,7 +30,7 @@ static lanes wall_distance(constant FluidParams* p, int k, lanes x, lanes y, lan
 static lanes behind_wall(constant FluidParams* p, lanes d, bool mirrors, lanes* fall) {
   lanes share = 0.0f;
   *fall = 0.0f;
-  for (int layer = 0; layer < 2; ++layer) {
+  for (int layer = 0; layer < WALL_LAYERS; ++layer) {
     const lanes z = mirrors ? 2.0f * fmax(d, 0.0f) + layer * p->spacing
                             : fmax(d, 0.0f) + (layer + 0.5f) * p->spacing;
     share += p->layer_weight * plane_marginal(z, p->inverse_support);

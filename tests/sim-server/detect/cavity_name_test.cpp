@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "sim-server/detect/cavities.hpp"
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -134,7 +134,7 @@ TEST(CavityVolume, IsThatOfTheSpaceTheBubblesFill) {
   FluidParams params = {};
   const double spacing = 0.02;
   const double support = 2.0 * spacing;
-  params.kernel_norm = static_cast<float>(kernel_value(0.0, support));
+  params.support = static_cast<float>(support);
   params.mass = static_cast<float>(1000.0 * spacing * spacing * spacing);
   params.rest_density = 1000.0F;
   const double unit = spacing * spacing * spacing;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {

@@ -108,7 +108,7 @@ TEST(Buffers, TooLargeAreRefusedWithBothSizes) {
               ThrowsMessage<std::runtime_error>(
                   AllOf(HasSubstr("buffer of " + std::to_string(wanted >> 20) + " MiB"),
                         HasSubstr("allows " + std::to_string(allowed >> 20) + " MiB"),
-                        HasSubstr("raise the scene's particle spacing"))));
+                        HasSubstr("lower the scene's particles"))));
 }
 
 }  // namespace

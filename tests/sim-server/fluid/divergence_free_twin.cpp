@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -20,14 +20,15 @@ struct Neighbour {
 using Neighbours = std::vector<std::vector<Neighbour>>;
 
 Neighbours find_neighbours(const FluidState& s) {
-  const double support = static_cast<double>(s.params.support);
+  const Smoothing kernel = smoothing_of(s.params);
+  const double support = kernel.support;
   const double mass = static_cast<double>(s.params.mass);
   Neighbours all(s.position.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < all.size(); ++j) {
       const Vector3 x = s.position[i] - s.position[j];
       if (dot(x, x) >= support * support) continue;
-      all[i].push_back({j, mass * kernel_gradient(length(x), support) * x});
+      all[i].push_back({j, mass * kernel_gradient(length(x), kernel) * x});
     }
   }
   return all;
@@ -50,40 +51,30 @@ void push(const TwinResponse& r, const Neighbours& neighbours, const std::vector
   }
 }
 
-/// Growth of the walls' share per way of the piston, by a difference [1/m]. Behind the piston the
-/// share is that at its face.
-double swept_by_piston(const FluidState& s, std::size_t i) {
-  const FluidParams& p = s.params;
-  if (p.piston < 0) return 0.0;
-  const double way = 1.0e-7;  // [m]
-  Vector3 place = s.position[i];
-  place[0] += std::max(2.0 * way - wall_distance(p, p.piston, place, s.piston), 0.0);
-  return (twin_walls(p, place, s.piston + way).share - twin_walls(p, place, s.piston - way).share) /
-         (2.0 * way);
-}
-
 }  // namespace
 
 TwinResponse twin_response(const FluidState& s, double piston_speed) {
-  const double support = static_cast<double>(s.params.support);
+  const Smoothing kernel = smoothing_of(s.params);
   const double rest = static_cast<double>(s.params.rest_density);
   const Neighbours neighbours = find_neighbours(s);
   const std::size_t count = s.position.size();
   TwinResponse r = {std::vector<Vector3>(count), std::vector<double>(count),
                     std::vector<double>(count)};
   for (std::size_t i = 0; i < count; ++i) {
-    Vector3 g = rest * twin_walls(s.params, s.position[i], s.piston).gradient;
+    const TwinWalls walls = twin_walls(s.params, s.position[i], s.piston);
+    Vector3 g = rest * walls.gradient;
     for (const Neighbour& n : neighbours[i]) {
       g = g + n.gradient;
       r.response[i] += dot(n.gradient, n.gradient);
     }
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
       const Vector3 x = s.position[i] - s.body_position[b];
-      const Vector3 of_point = rest * s.body_volume[b] * kernel_gradient(length(x), support) * x;
+      const Vector3 of_point =
+          rest * s.image_rise[i] * s.body_volume[b] * kernel_gradient(length(x), kernel) * x;
       g = g + of_point;
       r.boundary_rate[i] -= dot(s.body_velocity[b], of_point);
     }
-    r.boundary_rate[i] += rest * piston_speed * swept_by_piston(s, i);
+    r.boundary_rate[i] += rest * piston_speed * walls.swept;
     r.gradient[i] = g;
     r.response[i] += dot(g, g);
   }
@@ -94,9 +85,10 @@ TwinSolve twin_solve(const FluidState& s, const TwinResponse& r, const std::vect
                      double dt, int iterations, TwinSolve from) {
   const Neighbours neighbours = find_neighbours(s);
   const std::size_t count = s.position.size();
-  const double support = static_cast<double>(s.params.support);
-  const double strongest =
-      20.0 * kernel_norm(support) / support * static_cast<double>(s.params.mass);
+  const Smoothing kernel = smoothing_of(s.params);
+  const double support = kernel.support;
+  const double strongest = (s.params.smoothing == SPLASH_WIDE ? 4.0 : 20.0) * kernel_norm(kernel) /
+                           support * static_cast<double>(s.params.mass);
   const double least = 1.0e-4 * strongest * strongest;
   TwinSolve solve = std::move(from);
   std::vector<double> jacobi = solve.pressure;

@@ -32,8 +32,11 @@ class NeighbourGrids : public ::testing::Test {
     params_ = make_params(scene_, places_);
   }
 
+  /// In a row of cells.
+  [[nodiscard]] int slices() const { return SPLASH_SLICES * params_.cells_x; }
+
   [[nodiscard]] std::size_t cells() const {
-    return static_cast<std::size_t>(params_.cells_x * params_.cells_y * params_.cells_z);
+    return static_cast<std::size_t>(slices() * params_.cells_y * params_.cells_z);
   }
 
   /// In the floats of the device, so that rounding puts nobody into another cell.
@@ -42,10 +45,12 @@ class NeighbourGrids : public ::testing::Test {
       const float c = std::floor((static_cast<float>(x) - origin) * params_.inverse_cell);
       return static_cast<int>(std::clamp(c, 1.0F, static_cast<float>(cells - 2)));
     };
-    const int x = along(place[0], params_.origin_x, params_.cells_x);
+    const float at = (static_cast<float>(place[0]) - params_.origin_x) * params_.inverse_cell;
+    const int x = std::clamp(static_cast<int>(std::floor(at * SPLASH_SLICES)), SPLASH_SLICES,
+                             slices() - SPLASH_SLICES - 1);
     const int y = along(place[1], params_.origin_y, params_.cells_y);
     const int z = along(place[2], params_.origin_z, params_.cells_z);
-    return (z * params_.cells_y + y) * params_.cells_x + x;
+    return (z * params_.cells_y + y) * slices() + x;
   }
 
   Sorted sort(int chunks) {
@@ -120,10 +125,11 @@ TEST_F(NeighbourGrids, LeaveTheMarginEmpty) {
   const Sorted sorted = sort(1);
   for (int z = 0; z < params_.cells_z; ++z) {
     for (int y = 0; y < params_.cells_y; ++y) {
-      for (int x = 0; x < params_.cells_x; ++x) {
-        const bool margin = x == 0 || y == 0 || z == 0 || x == params_.cells_x - 1 ||
-                            y == params_.cells_y - 1 || z == params_.cells_z - 1;
-        const auto cell = static_cast<std::size_t>((z * params_.cells_y + y) * params_.cells_x + x);
+      for (int x = 0; x < slices(); ++x) {
+        const bool margin = x < SPLASH_SLICES || y == 0 || z == 0 ||
+                            x >= slices() - SPLASH_SLICES || y == params_.cells_y - 1 ||
+                            z == params_.cells_z - 1;
+        const auto cell = static_cast<std::size_t>((z * params_.cells_y + y) * slices() + x);
         if (!margin) continue;
         ASSERT_EQ(sorted.cell_start[cell], sorted.cell_start[cell + 1]);
       }

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Every kernel of a step under oclgrind, which interprets them and sees each access: no data race,
-// no access out of bounds, no misuse of the interface.
+// Every kernel of the simulator under oclgrind, which interprets them and sees each access: no data
+// race, no access out of bounds, no misuse of the interface. And that it is every kernel.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
 #include <string>
-#include <tuple>
+#include <vector>
 
 namespace {
 
@@ -30,26 +35,100 @@ Ended run(const std::string& command) {
   return ended;
 }
 
-/// Particles per vector, and whether the water is divergence-free.
-class Oclgrind : public ::testing::TestWithParam<std::tuple<int, int>> {};
+/// The first group of each match.
+std::set<std::string> found_in(const std::string& text, const std::regex& pattern) {
+  std::set<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) {
+    found.insert((*it)[1].str());
+  }
+  return found;
+}
+
+/// A small program and the kernels that it runs.
+struct Watched {
+  const char* name;
+  const char* command;
+  const char* says;
+  std::set<std::string> kernels;
+};
+
+void PrintTo(const Watched& watched, std::ostream* out) {
+  *out << watched.name;
+}
+
+const std::set<std::string> kStep = {
+    "place_bodies", "gather_body_volumes", "count_cells",     "sum_blocks",
+    "place_cells",  "sort_points",         "compute_density", "compute_acceleration",
+    "integrate",    "keep_awake",          "survey",          "check_health"};
+const std::set<std::string> kSolve = {"check_health",
+                                      "place_bodies",
+                                      "gather_body_volumes",
+                                      "count_cells",
+                                      "sum_blocks",
+                                      "place_cells",
+                                      "sort_points",
+                                      "compute_density",
+                                      "compute_acceleration",
+                                      "integrate",
+                                      "survey",
+                                      "correct_pressure",
+                                      "push_by_pressure",
+                                      "measure_response",
+                                      "recall_pressure",
+                                      "begin_divergence_solve",
+                                      "begin_density_solve",
+                                      "end_solves",
+                                      "judge_solve",
+                                      "keep_awake"};
+const std::set<std::string> kDetect = {
+    "place_bodies",  "gather_body_volumes", "count_cells",          "sum_blocks",   "place_cells",
+    "sort_points",   "compute_density",     "compute_acceleration", "integrate",    "touch_water",
+    "spawn_bubbles", "carry_bubbles",       "seed_cavities",        "grow_cavities"};
+
+// Scalar kernels of the divergence-free solver take the interpreter minutes: by hand only.
+const std::vector<Watched> kWatched = {
+    {"scalar", "sim_fluid_two_steps 1 0", "Oclgrind: 251 particles", kStep},
+    {"vector", "sim_fluid_two_steps 16 0", "Oclgrind: 251 particles", kStep},
+    {"divergence_free", "sim_fluid_two_steps 16 1", "Oclgrind: 251 particles", kSolve},
+    {"detectors", "sim_detect_two_frames 16", "Oclgrind: 230 particles", kDetect}};
+
+class Oclgrind : public ::testing::TestWithParam<Watched> {};
 
 TEST_P(Oclgrind, FindsNothing) {
-  const auto [lanes, divergence_free] = GetParam();
   if (run("oclgrind --version").status != 0) GTEST_SKIP() << "oclgrind is not installed";
   // Its compiler's optimiser makes instructions that its interpreter does not know.
   const Ended ended =
-      run("timeout 280 oclgrind --data-races --check-api --build-options -cl-opt-disable " +
-          std::string(SPLASH_BINARY_DIR) + "/sim_fluid_two_steps " + std::to_string(lanes) + " " +
-          std::to_string(divergence_free));
+      run("timeout 280 oclgrind --data-races --check-api --inst-counts --build-options "
+          "-cl-opt-disable " +
+          std::string(SPLASH_BINARY_DIR) + "/" + GetParam().command);
+  static const std::regex kRan("Instructions executed for kernel '([a-z_]+)'");
   EXPECT_EQ(ended.status, 0) << ended.output;
-  EXPECT_THAT(ended.output, ::testing::HasSubstr("Oclgrind: 251 particles"));
+  EXPECT_THAT(ended.output, ::testing::HasSubstr(GetParam().says));
+  EXPECT_EQ(found_in(ended.output, kRan), GetParam().kernels);
   for (const char* report : {"Invalid", "race", "error", "ERROR", "CL_"}) {
     EXPECT_THAT(ended.output, ::testing::Not(::testing::HasSubstr(report)));
   }
 }
 
-// Scalar kernels of the divergence-free solver take the interpreter minutes: by hand only.
-INSTANTIATE_TEST_SUITE_P(LanesAndSolvers, Oclgrind,
-                         ::testing::Values(std::tuple(1, 0), std::tuple(16, 0), std::tuple(16, 1)));
+std::string name_of(const ::testing::TestParamInfo<Watched>& watched) {
+  return watched.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, Oclgrind, ::testing::ValuesIn(kWatched), name_of);
+
+TEST(OclgrindTable, HasEveryKernel) {
+  std::set<std::string> watched;
+  for (const Watched& one : kWatched) watched.insert(one.kernels.begin(), one.kernels.end());
+  std::set<std::string> kernels;
+  static const std::regex kKernel("kernel void ([a-z_]+)");
+  const auto root = std::filesystem::path(SPLASH_SOURCE_DIR) / "sim-server";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".cl") continue;
+    std::ifstream file(entry.path());
+    kernels.merge(found_in({std::istreambuf_iterator<char>(file), {}}, kKernel));
+  }
+  EXPECT_GE(kernels.size(), 20U);
+  EXPECT_EQ(kernels, watched);
+}
 
 }  // namespace

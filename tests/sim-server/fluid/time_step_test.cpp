@@ -12,6 +12,7 @@ namespace {
 FluidParams params() {
   FluidParams p = {};
   p.support = 0.04F;
+  p.length = 0.02F;
   p.sound_speed = 15.0F;
   p.viscous = 1.0e-5F;
   p.artificial = 0.03F;

@@ -6,7 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/body_image.hpp"
+#include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -53,35 +54,36 @@ std::vector<int> open_walls(const FluidParams& params, const Vector3& place, dou
 /// mirror, as z grows by 2 d.
 std::pair<double, double> layers_behind(const FluidParams& params, int k, double d) {
   const bool mirrors = params.slope < 0 || (k != 0 && k != params.slope);
-  const double support = static_cast<double>(params.support);
+  const Smoothing kernel = smoothing_of(params);
   const double spacing = static_cast<double>(params.spacing);
   const double weight = static_cast<double>(params.layer_weight);
   double share = 0.0;
   double fall = 0.0;
-  for (const double behind : {0.0, spacing}) {
+  for (double behind = 0.0; behind < 0.999 * kernel.support; behind += spacing) {
     const double z =
         mirrors ? 2.0 * std::max(d, 0.0) + behind : std::max(d, 0.0) + spacing / 2.0 + behind;
-    share += weight * plane_marginal(z, support);
-    fall += (mirrors ? 2.0 : 1.0) * weight * 2.0 * std::numbers::pi * z * kernel_value(z, support);
+    share += weight * plane_marginal(z, kernel);
+    fall += (mirrors ? 2.0 : 1.0) * weight * 2.0 * std::numbers::pi * z * kernel_value(z, kernel);
   }
   return {share, fall};
 }
 
-/// One term of the pair sums: the push of a neighbour at `from` with `weight` = m or rho0 V.
+/// One term of the pair sums: the push of a neighbour at `from` with `weight` = m or rho0 V, by
+/// the p / rho^2 of both.
 Vector3 pair_push(const FluidState& s, std::size_t i, const Vector3& from, const Vector3& velocity,
-                  double weight, double theirs) {
+                  double weight, double own, double theirs) {
   const FluidParams& p = s.params;
-  const double support = static_cast<double>(p.support);
+  const Smoothing kernel = smoothing_of(p);
+  const double support = kernel.support;
   const Vector3 x = s.position[i] - from;
   if (dot(x, x) >= support * support) return {0.0, 0.0, 0.0};
   const double r = length(x);
   const double closing = dot(s.velocity[i] - velocity, x);
-  const double h = support / 2.0;
+  const double h = static_cast<double>(p.length);
   double k = static_cast<double>(p.viscous);
   if (closing < 0.0) k += static_cast<double>(p.artificial);
   const double rub = k / static_cast<double>(p.rest_density) * closing / (r * r + 0.01 * h * h);
-  const double factor = -weight * (s.pressure_term[i] + theirs - rub) * kernel_gradient(r, support);
-  return factor * x;
+  return -weight * (own + theirs - rub) * kernel_gradient(r, kernel) * x;
 }
 
 }  // namespace
@@ -97,6 +99,12 @@ FluidState read_state(Fluid& fluid, double piston) {
   s.position = read_vectors(device, points.position, points.stride, count);
   s.velocity = read_vectors(device, points.velocity, points.stride, count);
   s.density = read_numbers(device, fluid.density(), count);
+  const std::vector<double> alone = read_numbers(device, fluid.water_density(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    s.image_rise.push_back(
+        image_rise((s.density[i] - alone[i]) / static_cast<double>(s.params.rest_density),
+                   static_cast<double>(s.params.contact_share)));
+  }
   s.pressure_term = read_numbers(device, fluid.pressure_term(), count);
   const auto body_points = static_cast<std::size_t>(fluid.boundary_count());
   const PointArrays& boundary = fluid.boundary();
@@ -129,6 +137,7 @@ TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double pis
       others *= 1.0 - layers_behind(params, l, wall_distance(params, l, place, piston)).first;
     }
     result.gradient = result.gradient - others * fall * normal_of(params, k);
+    if (k == params.piston) result.swept = others * fall;
     open *= 1.0 - share;
   }
   result.share = 1.0 - open;
@@ -136,19 +145,21 @@ TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double pis
 }
 
 std::vector<double> twin_density(const FluidState& s) {
-  const double support = static_cast<double>(s.params.support);
+  const Smoothing kernel = smoothing_of(s.params);
+  const double support = kernel.support;
   const double mass = static_cast<double>(s.params.mass);
   const double rest = static_cast<double>(s.params.rest_density);
   std::vector<double> density(s.position.size(), 0.0);
   for (std::size_t i = 0; i < density.size(); ++i) {
     for (const Vector3& other : s.position) {
       const Vector3 x = s.position[i] - other;
-      if (dot(x, x) < support * support) density[i] += mass * kernel_value(length(x), support);
+      if (dot(x, x) < support * support) density[i] += mass * kernel_value(length(x), kernel);
     }
+    double share = 0.0;
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
-      density[i] += rest * s.body_volume[b] *
-                    kernel_value(length(s.position[i] - s.body_position[b]), support);
+      share += s.body_volume[b] * kernel_value(length(s.position[i] - s.body_position[b]), kernel);
     }
+    density[i] += rest * image_of(share, static_cast<double>(s.params.contact_share));
     density[i] += rest * twin_walls(s.params, s.position[i], s.piston).share;
   }
   return density;
@@ -170,11 +181,13 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
       result[i].value = result[i].value + term;
       result[i].scale += length(term);
     };
+    const double own = s.pressure_term[i];
     for (std::size_t j = 0; j < s.position.size(); ++j) {
-      add(pair_push(s, i, s.position[j], s.velocity[j], mass, s.pressure_term[j]));
+      add(pair_push(s, i, s.position[j], s.velocity[j], mass, own, s.pressure_term[j]));
     }
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
-      add(pair_push(s, i, s.body_position[b], s.body_velocity[b], rest * s.body_volume[b], 0.0));
+      add(pair_push(s, i, s.body_position[b], s.body_velocity[b], rest * s.body_volume[b],
+                    s.image_rise[i] * own, 0.0));
     }
     const TwinWalls walls = twin_walls(p, s.position[i], s.piston);
     add(-s.pressure_term[i] * rest * walls.gradient);

@@ -17,6 +17,7 @@ struct FluidState {
   std::vector<Vector3> position;      ///< [m]
   std::vector<Vector3> velocity;      ///< [m/s]
   std::vector<double> density;        ///< [kg/m3]
+  std::vector<double> image_rise;     ///< of the bodies' image with their share [1]
   std::vector<double> pressure_term;  ///< p / rho^2
   std::vector<Vector3> body_position;
   std::vector<Vector3> body_velocity;
@@ -32,6 +33,7 @@ struct FluidState {
 struct TwinWalls {
   double share = 0.0;
   Vector3 gradient = {0.0, 0.0, 0.0};
+  double swept = 0.0;  ///< growth of the piston's part per its way [1/m]
 };
 [[nodiscard]] double wall_distance(const FluidParams& params, int wall, const Vector3& place,
                                    double piston);

@@ -21,6 +21,7 @@ int two_steps(int lanes, bool divergence_free) {
   water.scene.wave_maker = {true, 0.1, 2.0};
   water.piston = {0.01, 0.2};
   water.start(device);
+  water.fluid->begin_watch(4);
   water.step(1.0e-3);
   water.step(1.0e-3);
   water.fluid->let_sleep({.speed = 0.05, .frames = 1});

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim-server/device/device.hpp"
-#include "sim-server/fluid/wendland.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -25,6 +25,7 @@ struct Pair {
 
   Pair() {
     water.density = {1005.0};
+    water.rise = {1.5};
     water.pressure = {2000.0};
     points.resize(2);
     points[0].place = {0.0, 0.002, 0.0};
@@ -46,7 +47,7 @@ TEST(BodyForce, OfOnePairIsItsPressureTimesTheKernelsSlope) {
   const Pair pair;
   ASSERT_EQ(pair.water.position.size(), 1U);
   const BodyForce found = body_force(pair.water, pair.points, 0, pair.state);
-  const double expected = pair.water.mass * 1000.0 * 3.0e-7 * 2000.0 / (1005.0 * 1005.0) *
+  const double expected = pair.water.mass * 1000.0 * 3.0e-7 * 1.5 * 2000.0 / (1005.0 * 1005.0) *
                           slope(0.012, pair.water.support);
   EXPECT_NEAR(found.force[0] / expected, 1.0, 1e-5) << "pushed towards -x";
   EXPECT_LT(found.force[0], 0.0);

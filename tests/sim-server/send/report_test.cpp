@@ -35,6 +35,10 @@ RunReport example() {
   report.lost = 7;
   report.behind = 4;
   report.resets = 1;
+  report.retried = 5;
+  report.calmed = 2;
+  report.refused_poses = 9;
+  report.slow_seconds = 1.5;
   return report;
 }
 
@@ -54,6 +58,10 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(read.at("lost"), 7);
   EXPECT_EQ(read.at("behind"), 4);
   EXPECT_EQ(read.at("resets"), 1);
+  EXPECT_EQ(read.at("retried_frames"), 5);
+  EXPECT_EQ(read.at("calmed_frames"), 2);
+  EXPECT_EQ(read.at("refused_poses"), 9);
+  EXPECT_DOUBLE_EQ(read.at("overload").at("slow_seconds"), 1.5);
 }
 
 TEST(Report, WhatIsUnknownIsNull) {
@@ -118,9 +126,9 @@ TEST(Report, ADeviceIsWrittenInPlaceAndItsErrorTold) {
 
 TEST(Report, SummaryTellsThePersonTheSame) {
   const auto text = summary(example());
-  for (const auto* part :
-       {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25", "300 steps/s",
-        "3 impacts, 120 bubbles, 2 cavities", "lost 7", "4 of 7500 frames behind", "1 resets"}) {
+  for (const auto* part : {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25",
+                           "300 steps/s", "3 impacts, 120 bubbles, 2 cavities", "lost 7",
+                           "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   auto report = example();

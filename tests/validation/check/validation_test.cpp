@@ -104,7 +104,7 @@ TEST_P(Validation, StaysWhereItIs) {
   Case item = case_named(check.item);
   if (check.seconds > 0.0) item.seconds = check.seconds;
   sim::Device device;
-  const Result result = run_case(device, item, item.spacings.at(check.resolution), {});
+  const Result result = run_case(device, item, {item.spacings.at(check.resolution)}, {});
   for (const Held& held : check.held) {
     const auto& figures = result.outcome.figures;
     const auto found = std::find_if(figures.begin(), figures.end(),

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// PoCL's cache: two capital letters / the rest of the source's hash / program.bc, kernels/.../*.so
+#include "sim-server/device/cache_seal.hpp"
+
+#include <unistd.h>
+
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace splash::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSeal = "splash-seal";
+constexpr std::string_view kMark = "splash-at-work-";
+
+/// FNV-1a, 64 bit (Fowler, Noll, Vo): against accidents, not against enemies.
+std::uint64_t checksum(const fs::path& path) {
+  std::uint64_t sum = 14695981039346656037ULL;
+  std::ifstream file(path, std::ios::binary);
+  for (std::istreambuf_iterator<char> byte(file), end; byte != end; ++byte) {
+    sum = (sum ^ static_cast<unsigned char>(*byte)) * 1099511628211ULL;
+  }
+  return sum;
+}
+
+bool is_program_letter(char c) {
+  return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+
+/// The folders of compiled programs, relative to the cache.
+std::vector<fs::path> programs_in(const fs::path& folder) {
+  std::vector<fs::path> programs;
+  std::error_code ignored;
+  for (const auto& outer : fs::directory_iterator(folder, ignored)) {
+    const std::string name = outer.path().filename();
+    if (name.size() != 2 || !is_program_letter(name[0]) || !is_program_letter(name[1])) continue;
+    for (const auto& inner : fs::directory_iterator(outer.path(), ignored)) {
+      if (inner.is_directory(ignored)) programs.push_back(fs::path(name) / inner.path().filename());
+    }
+  }
+  return programs;
+}
+
+using Sums = std::map<std::string, std::uint64_t>;  // file, relative to the cache
+
+Sums sums_of(const fs::path& folder, const fs::path& program) {
+  Sums sums;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / program, ignored)) {
+    // PoCL touches this one at every start.
+    if (!entry.is_regular_file(ignored) || entry.path().filename() == "last_accessed") continue;
+    sums[fs::relative(entry.path(), folder, ignored)] = checksum(entry.path());
+  }
+  return sums;
+}
+
+Sums read_seal(const fs::path& folder) {
+  Sums sums;
+  std::ifstream file(folder / kSeal);
+  std::uint64_t sum = 0;
+  std::string name;
+  while (file >> std::hex >> sum && std::getline(file >> std::ws, name)) sums[name] = sum;
+  return sums;
+}
+
+/// Takes the marks of simulators that died; whether there was any.
+bool clear_marks(const fs::path& folder) {
+  std::vector<fs::path> marks;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().filename().string().starts_with(kMark)) marks.push_back(entry.path());
+  }
+  for (const fs::path& mark : marks) fs::remove(mark, ignored);
+  return !marks.empty();
+}
+
+/// `seal` has the same files of `program` with the same contents, or, when what is in no seal is
+/// trusted, no other contents.
+bool is_whole(const Sums& found, const Sums& seal, const fs::path& program, bool trusting) {
+  for (const auto& [name, sum] : found) {
+    const auto sealed = seal.find(name);
+    if (sealed == seal.end() ? !trusting : sealed->second != sum) return false;
+  }
+  const std::string start = program.string() + '/';
+  for (auto row = seal.lower_bound(start); row != seal.end() && row->first.starts_with(start);
+       ++row) {
+    if (!found.contains(row->first)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int remove_damaged_programs(const fs::path& folder) {
+  const bool trusting = !clear_marks(folder);
+  const Sums seal = read_seal(folder);
+  int removed = 0;
+  for (const fs::path& program : programs_in(folder)) {
+    if (is_whole(sums_of(folder, program), seal, program, trusting)) continue;
+    std::error_code ignored;
+    fs::remove_all(folder / program, ignored);
+    ++removed;
+  }
+  return removed;
+}
+
+CacheSeal::CacheSeal(fs::path folder)
+    : folder_(std::move(folder)), mark_(folder_ / (std::string(kMark) + std::to_string(getpid()))) {
+  std::ofstream{mark_};
+}
+
+CacheSeal::~CacheSeal() {
+  std::error_code ignored;
+  fs::remove(mark_, ignored);
+}
+
+void CacheSeal::renew() const {
+  const fs::path draft = folder_ / (std::string(kSeal) + "-" + std::to_string(getpid()));
+  std::ofstream file(draft);
+  for (const fs::path& program : programs_in(folder_)) {
+    for (const auto& [name, sum] : sums_of(folder_, program)) {
+      file << std::hex << sum << ' ' << name << '\n';
+    }
+  }
+  file.close();
+  std::error_code ignored;
+  if (file) {
+    fs::rename(draft, folder_ / kSeal, ignored);
+  } else {
+    fs::remove(draft, ignored);
+  }
+}
+
+}  // namespace splash::sim

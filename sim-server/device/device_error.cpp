@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/device/device_error.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "sim-server/device/opencl.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr const char* kSmaller =
+    "the device has too little memory: lower the scene's particles, or choose another device "
+    "(--list-devices)";
+constexpr const char* kLost =
+    "the device was lost or its driver stopped: start again, and if it happens again look at the "
+    "driver's messages (dmesg) or choose another device (--list-devices)";
+constexpr const char* kCompiler =
+    "the platform has no compiler: install the rest of it, for PoCL apt install pocl-opencl-icd";
+constexpr const char* kOurs = "this is a fault of sim-server: please report it with this line";
+
+struct Row {
+  int error;
+  const char* name;
+  const char* cure;
+};
+
+constexpr std::array kRows = {
+    Row{CL_DEVICE_NOT_FOUND, "CL_DEVICE_NOT_FOUND", kLost},
+    Row{CL_DEVICE_NOT_AVAILABLE, "CL_DEVICE_NOT_AVAILABLE", kLost},
+    Row{CL_COMPILER_NOT_AVAILABLE, "CL_COMPILER_NOT_AVAILABLE", kCompiler},
+    Row{CL_MEM_OBJECT_ALLOCATION_FAILURE, "CL_MEM_OBJECT_ALLOCATION_FAILURE", kSmaller},
+    Row{CL_OUT_OF_RESOURCES, "CL_OUT_OF_RESOURCES", kSmaller},
+    Row{CL_OUT_OF_HOST_MEMORY, "CL_OUT_OF_HOST_MEMORY", kSmaller},
+    Row{CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST,
+        "CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST", kLost},
+    Row{CL_INVALID_CONTEXT, "CL_INVALID_CONTEXT", kLost},
+    Row{CL_INVALID_COMMAND_QUEUE, "CL_INVALID_COMMAND_QUEUE", kLost},
+    Row{CL_INVALID_KERNEL_NAME, "CL_INVALID_KERNEL_NAME", kOurs},
+    Row{CL_INVALID_ARG_SIZE, "CL_INVALID_ARG_SIZE", kOurs},
+    Row{CL_INVALID_KERNEL_ARGS, "CL_INVALID_KERNEL_ARGS", kOurs},
+    Row{CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE", kOurs},
+    Row{CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE", kSmaller},
+    Row{-9999, "NVIDIA: illegal read or write", kLost},
+};
+
+}  // namespace
+
+std::string opencl_error_text(const char* call, int error) {
+  const auto* const row = std::find_if(kRows.begin(), kRows.end(),
+                                       [error](const Row& known) { return known.error == error; });
+  const bool known = row != kRows.end();
+  return std::string("OpenCL's ") + call + " failed: " + (known ? row->name : "error") + " (" +
+         std::to_string(error) + "); " + (known ? row->cure : kLost);
+}
+
+void rethrow_opencl_error() {
+  try {
+    throw;
+  } catch (const cl::Error& error) {
+    throw DeviceError(opencl_error_text(error.what(), error.err()));
+  }
+}
+
+}  // namespace splash::sim

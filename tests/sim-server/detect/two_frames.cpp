@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Two frames of the detectors over fast water, bodies and bubbles: every kernel of theirs, small
+// enough for an OpenCL interpreter. Argument: particles per vector (1, 8 or 16).
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "sim-server/detect/detector.hpp"
+#include "tests/sim-server/fluid/situations.hpp"
+
+namespace {
+
+int two_frames(int lanes) {
+  using namespace splash::sim;
+  constexpr double kFrame = 0.005;  // [s]
+  Device device(-1, false, lanes);
+  Water water = two_bodies();
+  water.particles = random_places(230, {0, 0, 0}, {0.4, 0.4, 0.14}, 51);
+  water.start(device);
+  water.stir(2.0, 52);
+  DetectSettings settings;  // whatever moves makes a bubble, wherever there is one is a cavity
+  settings.bubble_speed = 0.1;
+  settings.bubble_gradient = 0.0;
+  settings.bubble_per_particle = true;
+  settings.cavity_colour = 0.0;
+  Detector detector(*water.fluid, water.bodies->points(), settings, 1, true);
+  std::size_t cavities = 0;
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    water.step(1.0e-3, [&](Fluid&) { detector.enqueue(water.step_at(1.0e-3), kFrame); });
+    device.queue().finish();
+    cavities += detector.collect(water.time, kFrame, frame).cavities.size();
+  }
+  std::printf("%s: %d particles, %zu bubbles, %zu cavities\n", device.facts().platform.c_str(),
+              water.params.count, detector.bubbles_alive(), cavities);
+  return detector.bubbles_alive() > 0 && detector.cavity_searches() > 0 ? EXIT_SUCCESS
+                                                                        : EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return two_frames(argc > 1 ? std::atoi(argv[1]) : 0);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Which compiled programs a start trusts.
+#include "sim-server/device/cache_seal.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace splash::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Seal : public ::testing::Test {
+ protected:
+  ~Seal() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  /// Three programs, sealed; then a simulator adds a kernel to the second and a fourth program.
+  void fill() const {
+    for (const char* program : {"AB/CD", "AB/EF", "ZZ/YY"}) {
+      write(std::string(program) + "/program.bc", "code");
+      write(std::string(program) + "/density/1-1-1/density.so", "machine code");
+    }
+    CacheSeal(folder_).renew();
+    write("AB/EF/survey/1-1-1/survey.so", "machine code");
+    write("GH/IJ/program.bc", "code");
+  }
+  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(folder_ / name); }
+
+  fs::path folder_ = fs::path(::testing::TempDir()) / ("splash-seal-" + std::to_string(getpid()));
+};
+
+TEST_F(Seal, OfAWholeCacheRemovesNothing) {
+  fill();
+  write("AB/CD/last_accessed", "PoCL writes it at every start");
+  EXPECT_EQ(remove_damaged_programs(folder_), 0);
+  EXPECT_TRUE(has("GH/IJ/program.bc")) << "what is in no seal is trusted: nobody died";
+}
+
+TEST_F(Seal, SeesWhatIsCutChangedOrGone) {
+  fill();
+  write("AB/CD/program.bc", "");
+  write("AB/EF/density/1-1-1/density.so", "machine kode");
+  fs::remove(folder_ / "ZZ/YY/program.bc");
+  EXPECT_EQ(remove_damaged_programs(folder_), 3);
+  for (const char* gone : {"AB/CD", "AB/EF", "ZZ/YY"}) EXPECT_FALSE(has(gone)) << gone;
+  EXPECT_TRUE(has("GH/IJ"));
+}
+
+TEST_F(Seal, TrustsNothingMoreOfASimulatorThatDied) {
+  fill();
+  write("splash-at-work-77", "");
+  EXPECT_EQ(remove_damaged_programs(folder_), 2) << "one with a new kernel, one new";
+  EXPECT_FALSE(has("AB/EF"));
+  EXPECT_FALSE(has("GH/IJ"));
+  EXPECT_TRUE(has("AB/CD"));
+  EXPECT_EQ(remove_damaged_programs(folder_), 0) << "it is buried once";
+}
+
+TEST_F(Seal, MarksItsWorkWhileItLasts) {
+  fs::create_directories(folder_);
+  const std::string mark = "splash-at-work-" + std::to_string(getpid());
+  {
+    const CacheSeal seal(folder_);
+    EXPECT_TRUE(has(mark));
+  }
+  EXPECT_FALSE(has(mark));
+}
+
+TEST_F(Seal, LeavesWhatIsNotPoclsAlone) {
+  fill();
+  write("notes.txt", "mine");
+  write("ab/cd/file", "mine");
+  write("splash-at-work-77", "");
+  remove_damaged_programs(folder_);
+  EXPECT_TRUE(has("notes.txt"));
+  EXPECT_TRUE(has("ab/cd/file"));
+  EXPECT_EQ(remove_damaged_programs(folder_ / "nowhere"), 0);
+}
+
+}  // namespace
+}  // namespace splash::sim

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// OpenCL's numbers in words, and what is said when it ends the program.
+#include "sim-server/device/device_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+
+#include "sim-server/device/last_words.hpp"
+#include "sim-server/device/opencl.hpp"
+
+namespace splash::sim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+TEST(OpenClErrors, AreToldInWords) {
+  EXPECT_THAT([] { naming_opencl_errors([] { throw cl::Error(-5, "clFinish"); }); },
+              ThrowsMessage<DeviceError>(
+                  AllOf(HasSubstr("clFinish failed: CL_OUT_OF_RESOURCES (-5)"),
+                        HasSubstr("lower the scene's particles"), HasSubstr("--list-devices"))));
+  EXPECT_THAT(opencl_error_text("clCreateKernel", -46), HasSubstr("a fault of sim-server"));
+  EXPECT_THAT(opencl_error_text("clFinish", -36), HasSubstr("the device was lost"));
+  EXPECT_THAT(opencl_error_text("clFinish", -12345), HasSubstr("error (-12345); the device"));
+}
+
+TEST(OpenClErrors, LeaveOthersAlone) {
+  EXPECT_EQ(naming_opencl_errors([] { return 7; }), 7);
+  EXPECT_THROW(naming_opencl_errors([] { throw std::invalid_argument("x"); }),
+               std::invalid_argument);
+}
+
+class LastWordsDeathTest : public ::testing::Test {
+ protected:
+  LastWordsDeathTest() { ::testing::GTEST_FLAG(death_test_style) = "threadsafe"; }
+};
+
+constexpr const char* kSaid = "OpenCL ended the program.*/tmp.*POCL_CACHE_DIR.*--list-devices";
+
+TEST_F(LastWordsDeathTest, AreSaidWhenACompilerExits) {
+  EXPECT_EXIT(
+      {
+        LastWords words("/tmp", 69);
+        words.built();
+        std::exit(1);
+      },
+      ::testing::ExitedWithCode(69), kSaid);
+}
+
+TEST_F(LastWordsDeathTest, AreNotSaidAfterwards) {
+  EXPECT_EXIT(
+      {
+        std::make_unique<LastWords>("/tmp", 69).reset();
+        std::exit(3);
+      },
+      ::testing::ExitedWithCode(3), "^$");
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(LastWordsDeathTest, AreSaidWhenACompilerCrashes) {
+  for (const int crash : {SIGSEGV, SIGABRT, SIGBUS}) {
+    EXPECT_EXIT(
+        {
+          const LastWords words("/tmp", 69);
+          std::raise(crash);
+        },
+        ::testing::ExitedWithCode(69), kSaid);
+  }
+}
+
+TEST_F(LastWordsDeathTest, LeaveLaterCrashesAsTheyAre) {
+  EXPECT_EXIT(
+      {
+        LastWords words("/tmp", 69);
+        words.built();
+        std::raise(SIGSEGV);
+      },
+      ::testing::KilledBySignal(SIGSEGV), "");
+}
+#endif
+
+}  // namespace
+}  // namespace splash::sim

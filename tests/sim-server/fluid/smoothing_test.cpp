@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The smoothing kernel against numeric integrals and derivatives.
+#include "sim-server/fluid/smoothing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace splash::sim {
+namespace {
+
+constexpr double kSupport = 0.037;
+
+class Smoothings : public ::testing::TestWithParam<SmoothingKind> {
+ protected:
+  Smoothing kernel_ = {kSupport, GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Smoothings,
+                         ::testing::Values(SmoothingKind::narrow, SmoothingKind::wide),
+                         [](const auto& kind) {
+                           return kind.param == SmoothingKind::wide ? "wide" : "narrow";
+                         });
+
+/// Simpson's rule.
+double integral(double from, double to, const std::function<double(double)>& f) {
+  constexpr int kParts = 2000;
+  const double step = (to - from) / kParts;
+  double sum = f(from) + f(to);
+  for (int k = 1; k < kParts; ++k) sum += (k % 2 == 1 ? 4.0 : 2.0) * f(from + k * step);
+  return sum * step / 3.0;
+}
+
+TEST_P(Smoothings, WeighsOne) {
+  const double weight = integral(0.0, kSupport, [this](double r) {
+    return 4.0 * std::numbers::pi * r * r * kernel_value(r, kernel_);
+  });
+  EXPECT_NEAR(weight, 1.0, 1.0e-9);
+}
+
+TEST_P(Smoothings, EndsAtTheSupport) {
+  EXPECT_EQ(kernel_value(kSupport, kernel_), 0.0);
+  EXPECT_EQ(kernel_value(2.0 * kSupport, kernel_), 0.0);
+  EXPECT_EQ(kernel_gradient(1.001 * kSupport, kernel_), 0.0);
+  const double peak = plane_marginal(0.0, kernel_);
+  EXPECT_NEAR(plane_marginal(kSupport, kernel_) / peak, 0.0, 1.0e-13);
+  EXPECT_NEAR(plane_marginal(-1.5 * kSupport, kernel_) / peak, 0.0, 1.0e-13);
+}
+
+TEST_P(Smoothings, GradientIsTheSlope) {
+  for (const double q : {0.01, 0.15, 0.2, 0.5, 0.6, 0.8, 0.99}) {
+    const double r = q * kSupport;
+    const double step = 1.0e-6 * kSupport;
+    const double slope =
+        (kernel_value(r + step, kernel_) - kernel_value(r - step, kernel_)) / (2.0 * step);
+    EXPECT_NEAR(kernel_gradient(r, kernel_) * r / slope, 1.0, 1.0e-4) << "q = " << q;
+  }
+}
+
+TEST_P(Smoothings, MarginalIsTheIntegralOverThePlane) {
+  const double peak = plane_marginal(0.0, kernel_);
+  for (const double q : {0.0, 0.1, 0.25, 0.5, 0.75, 0.95}) {
+    const double z = q * kSupport;
+    const double weight = integral(0.0, kSupport, [this, z](double s) {
+      return 2.0 * std::numbers::pi * s * kernel_value(std::hypot(s, z), kernel_);
+    });
+    EXPECT_NEAR(plane_marginal(z, kernel_) / peak, weight / peak, 1.0e-8) << "q = " << q;
+    EXPECT_EQ(plane_marginal(-z, kernel_), plane_marginal(z, kernel_));
+  }
+}
+
+// The kernels' plane_marginal_fall relies on it.
+TEST_P(Smoothings, MarginalFallsByTwoPiZW) {
+  for (const double q : {0.05, 0.25, 0.5, 0.75, 0.9}) {
+    const double z = q * kSupport;
+    const double step = 1.0e-5 * kSupport;
+    const double fall =
+        (plane_marginal(z - step, kernel_) - plane_marginal(z + step, kernel_)) / (2.0 * step);
+    EXPECT_NEAR(2.0 * std::numbers::pi * z * kernel_value(z, kernel_) / fall, 1.0, 1.0e-6)
+        << "q = " << q;
+  }
+}
+
+}  // namespace
+}  // namespace splash::sim
