@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// ./splash bench flood: the real synth-server under a million random datagrams with a hundred true
+// events a second among them, then under a hundred thousand events a second; and a hundred million
+// commands through the queue into its audio thread. Nothing may be lost
+// but what the kernel dropped and says so; memory stays; afterwards all is as before. Ends with 1
+// when any of it is not so.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/control.hpp"
+#include "protocol/status.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/synth-server/receive/queue_run.hpp"
+
+namespace {
+
+using namespace splash;
+using protocol::Message;
+
+constexpr double kFloodRate = 25000.0;  ///< [datagrams/s]
+constexpr double kEventPeriod = 0.010;  ///< of the true events [s]
+constexpr double kStormRate = 4000.0;   ///< [bundles/s], of kPerBundle events
+constexpr int kPerBundle = 25;
+/// 4096 bubbles and cavities and 256 impacts, and as many that fade out.
+constexpr std::uint64_t kMostVoices = 2 * (4096 + 256) + 32;
+constexpr double kPatience = 1.0;  ///< a question and an answer take a quarter of it [s]
+constexpr long kGrowth = 1024;     ///< allowed [KiB]
+
+struct Options {
+  double datagrams = 1e6;
+  double storm_seconds = 10.0;
+  double commands = 1e8;
+};
+
+long resident(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+  }
+  return 0;
+}
+
+Message bubble(std::int32_t id, float radius) {
+  return protocol::to_message(protocol::Bubble{id, -1, radius, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F});
+}
+
+/// Keeps a steady pace by the clock, in bursts of a few milliseconds when it is woken late.
+class Pace {
+ public:
+  explicit Pace(double rate) : rate_(rate), start_(protocol::monotonic_now()) {}
+  void wait() {
+    ++done_;
+    const double due = start_ + static_cast<double>(done_) / rate_;
+    const double early = due - protocol::monotonic_now();
+    if (early > 0.001) std::this_thread::sleep_for(std::chrono::duration<double>(early));
+  }
+  [[nodiscard]] double seconds() const { return protocol::monotonic_now() - start_; }
+  [[nodiscard]] double rate() const { return static_cast<double>(done_) / seconds(); }
+
+ private:
+  double rate_;
+  double start_;
+  std::uint64_t done_ = 0;
+};
+
+class Bench {
+ public:
+  Bench()
+      : synth_({"--rig", std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml", "--device",
+                "null"}) {
+    for (int i = 0; i < 50; ++i) say({bubble(0, 0.004F)});  // all that it allocates, it has
+    settle();
+  }
+
+  void flood(double datagrams) {
+    std::printf("flood: %.0f random datagrams of 0 to 65507 bytes, 100 true events a second\n",
+                datagrams);
+    const auto before = status();
+    const long memory = resident(synth_.process().id());
+    std::mt19937 random(1);
+    std::vector<std::byte> noise(65507);
+    for (auto& byte : noise) byte = static_cast<std::byte>(random() & 0xFFU);
+    Pace pace(kFloodRate);
+    std::uint64_t events = 0;
+    for (double sent = 0; sent < datagrams; ++sent) {
+      // Mostly of the sizes that get past the first look.
+      const std::size_t size = random() % 64 == 0 ? random() % 65508 : random() % 1476;
+      const std::size_t from = random() % (noise.size() - size + 1);
+      noise[from < noise.size() ? from : 0] = static_cast<std::byte>(random() % 2 == 0 ? '/' : '#');
+      socket_.send_to(synth_.endpoint(), protocol::Bytes(noise).subspan(from, size));
+      if (pace.seconds() > static_cast<double>(events) * kEventPeriod) {
+        say({bubble(static_cast<std::int32_t>(events++), 0.004F)});
+      }
+      pace.wait();
+    }
+    settle();
+    const auto after = status();
+    const long growth = resident(synth_.process().id()) - memory;
+    const auto lost = after.lost - before.lost;
+    std::printf(
+        "  %.0f/s; refused %llu; events sent %llu, taken %llu, bundles lost %llu; memory "
+        "%+ld KiB\n",
+        pace.rate(), n(after.refused - before.refused), n(events), n(after.events - before.events),
+        n(lost), growth);
+    check(after.events - before.events + lost == events, "an event was lost that was not counted");
+    check(growth <= kGrowth, "memory grew");
+  }
+
+  void storm(double seconds) {
+    std::printf("storm: %.0f events a second for %.0f s\n", kStormRate * kPerBundle, seconds);
+    const auto before = status();
+    long memory = 0;
+    Pace pace(kStormRate);
+    std::uint64_t bundles = 0;
+    float level = 0.0F;
+    std::uint64_t voices = 0;
+    std::mt19937 random(2);
+    while (pace.seconds() < seconds) {
+      std::vector<Message> events;
+      for (int i = 0; i < kPerBundle; ++i) {
+        events.push_back(bubble(i, 0.002F + 0.00001F * static_cast<float>(random() % 1000)));
+      }
+      say(std::move(events));
+      ++bundles;
+      if (bundles % 2000 == 0) {
+        if (memory == 0) memory = resident(synth_.process().id());  // every voice was used once
+        const auto now = status();
+        level = std::max(level, now.level);
+        voices = std::max(voices, now.voices);
+      }
+      pace.wait();
+    }
+    const double rate = pace.rate() * kPerBundle;
+    check_normal();
+    settle();
+    const auto after = status();
+    const auto lost = after.lost - before.lost;
+    const auto taken = after.events - before.events;
+    const auto dropped = after.dropped - before.dropped;
+    const long growth = resident(synth_.process().id()) - memory;
+    std::printf(
+        "  %.0f events/s; bundles sent %llu, lost %llu; events taken %llu, dropped or not "
+        "played %llu; voices at most %llu, level %.3f; memory %+ld KiB\n",
+        rate, n(bundles), n(lost), n(taken), n(dropped), n(voices), static_cast<double>(level),
+        growth);
+    check(voices <= kMostVoices, "more voices than the pools have");
+    check(level <= 0.9F, "louder than the ceiling");
+    check(growth <= kGrowth, "memory grew");
+  }
+
+  [[nodiscard]] bool right() {
+    synth_.process().signal(SIGTERM);
+    check(synth_.process().wait_for_end() == 0, "it did not end in peace");
+    const std::string said = synth_.process().output();
+    std::printf("%s", said.substr(std::min(said.rfind("ran "), said.size())).c_str());
+    return right_;
+  }
+
+ private:
+  static unsigned long long n(std::uint64_t value) { return value; }
+
+  void say(std::vector<Message> events) {
+    events.insert(events.begin(),
+                  protocol::to_message(protocol::Frame{4711, sequence_, sequence_, 0.0F}));
+    sequence_ = (sequence_ + 1) % (1 << 24);
+    socket_.send_to(synth_.endpoint(),
+                    protocol::encode(protocol::to_time_tag(protocol::unix_now()), events));
+  }
+
+  /// Until all that was sent has been looked at, with heartbeats.
+  void settle() {
+    for (int i = 0; i < 10; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      say({});
+    }
+  }
+
+  protocol::SynthStatus status() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(120));  // ten answers a second at most
+    const auto answer = protocol::to_synth_status(synth_.ask({"/status", {}}, "/status.reply"));
+    if (!answer) throw std::runtime_error("no status:\n" + synth_.process().output());
+    return *answer;
+  }
+
+  /// How soon an event is played as on the first day: taken, neither late nor dropped, and nothing
+  /// of the storm is dropped any more.
+  void check_normal() {
+    const double start = protocol::monotonic_now();
+    double passed = 0.0;
+    for (bool normal = false; !normal && passed < kPatience;) {
+      const auto before = status();
+      say({bubble(1, 0.02F)});
+      const auto after = status();
+      normal = after.events == before.events + 1 && after.dropped == before.dropped &&
+               after.late == before.late;
+      passed = protocol::monotonic_now() - start;
+    }
+    std::printf("  after it: an event was played as ever when asked %.2f s later\n", passed);
+    check(passed < kPatience, "after the storm no event is played as before");
+  }
+
+  void check(bool holds, const char* wrong) {
+    if (holds) return;
+    std::printf("  WRONG: %s\n", wrong);
+    right_ = false;
+  }
+
+  tests::Synth synth_;
+  protocol::UdpSocket socket_{protocol::Endpoint{}};
+  std::int32_t sequence_ = 0;
+  bool right_ = true;
+};
+
+/// True when all came in order, in ten portions.
+bool run_commands(double commands) {
+  constexpr int kPortions = 10;
+  std::printf("queue: %.0f commands from thread to thread\n", commands);
+  std::uint64_t wrong = 0;
+  const double start = protocol::monotonic_now();
+  for (int i = 0; i < kPortions; ++i) {
+    const auto report = synth::run_queue(static_cast<std::uint64_t>(commands / kPortions));
+    wrong += report.wrong;
+  }
+  std::printf("  %.2g/s, %llu lost, torn or out of order\n",
+              commands / (protocol::monotonic_now() - start),
+              static_cast<unsigned long long>(wrong));
+  return wrong == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("The synth under floods");
+  app.add_option("--datagrams", options.datagrams, "random ones")->capture_default_str();
+  app.add_option("--storm-seconds", options.storm_seconds, "of 100,000 events each")
+      ->capture_default_str();
+  app.add_option("--commands", options.commands, "through the queue")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Bench bench;
+    bench.flood(options.datagrams);
+    bench.storm(options.storm_seconds);
+    const bool right = bench.right();
+    return run_commands(options.commands) && right ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "bench-flood: " << error.what() << '\n';
+    return 70;
+  }
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// The real programs on two hosts: several receivers, some of them not there, strangers, defaults.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "protocol/control.hpp"
+#include "protocol/status.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/network/two_hosts.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::network {
+namespace {
+
+using protocol::Message;
+using tests::Arguments;
+using tests::ChildProcess;
+
+constexpr int kSimHost = 0;
+constexpr int kSynthHost = 1;
+
+class OnTwoHosts : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!hosts_.why_not().empty()) {
+      GTEST_SKIP() << "no network namespaces here (they need root and iproute2): "
+                   << hosts_.why_not();
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<ChildProcess> start(int host, const std::string& program,
+                                                    const Arguments& arguments) const {
+    return std::make_unique<ChildProcess>(
+        hosts_.command_on(host, tests::command(program, arguments)));
+  }
+  [[nodiscard]] std::unique_ptr<ChildProcess> start_synth(const Arguments& more) const {
+    Arguments arguments{"--rig", tests::rig_path("stereo.yaml"), "--device", "null"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    auto synth = start(kSynthHost, "synth-server", arguments);
+    EXPECT_TRUE(synth->wait_for_text("listening: ")) << synth->output();
+    return synth;
+  }
+  static Message answer_to(const Message& question, protocol::UdpSocket& socket,
+                           const std::string& to, double patience) {
+    socket.send_to(protocol::parse_endpoint(to, 0), protocol::encode(question));
+    std::array<std::byte, 2048> buffer{};
+    const auto received = socket.receive(buffer.data(), buffer.size(), patience);
+    if (!received) return {"no answer", {}};
+    return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);
+  }
+
+  TwoHosts hosts_;
+};
+
+/// What a receiver of its own making got.
+struct Heard {
+  std::set<std::int32_t> sequences;
+  std::uint64_t bundles = 0;
+  std::uint64_t events = 0;
+  std::vector<double> travel;  ///< arrival less sending, as the bundle tells it [s]
+};
+
+/// Listens until nothing has come for a second.
+Heard listen(protocol::UdpSocket& socket) {
+  Heard heard;
+  std::array<std::byte, 2048> buffer{};
+  while (const auto received = socket.receive(buffer.data(), buffer.size(), 1.0)) {
+    const double arrival = protocol::unix_now();
+    const auto packet = protocol::decode(protocol::Bytes(buffer).first(received->size)).packet;
+    const auto frame = protocol::to_frame(packet.messages.at(0));
+    if (!frame || !packet.time) continue;
+    ++heard.bundles;
+    heard.sequences.insert(frame->sequence);
+    const double delay = 1e-3 * static_cast<double>(frame->delay_ms);
+    heard.travel.push_back(arrival - (protocol::to_unix_seconds(*packet.time) - delay));
+    for (const auto& message : packet.messages) heard.events += protocol::to_event(message) ? 1 : 0;
+  }
+  return heard;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Hosts that do not exist. Kernels whose sending buffers hold no more than what waits for the
+/// address of one of them bear only one.
+Arguments dead_hosts() {
+  long most = 0;
+  std::ifstream("/proc/sys/net/core/wmem_max") >> most;
+  Arguments targets{"--target", "10.77.0.77:57310"};
+  if (most >= (1 << 20)) targets.insert(targets.end(), {"--target", "10.77.0.78:57310"});
+  return targets;
+}
+
+// Two live receivers, a port where nobody listens, and hosts that do not exist.
+TEST_F(OnTwoHosts, EachReceiverGetsEveryEventWhateverTheOthersDo) {
+  const std::string report = tests::temporary_path("hosts.json");
+  auto synth = start_synth({"--listen", "10.77.0.2:57310", "--allow", "10.77.0.1"});
+  protocol::UdpSocket receiver = hosts_.socket_on(kSynthHost, "10.77.0.2:57311");
+  const tests::SmallScene scene(tests::plunging());
+  Arguments arguments{"--scene",  scene.path(),     "--duration",  "4",        "--report",
+                      report,     "--target",       "10.77.0.2:9", "--target", "10.77.0.2:57310",
+                      "--target", "10.77.0.2:57311"};
+  for (const std::string& word : dead_hosts()) arguments.push_back(word);
+  auto simulator = start(kSimHost, "sim-server", arguments);
+  ASSERT_TRUE(simulator->wait_for_text("running")) << simulator->output();
+  const Heard heard = listen(receiver);
+  EXPECT_EQ(simulator->wait_for_end(), 0) << simulator->output();
+
+  synth->signal(SIGTERM);
+  EXPECT_EQ(synth->wait_for_end(), 0);
+  std::ifstream file(report);
+  const auto told = nlohmann::json::parse(file);
+  std::filesystem::remove(report);
+  const auto& kinds = told.at("events");
+  const auto sent = kinds.at("impacts").get<std::uint64_t>() +
+                    kinds.at("bubbles").get<std::uint64_t>() +
+                    kinds.at("cavities").get<std::uint64_t>();
+  ASSERT_GT(sent, 20U);
+  EXPECT_EQ(heard.events, sent);
+  EXPECT_EQ(heard.sequences.size(), heard.bundles) << "none came twice";
+  EXPECT_EQ(*heard.sequences.rbegin() + 1, static_cast<std::int32_t>(heard.bundles));
+  EXPECT_EQ(told.at("lost"), 0) << "the synth answered the simulator, and missed nothing";
+  long played = 0;
+  for (const char* kind : {"impacts", "bubbles", "cavities"}) {
+    played += tests::number_before(synth->output(), kind);
+  }
+  EXPECT_EQ(played, static_cast<long>(sent)) << synth->output();
+  EXPECT_LT(std::abs(median(heard.travel)), 0.05) << "tags and delays fit each other";
+  std::cout << "events " << sent << ", late " << told.at("late") << ", median travel "
+            << 1e3 * median(heard.travel) << " ms\n";
+}
+
+TEST_F(OnTwoHosts, StrangersAreNotObeyed) {
+  auto synth = start_synth({"--listen", "0.0.0.0:57310", "--allow", "10.77.0.1"});
+  protocol::UdpSocket stranger = hosts_.socket_on(kSimHost, "10.77.0.3:0");
+  protocol::UdpSocket friendly = hosts_.socket_on(kSimHost, "10.77.0.1:0");
+  const std::string there = "10.77.0.2:57310";
+  for (const char* command : {"/status", "/quit", "/clearSched", "/version"}) {
+    EXPECT_EQ(answer_to({command, {}}, stranger, there, 0.1).address, "no answer");
+  }
+  EXPECT_EQ(answer_to({"/mute", {1}}, stranger, there, 0.1).address, "no answer");
+  EXPECT_EQ(answer_to(protocol::ping({5}), stranger, there, 0.1).address, "no answer");
+  EXPECT_EQ(answer_to({"/status", {}}, friendly, there, 20.0).address, "/status.reply");
+  EXPECT_EQ(answer_to({"/quit", {}}, friendly, there, 20.0).address, "/fail") << "not from afar";
+  EXPECT_TRUE(synth->running());
+}
+
+TEST_F(OnTwoHosts, BothListenToTheirOwnHostUnlessToldOtherwise) {
+  auto synth = start_synth({});
+  const tests::SmallScene scene(tests::plunging());
+  auto simulator = start(kSynthHost, "sim-server", {"--scene", scene.path(), "--target", ":57310"});
+  ASSERT_TRUE(simulator->wait_for_text("running")) << simulator->output();
+  const auto listening = hosts_.listening_on(kSynthHost);
+  EXPECT_GE(listening.size(), 4U) << "the synth; the simulator's control, events and questions";
+  for (const std::string& local : listening) EXPECT_THAT(local, testing::StartsWith("0100007F:"));
+  EXPECT_THAT(listening, testing::Contains("0100007F:DFDE")) << "57310";
+  EXPECT_THAT(listening, testing::Contains("0100007F:DFD4")) << "57300";
+
+  protocol::UdpSocket other_host = hosts_.socket_on(kSimHost, "10.77.0.1:0");
+  for (const char* port : {"10.77.0.2:57310", "10.77.0.2:57300"}) {
+    EXPECT_EQ(answer_to({"/status", {}}, other_host, port, 0.1).address, "no answer");
+  }
+}
+
+}  // namespace
+}  // namespace splash::network
