@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// A cheap selection of the stability suite: coarse water, both solvers, at the default time step
+// and at the longest that an overloaded machine takes. ./splash bench stability has all of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "sim-server/overload.hpp"
+#include "tests/stress/trial.hpp"
+
+namespace splash::stress {
+namespace {
+
+using sim::PressureKind;
+using testing::IsEmpty;
+
+constexpr double kCoarse = 0.05;  // [m]
+
+const Trial& named(const std::string& name) {
+  static const std::vector<Trial> kAll = all_trials();
+  const auto found =
+      std::find_if(kAll.begin(), kAll.end(), [&](const Trial& t) { return t.name == name; });
+  if (found == kAll.end()) throw std::logic_error("no trial is called " + name);
+  return *found;
+}
+
+class Trials : public testing::TestWithParam<std::tuple<const char*, PressureKind>> {};
+
+TEST_P(Trials, Passes) {
+  const auto& [name, solver] = GetParam();
+  sim::Device device;
+  const Verdict verdict = run_trial(device, named(name), {solver, kCoarse, 1.0});
+  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.mishap;
+}
+
+std::string words(const testing::TestParamInfo<Trials::ParamType>& info) {
+  const auto& [trial, solver] = info.param;
+  std::string name = trial;
+  name += solver == PressureKind::weakly_compressible ? "_weakly" : "_divergence_free";
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Both, Trials,
+    testing::Combine(testing::Values("rest, half in", "dam break", "jumps of 500 tenths dp",
+                                     "poses that are none", "gaps of 110 ms", "plunge at 5.00 m/s",
+                                     "plunge at 20.0 m/s", "pressed to the floor",
+                                     "all in pairs at one place", "95 m from the origin",
+                                     "gravity tilts at once", "a body appears in the water",
+                                     "spikes of a body's speed", "all of it bubbles"),
+                     testing::Values(PressureKind::weakly_compressible,
+                                     PressureKind::divergence_free)),
+    words);
+
+// What an overloaded machine does to steps is still stable.
+class Stretched : public testing::TestWithParam<PressureKind> {};
+
+TEST_P(Stretched, StepsAreStable) {
+  sim::Device device;
+  sim::FluidSettings fluid;
+  fluid.solver = GetParam();
+  const double stretch = sim::stable_stretch(fluid);
+  for (const char* name : {"rest", "dam break", "plunge at 1.00 m/s"}) {
+    const Verdict verdict = run_trial(device, named(name), {GetParam(), kCoarse, stretch});
+    EXPECT_THAT(verdict.broken, IsEmpty()) << name << ' ' << verdict.mishap;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Stretched,
+                         testing::Values(PressureKind::weakly_compressible,
+                                         PressureKind::divergence_free),
+                         [](const auto& solver) {
+                           return solver.param == PressureKind::weakly_compressible
+                                      ? "Weakly"
+                                      : "DivergenceFree";
+                         });
+
+// The invariants can fail: three times the stable step does not keep still water still.
+TEST(Trials, InvariantsSeeWaterThatBoils) {
+  sim::Device device;
+  const Verdict verdict =
+      run_trial(device, named("rest"), {PressureKind::weakly_compressible, kCoarse, 3.0});
+  EXPECT_FALSE(verdict.passes());
+}
+
+}  // namespace
+}  // namespace splash::stress

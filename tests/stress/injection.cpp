@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "tests/stress/injection.hpp"
+
+#include <limits>
+
+namespace splash::stress {
+namespace {
+
+using sim::Fluid;
+using sim::Moment;
+using sim::Step;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Past all of the product's own ways to write there.
+template <class T>
+void poke(Fluid& fluid, const sim::Buffer<T>& buffer, std::size_t index, T value) {
+  fluid.device().queue().enqueueWriteBuffer(buffer.memory(), CL_TRUE, index * sizeof(T), sizeof(T),
+                                            &value);
+}
+
+template <class T>
+T peek(Fluid& fluid, const sim::Buffer<T>& buffer, std::size_t index) {
+  T value{};
+  fluid.device().queue().enqueueReadBuffer(buffer.memory(), CL_TRUE, index * sizeof(T), sizeof(T),
+                                           &value);
+  return value;
+}
+
+std::size_t part(const Fluid& fluid, std::size_t axis, int place) {
+  return axis * static_cast<std::size_t>(fluid.params().capacity) + static_cast<std::size_t>(place);
+}
+
+Injection put_place(const std::string& name, Moment moment, std::size_t axis, float value) {
+  return {name, moment, [=](Fluid& fluid, Step&, int place) {
+            poke(fluid, fluid.particles().position, part(fluid, axis, place), value);
+          }};
+}
+
+Injection put_velocity(const std::string& name, Moment moment, std::size_t axis, float value) {
+  return {name, moment, [=](Fluid& fluid, Step&, int place) {
+            poke(fluid, fluid.particles().velocity, part(fluid, axis, place), value);
+          }};
+}
+
+Injection put_density(const std::string& name, float value) {
+  // Between the halves: the step makes its densities itself.
+  return {name, Moment::between, [=](Fluid& fluid, Step&, int place) {
+            poke(fluid, fluid.density(), static_cast<std::size_t>(place), value);
+          }};
+}
+
+/// Puts the particle where the middle one of the arrays is, shifted by `apart` [m] along x.
+void move_to_middle(Fluid& fluid, int place, float apart) {
+  const int other = fluid.params().count / 2;
+  const int mine = place == other ? place + 1 : place;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float x = peek(fluid, fluid.particles().position, part(fluid, axis, other));
+    poke(fluid, fluid.particles().position, part(fluid, axis, mine), axis == 0 ? x + apart : x);
+  }
+}
+
+Injection double_a_name(const std::string& name) {
+  return {name, Moment::between, [](Fluid& fluid, Step&, int place) {
+            const int other = place == 0 ? 1 : 0;
+            const int id = peek(fluid, fluid.particles().id, static_cast<std::size_t>(other));
+            poke(fluid, fluid.particles().id, static_cast<std::size_t>(place), id);
+          }};
+}
+
+/// `factor` times as long as is stable.
+Injection longer_step(const std::string& name, double factor) {
+  return {name, Moment::between, [=](Fluid& fluid, Step& step, int) {
+            step.dt = factor * sim::largest_time_step(fluid.params(), 0.0, 0.0, 1.0);
+          }};
+}
+
+}  // namespace
+
+std::vector<Injection> injections() {
+  std::vector<Injection> all = {
+      put_place("NaN place", Moment::before, 0, kNaN),
+      put_place("infinite place", Moment::before, 2, kInfinity),
+      put_place("NaN place within a step", Moment::between, 1, -kNaN),
+      put_velocity("NaN velocity", Moment::before, 1, kNaN),
+      put_velocity("infinite velocity", Moment::between, 2, -kInfinity),
+      put_density("NaN density", kNaN),
+      put_density("infinite density", kInfinity),
+      put_velocity("1e6 m/s", Moment::before, 0, 1.0e6F),
+      put_velocity("1e6 m/s within a step", Moment::between, 2, 1.0e6F),
+      put_place("beyond the tank", Moment::before, 0, -10.0F),
+      put_place("far beyond the tank", Moment::between, 2, 1.0e7F),
+      double_a_name("a lost particle"),
+      longer_step("a step fifty times as long", 50.0),
+  };
+  for (const Moment moment : {Moment::before, Moment::between}) {
+    all.push_back({moment == Moment::before ? "two at one place" : "two at one place within a step",
+                   moment,
+                   [](Fluid& fluid, Step&, int place) { move_to_middle(fluid, place, 0.0F); }});
+  }
+  return all;
+}
+
+std::vector<Single> single_faults() {
+  using sim::Fault;
+  return {{Fault::not_finite, put_density("NaN density", kNaN)},
+          {Fault::jump,
+           {"three spacings farther", Moment::between,
+            [](Fluid& fluid, Step&, int place) {
+              const float x = peek(fluid, fluid.particles().position, part(fluid, 0, place));
+              const float middle =
+                  0.5F * (fluid.params().walls[1].offset - fluid.params().walls[2].offset);
+              const float way = 3.0F * fluid.params().spacing;
+              poke(fluid, fluid.particles().position, part(fluid, 0, place),
+                   x < middle ? x + way : x - way);
+            }}},
+          {Fault::speed, put_velocity("1e6 m/s", Moment::between, 2, 1.0e6F)},
+          {Fault::density, put_density("thinner than a particle alone", 100.0F)},
+          {Fault::lost, double_a_name("a lost particle")},
+          {Fault::changed, put_velocity("a small push", Moment::before, 0, 0.3F)},
+          {Fault::step, longer_step("a step 2.1 times as long", 2.1)}};
+}
+
+}  // namespace splash::stress

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// The invariants are of principle, not tuned to a run: speeds by what the scene puts in, densities
+// by the pressures that such speeds and the depth make at this speed of sound.
+#include "tests/stress/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::stress {
+namespace {
+
+using sim::Scene;
+using sim::Simulation;
+
+/// Speeds may exceed what is put in by this much: splashes are faster than what makes them.
+constexpr double kSplash = 3.0;
+/// No step is shorter than this part of the first one for good.
+constexpr double kStuck = 0.1;
+/// A frame that says more than this has gone mad.
+constexpr std::size_t kFlood = 200000;
+
+double wave_speed(const Scene& scene) {
+  return std::sqrt(sim::length(scene.fluid.gravity) * sim::water_depth(scene));
+}
+
+/// What the mean density may exceed rest by: weight, stagnation, and 5 % for the lattice.
+double densest_mean(const Scene& scene, double speed) {
+  const double sound = sim::scene_sound_speed(scene);
+  const double weight = wave_speed(scene) / sound;
+  const double hit = speed / sound;
+  return 0.05 + weight * weight + 0.5 * hit * hit;
+}
+
+bool is_finite(const sim::Vector3& x) {
+  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
+/// Counts a frame's events; false if one of them has a number that is none.
+bool sound_events(const sim::Detections& found) {
+  for (const auto& e : found.impacts) {
+    if (!is_finite(e.position) || !std::isfinite(e.speed) || !std::isfinite(e.time)) return false;
+  }
+  for (const auto& e : found.bubbles) {
+    if (!is_finite(e.position) || !(e.radius > 0.0) || !std::isfinite(e.time)) return false;
+  }
+  for (const auto& e : found.cavities) {
+    if (!is_finite(e.position) || !(e.radius > 0.0) || !std::isfinite(e.time)) return false;
+  }
+  return true;
+}
+
+/// Every particle is there once, has finite numbers and is not behind a wall of the tank.
+bool nobody_lost(Simulation& simulation) {
+  const sim::Snapshot state = simulation.fluid().snapshot();
+  const sim::FluidParams& p = simulation.fluid().params();
+  const sim::HealthLimits box = sim::health_limits(p);
+  std::vector<int> ids = state.id;
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] != static_cast<int>(i)) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t at = axis * static_cast<std::size_t>(p.capacity) + i;
+      const bool inside =
+          state.position[at] >= box.lower[axis] && state.position[at] <= box.upper[axis];
+      if (!inside || !std::isfinite(state.velocity[at])) return false;
+    }
+  }
+  return true;
+}
+
+void note(Verdict& verdict, bool holds, const std::string& what) {
+  if (holds) return;
+  if (std::find(verdict.broken.begin(), verdict.broken.end(), what) == verdict.broken.end()) {
+    verdict.broken.push_back(what);
+  }
+}
+
+void watch(Simulation& simulation, const Drive& drive, double seconds, Verdict& verdict) {
+  const double first = simulation.time_step();
+  verdict.least_step = 1.0;
+  while (simulation.seconds() < seconds) {
+    if (drive) drive(simulation);
+    const sim::FrameResult frame = simulation.advance();
+    const std::size_t events =
+        frame.found.impacts.size() + frame.found.bubbles.size() + frame.found.cavities.size();
+    verdict.events += events;
+    note(verdict, events < kFlood, "event count");
+    note(verdict, sound_events(frame.found), "events finite");
+    note(verdict, frame.survey.not_finite == 0, "no NaN");
+    verdict.fastest = std::max(verdict.fastest, frame.survey.speed);
+    verdict.mean_excess = std::max(verdict.mean_excess, frame.survey.mean_excess);
+    verdict.max_excess = std::max(verdict.max_excess, frame.survey.max_excess);
+    verdict.calm = frame.survey.speed;
+    verdict.least_step = std::min(verdict.least_step, simulation.time_step() / first);
+    if (frame.mishap && verdict.mishap.empty()) verdict.mishap = describe(*frame.mishap);
+  }
+  note(verdict, simulation.time_step() > kStuck * first, "time step not stuck");
+}
+
+}  // namespace
+
+Verdict run_trial(sim::Device& device, const Trial& trial, const Settings& settings,
+                  double seconds) {
+  Verdict verdict;
+  Scene scene = trial.scene(settings.spacing);
+  scene.fluid.solver = settings.solver;
+  scene.fluid.time_step_factor *= settings.factor;
+  try {
+    Simulation simulation(device, scene, {});
+    // Maps go beyond twice the stable step on purpose: to see what comes of it.
+    if (settings.factor > 2.0) {
+      simulation.fluid().health().set_checks(sim::without(sim::Fault::step));
+    }
+    const Drive drive = trial.drive ? trial.drive() : Drive();
+    watch(simulation, drive, seconds > 0.0 ? seconds : trial.seconds, verdict);
+    verdict.particles = simulation.particles();
+    const sim::RunTotals& totals = simulation.totals();
+    verdict.steps = totals.steps;
+    verdict.retried = totals.retried;
+    verdict.calmed = totals.calmed;
+    verdict.resets = totals.resets;
+    note(verdict, nobody_lost(simulation), "nobody lost");
+  } catch (const std::exception& error) {
+    verdict.broken.push_back(error.what());
+    return verdict;
+  }
+  const double bound = kSplash * std::max(trial.speed, wave_speed(scene));
+  note(verdict, verdict.fastest <= bound, "speed");
+  note(verdict, trial.harmed || verdict.mean_excess <= densest_mean(scene, trial.speed),
+       "mean density");
+  note(verdict, trial.harmed || verdict.max_excess <= 1.0, "largest density");
+  if (trial.still) note(verdict, verdict.calm <= 0.1 * wave_speed(scene), "calm");
+  note(verdict, verdict.calmed + verdict.resets == 0, "nothing given up");
+  note(verdict, trial.harmed || verdict.retried <= 3, "hardly a step again");
+  return verdict;
+}
+
+}  // namespace splash::stress

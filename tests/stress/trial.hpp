@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// One thing that water must survive, and whether it did.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim-server/simulation.hpp"
+
+namespace splash::stress {
+
+/// What happens from outside before each frame.
+using Drive = std::function<void(sim::Simulation&)>;
+
+struct Trial {
+  int group = 0;  ///< of the list of thirteen (README.md); 0: what users of other solvers reported
+  std::string name;
+  double seconds = 1.0;
+  double speed = 1.0;   ///< the fastest that anything is meant to get [m/s]
+  bool still = false;   ///< nothing moves: the water must be calm at the end
+  bool harmed = false;  ///< faults are put in: steps may be computed again
+  std::function<sim::Scene(double spacing)> scene;
+  std::function<Drive()> drive = {};  ///< a fresh one for each run
+};
+
+/// All of them, group by group. Group 6, mass ratios, needs bodies that float, which there are
+/// none.
+[[nodiscard]] std::vector<Trial> all_trials();
+
+struct Settings {
+  sim::PressureKind solver = sim::PressureKind::weakly_compressible;
+  double spacing = 0.05;  ///< [m]
+  double factor = 1.0;    ///< of the time step
+};
+
+struct Verdict {
+  std::vector<std::string> broken;  ///< invariants that did not hold; empty: passed
+  int particles = 0;
+  std::int64_t steps = 0;
+  double fastest = 0.0;      ///< [m/s]
+  double mean_excess = 0.0;  ///< largest in time [1]
+  double max_excess = 0.0;   ///< [1]
+  double calm = 0.0;         ///< fastest at the end [m/s]
+  std::uint64_t events = 0;
+  std::uint64_t retried = 0;
+  std::uint64_t calmed = 0;
+  std::uint64_t resets = 0;
+  double least_step = 0.0;  ///< shortest step in the first one's [1]
+  std::string mishap;       ///< the first, in words
+  [[nodiscard]] bool passes() const { return broken.empty(); }
+};
+
+/// `seconds`: another duration than the trial's, 0: its own.
+[[nodiscard]] Verdict run_trial(sim::Device& device, const Trial& trial, const Settings& settings,
+                                double seconds = 0.0);
+
+}  // namespace splash::stress
