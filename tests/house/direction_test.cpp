@@ -83,7 +83,7 @@ TEST(Direction, FluidDoesNotKnowWhatIsFoundInIt) {
   EXPECT_THAT(complaint("sim-server/detect", "sim-server/fluid/fluid.hpp"), IsEmpty());
   EXPECT_THAT(complaint("sim-server/fluid", "sim-server/detect/bubbles.hpp"),
               HasSubstr("may not know"));
-  EXPECT_THAT(complaint("sim-server/bodies", "sim-server/fluid/wendland.hpp"), IsEmpty());
+  EXPECT_THAT(complaint("sim-server/bodies", "sim-server/fluid/smoothing.hpp"), IsEmpty());
   EXPECT_THAT(complaint("sim-server/bodies", "sim-server/fluid/fluid.hpp"),
               HasSubstr("may not know"));
   EXPECT_THAT(complaint("sim-server/send", "sim-server/fluid/fluid.hpp"),

@@ -44,7 +44,7 @@ const std::vector<Room>& rooms() {
       // What the fluid gives a body to be sampled with, not the solver.
       {"sim-server/bodies",
        {"sim-server/scene", "sim-server/tracking", "sim-server/fluid/boundary_point.hpp",
-        "sim-server/fluid/fluid_params.h", "sim-server/fluid/wendland.hpp"},
+        "sim-server/fluid/fluid_params.h", "sim-server/fluid/smoothing.hpp"},
        {}},
       {"sim-server/detect",
        {"sim-server/scene", "sim-server/device", "sim-server/bodies", "sim-server/fluid"},

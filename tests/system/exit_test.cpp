@@ -91,6 +91,24 @@ TEST(Exit, FullDiskIsSaid) {
   EXPECT_THAT(text, HasSubstr("/dev/full"));
 }
 
+TEST(Exit, FullDiskEndsTheRecordingNotTheRun) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const SmallScene scene(plunging());
+  const auto simulator =
+      run_program("sim-server", {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record",
+                                 "/dev/full", "--duration", "1"});
+  EXPECT_EQ(simulator.code, 74);
+  EXPECT_THAT(simulator.text, AllOf(HasSubstr("/dev/full': No space left on device; free space"),
+                                    HasSubstr("The run goes on without it")));
+  const auto synth = run_program("synth-server",
+                                 {"--rig", rig_path("stereo.yaml"), "--device", "null", "--listen",
+                                  "127.0.0.1:0", "--record-audio", "/dev/full", "--duration", "2"});
+  EXPECT_EQ(synth.code, 74);
+  EXPECT_THAT(synth.text,
+              AllOf(HasSubstr("/dev/full: cannot write: No space left on device; free space"),
+                    HasSubstr("Playing goes on, the recording ends here")));
+}
+
 TEST(Exit, DeviceThatIsNotThereIsUnavailable) {
   const SmallScene scene(plunging());
   const auto [code, text] = simulate(scene, {"--listen", "127.0.0.1:0", "--device", "99"});

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "protocol/event_log.hpp"
@@ -81,6 +83,25 @@ TEST(Tracker, WithoutPosesNothingMoves) {
   EXPECT_EQ(code, 0) << text;
   EXPECT_THAT(text, testing::HasSubstr("0 impacts, 0 bubbles, 0 cavities"));
   std::filesystem::remove(log);
+}
+
+// Two trackers that fight over one body, 60 m apart.
+TEST(Tracker, PosesThatNoBodyCanFollowAreRefusedAndTold) {
+  const SmallScene scene(tracked());
+  const std::string report = temporary_path("refused.json");
+  Simulator simulator({"--scene", scene.path(), "--report", report});
+  for (int k = 0; k < 20; ++k) {
+    const float x = k % 2 == 0 ? 30.0F : -30.0F;
+    simulator.send(protocol::encode(
+        protocol::to_message(protocol::BodyPose{0, {x, 0.0F, 0.35F}, 0.0F, 0.0F, 0.0F, 1.0F})));
+  }
+  EXPECT_TRUE(simulator.process().wait_for_text(
+      "a pose of body 'disc' was refused: the speed is beyond the limit"));
+  simulator.process().signal(SIGTERM);
+  ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  std::ifstream file(report);
+  EXPECT_GE(nlohmann::json::parse(file).at("refused_poses").get<int>(), 1);
+  std::filesystem::remove(report);
 }
 
 }  // namespace

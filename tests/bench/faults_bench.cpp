@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Both programs killed many times, started in any order, and the JACK server killed under the
+// synth: who lives, and how soon it is as before. Prints a table, and one line for each thing that
+// went wrong; with a file name, also writes the recoveries as CSV.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/synth-server/live/jack_capture.hpp"
+#include "tests/system/kills.hpp"
+
+namespace {
+
+using namespace splash;
+using namespace splash::tests;
+
+struct Settings {
+  int kills = 50;
+  int starts = 20;
+  int jack = 20;
+  unsigned seed = 1;
+  std::string csv;
+};
+
+constexpr double kPatience = 30.0;  ///< [s]
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+Progress counter(const char* what, int rounds) {
+  return [what, rounds](int round) {
+    std::fprintf(stderr, "\r%s: %d of %d ", what, round, rounds);
+    if (round == rounds) std::fprintf(stderr, "\n");
+  };
+}
+
+/// User and system time of another process [s].
+double cpu_seconds(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  text.erase(0, text.rfind(')') + 1);  // the name may have spaces
+  std::vector<std::string> fields;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) fields.push_back(word);
+  return (std::stod(fields.at(11)) + std::stod(fields.at(12))) /
+         static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// Seconds until `words` have been said `times` times; throws when they are not.
+double wait_for(ChildProcess& process, const std::string& words, int times) {
+  const double start = protocol::monotonic_now();
+  while (protocol::monotonic_now() - start < kPatience) {
+    const std::string text = process.output();
+    int found = 0;
+    for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+      ++found;
+    }
+    if (found >= times) return protocol::monotonic_now() - start;
+    if (!process.running()) break;
+    sleep(0.002);
+  }
+  throw std::runtime_error("it never said '" + words + "':\n" + process.output());
+}
+
+struct JackDeaths {
+  std::vector<double> seen;    ///< from the kill to the synth's word on it [s]
+  std::vector<double> back;    ///< from jackd's return to sound [s]
+  std::vector<double> waited;  ///< part of a core used without jackd [1]
+};
+
+JackDeaths kill_jack(int rounds) {
+  JackDeaths deaths;
+  const std::string name = "splash-faults-" + std::to_string(getpid());
+  auto server = std::make_unique<synth::JackServer>(name, 36, 256);
+  Synth synth({"--rig", rig_path("tiles36.yaml"), "--api", "jack"});
+  const Progress progress = counter("jackd killed", rounds);
+  for (int k = 1; k <= rounds; ++k) {
+    sleep(0.5);
+    server->kill();
+    deaths.seen.push_back(wait_for(synth.process(), "has stopped asking for sound", k));
+    const double before = cpu_seconds(synth.process().id());
+    sleep(1.0);
+    deaths.waited.push_back(cpu_seconds(synth.process().id()) - before);
+    server = std::make_unique<synth::JackServer>(name, 36, 256);
+    deaths.back.push_back(wait_for(synth.process(), "'system' plays", k));
+    progress(k);
+  }
+  synth.process().signal(SIGTERM);
+  if (synth.process().wait_for_end() != 0) throw std::runtime_error(synth.process().output());
+  return deaths;
+}
+
+double middle(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0.0 : values[values.size() / 2];
+}
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+class Report {
+ public:
+  explicit Report(const std::string& csv) : csv_(csv) {
+    if (csv_) csv_ << "what,seconds\n";
+  }
+
+  void add(const char* what, int rounds, const Kills& kills) {
+    std::printf("%-28s %3d rounds, %3d survived, first event after %.2f s, at most %.2f s\n", what,
+                rounds, kills.survived, middle(kills.recovery), largest(kills.recovery));
+    for (const auto& text : kills.complaints) std::printf("  WRONG: %s\n", text.c_str());
+    wrong_ += static_cast<int>(kills.complaints.size()) + (rounds - kills.survived);
+    note(what, kills.recovery);
+    if (kills.slew_limit == 0.0) return;
+    std::printf("  largest step %.4f of full scale per sample, the rig's slew limit is %.4f\n",
+                kills.largest_step, kills.slew_limit);
+    wrong_ += kills.largest_step > kills.slew_limit ? 1 : 0;
+  }
+
+  void add(const JackDeaths& deaths) {
+    std::printf(
+        "%-28s %3zu rounds, loss seen after %.2f s, at most %.2f s; playing %.2f s after it is "
+        "back, at most %.2f s; %.1f %% of a core meanwhile, at most %.1f %%\n",
+        "jackd killed", deaths.seen.size(), middle(deaths.seen), largest(deaths.seen),
+        middle(deaths.back), largest(deaths.back), 100.0 * middle(deaths.waited),
+        100.0 * largest(deaths.waited));
+    note("jack seen", deaths.seen);
+    note("jack back", deaths.back);
+  }
+
+  [[nodiscard]] int wrong() const noexcept { return wrong_; }
+
+ private:
+  void note(const char* what, const std::vector<double>& seconds) {
+    for (const double value : seconds) csv_ << what << ',' << value << '\n';
+  }
+
+  std::ofstream csv_;
+  int wrong_ = 0;
+};
+
+int bench(const Settings& settings) {
+  std::mt19937 random(settings.seed);
+  Report report(settings.csv);
+  report.add("kill -9 of the simulator", settings.kills,
+             kill_simulators(settings.kills, random, counter("simulators", settings.kills)));
+  report.add("kill -9 of the synth", settings.kills,
+             kill_synths(settings.kills, random, counter("synths", settings.kills)));
+  report.add("started in any order", settings.starts,
+             start_in_any_order(settings.starts, random, counter("starts", settings.starts)));
+  if (settings.jack > 0) report.add(kill_jack(settings.jack));
+  std::printf(report.wrong() == 0 ? "all well\n" : "%d things went wrong\n", report.wrong());
+  return report.wrong() == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  CLI::App app("Kills the programs and their sound server, and says how they take it.",
+               "./splash bench faults --");
+  app.add_option("--kills", settings.kills, "Of each program")->capture_default_str();
+  app.add_option("--starts", settings.starts, "In either order")->capture_default_str();
+  app.add_option("--jack", settings.jack, "Kills of jackd")->capture_default_str();
+  app.add_option("--seed", settings.seed, "Of the moments")->capture_default_str();
+  app.add_option("csv", settings.csv, "File for the recoveries");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return bench(settings);
+  } catch (const std::exception& error) {
+    std::cerr << "bench-faults: " << error.what() << '\n';
+    return 70;
+  }
+}

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// Both real programs in real time for as long as one likes, scene after scene on its rig, with a
+// kill of one of them now and then: memory, missed heartbeats, lost bundles and exits, a line every
+// half minute and a verdict at the end.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "protocol/status.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+
+namespace {
+
+using namespace splash;
+using namespace splash::tests;
+
+struct Settings {
+  double minutes = 30.0;
+  double scene_minutes = 2.0;
+  double kill_minutes = 5.0;
+  unsigned seed = 1;
+};
+
+constexpr double kLineSeconds = 30.0;
+constexpr double kWarmSeconds = 60.0;  ///< after which memory may not grow [s]
+constexpr std::array kScenes = {"pool", "beach", "basin"};
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+/// Resident memory [KiB].
+long resident(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+  }
+  return 0;
+}
+
+/// One program's memory over its life.
+class Memory {
+ public:
+  void note(pid_t process, double age) {
+    now_ = resident(process);
+    if (age >= kWarmSeconds && warm_ == 0) warm_ = now_;
+    if (warm_ != 0) growth_ = std::max(growth_, now_ - warm_);
+  }
+  void restart() { warm_ = 0; }
+  [[nodiscard]] long now() const noexcept { return now_; }
+  [[nodiscard]] long growth() const noexcept { return growth_; }
+
+ private:
+  long now_ = 0;
+  long warm_ = 0;
+  long growth_ = 0;
+};
+
+class Soak {
+ public:
+  explicit Soak(const Settings& settings) : settings_(settings), random_(settings.seed) {
+    start_synth("127.0.0.1:0");
+    start_simulator();
+  }
+
+  int run() {
+    const double start = protocol::monotonic_now();
+    double line = start + kLineSeconds;
+    double scene = start + 60.0 * settings_.scene_minutes;
+    double kill = start + 60.0 * settings_.kill_minutes;
+    while (protocol::monotonic_now() - start < 60.0 * settings_.minutes) {
+      sleep(0.5);
+      const double now = protocol::monotonic_now();
+      look_after_both(now);
+      if (now >= scene) {
+        scene += 60.0 * settings_.scene_minutes;
+        change_scene();
+      }
+      if (now >= kill) {
+        kill += 60.0 * settings_.kill_minutes;
+        kill_one();
+      }
+      if (now >= line) {
+        line += kLineSeconds;
+        print(now - start);
+      }
+    }
+    return verdict();
+  }
+
+ private:
+  void start_synth(const std::string& listen) {
+    synth_ = std::make_unique<Synth>(
+        Arguments{"--rig", rig_path("tiles36.yaml"), "--device", "null", "--listen", listen});
+    synth_memory_.restart();
+    synth_started_ = protocol::monotonic_now();
+  }
+
+  void start_simulator() {
+    simulator_ = std::make_unique<Simulator>(
+        Arguments{"--scene",
+                  std::string(SPLASH_SOURCE_DIR) + "/configs/scenes/" +
+                      kScenes[static_cast<std::size_t>(scene_) % kScenes.size()] + ".yaml",
+                  "--target", protocol::to_string(synth_->endpoint())});
+    simulator_memory_.restart();
+    simulator_started_ = protocol::monotonic_now();
+  }
+
+  void look_after_both(double now) {
+    synth_memory_.note(synth_->process().id(), now - synth_started_);
+    simulator_memory_.note(simulator_->process().id(), now - simulator_started_);
+    if (!synth_->process().running()) {
+      ++unplanned_;
+      std::printf("the synth ended:\n%s\n", synth_->process().output().c_str());
+      start_synth(protocol::to_string(synth_->endpoint()));
+    }
+    if (!simulator_->process().running()) {
+      ++unplanned_;
+      std::printf("the simulator ended:\n%s\n", simulator_->process().output().c_str());
+      start_simulator();
+    }
+  }
+
+  void change_scene() {
+    simulator_->process().signal(SIGTERM);
+    if (simulator_->process().wait_for_end() != 0) ++unplanned_;
+    ++planned_;  // the synth sees this one depart
+    ++scene_;
+    start_simulator();
+  }
+
+  void kill_one() {
+    if (random_() % 2 == 0) {
+      std::printf("killing the simulator\n");
+      simulator_->process().signal(SIGKILL);
+      simulator_->process().wait_for_end();
+      ++planned_;
+      start_simulator();
+      return;
+    }
+    std::printf("killing the synth\n");
+    const std::string port = protocol::to_string(synth_->endpoint());
+    take_counts();
+    synth_->process().signal(SIGKILL);
+    synth_->process().wait_for_end();
+    planned_ = 0;  // departures are counted by the synth that saw them
+    start_synth(port);
+  }
+
+  protocol::SynthStatus status() {
+    return protocol::to_synth_status(synth_->ask({"/status", {}}, "/status.reply"))
+        .value_or(protocol::SynthStatus{});
+  }
+
+  void take_counts() {
+    const auto now = status();
+    events_ += now.events;
+    lost_ += now.lost;
+    late_ += now.late;
+    dropped_ += now.dropped;
+  }
+
+  void print(double seconds) {
+    const auto now = status();
+    const auto sim = protocol::to_sim_status(simulator_->ask({"/status", {}}, "/status.reply"))
+                         .value_or(protocol::SimStatus{});
+    std::printf(
+        "%5.1f min  %-6s real time x %.2f  events %llu  lost %llu  late %llu  RSS sim %.1f MiB, "
+        "synth %.1f MiB  unplanned exits %d\n",
+        seconds / 60.0, kScenes[static_cast<std::size_t>(scene_) % kScenes.size()],
+        static_cast<double>(sim.real_time_factor), static_cast<unsigned long long>(now.events),
+        static_cast<unsigned long long>(now.lost), static_cast<unsigned long long>(now.late),
+        static_cast<double>(simulator_memory_.now()) / 1024.0,
+        static_cast<double>(synth_memory_.now()) / 1024.0, unplanned_);
+    std::fflush(stdout);
+  }
+
+  int verdict() {
+    take_counts();
+    for (Daemon* daemon :
+         {static_cast<Daemon*>(simulator_.get()), static_cast<Daemon*>(synth_.get())}) {
+      daemon->process().signal(SIGTERM);
+      if (daemon->process().wait_for_end() != 0) ++unplanned_;
+    }
+    const long departures = number_before(synth_->process().output(), "departures");
+    std::printf(
+        "\nevents %llu, lost %llu, late %llu, dropped %llu\n"
+        "departures the last synth saw %ld, planned %ld\n"
+        "memory after the first minute of a life: simulator +%.1f MiB, synth +%.1f MiB\n"
+        "unplanned exits: %d\n",
+        static_cast<unsigned long long>(events_), static_cast<unsigned long long>(lost_),
+        static_cast<unsigned long long>(late_), static_cast<unsigned long long>(dropped_),
+        departures, planned_, static_cast<double>(simulator_memory_.growth()) / 1024.0,
+        static_cast<double>(synth_memory_.growth()) / 1024.0, unplanned_);
+    return unplanned_ == 0 ? 0 : 1;
+  }
+
+  Settings settings_;
+  std::mt19937 random_;
+  std::unique_ptr<Synth> synth_;
+  std::unique_ptr<Simulator> simulator_;
+  Memory synth_memory_;
+  Memory simulator_memory_;
+  double synth_started_ = 0.0;      ///< [s, monotonic]
+  double simulator_started_ = 0.0;  ///< [s, monotonic]
+  int scene_ = 0;
+  long planned_ = 0;  ///< departures of simulators that this synth was to see
+  int unplanned_ = 0;
+  std::uint64_t events_ = 0;
+  std::uint64_t lost_ = 0;
+  std::uint64_t late_ = 0;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  CLI::App app("Runs both programs for a long time and kills one now and then.",
+               "./splash bench soak --");
+  app.add_option("--minutes", settings.minutes, "Of the whole")->capture_default_str();
+  app.add_option("--scene-minutes", settings.scene_minutes, "Then the next scene")
+      ->capture_default_str();
+  app.add_option("--kill-minutes", settings.kill_minutes, "Between two kills")
+      ->capture_default_str();
+  app.add_option("--seed", settings.seed, "Of who is killed")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return Soak(settings).run();
+  } catch (const std::exception& error) {
+    std::cerr << "bench-soak: " << error.what() << '\n';
+    return 70;
+  }
+}

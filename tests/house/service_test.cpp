@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The units that ./splash service writes: with this tree's paths, and as systemd takes them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "tests/house/shell.hpp"
+
+namespace splash::house {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string read_text(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// A home of its own, and a cmake that builds nothing. Paths with characters that mean something to
+/// the shell, to sed or to systemd.
+class Service : public testing::Test {
+ protected:
+  Service() {
+    fs::create_directories(build() / "bin");
+    fs::create_directories(folder_ / "tools");
+    write_program(folder_ / "tools" / "cmake");
+    write_program(folder_ / "tools" / "dpkg-query");
+    for (const char* name : {"sim-server", "synth-server"}) write_program(build() / "bin" / name);
+    std::ofstream(folder_ / "tools" / "dpkg-query")
+        << "#!/bin/sh\n"
+        << "sed -n 's/^\\([a-z0-9+.-]*\\) *| .*/ii \\1/p' '" << SPLASH_SOURCE_DIR << "/splash'\n";
+  }
+  ~Service() override { fs::remove_all(folder_); }
+
+  static void write_program(const fs::path& path) {
+    std::ofstream(path) << "#!/bin/sh\n";
+    fs::permissions(path, fs::perms::owner_all);
+  }
+  [[nodiscard]] fs::path build() const { return folder_ / "a & 100% b"; }
+  [[nodiscard]] CommandResult launch(const std::string& arguments) const {
+    return run_command("XDG_CONFIG_HOME='" + folder_.string() + "' PATH='" +
+                       (folder_ / "tools").string() + "':$PATH " + SPLASH_SOURCE_DIR +
+                       "/splash service " + arguments + " --no-install --build-dir '" +
+                       build().string() + "'");
+  }
+  [[nodiscard]] fs::path unit(const std::string& name) const {
+    return folder_ / "systemd" / "user" / (name + ".service");
+  }
+
+ private:
+  fs::path folder_ =
+      fs::temp_directory_path() / ("splash-service-test-" + std::to_string(getpid()));
+};
+
+TEST_F(Service, HasThisTreesPaths) {
+  const CommandResult result = launch("pool --rig tiles36");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("systemctl --user enable --now splash-sim"));
+  const std::string sim = read_text(unit("splash-sim"));
+  const std::string synth = read_text(unit("splash-synth"));
+  const std::string configs = std::string(SPLASH_SOURCE_DIR) + "/configs/";
+  EXPECT_THAT(sim, HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
+                             "scenes/pool.yaml\" --target 127.0.0.1:57310\n"));
+  EXPECT_THAT(synth, HasSubstr("/bin/synth-server\" --rig \"" + configs + "rigs/tiles36.yaml\""));
+  for (const std::string& text : {sim, synth}) {
+    EXPECT_THAT(text, Not(testing::ContainsRegex("@[A-Z]+@")));
+    EXPECT_THAT(text, HasSubstr("\nType=notify\n"));
+    EXPECT_THAT(text, testing::ContainsRegex("\nWatchdogSec=[0-9]+\n"));
+    EXPECT_THAT(text, HasSubstr("\nRestart=on-failure\n"));
+  }
+}
+
+TEST_F(Service, IsWhatSystemdTakes) {
+  if (run_command("systemd-analyze --version").exit_code != 0) {
+    GTEST_SKIP() << "there is no systemd-analyze";
+  }
+  ASSERT_EQ(launch("basin").exit_code, 0);
+  const std::string verify =
+      "XDG_RUNTIME_DIR='" + build().string() + "' systemd-analyze verify --user --man=no '";
+  const CommandResult right = run_command(verify + unit("splash-sim").string() + "' '" +
+                                          unit("splash-synth").string() + "' 2>&1");
+  EXPECT_THAT(right.output, Not(HasSubstr("splash-")));
+  std::ofstream(unit("splash-sim"), std::ios::app) << "[Service]\nWatchdogSecs=3\n";
+  EXPECT_THAT(run_command(verify + unit("splash-sim").string() + "' 2>&1").output,
+              HasSubstr("WatchdogSecs"))
+      << "it does look";
+}
+
+TEST_F(Service, KnowsItsScenesAndRigs) {
+  EXPECT_EQ(launch("puddle").exit_code, 66);
+  EXPECT_EQ(launch("pool --rig trumpet").exit_code, 66);
+}
+
+/// The numbers in README.md, the units and the header are the same.
+TEST(ExitCodes, AreToldAsTheyAre) {
+  const fs::path root = SPLASH_SOURCE_DIR;
+  const std::string header = read_text(root / "protocol" / "exit_codes.hpp");
+  const std::string readme = read_text(root / "README.md");
+  static const std::regex kCode(R"(kExit\w+ = (\d+),)");
+  int codes = 0;
+  for (std::sregex_iterator it(header.begin(), header.end(), kCode), end; it != end; ++it) {
+    EXPECT_THAT(readme, HasSubstr("\n| " + (*it)[1].str() + " | ")) << (*it)[0];
+    ++codes;
+  }
+  EXPECT_GE(codes, 8);
+  static const std::regex kRow(R"(\n\| (\d+) \| )");
+  for (std::sregex_iterator it(readme.begin(), readme.end(), kRow), end; it != end; ++it) {
+    if ((*it)[1] == "130") continue;  // the shell's, of a second Ctrl-C
+    EXPECT_THAT(header, HasSubstr(" = " + (*it)[1].str() + ",")) << (*it)[0];
+  }
+}
+
+}  // namespace
+}  // namespace splash::house

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Five random kills of either program and both orders of starting; ./splash bench faults does more.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+
+#include "protocol/event_log.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/system/kills.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+constexpr int kRounds = 5;
+
+void expect_all_well(const Kills& kills, int rounds) {
+  EXPECT_EQ(kills.survived, rounds);
+  EXPECT_EQ(kills.recovery.size(), static_cast<std::size_t>(rounds));
+  EXPECT_THAT(kills.complaints, testing::IsEmpty());
+  if (kills.recovery.empty()) return;
+  std::cout << "first event after at most "
+            << *std::max_element(kills.recovery.begin(), kills.recovery.end()) << " s\n";
+}
+
+TEST(Kill, OfSimulatorsLeavesTheSynthPlaying) {
+  std::mt19937 random(1);
+  const Kills kills = kill_simulators(kRounds, random, [](int) {});
+  expect_all_well(kills, kRounds);
+  EXPECT_GT(kills.largest_step, 0.0) << "something was heard";
+  EXPECT_LE(kills.largest_step, kills.slew_limit) << "no click";
+}
+
+TEST(Kill, OfARecordingSimulatorLeavesWholeBundles) {
+  const SmallScene scene(plunging());
+  const std::string log = temporary_path("killed.osc");
+  Simulator simulator({"--scene", scene.path(), "--record", log});
+  ASSERT_TRUE(simulator.process().wait_for_text("real time x"));
+  simulator.process().signal(SIGKILL);
+  simulator.process().wait_for_end();
+  const auto entries = protocol::read_log(log);
+  ASSERT_GT(entries.size(), 3U);
+  EXPECT_GT(entries.back().seconds, 1.0) << "until shortly before";
+  std::filesystem::remove(log);
+}
+
+TEST(Kill, OfSynthsLeavesTheSimulatorTelling) {
+  std::mt19937 random(2);
+  expect_all_well(kill_synths(kRounds, random, [](int) {}), kRounds);
+}
+
+TEST(Start, InAnyOrderComesToTheSame) {
+  std::mt19937 random(3);
+  expect_all_well(start_in_any_order(2, random, [](int) {}), 2);
+}
+
+}  // namespace
+}  // namespace splash::tests

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "tests/system/kills.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <thread>
+
+#include "protocol/status.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+constexpr double kLongestLife = 1.2;  ///< of a program that is to be killed [s]
+constexpr double kPatience = 30.0;    ///< [s]
+constexpr double kTop = 750.0;        ///< of the handheld rig's band [Hz]
+constexpr double kRate = 48000.0;     ///< [Hz]
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+double between(double least, double most, std::mt19937& random) {
+  return std::uniform_real_distribution<double>(least, most)(random);
+}
+
+Arguments synth_on(const std::string& listen) {
+  return {"--rig", rig_path("handheld.yaml"), "--device", "null", "--listen", listen};
+}
+
+Arguments simulator_to(const SmallScene& scene, const protocol::Endpoint& target) {
+  return {"--scene",  scene.path(), "--target", protocol::to_string(target),
+          "--listen", "127.0.0.1:0"};
+}
+
+/// A port that was free a moment ago.
+protocol::Endpoint free_endpoint() {
+  return protocol::UdpSocket({INADDR_LOOPBACK, 0}).local();
+}
+
+std::optional<std::uint64_t> events_of(Daemon& synth) {
+  const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
+  return status ? std::optional(status->events) : std::nullopt;
+}
+
+/// Until the synth has taken more than `before`: how long that took [s].
+std::optional<double> await_event(Daemon& synth, std::uint64_t before) {
+  const double start = protocol::monotonic_now();
+  while (protocol::monotonic_now() - start < kPatience) {
+    if (events_of(synth).value_or(0) > before) return protocol::monotonic_now() - start;
+    sleep(0.15);  // it answers ten times a second at most
+  }
+  return std::nullopt;
+}
+
+void judge(Daemon& other, const std::optional<double>& recovery, Kills& kills) {
+  const bool lives = other.process().running() &&
+                     other.ask({"/sync", {1}}, "/synced") == protocol::Message{"/synced", {1}};
+  kills.survived += lives ? 1 : 0;
+  if (!lives) kills.complaints.push_back("it died or is silent:\n" + other.process().output());
+  if (recovery) {
+    kills.recovery.push_back(*recovery);
+  } else {
+    kills.complaints.push_back("no event came through:\n" + other.process().output());
+  }
+}
+
+void end_in_peace(Daemon& daemon, Kills& kills) {
+  daemon.process().signal(SIGTERM);
+  if (daemon.process().wait_for_end() == 0) return;
+  kills.complaints.push_back("it did not end in peace:\n" + daemon.process().output());
+}
+
+double largest_step(const std::string& wav) {
+  double largest = 0.0;
+  for (const auto& channel : read_recording(wav).channels) {
+    for (std::size_t i = 1; i < channel.size(); ++i) {
+      largest = std::max(largest, static_cast<double>(std::abs(channel[i] - channel[i - 1])));
+    }
+  }
+  return largest;
+}
+
+/// A program started and, somewhere between its first instruction and its work, killed.
+void live_and_die(const Arguments& program, std::mt19937& random) {
+  ChildProcess process(program);
+  sleep(between(0.0, kLongestLife, random));
+  process.signal(SIGKILL);
+  process.wait_for_end();
+}
+
+}  // namespace
+
+Kills kill_simulators(int rounds, std::mt19937& random, const Progress& progress) {
+  Kills kills;
+  const SmallScene scene(plunging());
+  const std::string wav = temporary_path("kills.wav");
+  Arguments arguments = synth_on("127.0.0.1:0");
+  arguments.insert(arguments.end(), {"--record-audio", wav});
+  Synth synth(arguments);
+  for (int k = 0; k < rounds; ++k) {
+    const Arguments simulator = simulator_to(scene, synth.endpoint());
+    live_and_die(command("sim-server", simulator), random);
+    Simulator next(simulator);
+    judge(synth, await_event(synth, events_of(synth).value_or(0)), kills);
+    next.process().signal(SIGKILL);
+    next.process().wait_for_end();
+    progress(k + 1);
+  }
+  end_in_peace(synth, kills);
+  kills.largest_step = largest_step(wav);
+  // As in synth-server/output/output_guard.cpp: twice the steepest sine of the band at full scale.
+  kills.slew_limit = 2.0 * 2.0 * std::numbers::pi * kTop / kRate;
+  std::filesystem::remove(wav);
+  return kills;
+}
+
+Kills kill_synths(int rounds, std::mt19937& random, const Progress& progress) {
+  Kills kills;
+  const SmallScene scene(plunging());
+  const protocol::Endpoint port = free_endpoint();
+  Simulator simulator(simulator_to(scene, port));
+  for (int k = 0; k < rounds; ++k) {
+    const Arguments synth = synth_on(protocol::to_string(port));
+    live_and_die(command("synth-server", synth), random);
+    Synth next(synth);
+    judge(simulator, await_event(next, 0), kills);
+    next.process().signal(SIGKILL);
+    next.process().wait_for_end();
+    progress(k + 1);
+  }
+  end_in_peace(simulator, kills);
+  return kills;
+}
+
+Kills start_in_any_order(int rounds, std::mt19937& random, const Progress& progress) {
+  Kills kills;
+  const SmallScene scene(plunging());
+  for (int k = 0; k < rounds; ++k) {
+    const protocol::Endpoint port = free_endpoint();
+    std::unique_ptr<Synth> synth;
+    std::unique_ptr<Simulator> simulator;
+    const auto start_synth = [&] {
+      synth = std::make_unique<Synth>(synth_on(protocol::to_string(port)));
+    };
+    if (k % 2 == 0) start_synth();
+    simulator = std::make_unique<Simulator>(simulator_to(scene, port));
+    sleep(between(0.0, 1.0, random));
+    if (synth == nullptr) start_synth();
+    judge(*simulator, await_event(*synth, 0), kills);
+    end_in_peace(*simulator, kills);
+    end_in_peace(*synth, kills);
+    progress(k + 1);
+  }
+  return kills;
+}
+
+}  // namespace splash::tests

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// What can be wrong with OpenCL and its cache: each ends in a sentence with a cure, or is mended.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/programs.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class OpenClFault : public testing::Test {
+ protected:
+  OpenClFault() { fs::create_directory(folder_); }
+  ~OpenClFault() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path cache() const { return folder_ / "cache"; }
+  [[nodiscard]] Arguments arguments() const {
+    return {"--scene",
+            scene_.path(),
+            "--listen",
+            "127.0.0.1:0",
+            "--duration",
+            "0.1",
+            "--faster-than-real-time"};
+  }
+  [[nodiscard]] Ended simulate(const ChildProcess::Environment& environment) const {
+    return run_program("sim-server", arguments(), 120.0, environment);
+  }
+  [[nodiscard]] Ended simulate_with_cache() const {
+    return simulate({{"POCL_CACHE_DIR", cache().string()}});
+  }
+  /// Files below the cache whose names end so.
+  [[nodiscard]] std::vector<fs::path> cached(const std::string& ending) const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(cache())) {
+      if (entry.path().filename().string().ends_with(ending)) files.push_back(entry.path());
+    }
+    return files;
+  }
+
+ private:
+  SmallScene scene_{plunging()};
+  fs::path folder_ = temporary_path("opencl");
+};
+
+TEST_F(OpenClFault, NoPlatformNamesThePackage) {
+  fs::create_directory(cache());  // a folder without any platform in it
+  const auto [code, text] = simulate({{"OCL_ICD_VENDORS", cache().string()}});
+  EXPECT_EQ(code, 69);
+  EXPECT_THAT(text, AllOf(HasSubstr("no OpenCL platform"), HasSubstr("$OCL_ICD_VENDORS"),
+                          HasSubstr("apt install pocl-opencl-icd")));
+}
+
+TEST_F(OpenClFault, UnwritableCacheIsNamed) {
+  const auto [code, text] = simulate({{"POCL_CACHE_DIR", "/dev/null/kernels"}});
+  EXPECT_EQ(code, 69);
+  EXPECT_THAT(text, AllOf(HasSubstr("/dev/null/kernels"), HasSubstr("set POCL_CACHE_DIR")));
+}
+
+/// A limit on the size of files is what a full disk is to LLVM, which then calls exit().
+TEST_F(OpenClFault, FullDiskWhileCompilingIsSaid) {
+  Arguments shell{"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 128; exec \"$0\" \"$@\""};
+  const Arguments program = command("sim-server", arguments());
+  shell.insert(shell.end(), program.begin(), program.end());
+  ChildProcess process(shell, {{"POCL_CACHE_DIR", cache().string()}});
+  EXPECT_EQ(process.wait_for_end(), 69);
+  EXPECT_THAT(process.output(), AllOf(HasSubstr("OpenCL ended the program"),
+                                      HasSubstr(cache().string()), HasSubstr("POCL_CACHE_DIR")));
+}
+
+/// The last of the programs in `files`, whose others stay as they are.
+fs::path last_of(std::vector<fs::path> files) {
+  return files.empty() ? fs::path() : *std::max_element(files.begin(), files.end());
+}
+
+/// PoCL 3.1 crashes on each: file too short, SIGBUS, an assertion that fails.
+TEST_F(OpenClFault, DamagedCacheIsCompiledAgain) {
+  ASSERT_EQ(simulate_with_cache().code, 0);
+  EXPECT_THAT(simulate_with_cache().text, Not(HasSubstr("damaged"))) << "the seal is right";
+  const fs::path survey = last_of(cached("survey.so"));
+  ASSERT_FALSE(survey.empty());
+  const auto expect_mended = [&] {
+    const auto [code, text] = simulate_with_cache();
+    EXPECT_EQ(code, 0) << text;
+    EXPECT_THAT(text, HasSubstr("1 compiled programs in " + cache().string() +
+                                " were damaged or left unfinished; they are compiled again"));
+  };
+  std::ofstream(survey) << "garbage";
+  expect_mended();
+  fs::resize_file(survey, 5000);
+  expect_mended();
+  const fs::path program = survey.parent_path().parent_path().parent_path() / "program.bc";
+  fs::resize_file(program, 100);
+  fs::remove(survey);
+  expect_mended();
+  // Of a simulator that died before it sealed what it built.
+  std::string sealed;
+  std::ifstream seal(cache() / "splash-seal");
+  for (std::string line; std::getline(seal, line);) {
+    if (line.find(program.parent_path().filename()) == std::string::npos) sealed += line + '\n';
+  }
+  std::ofstream(cache() / "splash-seal") << sealed;
+  std::ofstream{cache() / "splash-at-work-1"};
+  fs::resize_file(survey, 0);
+  expect_mended();
+}
+
+}  // namespace
+}  // namespace splash::tests

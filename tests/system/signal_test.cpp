@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Signals as daemons take them: a second one ends at once, SIGHUP begins files anew that were moved
+// away, a terminal that closes ends its programs in peace, a reader that goes away ends nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "protocol/event_log.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kPatience = 60.0;  ///< [s]
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+class Signals : public testing::Test {
+ protected:
+  ~Signals() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
+  Arguments synth(const Arguments& further = {}) const {
+    Arguments all{"--rig", rig_path("stereo.yaml"), "--device", "null"};
+    all.insert(all.end(), further.begin(), further.end());
+    return all;
+  }
+  Arguments simulator(const Arguments& further = {}) const {
+    Arguments all{"--scene", scene_.path()};
+    all.insert(all.end(), further.begin(), further.end());
+    return all;
+  }
+
+ private:
+  SmallScene scene_{plunging()};
+  fs::path folder_ = [] {
+    const fs::path folder = temporary_path("signals");
+    fs::create_directory(folder);
+    return folder;
+  }();
+};
+
+/// Both signals wait while the process stands still: the second finds the first one seen.
+void send_two(Daemon& daemon) {
+  daemon.process().signal(SIGSTOP);
+  daemon.process().signal(SIGINT);
+  daemon.process().signal(SIGTERM);
+  daemon.process().signal(SIGCONT);
+}
+
+TEST_F(Signals, TheSecondEndsAtOnce) {
+  Simulator simulator_daemon(simulator());
+  send_two(simulator_daemon);
+  EXPECT_GE(simulator_daemon.process().wait_for_end(), 128);
+  Synth synth_daemon(synth());
+  send_two(synth_daemon);
+  EXPECT_EQ(synth_daemon.process().wait_for_end(), 128 + SIGTERM);
+}
+
+TEST_F(Signals, HangupBeginsTheLogAnewThatWasMovedAway) {
+  const std::string log = file("a.osc");
+  Simulator daemon(simulator({"--record", log}));
+  ASSERT_TRUE(daemon.process().wait_for_text("real time x", kPatience));
+  daemon.process().signal(SIGHUP);
+  ASSERT_TRUE(daemon.process().wait_for_text("a.osc is still there: move it away", kPatience));
+  fs::rename(log, file("first.osc"));
+  daemon.process().signal(SIGHUP);
+  ASSERT_TRUE(daemon.process().wait_for_text("began " + log + " anew", kPatience));
+  sleep(1.5);
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
+  const auto first = protocol::read_log(file("first.osc"));
+  const auto second = protocol::read_log(log);
+  ASSERT_FALSE(first.empty());
+  ASSERT_GT(second.size(), 1U);
+  EXPECT_GE(second.front().seconds, first.back().seconds);
+  EXPECT_TRUE(protocol::to_frame(first.back().messages.at(0))) << "a /frame closes the first";
+}
+
+TEST_F(Signals, HangupBeginsTheRecordingAnewThatWasMovedAway) {
+  const std::string wav = file("a.wav");
+  Synth daemon(synth({"--record-audio", wav}));
+  sleep(0.5);
+  daemon.process().signal(SIGHUP);
+  ASSERT_TRUE(daemon.process().wait_for_text("a.wav is still there: move it away", kPatience));
+  fs::rename(wav, file("first.wav"));
+  daemon.process().signal(SIGHUP);
+  ASSERT_TRUE(daemon.process().wait_for_text("began " + wav + " anew", kPatience));
+  sleep(0.3);
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
+  const std::size_t first = read_recording(file("first.wav")).channels.at(0).size();
+  const std::size_t second = read_recording(wav).channels.at(0).size();
+  EXPECT_GT(first, 10000U);
+  EXPECT_GT(second, 5000U);
+}
+
+/// A program at a terminal of its own, whose window is then closed.
+void close_terminal(const Arguments& program) {
+  std::string line;
+  for (const std::string& word : program) line += "'" + word + "' ";
+  ChildProcess terminal({"/usr/bin/script", "-qec", line, "/dev/null"});
+  ASSERT_TRUE(terminal.wait_for_text("listening: ", kPatience)) << terminal.output();
+  sleep(0.3);
+  terminal.signal(SIGKILL);
+  terminal.wait_for_end();
+}
+
+bool appears(const std::string& path) {
+  for (double waited = 0.0; waited < kPatience && !fs::exists(path); waited += 0.05) sleep(0.05);
+  return fs::exists(path);
+}
+
+TEST_F(Signals, ATerminalThatClosesEndsItsProgramInPeace) {
+  if (!fs::exists("/usr/bin/script")) GTEST_SKIP() << "there is no /usr/bin/script";
+  const std::string report = file("terminal.json");
+  close_terminal(command("sim-server", simulator({"--listen", "127.0.0.1:0", "--report", report})));
+  EXPECT_TRUE(appears(report));
+}
+
+TEST_F(Signals, AReaderThatGoesAwayEndsNothing) {
+  const std::string report = file("pipe.json");
+  ChildProcess shell({"/bin/sh", "-c", "\"$0\" \"$@\" | head -1", command("sim-server", {})[0],
+                      "--scene", simulator()[1], "--listen", "127.0.0.1:0", "--duration", "1",
+                      "--faster-than-real-time", "--report", report});
+  EXPECT_EQ(shell.wait_for_end(), 0);
+  EXPECT_TRUE(appears(report)) << shell.output();
+}
+
+}  // namespace
+}  // namespace splash::tests
