@@ -8,11 +8,8 @@
 
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/settle.hpp"
-#include "sim-server/scene/flow.hpp"
-#include "sim-server/scene/initial_fluid.hpp"
-#include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "sim-server/tracking/make_motion.hpp"
+#include "sim-server/scene_start.hpp"
 
 namespace splash::sim {
 namespace {
@@ -32,34 +29,6 @@ constexpr double kMany = 0.01;
 /// be heard doing so. It is given this long before time begins [s].
 constexpr double kSettleSeconds = 1.0;
 
-Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
-                   std::vector<LiveMotion*>& live) {
-  std::vector<std::unique_ptr<Motion>> motions;
-  for (const BodySettings& body : scene.bodies) {
-    motions.push_back(make_motion(body, tracker));
-    live.push_back(dynamic_cast<LiveMotion*>(motions.back().get()));
-  }
-  const Smoothing smoothing = scene_smoothing(scene);
-  return {sample_bodies(scene.bodies, particle_spacing(scene), smoothing), std::move(motions),
-          smoothing.support};
-}
-
-std::vector<Vector3> particles_around(const Scene& scene, const Bodies& bodies) {
-  std::vector<Keyframe> poses;
-  for (std::size_t b = 0; b < bodies.count(); ++b) {
-    const BodyState state = bodies.state(b, 0.0);
-    poses.push_back({0.0, state.position, state.rotation});
-  }
-  return initial_particles(scene, poses);
-}
-
-Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
-  const std::vector<Vector3> particles = particles_around(scene, bodies);
-  const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
-  return {device, make_params(scene, particles), settled(scene, particles), boundary,
-          body_shapes(scene.bodies)};
-}
-
 SleepRule sleep_rule(const Scene& scene) {
   return {scene.skip.sleep_speed,
           static_cast<int>(std::ceil(scene.skip.sleep_after * scene.serve.frame_rate))};
@@ -76,26 +45,6 @@ Vector3 place_of(const Snapshot& state, int id, const FluidParams& params) {
   const auto found = std::find(state.id.begin(), state.id.end(), id);
   if (found == state.id.end()) return {};
   return place_at(state, static_cast<std::size_t>(found - state.id.begin()), params);
-}
-
-/// Gives every particle the velocity of the scene's flow; the fastest of them [m/s].
-double start_flow(Fluid& fluid, const Scene& scene) {
-  if (scene.flow.kind == FlowKind::none) return 0.0;
-  Snapshot state = fluid.snapshot();
-  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
-  double fastest = 0.0;
-  for (std::size_t i = 0; i < state.id.size(); ++i) {
-    const auto at = [&](std::size_t axis) {
-      return static_cast<double>(state.position[axis * stride + i]);
-    };
-    const Vector3 v = initial_velocity(scene, {at(0), at(1), at(2)});
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      state.velocity[axis * stride + i] = static_cast<float>(v[axis]);
-    }
-    fastest = std::max(fastest, length(v));
-  }
-  fluid.restore(state);
-  return fastest;
 }
 
 }  // namespace

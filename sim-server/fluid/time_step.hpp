@@ -8,15 +8,14 @@
 namespace splash::sim {
 
 /// Largest step that is used [s]. Of the weakly compressible solver:
-///   acoustic  dt <= C H / (c0 + v)        C of the smoothing kernel, a sixth below where still
-///                                          water grows rough (smoothing.cpp)
+///   acoustic  dt <= C H / (c0 + v)        C of the smoothing kernel, below where still water
+///                                          grows rough (smoothing.cpp)
 ///   push      dt <= 0.25 sqrt(h / a)      Monaghan 1992
 ///   viscous   dt <= 0.125 h^2 / nu        Morris et al. 1997
 /// Of the divergence-free solver:
 ///   way       dt <= 0.3 dx / max(v, sqrt(g depth))   neither the fastest thing nor the longest
-///   wave
-///                                          gets farther: calm to 0.32 in a plunge and 0.5 in still
-///                                          water; 0.4 and 0.7 failed
+///                                          wave gets farther: calm to 0.32 in a plunge and
+///                                          0.5 in still water; 0.4 and 0.7 failed
 ///   viscous   as above
 ///   longest   10 ms, so that nothing sudden is slept through
 /// with h the smoothing length, dx the spacing, `speed` the fastest particle or body point [m/s],

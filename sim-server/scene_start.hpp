@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What a scene is before its time begins: bodies where their motions start, water around them, the
+// flow it starts with.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "sim-server/bodies/body_steps.hpp"
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/scene/scene.hpp"
+#include "sim-server/tracking/live_motion.hpp"
+
+namespace splash::sim {
+
+/// The scene's bodies. `tracker`: a marker file that replaces the scene's, or empty. `live` gets
+/// one entry a body: what an OSC tracker moves it by, or null. Throws protocol::ConfigError for
+/// motions that cannot be read.
+[[nodiscard]] Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
+                                 std::vector<LiveMotion*>& live);
+
+/// The scene's water, settled, with no particle in a body. Builds all kernels; throws
+/// protocol::ConfigError for what the scene says wrong, std::runtime_error for the device.
+[[nodiscard]] Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies);
+
+/// Gives every particle the velocity of the scene's flow; the fastest of them [m/s].
+double start_flow(Fluid& fluid, const Scene& scene);
+
+}  // namespace splash::sim
