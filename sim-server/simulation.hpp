@@ -57,6 +57,13 @@ class Simulation {
   [[nodiscard]] FrameResult advance();
   /// Steps are this many times as long as the scene wants, from the next frame on [1].
   void set_stretch(double stretch) noexcept { stretch_ = stretch; }
+  /// Goes on from `water`, which a simulation of the same scene had at `seconds`; bubbles are lost.
+  void resume(const Snapshot& water, double seconds) {
+    fluid_.restore(water);
+    seconds_ = detected_at_ = seconds;
+    sound_.keep(fluid_.device(), state());
+    needs_.forget();
+  }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
   [[nodiscard]] double seconds() const noexcept { return seconds_; }

@@ -132,10 +132,10 @@ void Fluid::advance(const Step& step) {
   solver_->accelerate(*this, step);
   integrate(step);
   if (watched_) {
-    health_.look(
-        device_,
-        {params_buffer_, sorted_, unsorted_, density_, grid_.source(), body_steps_, body_count_},
-        step);
+    health_.look(device_,
+                 {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
+                  body_shapes_, body_steps_, body_count_},
+                 step);
   }
 }
 

@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(HealthLimits) == 40 && sizeof(HealthRecord) == 56);
+static_assert(sizeof(HealthLimits) == 36 && sizeof(HealthRecord) == 56);
 static_assert(kFaults == static_cast<std::size_t>(Fault::step) + 1);
 
 /// Work-items that look at stretches of the fluid side by side: on CPUs a few per core, on GPUs
@@ -22,7 +22,7 @@ constexpr int kThreads = 16384;
 
 /// Faults by how much each explains the others: who changed the state made it wrong.
 constexpr Fault kByCause[] = {Fault::step,    Fault::changed, Fault::lost,  Fault::not_finite,
-                              Fault::outside, Fault::jump,    Fault::speed, Fault::density};
+                              Fault::outside, Fault::stray,   Fault::speed, Fault::density};
 
 float as_float(double value) {
   return static_cast<float>(value);
@@ -47,8 +47,8 @@ std::string_view describe(Fault fault) noexcept {
       return "was no number any more";
     case Fault::outside:
       return "was beyond the tank";
-    case Fault::jump:
-      return "jumped farther than half the kernel's support in one step";
+    case Fault::stray:
+      return "was not where its motion took it";
     case Fault::speed:
       return "was as fast as sound in this water";
     case Fault::density:
@@ -69,12 +69,12 @@ std::string_view likely_cause(Fault fault) noexcept {
       return "the motion has become unstable, or memory was overwritten";
     case Fault::outside:
       return "the motion has become unstable at a wall, or memory was overwritten";
-    case Fault::jump:
     case Fault::speed:
       return "the motion has become unstable; a body moves too fast for this sound speed (raise "
              "fluid.sound_speed), or the time step is too long (lower fluid.time_step_factor)";
     case Fault::density:
       return "a body presses water against a wall or another body; leave it a way out";
+    case Fault::stray:
     case Fault::lost:
     case Fault::changed:
       return "memory of the device was overwritten: check the device and its driver";
@@ -95,7 +95,6 @@ HealthLimits health_limits(const FluidParams& p) {
   limits.lower[2] = p.walls[0].offset - slack;
   limits.upper[2] = as_float(ceiling(p));
   limits.speed = 0.98F * p.speed_limit;
-  limits.way = 0.5F * p.support;
   limits.thinnest = 0.99F * static_cast<float>(kernel_value(0.0, smoothing_of(p))) * p.mass;
   limits.densest = 2.0F * p.rest_density;
   return limits;
@@ -123,11 +122,12 @@ void Health::look(Device& device, const Patient& patient, const Step& step) {
   const auto slot = static_cast<int>(steps_.size());
   steps_.push_back(step.dt);
   check_.run(device.queue(), static_cast<std::size_t>(parts_), patient.params.memory(),
-             limits_.memory(), static_cast<int>(checks_), parts_, patient.now.position.memory(),
-             patient.now.velocity.memory(), patient.density.memory(), patient.now.id.memory(),
+             limits_.memory(), static_cast<int>(checks_), parts_, as_float(step.dt),
+             as_float(step.piston), patient.now.position.memory(), patient.now.velocity.memory(),
+             patient.acceleration.memory(), patient.density.memory(), patient.now.id.memory(),
              patient.before.position.memory(), patient.before.velocity.memory(),
-             patient.before.id.memory(), patient.source, patient.bodies.memory(), step.first_body,
-             patient.body_count, slot, records_.memory());
+             patient.before.id.memory(), patient.source, patient.shapes.memory(),
+             patient.bodies.memory(), step.first_body, patient.body_count, slot, records_.memory());
 }
 
 void Health::enqueue_read(Device& device) {

@@ -20,7 +20,7 @@ namespace splash::sim {
 enum class Fault : std::uint8_t {
   not_finite,  ///< a place, a velocity or a density is no number
   outside,     ///< beyond the walls, or higher than anything flies
-  jump,        ///< farther in one step than half the support, and no body pushed
+  stray,       ///< not where its motion took it, nor a wall or a body put it
   speed,       ///< as fast as sound
   density,     ///< less than a particle alone has, or twice that at rest
   lost,        ///< the particles of a step's end are not those of its beginning
@@ -45,7 +45,6 @@ struct HealthLimits {
   float lower[3] = {};
   float upper[3] = {};
   float speed = 0.0F;
-  float way = 0.0F;
   float thinnest = 0.0F;
   float densest = 0.0F;
 };
@@ -64,7 +63,6 @@ struct HealthRecord {
 ///           the speed limit c0 does not let anything exceed, or 2^23 / 100 spacings, where a float
 ///           ceases to tell hundredths of a spacing apart
 ///   speed   0.98 c0: integration clamps at c0, which nothing reaches unless a body throws it
-///   way     half the support, which a step of the largest stable length allows at c0
 ///   density that of a particle alone, m W(0), and twice that at rest: a pressure of rho0 c0^2,
 ///           twice the stagnation pressure of the fastest there may be
 [[nodiscard]] HealthLimits health_limits(const FluidParams& params);
@@ -82,8 +80,10 @@ struct Patient {
   const Buffer<FluidParams>& params;
   const PointArrays& now;     ///< at the step's end
   const PointArrays& before;  ///< at its beginning, unsorted
+  const Buffer<float>& acceleration;
   const Buffer<float>& density;
   const cl::Buffer& source;  ///< where each particle was among those before
+  const Buffer<BodyShape>& shapes;
   const Buffer<BodyStep>& bodies;
   int body_count = 0;
 };

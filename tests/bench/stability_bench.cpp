@@ -27,7 +27,9 @@ struct Options {
   std::vector<double> spacings = {0.05, 0.035, 0.025};
   std::vector<double> factors = {1.0, 2.0};
   int places = 100;
-  std::int64_t steps = 1000000;
+  Endurance endurance;
+  bool divergence_free = false;
+  bool wide = false;
   int device = -1;
 };
 
@@ -86,10 +88,12 @@ int run_trials(sim::Device& device, const Options& options) {
 
 int run_injections(sim::Device& device, const Options& options) {
   std::ofstream csv(options.out / "faults.csv");
-  csv << "solver,fault,places,seen,told,longest,finite\n";
+  csv << "water,fault,places,seen,told,longest,finite\n";
   int failed = 0;
-  for (const PressureKind solver : kSolvers) {
-    sim::Simulation simulation(device, still_scene(solver, 0.35), {});
+  int total = 0;
+  for (const Water& water : all_waters()) {
+    const std::string name = name_of(water);
+    sim::Simulation simulation(device, still_scene(water, 0.35), {});
     for (const Injection& injection : injections()) {
       const auto outcomes = run_faults(simulation, {injection}, options.places, 2026);
       int seen = 0;
@@ -103,14 +107,16 @@ int run_injections(sim::Device& device, const Options& options) {
         finite = finite && o.finite;
         failed += !o.passes();
       }
-      csv << name_of(solver) << ',' << injection.name << ',' << outcomes.size() << ',' << seen
-          << ',' << told << ',' << longest << ',' << finite << '\n'
+      total += static_cast<int>(outcomes.size());
+      csv << name << ',' << injection.name << ',' << outcomes.size() << ',' << seen << ',' << told
+          << ',' << longest << ',' << finite << '\n'
           << std::flush;
-      std::printf("%-4s %-32s seen %d of %zu, told %zu, ill for %.3f s at most\n", name_of(solver),
+      std::printf("%-26s %-36s seen %d of %zu, told %zu, ill for %.3f s at most\n", name.c_str(),
                   injection.name.c_str(), seen, outcomes.size(), told, longest);
       std::fflush(stdout);
     }
   }
+  std::printf("faults: %d of %d passed\n", total - failed, total);
   return failed;
 }
 
@@ -122,9 +128,23 @@ int bench(const Options& options) {
   if (wants(options, "faults")) failed += run_injections(device, options);
   if (wants(options, "trials")) failed += run_trials(device, options);
   if (wants(options, "maps")) draw_maps(device, options.out);
-  if (wants(options, "endurance")) failed += endure(device, options.steps, options.out);
+  if (wants(options, "endurance")) failed += endure(device, options.endurance, options.out);
   std::printf("%s\n", failed == 0 ? "all passed" : (std::to_string(failed) + " failed").c_str());
   return failed == 0 ? 0 : 1;
+}
+
+void add_endurance(CLI::App& app, Options& options) {
+  app.add_option("--steps", options.endurance.steps, "Of each scene in the endurance run")
+      ->check(CLI::Range(100, 100000000));
+  app.add_option("--scene", options.endurance.scenes, "Endures (repeatable); else all do");
+  app.add_option("--coarser", options.endurance.coarser,
+                 "Spacings of the endurance run, in the scene's")
+      ->check(CLI::Range(1.0, 4.0));
+  app.add_option("--minutes", options.endurance.minutes,
+                 "The endurance run ends after these; the next one goes on from there")
+      ->check(CLI::Range(0.0, 1.0e5));
+  app.add_flag("--divergence-free", options.divergence_free, "The endurance run's solver");
+  app.add_flag("--wide", options.wide, "The endurance run's smoothing");
 }
 
 }  // namespace
@@ -145,11 +165,12 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.05, 2.0))
       ->capture_default_str();
   app.add_option("--places", options.places, "Of each fault")->check(CLI::Range(1, 100000));
-  app.add_option("--steps", options.steps, "Of each scene in the endurance run")
-      ->check(CLI::Range(100, 100000000));
+  add_endurance(app, options);
   app.add_option("--out", options.out, "Folder for CSV and pictures")->capture_default_str();
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
   CLI11_PARSE(app, argc, argv);
+  if (options.divergence_free) options.endurance.solver = PressureKind::divergence_free;
+  if (options.wide) options.endurance.smoothing = sim::SmoothingKind::wide;
   try {
     return bench(options);
   } catch (const std::exception& error) {

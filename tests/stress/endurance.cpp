@@ -9,15 +9,19 @@
 #include <string>
 
 #include "protocol/time_tag.hpp"
+#include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation.hpp"
+#include "tests/stress/piece.hpp"
 
 namespace splash::stress {
 namespace {
 
 constexpr double kLinePeriod = 10.0;  ///< between two lines of progress [s]
+constexpr double kKeepPeriod = 60.0;  ///< between two pieces that are kept [s]
 constexpr double kGrowth = 1.0;       ///< of memory that is allowed per hour [MiB/h]
 constexpr double kPages = 0.5;        ///< and whatever the time: the allocator's grain [MiB]
+constexpr double kWarm = 30.0;        ///< after which memory is compared, or a tenth [s]
 
 /// Resident memory [MiB].
 double resident() {
@@ -33,93 +37,171 @@ int descriptors() {
   return static_cast<int>(std::distance(begin(all), end(all)));
 }
 
-struct Endured {
-  std::int64_t steps = 0;
-  double simulated = 0.0;  ///< [s]
-  double wall = 0.0;       ///< [s]
-  double growth = 0.0;     ///< of memory since a tenth of the steps [MiB]
-  double hours = 0.0;      ///< in which it grew
-  int opened = 0;          ///< descriptors more than then
-  int lost = 0;            ///< particles
-  sim::RunTotals totals;
-  [[nodiscard]] bool passes() const {
-    return totals.resets + totals.calmed == 0 && lost == 0 && opened <= 0 &&
-           growth <= kPages + kGrowth * hours;
-  }
-};
-
-int lost_of(sim::Simulation& simulation) {
-  std::vector<int> ids = simulation.fluid().snapshot().id;
-  std::sort(ids.begin(), ids.end());
-  const auto last = std::unique(ids.begin(), ids.end());
-  return simulation.particles() - static_cast<int>(last - ids.begin());
+std::filesystem::path scenes_folder() {
+  return std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes";
 }
 
-Endured run(sim::Device& device, const std::string& name, std::int64_t steps) {
-  sim::Simulation simulation(device,
-                             sim::read_scene(std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" /
-                                             "scenes" / (name + ".yaml")),
-                             {});
-  Endured result;
-  const double start = protocol::monotonic_now();
-  double line = start;
-  double memory = resident();
-  double warm = start;
-  int files = descriptors();
-  bool settled = false;
-  std::int64_t idle = 0;
-  // A scene that sleeps takes no steps: frames are counted in their place.
-  while (simulation.totals().steps + idle < steps) {
-    const std::int64_t before = simulation.totals().steps;
-    static_cast<void>(simulation.advance());
-    idle += simulation.totals().steps == before;
-    const std::int64_t done = simulation.totals().steps + idle;
-    const double now = protocol::monotonic_now();
-    if (!settled && 10 * done >= steps) {
-      settled = true;
-      memory = resident();
-      files = descriptors();
-      warm = now;
+std::string variant_of(const Endurance& wanted) {
+  const bool weak = wanted.solver == sim::PressureKind::weakly_compressible;
+  const bool wide = wanted.smoothing == sim::SmoothingKind::wide;
+  return std::string(weak ? "weakly" : "divergence_free") + (wide ? "-wide" : "-narrow") + "-" +
+         std::to_string(static_cast<int>(100.0 * wanted.coarser + 0.5));
+}
+
+int lost_of(const sim::Snapshot& water, int particles) {
+  std::vector<int> ids = water.id;
+  std::sort(ids.begin(), ids.end());
+  const auto last = std::unique(ids.begin(), ids.end());
+  return particles - static_cast<int>(last - ids.begin());
+}
+
+/// One scene in the course of this call.
+class Run {
+ public:
+  Run(sim::Device& device, const std::string& name, const Endurance& wanted,
+      std::filesystem::path file)
+      : name_(name),
+        wanted_(wanted.steps),
+        file_(std::move(file)),
+        simulation_(device, built_in_scene(name, wanted), {}) {
+    if (read_piece(file_, before_)) simulation_.resume(before_.water, before_.simulated);
+  }
+
+  /// Until all steps are taken or it is `end` o'clock.
+  const Piece& go_on(double end) {
+    start_ = line_ = kept_ = protocol::monotonic_now();
+    const std::int64_t tenth = (wanted_ - before_.steps) / 10;
+    while (before_.steps + simulation_.totals().steps < wanted_) {
+      const sim::FrameResult frame = simulation_.advance();
+      events_ += static_cast<std::int64_t>(frame.found.impacts.size() + frame.found.bubbles.size() +
+                                           frame.found.cavities.size());
+      const double now = protocol::monotonic_now();
+      if (warm_ == 0.0 && (now > start_ + kWarm || simulation_.totals().steps > tenth)) {
+        warm_ = now;
+        memory_ = resident();
+        files_ = descriptors();
+      }
+      if (frame.mishap) std::printf("\n%s\n", describe(*frame.mishap).c_str());
+      if (now > line_) tell(now);
+      if (now > kept_) keep(now);
+      if (end > 0.0 && now > end) break;
     }
-    if (now < line) continue;
-    line = now + kLinePeriod;
-    std::printf("\r%-8s %9lld of %lld steps  %.1f MiB", name.c_str(), static_cast<long long>(done),
-                static_cast<long long>(steps), resident());
+    keep(protocol::monotonic_now());
+    return now_;
+  }
+  [[nodiscard]] int particles() const { return simulation_.particles(); }
+
+ private:
+  void tell(double now) {
+    line_ = now + kLinePeriod;
+    std::printf("\r%-8s %9lld of %lld steps  %.1f MiB", name_.c_str(),
+                static_cast<long long>(before_.steps + simulation_.totals().steps),
+                static_cast<long long>(wanted_), resident());
     std::fflush(stdout);
   }
-  result.steps = simulation.totals().steps;
-  result.simulated = simulation.seconds();
-  result.wall = protocol::monotonic_now() - start;
-  result.growth = resident() - memory;
-  result.hours = (protocol::monotonic_now() - warm) / 3600.0;
-  result.opened = descriptors() - files;
-  result.lost = lost_of(simulation);
-  result.totals = simulation.totals();
-  return result;
+
+  void keep(double now) {
+    kept_ = now + kKeepPeriod;
+    const sim::RunTotals& totals = simulation_.totals();
+    now_ = before_;
+    now_.steps += totals.steps;
+    now_.simulated = simulation_.seconds();
+    now_.wall += now - start_;
+    now_.again += static_cast<std::int64_t>(totals.retried);
+    now_.given_up += static_cast<std::int64_t>(totals.calmed);
+    now_.resets += static_cast<std::int64_t>(totals.resets);
+    now_.events += events_;
+    if (warm_ > 0.0) {
+      now_.growth = std::max(before_.growth, resident() - memory_);
+      now_.hours = std::max(before_.hours, (now - warm_) / 3600.0);
+      now_.opened = std::max<std::int64_t>(before_.opened, descriptors() - files_);
+    }
+    now_.water = simulation_.fluid().snapshot();
+    now_.lost = lost_of(now_.water, simulation_.particles());
+    write_piece(file_, now_);
+  }
+
+  std::string name_;
+  std::int64_t wanted_;
+  std::filesystem::path file_;
+  sim::Simulation simulation_;
+  Piece before_;
+  Piece now_;
+  std::int64_t events_ = 0;
+  double start_ = 0.0;
+  double line_ = 0.0;
+  double kept_ = 0.0;
+  double warm_ = 0.0;
+  double memory_ = 0.0;
+  int files_ = 0;
+};
+
+bool sound(const Piece& p) {
+  return p.again + p.given_up + p.resets == 0 && p.lost == 0 && p.opened <= 0 &&
+         p.growth <= kPages + kGrowth * p.hours;
+}
+
+void tell(const std::string& name, int particles, const Piece& p, bool whole) {
+  std::printf(
+      "\r%-8s %6d particles, %lld steps, %.0f s simulated, %lld events: again %lld, given up %lld, "
+      "resets %lld, lost %lld, memory %+.2f MiB, files %+lld  %s\n",
+      name.c_str(), particles, static_cast<long long>(p.steps), p.simulated,
+      static_cast<long long>(p.events), static_cast<long long>(p.again),
+      static_cast<long long>(p.given_up), static_cast<long long>(p.resets),
+      static_cast<long long>(p.lost), p.growth, static_cast<long long>(p.opened),
+      !sound(p) ? "FAILED"
+      : whole   ? "passed"
+                : "sound so far");
+  std::fflush(stdout);
 }
 
 }  // namespace
 
-int endure(sim::Device& device, std::int64_t steps, const std::filesystem::path& out) {
-  std::ofstream csv(out / "endurance.csv");
-  csv << "scene,steps,simulated,wall,retried,calmed,resets,lost,memory_growth_mib,opened\n";
+std::vector<std::string> built_in_scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(scenes_folder())) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+sim::Scene built_in_scene(const std::string& name, const Endurance& wanted) {
+  sim::Scene scene = sim::read_scene(scenes_folder() / (name + ".yaml"));
+  scene.fluid.spacing = wanted.coarser * sim::particle_spacing(scene);
+  scene.fluid.particles = 0;
+  scene.fluid.solver = wanted.solver;
+  scene.fluid.smoothing = wanted.smoothing;
+  scene.skip.idle = false;  // or no step would be computed while all sleeps
+  for (sim::BodySettings& body : scene.bodies) {
+    const sim::MotionKind kind = body.motion.kind;
+    // A walk ends elsewhere than it begins.
+    body.motion.repeat = kind == sim::MotionKind::script || kind == sim::MotionKind::csv;
+    if (kind == sim::MotionKind::trc && body.motion.file.empty()) {
+      body.motion.file = std::filesystem::path(SPLASH_SOURCE_DIR) / "tests/data/walk_feet.trc";
+    }
+  }
+  return scene;
+}
+
+int endure(sim::Device& device, const Endurance& wanted, const std::filesystem::path& out) {
+  const std::filesystem::path folder = out / "endurance";
+  std::filesystem::create_directories(folder);
+  const std::string variant = variant_of(wanted);
+  std::ofstream csv(out / ("endurance-" + variant + ".csv"));
+  csv << "scene,particles,steps,simulated,wall,events,again,given_up,resets,lost,"
+         "memory_growth_mib,opened\n";
+  const double end = wanted.minutes > 0.0 ? protocol::monotonic_now() + 60.0 * wanted.minutes : 0.0;
   int failed = 0;
-  for (const std::string name : {"pool", "basin", "beach", "bucket", "plunge", "rest"}) {
-    const Endured r = run(device, name, steps);
-    failed += !r.passes();
-    csv << name << ',' << r.steps << ',' << r.simulated << ',' << r.wall << ',' << r.totals.retried
-        << ',' << r.totals.calmed << ',' << r.totals.resets << ',' << r.lost << ',' << r.growth
-        << ',' << r.opened << '\n'
+  for (const std::string& name : wanted.scenes.empty() ? built_in_scenes() : wanted.scenes) {
+    Run run(device, name, wanted, folder / (name + "-" + variant));
+    const Piece& p = run.go_on(end);
+    failed += !sound(p);
+    csv << name << ',' << run.particles() << ',' << p.steps << ',' << p.simulated << ',' << p.wall
+        << ',' << p.events << ',' << p.again << ',' << p.given_up << ',' << p.resets << ','
+        << p.lost << ',' << p.growth << ',' << p.opened << '\n'
         << std::flush;
-    std::printf(
-        "\r%-8s %lld steps, %.0f s simulated: again %llu, given up %llu, resets %llu, lost "
-        "%d, memory %+.2f MiB, files %+d  %s\n",
-        name.c_str(), static_cast<long long>(r.steps), r.simulated,
-        static_cast<unsigned long long>(r.totals.retried),
-        static_cast<unsigned long long>(r.totals.calmed),
-        static_cast<unsigned long long>(r.totals.resets), r.lost, r.growth, r.opened,
-        r.passes() ? "passed" : "FAILED");
-    std::fflush(stdout);
+    tell(name, run.particles(), p, p.steps >= wanted.steps);
   }
   return failed;
 }

@@ -10,8 +10,18 @@
 
 namespace splash::stress {
 
+/// How the water is solved.
+struct Water {
+  sim::PressureKind solver = sim::PressureKind::weakly_compressible;
+  sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
+};
+/// Both solvers with both kernels.
+[[nodiscard]] std::vector<Water> all_waters();
+/// In letters and underlines, short.
+[[nodiscard]] std::string name_of(const Water& water);
+
 /// A little still water with a body above it, in steps of `factor` of the largest.
-[[nodiscard]] sim::Scene still_scene(sim::PressureKind solver, double factor);
+[[nodiscard]] sim::Scene still_scene(const Water& water, double factor);
 
 struct Outcome {
   std::string fault;

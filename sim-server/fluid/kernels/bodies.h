@@ -1,4 +1,13 @@
 // SPDX-License-Identifier: MIT
+// Bodies as kernels see them: how they are turned, and how far they reach.
+
+// `s` turned by the quaternion q.
+static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
+  const float3 axis = (float3)(qx, qy, qz);
+  const float3 t = 2.0f * cross(axis, s);
+  return s + qw * t + cross(axis, t);
+}
+
 // Whether any body is within reach: most particles are spared the search.
 static bool bodies_near_box(global const BodyStep* bodies, int first, int count, float3 lower,
                             float3 upper) {

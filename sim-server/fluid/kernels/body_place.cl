@@ -2,12 +2,6 @@
 // Rigid bodies: their points carried to where the body is in this step.
 //   x = c + R s,   v = u + w x (R s)
 
-static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
-  const float3 axis = (float3)(qx, qy, qz);
-  const float3 t = 2.0f * cross(axis, s);
-  return s + qw * t + cross(axis, t);
-}
-
 // `sample`: points in body axes; `owner`: which body each belongs to; `bodies`: one entry per body
 // of this step.
 kernel void place_bodies(int points, int stride, global const float* sample,

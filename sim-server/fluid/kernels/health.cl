@@ -9,7 +9,6 @@ typedef struct {
   float lower[3];  // box that holds the water [m]
   float upper[3];
   float speed;     // nothing is this fast or faster [m/s]
-  float way;       // nothing gets farther in one step, but out of a body's way [m]
   float thinnest;  // density [kg/m3]
   float densest;
 } HealthLimits;
@@ -17,7 +16,7 @@ typedef struct {
 // In the order of sim-server/fluid/health.hpp.
 #define HEALTH_NOT_FINITE 0
 #define HEALTH_OUTSIDE 1
-#define HEALTH_JUMP 2
+#define HEALTH_STRAY 2
 #define HEALTH_SPEED 3
 #define HEALTH_DENSITY 4
 #define HEALTH_CHECKS 5
@@ -29,27 +28,10 @@ typedef struct {
   uint ids_before, ids_after;
 } HealthRecord;
 
-#if LANES == 16
-typedef uint16 lane_bits;
-#define AS_BITS(x) as_uint16(x)
-#define ALL_BITS(flags) as_uint16(flags)
-#define LOAD_BITS(array, index) as_uint16(vload16(0, (array) + (index)))
-#elif LANES == 8
-typedef uint8 lane_bits;
-#define AS_BITS(x) as_uint8(x)
-#define ALL_BITS(flags) as_uint8(flags)
-#define LOAD_BITS(array, index) as_uint8(vload8(0, (array) + (index)))
-#else
-typedef uint lane_bits;
-#define AS_BITS(x) as_uint(x)
-#define ALL_BITS(flags) ((flags) ? 0xFFFFFFFFu : 0u)
-#define LOAD_BITS(array, index) as_uint((array)[index])
-#endif
-
 // The particles that one work-item judges at once, LANES of them.
 typedef struct {
   lanes x[3], v[3], density;
-  lanes way2;        // squared way since the step began [m2]
+  Way way;
   lane_flags here;   // lanes that hold a particle
 } Patients;
 
@@ -88,19 +70,23 @@ static lanes place_before(global const float* before, global const int* source, 
   return LOAD(part, 0);
 }
 
-static Patients load(constant FluidParams* p, global const float* position,
+static Patients load(constant FluidParams* p, float dt, global const float* position,
                      global const float* velocity, global const float* density,
-                     global const float* before, global const int* source, int i) {
+                     global const float* position_before, global const int* source, int i) {
   const int n = p->capacity;
   Patients s;
   s.here = LANE_NUMBERS < (lane_flags)(p->count - i);
   s.density = LOAD(density, i);
-  s.way2 = 0.0f;
+  s.way.way2 = s.way.miss2 = s.way.size = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     s.x[axis] = LOAD(position + axis * n, i);
     s.v[axis] = LOAD(velocity + axis * n, i);
-    const lanes way = s.x[axis] - place_before(before + axis * n, source, i, p->count);
-    s.way2 += way * way;
+    const lanes before = place_before(position_before + axis * n, source, i, p->count);
+    const lanes way = s.x[axis] - before;
+    const lanes miss = way - dt * s.v[axis];
+    s.way.way2 += way * way;
+    s.way.miss2 += miss * miss;
+    s.way.size += fabs(s.x[axis]) + fabs(before);
   }
   return s;
 }
@@ -118,8 +104,7 @@ static void report_lanes(global HealthRecord* record, int check, lane_flags bad,
   }
 }
 
-// A body that appears in the water, cuts through it or pinches it pushes aside what was there, at
-// whatever speed, and presses what has no way out.
+// A body throws what is near it at whatever speed, and presses what has no way out.
 static lane_flags but_for_bodies(lane_flags far, global const BodyStep* bodies, int first_body,
                                  int body_count, global const float* position, int n, int i) {
   if (!any_lane(far)) return far;
@@ -135,37 +120,40 @@ static lane_flags but_for_bodies(lane_flags far, global const BodyStep* bodies, 
   return LOAD(flag, 0);
 }
 
-static uint bits_of(lane_bits a) {
-  uint part[LANES], sum = 0;
-  STORE(a, part, 0);
-  for (int lane = 0; lane < LANES; ++lane) sum += part[lane];
-  return sum;
-}
-
-// Sum of the bits of LANES particles' places and speeds, and of numbers made of their ids.
-static lane_bits state_bits(global const float* position, global const float* velocity, int n,
-                            int i) {
-  lane_bits sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    sum += LOAD_BITS(position + axis * n, i) + 3u * LOAD_BITS(velocity + axis * n, i);
+// The lanes of `stray` that neither a wall nor a body put where they are.
+static lane_flags but_for_solids(lane_flags stray, constant FluidParams* p, float dt, float piston,
+                                 constant BodyShape* shapes, global const BodyStep* bodies,
+                                 int first_body, int body_count,
+                                 global const float* position_before,
+                                 global const float* velocity_before, global const int* source,
+                                 global const float* position, global const float* velocity,
+                                 global const float* acceleration, int i) {
+  if (!any_lane(stray)) return stray;
+  int flag[LANES];
+  STORE(stray, flag, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    if (flag[lane] == 0) continue;
+    const Leap l = leap_of(p, position_before, velocity_before, source[i + lane], position,
+                           velocity, acceleration, i + lane);
+    if (stopped_by_wall(p, &l, dt, piston) ||
+        put_by_body(p, shapes, bodies, first_body, body_count, &l, piston)) {
+      flag[lane] = 0;
+    }
   }
-  return sum;
-}
-
-static lane_bits id_bits(global const int* id, int i) {
-  const lane_bits a = LOAD_BITS(id, i) + 1u;
-  return a * a * 2654435761u;  // a lost particle and a doubled one do not make up for each other
+  return LOAD(flag, 0);
 }
 
 // `checks`: a bit for each thing that is looked at. `before`: the arrays as they were when the step
-// began, unsorted.
+// began, unsorted; `source`: where each particle was among those. `acceleration`: that of the step.
 kernel void check_health(constant FluidParams* p, constant HealthLimits* limits, int checks,
-                         int parts, global const float* position, global const float* velocity,
+                         int parts, float dt, float piston, global const float* position,
+                         global const float* velocity, global const float* acceleration,
                          global const float* density, global const int* id,
                          global const float* position_before,
                          global const float* velocity_before, global const int* id_before,
-                         global const int* source, global const BodyStep* bodies, int first_body,
-                         int body_count, int slot, global HealthRecord* records) {
+                         global const int* source, constant BodyShape* shapes,
+                         global const BodyStep* bodies, int first_body, int body_count, int slot,
+                         global HealthRecord* records) {
   const int part = get_global_id(0);
   if (part >= parts) return;
   const int n = p->capacity;
@@ -178,7 +166,7 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
   const int stride = parts, begin = part, end = p->count;
 #endif
   for (int i = begin; i < end; i += stride) {
-    const Patients s = load(p, position, velocity, density, position_before, source, i);
+    const Patients s = load(p, dt, position, velocity, density, position_before, source, i);
     const lane_bits mine = ALL_BITS(s.here);
     before += mine & state_bits(position_before, velocity_before, n, i);
     after += mine & state_bits(position, velocity, n, i);
@@ -188,13 +176,17 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
     bad[HEALTH_NOT_FINITE] = s.here & not_finite(&s);
     const lane_flags fine = s.here & (bad[HEALTH_NOT_FINITE] == (lane_flags)(0));
     bad[HEALTH_OUTSIDE] = fine & outside(&s, limits);
-    bad[HEALTH_JUMP] = fine & (s.way2 > (lanes)(limits->way * limits->way));
+    bad[HEALTH_STRAY] = fine & strays(p, &s.way);
     bad[HEALTH_SPEED] = fine & too_fast(&s, limits);
     bad[HEALTH_DENSITY] = fine & wrong_density(&s, limits);
     lane_flags any = 0;
     for (int check = 0; check < HEALTH_CHECKS; ++check) any |= bad[check];
     if (!any_lane(any)) continue;
-    for (int check = HEALTH_JUMP; check < HEALTH_CHECKS; ++check) {
+    bad[HEALTH_STRAY] =
+        but_for_solids(bad[HEALTH_STRAY], p, dt, piston, shapes, bodies, first_body, body_count,
+                       position_before, velocity_before, source, position, velocity, acceleration,
+                       i);
+    for (int check = HEALTH_SPEED; check < HEALTH_CHECKS; ++check) {
       bad[check] = but_for_bodies(bad[check], bodies, first_body, body_count, position, n, i);
     }
     for (int check = 0; check < HEALTH_CHECKS; ++check) {

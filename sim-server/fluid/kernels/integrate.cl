@@ -24,7 +24,7 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
   lanes z = LOAD(position + 2 * n, i) + dt * w;
   keep_lanes_out(p, shapes, bodies, first_body, body_count, &x, &y, &z, &u, &v, &w);
 
-  const float closest = 0.05f * p->spacing;
+  const float closest = KEPT_OFF_WALLS * p->spacing;
   for (int k = 0; k < p->wall_count; ++k) {
     const lanes inside = fmax(closest - wall_distance(p, k, x, y, z, piston), 0.0f);
     if (!(least(-inside) < 0.0f)) continue;

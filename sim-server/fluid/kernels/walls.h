@@ -13,6 +13,8 @@
 // rest in the edges of a tank from 21 % too high to 13 %, but is no gradient of an energy.) The
 // sloped floor replaces the floor where it is nearer.
 
+#define KEPT_OFF_WALLS 0.05f  // nobody gets nearer to a wall [spacings]
+
 typedef struct {
   lanes share;       // part of the kernel's weight inside walls [1]
   lanes gx, gy, gz;  // its gradient [1/m]: points into the walls
