@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sim-server/scene/resolution.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -14,8 +16,8 @@ constexpr double kMostPatience = 16.0;  ///< times the usual wait
 }  // namespace
 
 double stable_stretch(const FluidSettings& fluid) noexcept {
-  constexpr double kLongest = 1.05;
-  return std::clamp(kLongest / fluid.time_step_factor, 1.0, kLongest);
+  const double longest = longest_step_factor(PressureKind::weakly_compressible);
+  return std::clamp(longest / fluid.time_step_factor, 1.0, longest);
 }
 
 Load Overload::above() const noexcept {

@@ -88,7 +88,9 @@ Fields<F> force_fields() {
        &F::artificial},
       {{.key = "time_step_factor",
         .unit = "1",
-        .meaning = "Multiplies the safe time step; smaller is slower and steadier.",
+        .meaning =
+            "Multiplies the safe time step; smaller is slower and steadier. At most 1.05 with "
+            "weakly_compressible, or still water boils.",
         .min = 0.05,
         .max = 2},
        &F::time_step_factor},

@@ -19,5 +19,8 @@ inline constexpr int kParticlesMax = 4'000'000;
 [[nodiscard]] double water_depth(const Scene& scene);
 /// As given, or from the depth [m/s].
 [[nodiscard]] double scene_sound_speed(const Scene& scene);
+/// The most that `time_step_factor` may be, by what still water stands (sim-server/fluid/README,
+/// "How long a step may be") [1].
+[[nodiscard]] double longest_step_factor(PressureKind solver) noexcept;
 
 }  // namespace splash::sim

@@ -165,6 +165,7 @@ FluidSettings read_fluid(const ConfigMap& map) {
   if (map.has("density_tolerance") && entry.solver != PressureKind::divergence_free) {
     throw map.error("density_tolerance", "has no meaning for the solver " + entry.solver_name);
   }
+  check_time_step(map, entry);
   return entry;
 }
 

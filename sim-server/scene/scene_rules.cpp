@@ -154,6 +154,17 @@ void check_detect(const ConfigMap& map, const DetectSettings& d) {
               d.cavity_radius_max);
 }
 
+void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
+  const double most = longest_step_factor(fluid.solver);
+  if (fluid.time_step_factor <= most) return;
+  throw map.error("time_step_factor",
+                  "must be in 0.05.." + text(most) + " with solver weakly_compressible, got '" +
+                      text(fluid.time_step_factor) +
+                      "': with longer steps still water begins to boil. Leave it out, or choose "
+                      "solver: divergence_free, whose water stays calm up to " +
+                      text(longest_step_factor(PressureKind::divergence_free)));
+}
+
 void check_resolution(const ConfigMap& fluid, const Scene& scene) {
   if (fluid.has("spacing") == fluid.has("particles")) {
     throw fluid.error(fluid.has("spacing") ? "spacing" : "particles",

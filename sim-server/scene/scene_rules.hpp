@@ -19,6 +19,8 @@ void check_gate(const protocol::ConfigMap& map, const Scene& scene);
 void check_gauge(const protocol::ConfigMap& map, const GaugeSettings& gauge, const Tank& tank);
 void check_shape(const protocol::ConfigMap& map, const Shape& shape);
 void check_detect(const protocol::ConfigMap& map, const DetectSettings& detect);
+/// Steps no longer than the solver's water stands.
+void check_time_step(const protocol::ConfigMap& map, const FluidSettings& fluid);
 /// Spacing or particles, one of them; a number of particles that can be simulated.
 void check_resolution(const protocol::ConfigMap& fluid, const Scene& scene);
 

@@ -88,6 +88,19 @@ TEST(SceneReader, ReadsTheSolver) {
   EXPECT_THROW(static_cast<void>(with("  solver: magic\n")), protocol::ConfigError);
 }
 
+TEST(SceneReader, AllowsNoLongerStepsThanTheSolverStands) {
+  const auto with = [](const std::string& keys) {
+    std::string text = kGood;
+    return parse_scene(text.insert(text.find("  particles"), keys), "small.yaml").fluid;
+  };
+  EXPECT_DOUBLE_EQ(with("  time_step_factor: 1.05\n").time_step_factor, 1.05);
+  EXPECT_DOUBLE_EQ(with("  solver: divergence_free\n  time_step_factor: 2\n").time_step_factor,
+                   2.0);
+  EXPECT_THROW(static_cast<void>(with("  time_step_factor: 1.06\n")), protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  solver: divergence_free\n  time_step_factor: 2.1\n")),
+               protocol::ConfigError);
+}
+
 /// One change to the good scene, and what the error must say.
 struct Mistake {
   std::string name;
