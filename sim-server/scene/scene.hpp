@@ -108,6 +108,9 @@ struct Keyframe {
 
 enum class MotionKind { fixed, script, csv, trc, osc };
 
+/// What a body does while its tracker is silent: goes on as it moved, for a while, or stays.
+enum class GapKind { bridge, hold };
+
 struct MotionSettings {
   MotionKind kind = MotionKind::fixed;
   bool smooth = true;                ///< script: cubic between keyframes, else straight lines
@@ -117,6 +120,8 @@ struct MotionSettings {
   std::vector<std::string> markers;  ///< trc: at least three
   bool sole = false;                 ///< trc: a foot, its underside calibrated to the floor z = 0
   double start = 0.0;                ///< csv, trc: seconds of the recording that are skipped
+  GapKind gap = GapKind::bridge;     ///< osc
+  double gap_limit = 0.025;          ///< osc, bridge: so long the body goes on as it moved [s]
 };
 
 struct BodySettings {

@@ -53,7 +53,7 @@ void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
   static const std::map<std::string, std::set<std::string>> kUsedBy = {
       {"keyframes", {"script"}}, {"smooth", {"script"}}, {"repeat", {"script", "csv", "trc"}},
       {"file", {"csv", "trc"}},  {"markers", {"trc"}},   {"sole", {"trc"}},
-      {"start", {"csv", "trc"}}};
+      {"start", {"csv", "trc"}}, {"gap", {"osc"}},       {"gap_limit", {"osc"}}};
   for (const auto& [key, kinds] : kUsedBy) {
     if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
     throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name);
@@ -97,6 +97,10 @@ MotionSettings read_motion(const ConfigMap& map) {
     throw map.error("file", "a csv motion needs one");
   }
   if (entry.kind == MotionKind::trc) check_markers(map, entry);
+  entry.gap = entry.gap_name == "hold" ? GapKind::hold : GapKind::bridge;
+  if (entry.gap == GapKind::hold && map.has("gap_limit")) {
+    throw map.error("gap_limit", "has no meaning where a gap is held; gap: bridge needs it");
+  }
   entry.file = find_file(map, entry.file_name);
   return entry;
 }

@@ -194,6 +194,20 @@ const Fields<MotionEntry>& motion_fields() {
         .min = 0,
         .max = 86400},
        &M::start},
+      {{.key = "gap",
+        .unit = "",
+        .meaning = "osc: what the body does between poses and when they stay out: bridge, goes on "
+                   "as it moved for gap_limit, then slows to a stop within 0.05 s; hold, stays at "
+                   "the last pose.",
+        .choices = {"bridge", "hold"}},
+       &M::gap_name},
+      {{.key = "gap_limit",
+        .unit = "s",
+        .meaning = "osc, gap bridge: for how long the body goes on as it moved. Longer than the "
+                   "time between two poses, or it stops and goes.",
+        .min = 0,
+        .max = 1},
+       &M::gap_limit},
   };
   return kFields;
 }

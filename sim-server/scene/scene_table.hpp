@@ -30,6 +30,7 @@ struct ShapeEntry : Shape {
 struct MotionEntry : MotionSettings {
   std::string kind_name = "fixed";
   std::string file_name;
+  std::string gap_name = "bridge";
 };
 
 /// Water as its mapping spells it: the form is still a word.

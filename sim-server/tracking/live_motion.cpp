@@ -10,8 +10,6 @@ namespace splash::sim {
 
 namespace {
 
-constexpr double kCoast = 0.025;      // a body goes on at full speed this long without a pose [s]
-constexpr double kFade = 0.050;       // and takes this long to stop [s]
 constexpr double kBlend = 0.035;      // a wrong prediction is gone after this [s]
 constexpr double kWindow = 0.040;     // velocities are fitted to the poses of this time [s]
 constexpr double kLeastStep = 0.010;  // poses closer in time are late or early arrivals [s]
@@ -23,16 +21,6 @@ double falling(double u) {
 }
 double falling_slope(double u) {
   return u >= 1.0 ? 0.0 : -6.0 * u * (1.0 - u);
-}
-
-/// Share of the velocity left after `dt`, and the time it has been going on at full speed instead.
-double speed_left(double dt) {
-  return falling(std::max(dt - kCoast, 0.0) / kFade);
-}
-double way_gone(double dt) {
-  if (dt <= kCoast) return dt;
-  const double u = std::min((dt - kCoast) / kFade, 1.0);
-  return kCoast + kFade * u * (1.0 - u * u * (1.0 - 0.5 * u));
 }
 
 bool finite(const Vector3& v) {
@@ -59,12 +47,23 @@ std::string_view describe(PoseRefusal refusal) noexcept {
   return "unknown";
 }
 
-LiveMotion::LiveMotion(const Keyframe& rest, const LiveLimits& limits)
-    : rest_(rest), limits_(limits) {
+LiveMotion::LiveMotion(const Keyframe& rest, const LiveLimits& limits, const LiveGap& gap)
+    : rest_(rest), limits_(limits), gap_(gap) {
   rest_.rotation = unit(rest_.rotation);
 }
 
-BodyState LiveMotion::state(const Stretch& s, double time) {
+double LiveMotion::speed_left(double dt) const {
+  if (dt < gap_.coast) return 1.0;
+  return gap_.fade > 0.0 ? falling((dt - gap_.coast) / gap_.fade) : 0.0;
+}
+
+double LiveMotion::way_gone(double dt) const {
+  if (dt <= gap_.coast || gap_.fade <= 0.0) return std::min(dt, gap_.coast);
+  const double u = std::min((dt - gap_.coast) / gap_.fade, 1.0);
+  return gap_.coast + gap_.fade * u * (1.0 - u * u * (1.0 - 0.5 * u));
+}
+
+BodyState LiveMotion::state(const Stretch& s, double time) const {
   const double dt = std::max(time - s.time, 0.0);
   const double left = speed_left(dt);
   const double gone = way_gone(dt);

@@ -29,10 +29,17 @@ struct LiveLimits {
   double spin = 100.0;   ///< [rad/s]
 };
 
+/// Without a new pose a body goes on at full speed for `coast` and takes `fade` to stop; both zero:
+/// it stays where it was seen.
+struct LiveGap {
+  double coast = 0.025;  ///< [s]
+  double fade = 0.050;   ///< [s]
+};
+
 /// `push` and `at` may be called from different threads.
 class LiveMotion : public Motion {
  public:
-  explicit LiveMotion(const Keyframe& rest, const LiveLimits& limits = {});
+  explicit LiveMotion(const Keyframe& rest, const LiveLimits& limits = {}, const LiveGap& gap = {});
 
   /// A pose that arrived at `arrival` seconds on the clock of `at`. Quaternions need not have
   /// unit length.
@@ -51,7 +58,11 @@ class LiveMotion : public Motion {
     Vector3 turn_offset = {};  ///< the same for the rotation, in the world [rad]
   };
 
-  [[nodiscard]] static BodyState state(const Stretch& stretch, double time);
+  /// Share of the velocity left `dt` after a pose, and the time it has been going on at full speed
+  /// instead.
+  [[nodiscard]] double speed_left(double dt) const;
+  [[nodiscard]] double way_gone(double dt) const;
+  [[nodiscard]] BodyState state(const Stretch& stretch, double time) const;
   [[nodiscard]] BodyState predict(double time) const;
   [[nodiscard]] PoseRefusal check(const Vector3& position, const Quaternion& rotation,
                                   double arrival) const;
@@ -60,6 +71,7 @@ class LiveMotion : public Motion {
 
   Keyframe rest_;
   LiveLimits limits_;
+  LiveGap gap_;
   mutable std::mutex mutex_;
   std::deque<Stretch> stretches_;
 };

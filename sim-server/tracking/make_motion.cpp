@@ -39,6 +39,11 @@ std::unique_ptr<Motion> from_markers(const BodySettings& body, const std::filesy
                                       recording.times.front() + motion.start);
 }
 
+LiveGap gap_of(const MotionSettings& motion) {
+  if (motion.gap == GapKind::hold) return {.coast = 0.0, .fade = 0.0};
+  return {.coast = motion.gap_limit};
+}
+
 }  // namespace
 
 std::unique_ptr<Motion> make_motion(const BodySettings& body,
@@ -62,7 +67,7 @@ std::unique_ptr<Motion> make_motion(const BodySettings& body,
       return with_names(body, file, [&] { return from_markers(body, file); });
     }
     case MotionKind::osc:
-      return std::make_unique<LiveMotion>(body.rest);
+      return std::make_unique<LiveMotion>(body.rest, LiveLimits{}, gap_of(motion));
     case MotionKind::fixed:
       break;
   }

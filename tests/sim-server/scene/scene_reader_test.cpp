@@ -164,6 +164,14 @@ const std::vector<Mistake> kMistakes = {
     {"fixed_without_rest", "    rest: {position: [0.2, 0.2, 0.2]}\n", "", "22:", "rest"},
     {"foreign_key", "      kind: script\n", "      kind: script\n      start: 1.0\n",
      "19:", "no meaning for a motion of kind script"},
+    {"gap_of_a_script", "      kind: script\n", "      kind: script\n      gap: hold\n",
+     "19:", "no meaning for a motion of kind script"},
+    {"unknown_gap", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    motion: {kind: osc, gap: guess}\n", "24:", "bridge, hold"},
+    {"limit_of_a_held_gap", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    motion: {kind: osc, gap: hold, gap_limit: 0.1}\n", "24:", "where a gap is held"},
+    {"endless_gap", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    motion: {kind: osc, gap_limit: 60}\n", "24:", "0..1 s"},
     {"script_without_keyframes",
      "      keyframes:\n        - {time: 0.0, position: [0.5, 0.5, "
      "0.9]}\n        - {time: 1.0, position: [0.5, 0.5, 0.3], "

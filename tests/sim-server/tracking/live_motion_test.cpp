@@ -87,6 +87,35 @@ TEST(LiveMotion, ComesToRestWithoutPoses) {
   EXPECT_LT(length(motion.at(1e9).position - later.position), 1e-12);
 }
 
+/// 1 m/s in poses 1/60 s apart, the last at 29/60 s.
+void walk(LiveMotion& motion) {
+  for (int i = 0; i < 30; ++i) motion.push({i / 60.0, 0.0, 1.0}, kUpright, i / 60.0);
+}
+
+TEST(LiveMotion, BridgesAGapForAsLongAsItMay) {
+  LiveMotion motion(kRest, {}, {.coast = 0.2});
+  walk(motion);
+  const double last = 29 / 60.0;
+  EXPECT_NEAR(motion.at(last + 0.2).velocity[0], 1.0, 0.01);
+  EXPECT_NEAR(motion.at(last + 0.2).position[0], last + 0.2, 0.003);
+  const BodyState later = motion.at(last + 0.3);
+  EXPECT_EQ(length(later.velocity), 0.0);
+  EXPECT_NEAR(later.position[0], last + 0.2 + 0.025, 0.003) << "half the speed while it stops";
+}
+
+TEST(LiveMotion, HoldsAGapAtTheLastPose) {
+  LiveMotion motion(kRest, {}, {.coast = 0.0, .fade = 0.0});
+  walk(motion);
+  const double last = 29 / 60.0;
+  EXPECT_NEAR(motion.at(last + 0.05).position[0], last, 1.0e-9);
+  EXPECT_NEAR(motion.at(last + 5.0).position[0], last, 1.0e-12) << "and never beyond it";
+  EXPECT_EQ(length(motion.at(last + 0.05).velocity), 0.0);
+  // The next pose is not jumped to.
+  motion.push({last + 0.1, 0.0, 1.0}, kUpright, last + 0.1);
+  EXPECT_NEAR(motion.at(last + 0.1).position[0], last, 1.0e-9);
+  EXPECT_NEAR(motion.at(last + 0.14).position[0], last + 0.1, 1.0e-9);
+}
+
 TEST(LiveMotion, AppearsAtOnceWhereItIsFoundFirstOrFarAway) {
   LiveMotion motion(kRest);
   motion.push({5.0, 5.0, 2.0}, kUpright, 1.0);

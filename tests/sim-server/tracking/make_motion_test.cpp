@@ -46,6 +46,24 @@ TEST(MakeMotion, OscBodiesAreLive) {
   EXPECT_EQ(live->at(0.0).position, (Vector3{1.0, 2.0, 3.0}));
 }
 
+TEST(MakeMotion, OscBodiesBridgeOrHoldGapsAsTheSceneSays) {
+  // How far a body gets that was seen moving at 1 m/s, and then no more [m].
+  const auto beyond = [](GapKind gap, double limit) {
+    BodySettings settings = body(MotionKind::osc);
+    settings.motion.gap = gap;
+    settings.motion.gap_limit = limit;
+    const auto motion = make_motion(settings, {});
+    auto& live = dynamic_cast<LiveMotion&>(*motion);
+    for (int i = 0; i < 30; ++i) {
+      static_cast<void>(live.push({i / 60.0, 0.0, 1.0}, {0, 0, 0, 1}, i / 60.0));
+    }
+    return live.at(9.0).position[0] - 29 / 60.0;
+  };
+  EXPECT_NEAR(beyond(GapKind::bridge, 0.3), 0.325, 0.003);
+  EXPECT_NEAR(beyond(GapKind::bridge, 0.025), 0.05, 0.003);
+  EXPECT_EQ(beyond(GapKind::hold, 0.3), 0.0);
+}
+
 TEST(MakeMotion, ScriptsAreSmoothOrStraight) {
   BodySettings settings = body(MotionKind::script);
   settings.motion.keyframes = {{0.0, {0, 0, 1}, {0, 0, 0, 1}}, {1.0, {0, 0, 0}, {0, 0, 0, 1}}};
