@@ -37,6 +37,11 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
           smoothing.support};
 }
 
+Scene with_sound(Scene scene, const Bodies& bodies) {
+  scene.fluid.sound_speed = scene_sound_speed(scene, bodies.fastest_ever());
+  return scene;
+}
+
 Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
   const std::vector<Vector3> particles = particles_around(scene, bodies);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());

@@ -88,6 +88,12 @@ std::vector<BodyStep> Bodies::at(double seconds) const {
   return steps;
 }
 
+double Bodies::fastest_ever() const {
+  double fastest = 0.0;
+  for (const auto& motion : motions_) fastest = std::max(fastest, motion->fastest());
+  return fastest;
+}
+
 double Bodies::fastest(double seconds) const {
   double fastest = 0.0;
   for (std::size_t b = 0; b < motions_.size(); ++b) {

@@ -27,6 +27,8 @@ class Bodies {
   [[nodiscard]] std::vector<BodyStep> at(double seconds) const;
   /// The fastest any point of any body moves at `seconds` [m/s].
   [[nodiscard]] double fastest(double seconds) const;
+  /// The fastest any body's centre will ever move, of those whose motion is known beforehand [m/s].
+  [[nodiscard]] double fastest_ever() const;
 
  private:
   std::vector<BodyPoint> points_;

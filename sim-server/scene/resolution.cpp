@@ -74,16 +74,19 @@ double water_depth(const Scene& scene) {
   return top - scene.tank.lower[2];
 }
 
-double scene_sound_speed(const Scene& scene) {
+double scene_sound_speed(const Scene& scene, double fastest_body) {
   if (scene.fluid.sound_speed > 0.0) return scene.fluid.sound_speed;
   // Monaghan 1994: density stays within (v/c)^2 of rest, so c should be ten times the fastest
   // speed. Eight times that of the fastest wave the depth allows (1.6 % at the floor) is what two
   // CPU cores carry in real time; the floor covers bodies of up to 1.3 m/s, whatever the depth.
+  // Faster ones move at a Mach number of 0.3 at most, where stagnation compresses by 5 %: below
+  // that a flow counts as incompressible (Anderson, Fundamentals of Aerodynamics).
   constexpr double kRatio = 8.0;
   constexpr double kLeast = 13.0;
+  constexpr double kMach = 0.3;
   const auto& g = scene.fluid.gravity;
   const double wave = std::sqrt(std::hypot(g[0], g[1], g[2]) * water_depth(scene));
-  return std::max(kRatio * wave, kLeast);
+  return std::max({kRatio * wave, kLeast, fastest_body / kMach});
 }
 
 double longest_step_factor(PressureKind solver) noexcept {

@@ -17,8 +17,8 @@ inline constexpr int kParticlesMax = 4'000'000;
 [[nodiscard]] double particle_spacing(const Scene& scene);
 /// Deepest water at rest [m].
 [[nodiscard]] double water_depth(const Scene& scene);
-/// As given, or from the depth [m/s].
-[[nodiscard]] double scene_sound_speed(const Scene& scene);
+/// As given, or from the depth and the speed of the fastest body [m/s].
+[[nodiscard]] double scene_sound_speed(const Scene& scene, double fastest_body = 0.0);
 /// The most that `time_step_factor` may be, by what still water stands (sim-server/fluid/README,
 /// "How long a step may be") [1].
 [[nodiscard]] double longest_step_factor(PressureKind solver) noexcept;

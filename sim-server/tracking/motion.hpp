@@ -19,6 +19,9 @@ class Motion {
   virtual ~Motion() = default;
   /// The state at `seconds` of simulated time; always finite, the rotation of unit length.
   [[nodiscard]] virtual BodyState at(double seconds) const = 0;
+  /// The largest speed that its centre will ever have, where that is known beforehand, else 0
+  /// [m/s].
+  [[nodiscard]] virtual double fastest() const { return 0.0; }
 };
 
 }  // namespace splash::sim

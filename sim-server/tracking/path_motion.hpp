@@ -25,6 +25,7 @@ class PathMotion : public Motion {
              double start = 0.0);
 
   [[nodiscard]] BodyState at(double seconds) const override;
+  [[nodiscard]] double fastest() const override;
 
  private:
   struct Knot {

@@ -72,8 +72,11 @@ TEST(Resolution, SoundIsEightTimesTheWaveSpeedButNeverTooSlow) {
   scene.water[1].upper[2] = 0.12;
   scene.water[0].upper[2] = 0.12;
   EXPECT_GE(scene_sound_speed(scene), 13.0);
+  EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 3.0), scene_sound_speed(scene)) << "fast enough";
+  EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 12.0), 40.0) << "Mach 0.3";
   scene.fluid.sound_speed = 33.0;
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene), 33.0);
+  EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 12.0), 33.0) << "the scene's own wish";
 }
 
 }  // namespace

@@ -35,6 +35,18 @@ TEST_P(EveryPath, GoesThroughItsPoses) {
   }
 }
 
+TEST_P(EveryPath, TellsItsLargestSpeedBeforehand) {
+  for (const double start : {0.0, 1.2}) {
+    const PathMotion path(poses(), GetParam(), false, start);
+    double largest = 0.0;
+    for (double t = 0.0; t < 2.0 - start; t += 0.0007) {
+      largest = std::max(largest, length(path.at(t).velocity));
+    }
+    EXPECT_LE(largest, 1.07 * path.fastest());
+    EXPECT_GE(largest, 0.99 * path.fastest() - (start > 0.0 ? 0.6 : 0.0));
+  }
+}
+
 TEST_P(EveryPath, VelocitiesAreTheDerivatives) {
   const PathMotion path(poses(), GetParam());
   for (double t = 0.013; t < 2.0; t += 0.0371) expect_consistent(path, t, 2e-4);

@@ -8,6 +8,8 @@
 #include <cctype>
 
 #include "sim-server/overload.hpp"
+#include "sim-server/scene/resolution.hpp"
+#include "tests/stress/endurance.hpp"
 #include "tests/stress/trial.hpp"
 
 namespace splash::stress {
@@ -55,6 +57,24 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(PressureKind::weakly_compressible,
                                      PressureKind::divergence_free)),
     words);
+
+// A scene that names no speed of sound gets one that suits its bodies; the built-in ones keep
+// theirs.
+TEST(Trials, SoundIsFastEnoughForBodiesWhoseMotionIsKnown) {
+  sim::Device device;
+  sim::Scene scene = named("plunge at 10.0 m/s").scene(kCoarse);
+  EXPECT_NEAR(sim::Simulation(device, scene, {}).fluid().params().sound_speed, 10.0 / 0.3, 0.1);
+  scene.fluid.sound_speed = 20.0;
+  EXPECT_NEAR(sim::Simulation(device, scene, {}).fluid().params().sound_speed, 20.0, 1.0e-5);
+  Endurance coarse;
+  coarse.coarser = 2.0;
+  for (const std::string& name : built_in_scenes()) {
+    scene = built_in_scene(name, coarse);
+    EXPECT_NEAR(sim::Simulation(device, scene, {}).fluid().params().sound_speed,
+                sim::scene_sound_speed(scene), 1.0e-4)
+        << name;
+  }
+}
 
 // What an overloaded machine does to steps is still stable.
 class Stretched : public testing::TestWithParam<PressureKind> {};
