@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The force of the water on a body: the reaction to what the body's points do to the particles
-// around it in kernels/acceleration.cl, summed in double precision.
-//   f_b = sum_i sum_b m rho0 V_b (p_i / rho_i^2 - pi_ib) grad W_ib
-//   pi_ib = (10 nu v.x + alpha c0 h min(v.x, 0)) / (rho0 (r^2 + 0.01 h^2)), h = H / 2
+// The force of the water on a body: the sum of what it does to the body's points (body_push.hpp).
 #pragma once
 
 #include <span>

@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/gauge/body_force.hpp"
 #include "sim-server/gauge/cavity.hpp"
+#include "sim-server/gauge/face.hpp"
 #include "sim-server/gauge/front.hpp"
 #include "sim-server/gauge/height.hpp"
 #include "sim-server/gauge/images.hpp"
 #include "sim-server/gauge/pressure.hpp"
+#include "sim-server/gauge/thrust.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
@@ -23,6 +26,12 @@ namespace {
 
 /// Frames end on time up to this [s].
 constexpr double kSlack = 1.0e-9;
+
+/// A pressure sensor this near to a wall or a body is let into it [spacings].
+constexpr double kLetIn = 0.25;
+
+/// Radius of its face [supports].
+constexpr double kFace = 1.0;
 
 const std::vector<std::string>& quantities(GaugeKind kind) {
   static const std::map<GaugeKind, std::vector<std::string>> kNames = {
@@ -67,10 +76,25 @@ void add_body(const GaugeSettings& probe, double seconds, const WaterState& wate
   append(row, force.torque);
 }
 
-void add_cavity(const GaugeSettings& probe, double seconds, const Scene& scene,
-                const WaterState& water, const Bodies& bodies, std::vector<double>& row) {
+std::vector<BodyState> states_at(double seconds, const Bodies& bodies) {
   std::vector<BodyState> states;
   for (std::size_t b = 0; b < bodies.count(); ++b) states.push_back(bodies.state(b, seconds));
+  return states;
+}
+
+double pressure(const GaugeSettings& probe, double seconds, const Scene& scene,
+                const WaterState& water, const Bodies& bodies) {
+  const std::vector<BodyState> states = states_at(seconds, bodies);
+  const double slope_from =
+      scene.slope.present ? scene.slope.foot : std::numeric_limits<double>::infinity();
+  const Surfaces surfaces = {tank_at(scene, seconds), slope_from, scene.bodies, states};
+  const auto face = face_at(probe.place, surfaces, kLetIn * water.spacing, kFace * water.support);
+  return face ? thrust_on(*face, water, bodies.points(), states) : pressure_at(water, probe.place);
+}
+
+void add_cavity(const GaugeSettings& probe, double seconds, const Scene& scene,
+                const WaterState& water, const Bodies& bodies, std::vector<double>& row) {
+  const std::vector<BodyState> states = states_at(seconds, bodies);
   const auto solid = [&](const Vector3& place) {
     for (std::size_t b = 0; b < states.size(); ++b) {
       const Vector3 local = rotate(inverse(states[b].rotation), place - states[b].position);
@@ -103,12 +127,15 @@ std::vector<double> Gauges::read(double seconds, Fluid& fluid, const Bodies& bod
     // From the clock's beginning, not from the last sample: frames do not add up to periods.
     next_ = (std::floor(seconds * scene_.gauges.rate + 1.0e-6) + 1.0) / scene_.gauges.rate;
   }
-  if (pressures_) {
-    const PistonState piston = piston_at(scene_.wave_maker, seconds);
-    fluid.set_bodies(bodies.at(seconds));
-    fluid.prepare({0.0, piston.offset, piston.speed, 0});
-  }
-  return read(seconds, read_water(fluid, pressures_), bodies);
+  if (!pressures_) return read(seconds, read_water(fluid, false), bodies);
+  const PistonState piston = piston_at(scene_.wave_maker, seconds);
+  const Step now = {0.0, piston.offset, piston.speed, 0};
+  fluid.set_bodies(bodies.at(seconds));
+  fluid.prepare(now);
+  WaterState water = read_water(fluid, true);
+  if (!wall_push_) wall_push_.emplace(fluid);
+  water.wall_push = wall_push_->read(fluid, now);
+  return read(seconds, water, bodies);
 }
 
 std::vector<double> Gauges::read(double seconds, const WaterState& water,
@@ -132,7 +159,7 @@ void Gauges::add(const GaugeSettings& probe, double seconds, const WaterState& w
       break;
     }
     case GaugeKind::pressure:
-      row.push_back(pressure_at(water, probe.place));
+      row.push_back(pressure(probe, seconds, scene_, water, bodies));
       break;
     case GaugeKind::front: {
       const std::size_t across = 1 - probe.axis;

@@ -2,11 +2,13 @@
 // All gauges of a scene: which numbers they give, and reading them off the fluid.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/gauge/wall_push.hpp"
 #include "sim-server/gauge/water_state.hpp"
 
 namespace splash::sim {
@@ -34,7 +36,8 @@ class Gauges {
   Scene scene_;
   std::vector<std::string> columns_;
   bool pressures_ = false;
-  double next_ = 0.0;  ///< when the next sample is due [s]
+  std::optional<WallPush> wall_push_;  ///< from the first pressure that is read
+  double next_ = 0.0;                  ///< when the next sample is due [s]
 };
 
 }  // namespace splash::sim

@@ -12,11 +12,12 @@ namespace splash::sim {
 /// Particles that all have the same mass. Density, pressure and rise are empty unless they were
 /// asked for.
 struct WaterState {
-  std::vector<Vector3> position;  ///< [m]
-  std::vector<Vector3> velocity;  ///< [m/s]
-  std::vector<double> density;    ///< [kg/m3]
-  std::vector<double> pressure;   ///< [Pa]
-  std::vector<double> rise;       ///< of the bodies' image with their share (body_image.hpp) [1]
+  std::vector<Vector3> position;   ///< [m]
+  std::vector<Vector3> velocity;   ///< [m/s]
+  std::vector<double> density;     ///< [kg/m3]
+  std::vector<double> pressure;    ///< [Pa]
+  std::vector<double> rise;        ///< of the bodies' image with their share (body_image.hpp) [1]
+  std::vector<Vector3> wall_push;  ///< what the walls do to each (wall_push.hpp) [m/s2]
 
   double mass = 0.0;     ///< of one particle [kg]
   double spacing = 0.0;  ///< dp [m]

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Two frames of the detectors over fast water, bodies and bubbles: every kernel of theirs, small
-// enough for an OpenCL interpreter. Argument: particles per vector (1, 8 or 16).
+// Two frames of the detectors over fast water, bodies and bubbles, and a look at the walls' push as
+// gauges take it: every kernel of theirs, small enough for an OpenCL interpreter. Argument:
+// particles per vector (1, 8 or 16).
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 
 #include "sim-server/detect/detector.hpp"
+#include "sim-server/gauge/wall_push.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {
@@ -30,10 +32,11 @@ int two_frames(int lanes) {
     device.queue().finish();
     cavities += detector.collect(water.time, kFrame, frame).cavities.size();
   }
+  const std::size_t pushed = WallPush(*water.fluid).read(*water.fluid, water.step_at(0.0)).size();
   std::printf("%s: %d particles, %zu bubbles, %zu cavities\n", device.facts().platform.c_str(),
               water.params.count, detector.bubbles_alive(), cavities);
-  return detector.bubbles_alive() > 0 && detector.cavity_searches() > 0 ? EXIT_SUCCESS
-                                                                        : EXIT_FAILURE;
+  const bool all = detector.bubbles_alive() > 0 && detector.cavity_searches() > 0 && pushed > 0;
+  return all ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace

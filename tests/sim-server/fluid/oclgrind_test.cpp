@@ -80,10 +80,11 @@ const std::set<std::string> kSolve = {"check_health",
                                       "end_solves",
                                       "judge_solve",
                                       "keep_awake"};
-const std::set<std::string> kDetect = {
-    "place_bodies",  "gather_body_volumes", "count_cells",          "sum_blocks",   "place_cells",
-    "sort_points",   "compute_density",     "compute_acceleration", "integrate",    "touch_water",
-    "spawn_bubbles", "carry_bubbles",       "seed_cavities",        "grow_cavities"};
+const std::set<std::string> kDetect = {"place_bodies",    "gather_body_volumes",  "count_cells",
+                                       "sum_blocks",      "place_cells",          "sort_points",
+                                       "compute_density", "compute_acceleration", "integrate",
+                                       "touch_water",     "spawn_bubbles",        "carry_bubbles",
+                                       "seed_cavities",   "grow_cavities",        "push_by_walls"};
 
 // Scalar kernels of the divergence-free solver take the interpreter minutes: by hand only.
 const std::vector<Watched> kWatched = {
