@@ -19,17 +19,6 @@ struct Sum {
   std::uint64_t sent = 0, lost = 0, duplicates = 0, reordered = 0, events = 0, late = 0;
   std::uint64_t too_late = 0;
 
-  void add(const LinkReport& report) {
-    ++runs;
-    wrong += report.wrong.size();
-    sent += report.sent;
-    lost += report.lost;
-    duplicates += report.duplicates;
-    reordered += report.reordered;
-    events += report.events;
-    late += report.late;
-    too_late += report.too_late;
-  }
   void add(const Sum& other) {
     runs += other.runs;
     wrong += other.wrong;
@@ -43,6 +32,11 @@ struct Sum {
   }
 };
 
+Sum of(const LinkReport& one) {
+  return {1,          one.wrong.size(), one.sent,    one.lost, one.duplicates, one.reordered,
+          one.events, one.late,         one.too_late};
+}
+
 void print(const char* name, const Sum& sum) {
   const auto n = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   std::printf("%-22s %5llu %9llu %8llu %8llu %8llu %9llu %8llu %8llu %6llu\n", name, n(sum.runs),
@@ -55,7 +49,7 @@ Sum run_cell(double loss, double duplication, double reordering, std::uint32_t s
   Sum sum;
   for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
     const LinkReport report = run_link(loss, duplication, reordering, seed);
-    sum.add(report);
+    sum.add(of(report));
     for (const std::string& line : report.wrong) {
       std::printf("  seed %u: %s\n", seed, line.c_str());
     }
