@@ -39,6 +39,7 @@ std::string describe_fault(const Mishap& mishap) {
   std::ostringstream text;
   if (what.particle < 0) {
     text << describe(what.fault);
+    if (what.body >= 0) text << ": '" << mishap.body << "'";
     return text.str();
   }
   const Vector3& x = mishap.place;

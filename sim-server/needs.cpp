@@ -37,7 +37,7 @@ bool moving_near_water(const std::vector<BodyStep>& bodies, const Survey& water)
 }
 
 FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const Survey& last, double frame,
-                           bool piston_moves, std::size_t bubbles) {
+                           bool driven, std::size_t bubbles) {
   FrameNeeds needs;
   if (!known_) {
     known_ = true;
@@ -45,7 +45,7 @@ FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const Survey& la
     return needs;
   }
   const bool asleep = last.asleep == particles_;
-  needs.steps = !(skip_.idle && skip_.sleep && asleep && bubbles == 0 && !piston_moves &&
+  needs.steps = !(skip_.idle && skip_.sleep && asleep && bubbles == 0 && !driven &&
                   !moving_near_water(bodies, last));
   needs.contacts = !skip_.contacts || near_water(bodies, last, last.speed * frame);
   double fastest = last.speed;

@@ -39,9 +39,10 @@ class Needs {
       : skip_(skip), bubble_speed_(bubble_speed), particles_(particles) {}
 
   /// `bodies`: those of all steps of the coming frame; `last`: the survey of the last one, of
-  /// `frame` seconds; `piston_moves`: the wave maker does; `bubbles`: how many live.
+  /// `frame` seconds; `driven`: the wave maker moves, or a free body did not long ago; `bubbles`:
+  /// how many live.
   [[nodiscard]] FrameNeeds of_frame(const std::vector<BodyStep>& bodies, const Survey& last,
-                                    double frame, bool piston_moves, std::size_t bubbles);
+                                    double frame, bool driven, std::size_t bubbles);
   /// After a failure nothing is taken for granted.
   void forget() noexcept { known_ = false; }
 

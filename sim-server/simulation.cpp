@@ -6,8 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sim-server/bodies/mass.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/settle.hpp"
+#include "sim-server/free_body_watch.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene_start.hpp"
 
@@ -57,6 +59,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   settle_in();
   if (scene_.gate.present) fluid_.drop_last_wall();
+  const std::vector<FreeBody> free = free_bodies(scene_.bodies);
+  if (!free.empty()) fluid_.let_go(free);
   const double fastest = std::max(start_flow(fluid_, scene_), bodies_.fastest(0.0));
   largest_step_ = largest_time_step(fluid_.params(), fastest, std::abs(scene_.fluid.gravity[2]),
                                     scene_.fluid.time_step_factor);
@@ -122,9 +126,9 @@ FrameResult Simulation::advance() {
         steps_of_frame(1.0 / scene_.serve.frame_rate, recovery_.step_share() * largest_step_);
     std::vector<BodyStep> poses;
     const std::vector<Step> plan = plan_frame(steps, poses);
-    const FrameNeeds needs =
-        needs_.of_frame(poses, survey_, steps.count * steps.dt, plan.front().piston_speed != 0.0,
-                        detector_.bubbles_alive());
+    const FrameNeeds needs = needs_.of_frame(
+        poses, survey_, steps.count * steps.dt,
+        plan.front().piston_speed != 0.0 || bodies_.restless(seconds_), detector_.bubbles_alive());
     if (!mishap) count(needs);
     if (!needs.steps) return hold_still(steps.count * steps.dt);
     fluid_.set_bodies(poses);
@@ -133,7 +137,7 @@ FrameResult Simulation::advance() {
       totals_.retried += mishap.has_value();
       return *result;
     }
-    Mishap now = examine(*fluid_.health().diagnosis(), steps.dt);
+    Mishap now = examine(*wrong_, steps.dt);
     if (!mishap) mishap = now;
     mishap->tries = recovery_.failed_tries() + 1;
     mishap->remedy = recovery_.failed();
@@ -144,6 +148,7 @@ FrameResult Simulation::advance() {
 FrameResult Simulation::hold_still(double frame) {
   FrameResult still;
   seconds_ += frame;
+  bodies_.hold(seconds_, true);
   detected_at_ = seconds_;
   still.seconds = seconds_;
   still.survey = survey_;
@@ -165,6 +170,11 @@ void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs,
   fluid_.device().queue().finish();
 }
 
+std::optional<Diagnosis> Simulation::diagnosis(std::size_t steps) {
+  if (const auto found = fluid_.health().diagnosis()) return found;
+  return look_at_free_bodies(fluid_, static_cast<int>(steps) - 1);
+}
+
 std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
                                                const FrameNeeds& needs) {
   const double dt = plan.front().dt;
@@ -177,8 +187,10 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   }
   fluid_.health().expect_speed(seconds_ < thrown_until_);
   enqueue(plan, needs, since);
-  if (fluid_.health().diagnosis()) return std::nullopt;
+  wrong_ = diagnosis(plan.size());
+  if (wrong_) return std::nullopt;
   seconds_ += steps * dt;
+  bring_free_bodies(fluid_, bodies_, seconds_);
   totals_.steps += steps;
   FrameResult result;
   result.seconds = seconds_;
@@ -220,10 +232,11 @@ Mishap Simulation::examine(const Diagnosis& what, double dt) {
   mishap.what = what;
   mishap.step = totals_.steps + what.step;
   mishap.seconds = seconds_ + what.step * dt;
-  if (what.particle < 0) return mishap;
-  const Snapshot last = fluid_.snapshot();
-  mishap.place = place_of(last, what.particle, fluid_.params());
-  const int body = nearest_body(mishap.place);
+  if (what.particle < 0 && what.body < 0) return mishap;
+  mishap.place = what.body >= 0
+                     ? bodies_.state(static_cast<std::size_t>(what.body), seconds_).position
+                     : place_of(fluid_.snapshot(), what.particle, fluid_.params());
+  const int body = what.body >= 0 ? what.body : nearest_body(mishap.place);
   if (body < 0) return mishap;
   const auto b = static_cast<std::size_t>(body);
   mishap.body = scene_.bodies[b].name;
@@ -234,6 +247,7 @@ Mishap Simulation::examine(const Diagnosis& what, double dt) {
 FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   if (mishap.remedy == Remedy::reset) {
     fluid_.restore(start_);
+    bodies_.reset(seconds_ + frame);
     ++totals_.resets;
   } else {
     calm(mishap);
@@ -241,6 +255,7 @@ FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   }
   sound_.keep(fluid_.device(), state());
   seconds_ += frame;
+  bodies_.hold(seconds_, false);
   FrameResult result;
   result.seconds = seconds_;
   result.survey = survey_;
@@ -260,6 +275,10 @@ void Simulation::calm(Mishap& mishap) {
     for (std::size_t axis = 0; axis < 3; ++axis) state.velocity[axis * stride + i] = 0.0F;
   }
   fluid_.restore(state);
+  for (std::size_t b = 0; b < bodies_.count(); ++b) {
+    const bool near = length(bodies_.state(b, seconds_).position - mishap.place) <= mishap.calmed;
+    if (bodies_.is_free(b) && near) bodies_.still(b);
+  }
 }
 
 LiveMotion* Simulation::live_body(int body) const noexcept {

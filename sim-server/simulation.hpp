@@ -86,6 +86,8 @@ class Simulation {
                                                    const FrameNeeds& needs);
   void enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since);
   [[nodiscard]] FrameResult hold_still(double frame);
+  /// Of the frame that has been computed, with so many steps.
+  [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t steps);
   void keep(const FrameResult& result);
   void count(const FrameNeeds& needs);
 
@@ -113,6 +115,7 @@ class Simulation {
   Checkpoint sound_;  ///< the end of the last sound frame
   Snapshot start_;    ///< when time began
   StepHook hook_;
+  std::optional<Diagnosis> wrong_;  ///< with the last try
   RunTotals totals_;
 };
 

@@ -14,7 +14,19 @@ float as_float(double value) {
   return static_cast<float>(value);
 }
 
+/// A body that has been still for so long is at rest [s].
+constexpr double kRest = 1.0;
+
 }  // namespace
+
+BodyState state_of(const BodyStep& b) noexcept {
+  const auto vector = [](float x, float y, float z) -> Vector3 {
+    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+  };
+  const Quaternion q = {static_cast<double>(b.qx), static_cast<double>(b.qy),
+                        static_cast<double>(b.qz), static_cast<double>(b.qw)};
+  return {vector(b.px, b.py, b.pz), unit(q), vector(b.vx, b.vy, b.vz), vector(b.wx, b.wy, b.wz)};
+}
 
 float fastest_point(const BodyStep& b) noexcept {
   const float reach =
@@ -26,8 +38,11 @@ Bodies::Bodies(std::vector<BodyPoint> points, std::vector<std::unique_ptr<Motion
                double support)
     : points_(std::move(points)),
       motions_(std::move(motions)),
+      force_(motions_.size()),
+      moved_at_(motions_.size(), 0.0),
       reach_(motions_.size(), 0.0),
       support_(support) {
+  for (const auto& motion : motions_) free_.push_back(dynamic_cast<FreeMotion*>(motion.get()));
   for (const BodyPoint& point : points_) {
     double& reach = reach_[static_cast<std::size_t>(point.owner)];
     reach = std::max(reach, length(point.place));
@@ -92,6 +107,35 @@ double Bodies::fastest_ever() const {
   double fastest = 0.0;
   for (const auto& motion : motions_) fastest = std::max(fastest, motion->fastest());
   return fastest;
+}
+
+void Bodies::put(std::size_t body, const BodyState& state, const BodyForce& force, double seconds) {
+  free_[body]->put(state, seconds);
+  force_[body] = force;
+  const double speed = length(state.velocity) + length(state.spin) * reach_[body];
+  if (speed > static_cast<double>(SPLASH_TREMBLE)) moved_at_[body] = seconds;
+}
+
+void Bodies::hold(double seconds, bool still) {
+  for (FreeMotion* motion : free_) {
+    if (motion == nullptr) continue;
+    if (still) motion->still();
+    motion->hold(seconds);
+  }
+}
+
+void Bodies::reset(double seconds) {
+  for (FreeMotion* motion : free_) {
+    if (motion != nullptr) motion->reset(seconds);
+  }
+  std::fill(moved_at_.begin(), moved_at_.end(), seconds);
+}
+
+bool Bodies::restless(double seconds) const noexcept {
+  for (std::size_t b = 0; b < free_.size(); ++b) {
+    if (free_[b] != nullptr && seconds - moved_at_[b] < kRest) return true;
+  }
+  return false;
 }
 
 double Bodies::fastest(double seconds) const {

@@ -7,12 +7,22 @@
 
 #include "sim-server/bodies/body_points.hpp"
 #include "sim-server/fluid/fluid_params.h"
+#include "sim-server/tracking/free_motion.hpp"
 #include "sim-server/tracking/motion.hpp"
 
 namespace splash::sim {
 
 /// Speed of a body's fastest point, at most: as if it reached to its box's corners [m/s].
 [[nodiscard]] float fastest_point(const BodyStep& body) noexcept;
+
+/// A body's state from a step's entry.
+[[nodiscard]] BodyState state_of(const BodyStep& step) noexcept;
+
+/// Of the water on a body.
+struct BodyForce {
+  Vector3 force = {0.0, 0.0, 0.0};   ///< [N]
+  Vector3 torque = {0.0, 0.0, 0.0};  ///< about the body's centre [N m]
+};
 
 /// The bodies of a scene with what moves them.
 class Bodies {
@@ -30,10 +40,28 @@ class Bodies {
   /// The fastest any body's centre will ever move, of those whose motion is known beforehand [m/s].
   [[nodiscard]] double fastest_ever() const;
 
+  /// Whether the water moves the body.
+  [[nodiscard]] bool is_free(std::size_t body) const noexcept { return free_[body] != nullptr; }
+  /// Where a free body is at `seconds`, and what the water did to it in the last step.
+  void put(std::size_t body, const BodyState& state, const BodyForce& force, double seconds);
+  /// The force given with that; none before the first.
+  [[nodiscard]] const BodyForce& force(std::size_t body) const noexcept { return force_[body]; }
+  /// Free bodies go on at `seconds` from where they are; `still`: and stop.
+  void hold(double seconds, bool still);
+  /// Stops a free body.
+  void still(std::size_t body) noexcept { free_[body]->still(); }
+  /// Free bodies are where they were when time began.
+  void reset(double seconds);
+  /// Whether a free body has moved within the last second: only then it is at rest.
+  [[nodiscard]] bool restless(double seconds) const noexcept;
+
  private:
   std::vector<BodyPoint> points_;
   std::vector<std::unique_ptr<Motion>> motions_;
-  std::vector<double> reach_;  ///< largest distance of a point from its body's centre [m]
+  std::vector<FreeMotion*> free_;  ///< of each body, null if it is none
+  std::vector<BodyForce> force_;
+  std::vector<double> moved_at_;  ///< when it was last seen to move [s]
+  std::vector<double> reach_;     ///< largest distance of a point from its body's centre [m]
   double support_ = 0.0;
 };
 

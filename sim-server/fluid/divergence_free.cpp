@@ -74,16 +74,20 @@ void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
   const PointArrays& particles = fluid.particles();
   const auto dt = static_cast<float>(step.dt);
   measure_response(fluid, step);
+  FreeBodies* bodies = fluid.free_bodies();
+  if (bodies != nullptr) bodies->reach(fluid, step, particles.velocity, response_);
   begin_divergence_solve_.run(queue, particles_, params, fluid.density().memory(),
                               particles.velocity.memory(), guess_.memory(), offset_.memory(),
                               divergence_pressure_.memory());
-  solve(fluid, step.dt, kDivergence, divergence_pressure_);
+  solve(fluid, step, kDivergence, divergence_pressure_);
   recall_pressure_.run(queue, particles_, params, particles.id.memory(), warm_.memory(),
                        fluid.pressure_term().memory());
   fluid.compute_acceleration(step, guess_);
+  if (bodies != nullptr) bodies->reach(fluid, step, guess_, response_);
   begin_density_solve_.run(queue, particles_, params, dt, fluid.density().memory(),
                            fluid.acceleration().memory(), guess_.memory(), offset_.memory());
-  solve(fluid, step.dt, kDensity, fluid.pressure_term());
+  if (bodies != nullptr) answer_of_bodies(fluid, step);
+  solve(fluid, step, kDensity, fluid.pressure_term());
   end_solves_.run(queue, particles_, params, dt, kFollow, particles.id.memory(),
                   particles.velocity.memory(), guess_.memory(), divergence_pressure_.memory(),
                   fluid.pressure_term().memory(), warm_.memory(), all_.memory(),
@@ -102,7 +106,17 @@ void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
                         gradient_.memory(), response_.memory(), boundary_rate_.memory());
 }
 
-void DivergenceFree::solve(Fluid& fluid, double dt, std::size_t number,
+void DivergenceFree::answer_of_bodies(Fluid& fluid, const Step& step) {
+  fluid.free_bodies()->answer(fluid, step,
+                              {.pressure = &fluid.pressure_term(),
+                               .pushing = step.dt,
+                               .rubbing = step.dt,
+                               .falling = step.dt,
+                               .velocity = &guess_,
+                               .rate = &boundary_rate_});
+}
+
+void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
                            const Buffer<float>& pressure) {
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
@@ -111,21 +125,29 @@ void DivergenceFree::solve(Fluid& fluid, double dt, std::size_t number,
   const cl::Buffer& places = fluid.particles().position.memory();
   const cl::Buffer& state = state_[number].memory();
   const std::size_t items = fluid.groups();
-  const auto step = static_cast<float>(dt);
+  const auto dt = static_cast<float>(step.dt);
   const auto [least, most] = kIterations[number];
   double t = 1.0;  // Nesterov's sequence
   for (int k = 0; k < most; ++k) {
     const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     const auto beta = static_cast<float>((t - 1.0) / next);
     t = next;
-    correct_pressure_.run(queue, items, params, k, state, beta, step, cells, awake, places,
+    correct_pressure_.run(queue, items, params, k, state, beta, dt, cells, awake, places,
                           guess_.memory(), gradient_.memory(), response_.memory(),
                           boundary_rate_.memory(), offset_.memory(), pressure.memory(),
                           jacobi_.memory(), change_.memory(), error_part_.memory());
     judge_solve_.run(queue, kJudges, params, static_cast<int>(groups_), k, least, most,
                      error_part_.memory(), state);
-    push_by_pressure_.run(queue, items, params, k, state, step, cells, awake, places,
+    push_by_pressure_.run(queue, items, params, k, state, dt, cells, awake, places,
                           gradient_.memory(), change_.memory(), pressure.memory(), guess_.memory());
+    if (fluid.free_bodies() == nullptr) continue;
+    fluid.free_bodies()->answer(fluid, step,
+                                {.iteration = k,
+                                 .state = &state_[number],
+                                 .pressure = &change_,
+                                 .pushing = step.dt,
+                                 .velocity = &guess_,
+                                 .rate = &boundary_rate_});
   }
 }
 

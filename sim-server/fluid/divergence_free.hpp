@@ -10,20 +10,9 @@
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
 #include "sim-server/fluid/pressure_solver.hpp"
+#include "sim-server/fluid/solve_state.hpp"
 
 namespace splash::sim {
-
-/// Host and kernels agree on the layout (kernels/solve_state.h).
-struct SolveState {
-  int done = 0;
-  int iterations = 0;
-  float error = 0.0F;
-  int solves = 0;
-  int total = 0;
-  int most = 0;
-  int given_up = 0;
-  int unused = 0;
-};
 
 class DivergenceFree : public PressureSolver {
  public:
@@ -47,7 +36,9 @@ class DivergenceFree : public PressureSolver {
  private:
   void measure_response(Fluid& fluid, const Step& step);
   /// Iterates on `pressure` and the guessed velocities; the solve's number counts its work.
-  void solve(Fluid& fluid, double dt, std::size_t number, const Buffer<float>& pressure);
+  void solve(Fluid& fluid, const Step& step, std::size_t number, const Buffer<float>& pressure);
+  /// To gravity, to what rubs and to the pressures that the acceleration holds.
+  void answer_of_bodies(Fluid& fluid, const Step& step);
 
   std::size_t particles_;
   std::size_t groups_;

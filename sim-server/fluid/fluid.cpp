@@ -15,7 +15,7 @@ namespace {
 
 static_assert(sizeof(FluidParams) == 33 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 20 * sizeof(float));
-static_assert(sizeof(BodyShape) == 6 * sizeof(float));
+static_assert(sizeof(BodyShape) == 7 * sizeof(float));
 
 static_assert(sizeof(SurveyPart) == 56);
 
@@ -113,11 +113,20 @@ void Fluid::build_kernels(bool relaxed) {
 }
 
 void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
-  if (steps.size() > body_steps_.size() || body_steps_.size() == 0) {
-    body_steps_ = Buffer<BodyStep>(device_, std::max<std::size_t>(2 * steps.size(), 1));
+  // One step more: where free bodies are when the frame ends.
+  const std::size_t room = steps.size() + static_cast<std::size_t>(body_count_);
+  if (room > body_steps_.size() || body_steps_.size() == 0) {
+    body_steps_ = Buffer<BodyStep>(device_, std::max<std::size_t>(2 * room, 1));
   }
   uploaded_steps_ = steps;
   body_steps_.enqueue_write(device_, uploaded_steps_);
+}
+
+void Fluid::let_go(const std::vector<FreeBody>& bodies) {
+  std::vector<BodyShape> shapes = body_shapes_.read(device_, static_cast<std::size_t>(body_count_));
+  for (const FreeBody& body : bodies) shapes[static_cast<std::size_t>(body.body)].free = 1;
+  body_shapes_.write(device_, shapes);
+  free_ = std::make_unique<FreeBodies>(device_, params_, bodies);
 }
 
 void Fluid::prepare(const Step& step) {
@@ -131,6 +140,7 @@ void Fluid::prepare(const Step& step) {
 void Fluid::advance(const Step& step) {
   solver_->accelerate(*this, step);
   integrate(step);
+  if (free_) free_->move(*this, step);
   if (watched_) {
     health_.look(device_,
                  {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
@@ -239,6 +249,7 @@ void Fluid::enqueue_survey() {
               sorted_.id.memory(), moving_.memory(), survey_parts_.memory());
   survey_parts_.enqueue_read(device_, survey_read_);
   if (watched_) health_.enqueue_read(device_);
+  if (free_) free_->enqueue_read(*this);
   solver_->enqueue_work(device_);
 }
 

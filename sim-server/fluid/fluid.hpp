@@ -9,6 +9,7 @@
 #include "sim-server/device/program.hpp"
 #include "sim-server/fluid/boundary_point.hpp"
 #include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/free_bodies.hpp"
 #include "sim-server/fluid/health.hpp"
 #include "sim-server/fluid/neighbour_grid.hpp"
 #include "sim-server/fluid/pressure_solver.hpp"
@@ -66,6 +67,12 @@ class Fluid {
 
   /// Bodies of all steps of the coming frame, step after step.
   void set_bodies(const std::vector<BodyStep>& steps);
+
+  /// From now on the water moves these of its bodies; until then they go where set_bodies says.
+  /// set_bodies then says where they begin a frame. At least one; waits.
+  void let_go(const std::vector<FreeBody>& bodies);
+  /// Null while no body is free.
+  [[nodiscard]] FreeBodies* free_bodies() noexcept { return free_.get(); }
 
   /// First half of a step: neighbours and density, for the state before it.
   void prepare(const Step& step);
@@ -126,6 +133,8 @@ class Fluid {
   [[nodiscard]] const NeighbourGrid& body_grid() const noexcept { return body_grid_; }
   [[nodiscard]] const Buffer<float>& boundary_volume() const noexcept { return body_volume_; }
   [[nodiscard]] const Buffer<BodyStep>& body_steps() const noexcept { return body_steps_; }
+  [[nodiscard]] const Buffer<BodyShape>& body_shapes() const noexcept { return body_shapes_; }
+  [[nodiscard]] const Buffer<int>& boundary_owner() const noexcept { return body_owner_; }
   [[nodiscard]] int boundary_count() const noexcept { return boundary_count_; }
   [[nodiscard]] int body_count() const noexcept { return body_count_; }
 
@@ -158,6 +167,7 @@ class Fluid {
   NeighbourGrid grid_;
   Sleep sleep_;
   std::unique_ptr<PressureSolver> solver_;
+  std::unique_ptr<FreeBodies> free_;
 
   Buffer<float> body_sample_;
   Buffer<int> body_owner_;

@@ -89,7 +89,25 @@ typedef struct {
   float half_x, half_y, half_z;  // [m]
   float rocker;                  // the sole of a box curves up at both x ends by this [m]
   float flat;                    // share of its length, in the middle, that does not curve [1]
+  int free;                      // 1: the water moves it (kernels/body_*.cl), 0: it goes its way
 } BodyShape;
+
+// A body that the water moves. Its centre is that of its mass, its own axes are principal ones.
+typedef struct {
+  int body;           // number among all bodies
+  float mass;         // [kg]
+  float ix, iy, iz;   // moments of inertia [kg m2]
+  float size;         // lever by which spins are made speeds: all unknowns of one unit [m]
+  float restitution;  // of its speed, after a knock against a wall [1]
+  float friction;     // on walls, Coulomb [1]
+} FreeBody;
+
+// Fields of what a particle and a free body in its reach do to each other (kernels/body_reach.h).
+#define SPLASH_REACH_FIELDS 8
+// Parts of the water that are summed side by side, and what each sums: a push of six components and
+// an inertia of 21.
+#define SPLASH_PUSH_PARTS 64
+#define SPLASH_PUSH_ENTRIES 27
 
 #ifdef __cplusplus
 }  // namespace splash::sim

@@ -57,6 +57,8 @@ std::string_view describe(Fault fault) noexcept {
       return "particles were lost or doubled within a step";
     case Fault::changed:
       return "the water was changed between two steps";
+    case Fault::body:
+      return "a free body was no number, beyond the tank or faster than anything in it";
     case Fault::step:
       return "a time step was longer than twice the stable one";
   }
@@ -78,6 +80,8 @@ std::string_view likely_cause(Fault fault) noexcept {
     case Fault::lost:
     case Fault::changed:
       return "memory of the device was overwritten: check the device and its driver";
+    case Fault::body:
+      return "the motion has become unstable, or a body was pressed through a wall";
     case Fault::step:
       return "the length of the step was computed from a broken state";
   }

@@ -25,9 +25,10 @@ enum class Fault : std::uint8_t {
   density,     ///< less than a particle alone has, or twice that at rest
   lost,        ///< the particles of a step's end are not those of its beginning
   changed,     ///< a step did not begin with what the last one ended with
+  body,        ///< a free body is no number, beyond the tank or faster than anything
   step,        ///< longer than twice what is stable
 };
-inline constexpr std::size_t kFaults = 8;
+inline constexpr std::size_t kFaults = 9;
 
 /// In a few words, and what is likely to have caused it.
 [[nodiscard]] std::string_view describe(Fault fault) noexcept;
@@ -73,6 +74,7 @@ struct Diagnosis {
   int step = 0;       ///< of the frame, from 0
   int particles = 0;  ///< how many; 0: not a matter of single ones
   int particle = -1;  ///< the smallest id among them, -1: none
+  int body = -1;      ///< the free body that it is about, -1: none
 };
 
 /// What the checks of a step read, after it.

@@ -5,6 +5,7 @@ namespace splash::sim {
 namespace kernels {
 std::vector<KernelSource> divergence_free();
 std::vector<KernelSource> fluid();
+std::vector<KernelSource> free_bodies();
 std::vector<KernelSource> survey();
 std::vector<KernelSource> shared();
 }  // namespace kernels
@@ -27,6 +28,9 @@ std::vector<KernelSource> fluid_sources() {
 }
 std::vector<KernelSource> divergence_free_sources() {
   return join(kernels::shared(), kernels::divergence_free());
+}
+std::vector<KernelSource> free_body_sources() {
+  return join(kernels::shared(), kernels::free_bodies());
 }
 std::vector<KernelSource> survey_sources() {
   return join(kernels::shared(), kernels::survey());

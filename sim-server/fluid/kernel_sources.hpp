@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The fluid's kernels as they are built: the stages of a step, and apart from them those of the
-// divergence-free solver and the survey.
+// divergence-free solver, of free bodies and the survey.
 #pragma once
 
 #include <vector>
@@ -11,6 +11,7 @@ namespace splash::sim {
 
 [[nodiscard]] std::vector<KernelSource> fluid_sources();
 [[nodiscard]] std::vector<KernelSource> divergence_free_sources();
+[[nodiscard]] std::vector<KernelSource> free_body_sources();
 [[nodiscard]] std::vector<KernelSource> survey_sources();
 /// The headers that other rooms' kernels need: parameters, lanes, smoothing, grid, walls, bodies.
 [[nodiscard]] std::vector<KernelSource> shared_sources();

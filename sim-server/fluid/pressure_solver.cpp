@@ -13,6 +13,7 @@ class WeaklyCompressible : public PressureSolver {
   void recall_pressure(Fluid& /*fluid*/) override {}
   void accelerate(Fluid& fluid, const Step& step) override {
     fluid.compute_acceleration(step, fluid.particles().velocity);
+    if (FreeBodies* bodies = fluid.free_bodies()) bodies->answer(fluid, step);
   }
   void enqueue_work(Device& /*device*/) override {}
   [[nodiscard]] SolverWork work() const override { return {}; }

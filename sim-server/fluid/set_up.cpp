@@ -170,7 +170,7 @@ std::vector<BodyShape> body_shapes(const std::vector<BodySettings>& bodies) {
     const Shape& s = body.shape;
     shapes.push_back({static_cast<int>(s.kind), static_cast<float>(s.size[0] / 2.0),
                       static_cast<float>(s.size[1] / 2.0), static_cast<float>(s.size[2] / 2.0),
-                      static_cast<float>(s.rocker), static_cast<float>(s.flat)});
+                      static_cast<float>(s.rocker), static_cast<float>(s.flat), 0});
   }
   return shapes;
 }

@@ -5,15 +5,11 @@
 #include <span>
 
 #include "sim-server/bodies/body_points.hpp"
+#include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/gauge/water_state.hpp"
 #include "sim-server/tracking/motion.hpp"
 
 namespace splash::sim {
-
-struct BodyForce {
-  Vector3 force = {0.0, 0.0, 0.0};   ///< [N]
-  Vector3 torque = {0.0, 0.0, 0.0};  ///< about the body's centre [N m]
-};
 
 /// `water` has pressures; `points`: of all bodies, those of `owner` count; `state`: that body's.
 [[nodiscard]] BodyForce body_force(const WaterState& water, std::span<const BodyPoint> points,

@@ -67,7 +67,10 @@ Tank tank_at(const Scene& scene, double seconds) {
 void add_body(const GaugeSettings& probe, double seconds, const WaterState& water,
               const Bodies& bodies, std::vector<double>& row) {
   const BodyState state = bodies.state(probe.body, seconds);
-  const BodyForce force = body_force(water, bodies.points(), static_cast<int>(probe.body), state);
+  const BodyForce force =
+      bodies.is_free(probe.body)
+          ? bodies.force(probe.body)
+          : body_force(water, bodies.points(), static_cast<int>(probe.body), state);
   append(row, state.position);
   append(row, state.rotation);
   append(row, state.velocity);

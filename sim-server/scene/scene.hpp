@@ -106,22 +106,28 @@ struct Keyframe {
   Quaternion rotation = {0.0, 0.0, 0.0, 1.0};  ///< body to world
 };
 
-enum class MotionKind { fixed, script, csv, trc, osc };
+enum class MotionKind { fixed, script, csv, trc, osc, free };
 
 /// What a body does while its tracker is silent: goes on as it moved, for a while, or stays.
 enum class GapKind { bridge, hold };
 
 struct MotionSettings {
   MotionKind kind = MotionKind::fixed;
-  bool smooth = true;                ///< script: cubic between keyframes, else straight lines
-  bool repeat = false;               ///< script, csv, trc: start again at the end
-  std::vector<Keyframe> keyframes;   ///< script
-  std::filesystem::path file;        ///< csv, trc
-  std::vector<std::string> markers;  ///< trc: at least three
-  bool sole = false;                 ///< trc: a foot, its underside calibrated to the floor z = 0
-  double start = 0.0;                ///< csv, trc: seconds of the recording that are skipped
-  GapKind gap = GapKind::bridge;     ///< osc
-  double gap_limit = 0.025;          ///< osc, bridge: so long the body goes on as it moved [s]
+  bool smooth = true;                  ///< script: cubic between keyframes, else straight lines
+  bool repeat = false;                 ///< script, csv, trc: start again at the end
+  std::vector<Keyframe> keyframes;     ///< script
+  std::filesystem::path file;          ///< csv, trc
+  std::vector<std::string> markers;    ///< trc: at least three
+  bool sole = false;                   ///< trc: a foot, its underside calibrated to the floor z = 0
+  double start = 0.0;                  ///< csv, trc: seconds of the recording that are skipped
+  GapKind gap = GapKind::bridge;       ///< osc
+  double gap_limit = 0.025;            ///< osc, bridge: so long the body goes on as it moved [s]
+  double density = 0.0;                ///< free [kg/m3]; 0: from `mass`
+  double mass = 0.0;                   ///< free [kg]; 0: from `density`
+  Vector3 velocity = {0.0, 0.0, 0.0};  ///< free: when time begins [m/s]
+  Vector3 spin = {0.0, 0.0, 0.0};      ///< free: when time begins, in the world [rad/s]
+  double restitution = 0.2;            ///< free: of its speed after a knock against a wall [1]
+  double friction = 0.4;               ///< free: Coulomb's, on walls [1]
 };
 
 struct BodySettings {
@@ -130,6 +136,13 @@ struct BodySettings {
   Keyframe rest;  ///< pose at the start and, for fixed bodies, for ever
   MotionSettings motion;
 };
+
+/// Whether the water moves the body.
+[[nodiscard]] inline bool is_free(const BodySettings& body) noexcept {
+  return body.motion.kind == MotionKind::free;
+}
+/// So many bodies may be free at most.
+inline constexpr int kFreeBodiesMax = 32;
 
 /// Thresholds of the detectors; paper sections 4 and 5.
 struct DetectSettings {

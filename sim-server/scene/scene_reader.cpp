@@ -51,9 +51,11 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
 /// A key that this kind of motion does not use is a mistake, not a no-op.
 void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
   static const std::map<std::string, std::set<std::string>> kUsedBy = {
-      {"keyframes", {"script"}}, {"smooth", {"script"}}, {"repeat", {"script", "csv", "trc"}},
-      {"file", {"csv", "trc"}},  {"markers", {"trc"}},   {"sole", {"trc"}},
-      {"start", {"csv", "trc"}}, {"gap", {"osc"}},       {"gap_limit", {"osc"}}};
+      {"keyframes", {"script"}}, {"smooth", {"script"}},    {"repeat", {"script", "csv", "trc"}},
+      {"file", {"csv", "trc"}},  {"markers", {"trc"}},      {"sole", {"trc"}},
+      {"start", {"csv", "trc"}}, {"gap", {"osc"}},          {"gap_limit", {"osc"}},
+      {"density", {"free"}},     {"mass", {"free"}},        {"velocity", {"free"}},
+      {"spin", {"free"}},        {"restitution", {"free"}}, {"friction", {"free"}}};
   for (const auto& [key, kinds] : kUsedBy) {
     if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
     throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name);
@@ -80,11 +82,9 @@ std::filesystem::path find_file(const ConfigMap& map, const std::string& name) {
 }
 
 MotionSettings read_motion(const ConfigMap& map) {
-  static const std::map<std::string, MotionKind> kKinds = {{"fixed", MotionKind::fixed},
-                                                           {"script", MotionKind::script},
-                                                           {"csv", MotionKind::csv},
-                                                           {"trc", MotionKind::trc},
-                                                           {"osc", MotionKind::osc}};
+  static const std::map<std::string, MotionKind> kKinds = {
+      {"fixed", MotionKind::fixed}, {"script", MotionKind::script}, {"csv", MotionKind::csv},
+      {"trc", MotionKind::trc},     {"osc", MotionKind::osc},       {"free", MotionKind::free}};
   MotionEntry entry;
   map.read(motion_fields(), {"keyframes"}, entry);
   entry.kind = kKinds.at(entry.kind_name);
@@ -101,13 +101,15 @@ MotionSettings read_motion(const ConfigMap& map) {
   if (entry.gap == GapKind::hold && map.has("gap_limit")) {
     throw map.error("gap_limit", "has no meaning where a gap is held; gap: bridge needs it");
   }
+  if (entry.kind == MotionKind::free) check_free(map, entry);
   entry.file = find_file(map, entry.file_name);
   return entry;
 }
 
 void read_rest(const ConfigMap& map, BodySettings& body) {
   const MotionKind kind = body.motion.kind;
-  const bool needed = kind == MotionKind::fixed || kind == MotionKind::osc;
+  const bool needed =
+      kind == MotionKind::fixed || kind == MotionKind::osc || kind == MotionKind::free;
   if (needed) {
     const ConfigMap rest = map.child("rest");
     rest.read(rest_fields(), {}, body.rest);
@@ -125,13 +127,21 @@ BodySettings read_body(const ConfigMap& map) {
   body.shape = read_shape(map.child("shape"));
   if (const auto motion = map.optional_child("motion")) body.motion = read_motion(*motion);
   read_rest(map, body);
+  if (body.motion.kind == MotionKind::free && body.shape.rocker > 0.0) {
+    throw map.child("shape").error("rocker", "a free body cannot have a curved sole");
+  }
   return body;
 }
 
 void read_bodies(const ConfigMap& map, Scene& scene) {
   std::set<std::string> names;
+  int free = 0;
   for (const ConfigMap& entry : map.list("bodies")) {
     scene.bodies.push_back(read_body(entry));
+    if (is_free(scene.bodies.back()) && ++free > kFreeBodiesMax) {
+      throw entry.error("motion", "more than " + std::to_string(kFreeBodiesMax) +
+                                      " bodies are free: each of them costs every step");
+    }
     const std::string& name = scene.bodies.back().name;
     if (!names.insert(name).second) {
       throw entry.error("name", "there is another body named '" + name + "'");

@@ -145,6 +145,12 @@ void check_shape(const ConfigMap& map, const Shape& shape) {
   }
 }
 
+void check_free(const ConfigMap& map, const MotionSettings& motion) {
+  if (map.has("density") != map.has("mass")) return;
+  throw map.error(motion.mass > 0.0 ? "mass" : "kind",
+                  "a free motion needs one of 'density' and 'mass'");
+}
+
 void check_detect(const ConfigMap& map, const DetectSettings& d) {
   check_order(map, "radius_min", d.radius_min, "radius_max", d.radius_max);
   check_order(map, "epsilon_min", d.epsilon_min, "epsilon_max", d.epsilon_max);

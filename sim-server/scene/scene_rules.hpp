@@ -18,6 +18,8 @@ void check_gate(const protocol::ConfigMap& map, const Scene& scene);
 /// Inside the tank, or a region with a volume.
 void check_gauge(const protocol::ConfigMap& map, const GaugeSettings& gauge, const Tank& tank);
 void check_shape(const protocol::ConfigMap& map, const Shape& shape);
+/// Of a free motion: density or mass, one of them.
+void check_free(const protocol::ConfigMap& map, const MotionSettings& motion);
 void check_detect(const protocol::ConfigMap& map, const DetectSettings& detect);
 /// Steps no longer than the solver's water stands.
 void check_time_step(const protocol::ConfigMap& map, const FluidSettings& fluid);

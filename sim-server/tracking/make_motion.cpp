@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "protocol/config.hpp"
+#include "sim-server/tracking/free_motion.hpp"
 #include "sim-server/tracking/live_motion.hpp"
 #include "sim-server/tracking/marker_motion.hpp"
 #include "sim-server/tracking/path_motion.hpp"
@@ -68,6 +69,9 @@ std::unique_ptr<Motion> make_motion(const BodySettings& body,
     }
     case MotionKind::osc:
       return std::make_unique<LiveMotion>(body.rest, LiveLimits{}, gap_of(motion));
+    case MotionKind::free:
+      return std::make_unique<FreeMotion>(
+          BodyState{body.rest.position, body.rest.rotation, motion.velocity, motion.spin});
     case MotionKind::fixed:
       break;
   }

@@ -24,20 +24,7 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
   lanes z = LOAD(position + 2 * n, i) + dt * w;
   keep_lanes_out(p, shapes, bodies, first_body, body_count, &x, &y, &z, &u, &v, &w);
 
-  const float closest = KEPT_OFF_WALLS * p->spacing;
-  for (int k = 0; k < p->wall_count; ++k) {
-    const lanes inside = fmax(closest - wall_distance(p, k, x, y, z, piston), 0.0f);
-    if (!(least(-inside) < 0.0f)) continue;
-    const float nx = p->walls[k].nx, ny = p->walls[k].ny, nz = p->walls[k].nz;
-    x += inside * nx;
-    y += inside * ny;
-    z += inside * nz;
-    const lanes speed = nx * u + ny * v + nz * w - (k == p->piston ? piston_speed : 0.0f);
-    const lanes stopped = select((lanes)(0.0f), fmin(speed, 0.0f), inside > 0.0f);
-    u -= stopped * nx;
-    v -= stopped * ny;
-    w -= stopped * nz;
-  }
+  keep_in_tank(p, piston, piston_speed, &x, &y, &z, &u, &v, &w);
   STORE(select(LOAD(position, i), x, move), position, i);
   STORE(select(LOAD(position + n, i), y, move), position + n, i);
   STORE(select(LOAD(position + 2 * n, i), z, move), position + 2 * n, i);

@@ -42,20 +42,31 @@ static float depth_inside(BodyShape s, float3 at, float3* out) {
   return depth;
 }
 
+// Puts a particle that is too deep in body `b` back, and ends its motion into the body. `out`: the
+// way it went, `stopped`: by how much its speed along that changed [m/s]. False: it is not so deep.
+static bool leave_body(constant FluidParams* p, BodyShape shape, BodyStep b, float3* x, float3* v,
+                       float3* out, float* stopped) {
+  const float3 arm = *x - (float3)(b.px, b.py, b.pz);
+  const float depth = depth_inside(shape, rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw), out);
+  const float excess = depth - KEPT_DEPTH * p->spacing;
+  if (!(excess > 0.0f)) return false;
+  *out = rotate_by(*out, b.qx, b.qy, b.qz, b.qw);
+  const float3 skin = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
+  *stopped = -fmin(dot(*v - skin, *out), 0.0f);
+  *x += excess * *out;
+  *v += *stopped * *out;
+  return true;
+}
+
+// Bodies that the water moves have their own stage (body_keep_out.cl): they are pushed back.
 static void keep_out(constant FluidParams* p, constant BodyShape* shapes,
                      global const BodyStep* bodies, int first_body, int body_count, float3* x,
                      float3* v) {
   for (int k = 0; k < body_count; ++k) {
-    const BodyStep b = bodies[first_body + k];
-    const float3 arm = *x - (float3)(b.px, b.py, b.pz);
+    if (shapes[k].free) continue;
     float3 out;
-    const float depth = depth_inside(shapes[k], rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw), &out);
-    const float excess = depth - KEPT_DEPTH * p->spacing;
-    if (!(excess > 0.0f)) continue;
-    out = rotate_by(out, b.qx, b.qy, b.qz, b.qw);
-    const float3 skin = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
-    *x += excess * out;
-    *v -= fmin(dot(*v - skin, out), 0.0f) * out;
+    float stopped;
+    leave_body(p, shapes[k], bodies[first_body + k], x, v, &out, &stopped);
   }
 }
 

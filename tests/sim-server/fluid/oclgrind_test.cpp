@@ -86,11 +86,20 @@ const std::set<std::string> kDetect = {"place_bodies",    "gather_body_volumes",
                                        "touch_water",     "spawn_bubbles",        "carry_bubbles",
                                        "seed_cavities",   "grow_cavities",        "push_by_walls"};
 
+/// Those of a scene with bodies that the water moves, besides.
+std::set<std::string> with_free_bodies(std::set<std::string> kernels) {
+  kernels.insert({"reach_bodies", "weigh_water", "answer_bodies", "carry_water", "keep_out_of_free",
+                  "move_bodies"});
+  return kernels;
+}
+
 // Scalar kernels of the divergence-free solver take the interpreter minutes: by hand only.
 const std::vector<Watched> kWatched = {
     {"scalar", "sim_fluid_two_steps 1 0", "Oclgrind: 251 particles", kStep},
     {"vector", "sim_fluid_two_steps 16 0", "Oclgrind: 251 particles", kStep},
     {"divergence_free", "sim_fluid_two_steps 16 1", "Oclgrind: 251 particles", kSolve},
+    {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
+     with_free_bodies(kStep)},
     {"detectors", "sim_detect_two_frames 16", "Oclgrind: 230 particles", kDetect}};
 
 class Oclgrind : public ::testing::TestWithParam<Watched> {};

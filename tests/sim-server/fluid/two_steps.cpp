@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Two steps of a small fluid with walls, slope, piston and bodies, and two in which it may sleep:
 // every kernel once, small enough for an OpenCL interpreter. Arguments: particles per vector (1, 8
-// or 16), and whether the water is divergence-free (1).
+// or 16), whether the water is divergence-free (1), and whether it moves the bodies (1).
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 
+#include "sim-server/bodies/mass.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {
 
-int two_steps(int lanes, bool divergence_free) {
+int two_steps(int lanes, bool divergence_free, bool free) {
   using namespace splash::sim;
   Device device(-1, false, lanes);
   Water water = two_bodies();
@@ -21,6 +22,13 @@ int two_steps(int lanes, bool divergence_free) {
   water.scene.wave_maker = {true, 0.1, 2.0};
   water.piston = {0.01, 0.2};
   water.start(device);
+  if (free) {
+    for (BodySettings& body : water.scene.bodies) {
+      body.motion.kind = MotionKind::free;
+      body.motion.density = 300.0;
+    }
+    water.fluid->let_go(free_bodies(water.scene.bodies));
+  }
   water.fluid->begin_watch(4);
   water.step(1.0e-3);
   water.step(1.0e-3);
@@ -43,7 +51,8 @@ int two_steps(int lanes, bool divergence_free) {
 
 int main(int argc, char** argv) {
   try {
-    return two_steps(argc > 1 ? std::atoi(argv[1]) : 0, argc > 2 && std::atoi(argv[2]) == 1);
+    return two_steps(argc > 1 ? std::atoi(argv[1]) : 0, argc > 2 && std::atoi(argv[2]) == 1,
+                     argc > 3 && std::atoi(argv[3]) == 1);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return EXIT_FAILURE;

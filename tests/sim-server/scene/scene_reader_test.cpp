@@ -127,6 +127,23 @@ TEST_P(SceneMistake, IsRefusedWithPlaceAndReason) {
   }
 }
 
+TEST(SceneReader, ReadsFreeBodies) {
+  std::string text = kGood;
+  const std::string fixed = "    shape: {size: [0.1, 0.1, 0.4], rocker: 0.02, flat: 0.5}\n";
+  text.replace(text.find(fixed), fixed.size(),
+               "    shape: {size: [0.1, 0.1, 0.4]}\n"
+               "    motion: {kind: free, density: 600, velocity: [0.0, 1.0, 0.0], spin: [2.0, 0.0, "
+               "0.0], restitution: 0.5, friction: 0.1}\n");
+  const BodySettings post = parse_scene(text, "small.yaml").bodies.at(1);
+  EXPECT_TRUE(is_free(post));
+  EXPECT_DOUBLE_EQ(post.motion.density, 600.0);
+  EXPECT_DOUBLE_EQ(post.motion.velocity[1], 1.0);
+  EXPECT_DOUBLE_EQ(post.motion.spin[0], 2.0);
+  EXPECT_DOUBLE_EQ(post.motion.restitution, 0.5);
+  EXPECT_DOUBLE_EQ(post.motion.friction, 0.1);
+  EXPECT_DOUBLE_EQ(post.rest.position[0], 0.2);
+}
+
 const std::vector<Mistake> kMistakes = {
     {"upside_down_tank", "upper: [1.0, 1.0, 1.0]", "upper: [1.0, 1.0, -1.0]",
      "7:", "z is -1, not above that of 'lower' (0)"},
@@ -177,6 +194,21 @@ const std::vector<Mistake> kMistakes = {
      "0.9]}\n        - {time: 1.0, position: [0.5, 0.5, 0.3], "
      "rotation: [0.0, 0.0, 0.6, 0.6]}\n",
      "", "18:", "at least one"},
+    {"free_without_mass", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    rest: {position: [0.2, 0.2, 0.2]}\n    motion: {kind: free}\n",
+     "25:", "one of 'density' and 'mass'"},
+    {"mass_and_density", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    rest: {position: [0.2, 0.2, 0.2]}\n    motion: {kind: free, mass: 1, density: 500}\n",
+     "25:", "one of 'density' and 'mass'"},
+    {"massless", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    rest: {position: [0.2, 0.2, 0.2]}\n    motion: {kind: free, mass: 0}\n", "25:", "mass"},
+    {"density_of_a_script", "      kind: script\n", "      kind: script\n      density: 500\n",
+     "19:", "no meaning for a motion of kind script"},
+    {"free_without_rest", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    motion: {kind: free, mass: 1}\n", "22:", "rest"},
+    {"free_sole", "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    rest: {position: [0.2, 0.2, 0.2]}\n    motion: {kind: free, mass: 1}\n",
+     "23:", "curved sole"},
     {"missing_file", "    rest: {position: [0.2, 0.2, 0.2]}\n",
      "    motion: {kind: csv, file: nowhere.csv}\n", "24:", "there is no file"},
     {"csv_without_file", "    rest: {position: [0.2, 0.2, 0.2]}\n", "    motion: {kind: csv}\n",

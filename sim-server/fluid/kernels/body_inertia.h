@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A free body's inertia in the world: R diag(ix, iy, iz) R^T.
+
+static float3 into_body(BodyStep b, float3 v) { return rotate_by(v, -b.qx, -b.qy, -b.qz, b.qw); }
+static float3 out_of_body(BodyStep b, float3 v) { return rotate_by(v, b.qx, b.qy, b.qz, b.qw); }
+
+// Angular momentum of a spin.
+static float3 inertia_times(FreeBody f, BodyStep b, float3 spin) {
+  return out_of_body(b, (float3)(f.ix, f.iy, f.iz) * into_body(b, spin));
+}
+
+// Spin of an angular momentum.
+static float3 inertia_solve(FreeBody f, BodyStep b, float3 momentum) {
+  return out_of_body(b, into_body(b, momentum) / (float3)(f.ix, f.iy, f.iz));
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Which particles a free body reaches, and what they do to each other (body_reach.h):
+//   g_i = rho0 f' sum_b V_b grad W_ib
+//   a_i = sum_b V_b K_ib (v_ib . x_ib) / (r^2 + eta^2) grad W_ib
+//   c_i = dt sum_b V_b K |grad W_ib| r / (r^2 + eta^2),  the most that rubbing can yield
+// the same terms as in acceleration.cl, of this body's points alone.
+
+static void reach_of_group(constant FluidParams* p, const Group* g, global const float* velocity,
+                           int first, global const int* body_start,
+                           global const float* body_position, global const float* body_velocity,
+                           global const float* body_volume, global const int* body_id,
+                           global const int* owner, int stride, int body, Reach* sum) {
+  const int n = p->capacity;
+  const lanes u = LOAD(velocity, first), v = LOAD(velocity + n, first),
+              w = LOAD(velocity + 2 * n, first);
+  const float eta2 = 0.01f * p->length * p->length;
+  Near near;
+  begin_search(&near);
+  while (search(p, g, body_start, body_position, stride, &near)) {
+    for (int k = 0; k < near.count; ++k) {
+      const int j = NEAR(near, k);
+      if (owner[body_id[j]] != body) continue;
+      const Pair pair = pair_with(p, g, body_position, stride, j);
+      const lanes closing = (u - body_velocity[j]) * pair.dx +
+                            (v - body_velocity[stride + j]) * pair.dy +
+                            (w - body_velocity[2 * stride + j]) * pair.dz;
+      const lanes steep = body_volume[j] * pair.slope;
+      const lanes near2 = inverse(pair.r2 + eta2);
+      const lanes rub =
+          steep * near2 * (p->viscous * closing + p->artificial * fmin(closing, 0.0f));
+      sum->gx += steep * pair.dx;
+      sum->gy += steep * pair.dy;
+      sum->gz += steep * pair.dz;
+      sum->ax += rub * pair.dx;
+      sum->ay += rub * pair.dy;
+      sum->az += rub * pair.dz;
+      sum->rub += steep * near2 * (p->viscous + p->artificial) * pair.r2;
+    }
+  }
+}
+
+// b_i; particles without pressure, which pull nobody, do not yield to the state equation.
+static lanes yield_of(constant FluidParams* p, float dt, global const float* pressure_term,
+                      global const float* density, global const float* response, int first) {
+  if (p->solver == SPLASH_DIVERGENCE_FREE) {
+    const float least = gradient_norm(p) * p->mass * SLOPE_UNIT;  // as in pressure_correction.cl
+    return 1.0f / fmax(LOAD(response, first), 1.0e-4f * least * least);
+  }
+  const lanes way = p->sound_speed * dt / LOAD(density, first);
+  return select((lanes)(0.0f), way * way, LOAD(pressure_term, first) > 0.0f);
+}
+
+static void finish_reach(constant FluidParams* p, float dt, lanes image, lanes yield, Reach* r) {
+  const float gradient = gradient_norm(p);
+  const lanes push = -gradient * p->rest_density * image_rise(p, image);
+  r->gx *= push;
+  r->gy *= push;
+  r->gz *= push;
+  r->ax *= -gradient;
+  r->ay *= -gradient;
+  r->az *= -gradient;
+  r->rub *= gradient * dt;
+  const lanes g2 = r->gx * r->gx + r->gy * r->gy + r->gz * r->gz;
+  r->yield = select((lanes)(0.0f), yield, g2 > 0.0f);
+}
+
+// One work-item for each free body and group of particles. `reached`: of each of them, whether the
+// body is near; what is not reached is not written.
+kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
+                         constant FreeBody* frees, global const BodyStep* bodies, int first_body,
+                         global const int* cell_start, global const float* position,
+                         global const float* velocity, global const float* density,
+                         global const float* water_density, global const float* pressure_term,
+                         global const float* response, global const int* body_start,
+                         global const float* body_position, global const float* body_velocity,
+                         global const float* body_volume, global const int* body_id,
+                         global const int* owner, int body_stride, global float* reach,
+                         global int* reached) {
+  const int item = get_global_id(0);
+  if (item >= free_count * group_count(p)) return;
+  const int k = item / group_count(p);
+  const int first = item % group_count(p) * LANES;
+  const int last = min(first + LANES, p->count);
+  Reach all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+  int near = 0;
+  for (int turn = first; turn < last;) {
+    const Group g = load_group(p, cell_start, position, first, last, turn);
+    turn = g.next;
+    if (!bodies_near_box(bodies, first_body + frees[k].body, 1, g.lower, g.upper)) continue;
+    near = 1;
+    Reach one = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    reach_of_group(p, &g, velocity, first, body_start, body_position, body_velocity, body_volume,
+                   body_id, owner, body_stride, frees[k].body, &one);
+    all.gx = select(all.gx, one.gx, g.mine);
+    all.gy = select(all.gy, one.gy, g.mine);
+    all.gz = select(all.gz, one.gz, g.mine);
+    all.ax = select(all.ax, one.ax, g.mine);
+    all.ay = select(all.ay, one.ay, g.mine);
+    all.az = select(all.az, one.az, g.mine);
+    all.rub = select(all.rub, one.rub, g.mine);
+  }
+  reached[item] = near;
+  if (!near) return;
+  const lanes image = (LOAD(density, first) - LOAD(water_density, first)) / p->rest_density;
+  finish_reach(p, dt, image, yield_of(p, dt, pressure_term, density, response, first), &all);
+  store_reach(p, reach, k, first, &all);
+}

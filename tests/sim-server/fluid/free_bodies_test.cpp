@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Bodies that the water moves: nothing of the momentum is lost between them and the water, whatever
+// their mass; without water they fall, turn and knock as bodies do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim-server/bodies/mass.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/fluid/free_float.hpp"
+#include "tests/sim-server/fluid/lane_settings.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// A drop of water in the middle of a large tank, nothing near the walls, no gravity.
+FreeFloat drop_and_body(const Shape& shape, double density, const BodyState& start) {
+  FreeFloat world;
+  world.scene = tank_scene(0.02, {1.0, 1.0, 1.0}, 0.2);
+  world.scene.fluid.gravity = {0.0, 0.0, 0.0};
+  world.scene.water = {{{0.4, 0.4, 0.4}, {0.6, 0.6, 0.56}}};
+  world.add(shape, density, start);
+  return world;
+}
+
+struct Kind {
+  PressureKind solver;
+  SmoothingKind smoothing;
+  double density;
+};
+
+std::string kind_name(const ::testing::TestParamInfo<Kind>& info) {
+  const std::string solver =
+      info.param.solver == PressureKind::divergence_free ? "divergence_free" : "weakly";
+  const std::string width = info.param.smoothing == SmoothingKind::wide ? "_wide_" : "_narrow_";
+  return solver + width + std::to_string(static_cast<int>(info.param.density));
+}
+
+class Momentum : public ::testing::TestWithParam<Kind> {};
+
+// A turning box goes through the drop: it pushes, rubs and throws.
+TEST_P(Momentum, OfWaterAndBodyTogetherStays) {
+  const Kind& kind = GetParam();
+  Device device(-1, false, 0);
+  FreeFloat world = drop_and_body(
+      {ShapeKind::box, {0.1, 0.08, 0.06}, 0.0, 0.0}, kind.density,
+      {{0.5, 0.49, 0.62}, from_turn({0.3, 0.2, 0.1}), {0.1, 0.0, -2.0}, {3.0, -5.0, 4.0}});
+  world.scene.fluid.solver = kind.solver;
+  world.scene.fluid.smoothing = kind.smoothing;
+  world.start(device);
+  const Balance before = world.balance();
+  world.run(0.1);
+  const Balance after = world.balance();
+  // The water took part of it, so that there was something to lose.
+  const double rounding = 2.0e-5 * before.scale;
+  EXPECT_GT(length(after.water - before.water), 10.0 * rounding);
+  EXPECT_LT(length(after.all() - before.all()), rounding);
+}
+
+const std::vector<Kind> kKinds = {
+    {PressureKind::weakly_compressible, SmoothingKind::narrow, 1.0},
+    {PressureKind::weakly_compressible, SmoothingKind::narrow, 500.0},
+    {PressureKind::weakly_compressible, SmoothingKind::narrow, 1000000.0},
+    {PressureKind::weakly_compressible, SmoothingKind::wide, 500.0},
+    {PressureKind::divergence_free, SmoothingKind::narrow, 1.0},
+    {PressureKind::divergence_free, SmoothingKind::narrow, 500.0},
+    {PressureKind::divergence_free, SmoothingKind::narrow, 1000000.0},
+    {PressureKind::divergence_free, SmoothingKind::wide, 500.0}};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Momentum, ::testing::ValuesIn(kKinds), kind_name);
+
+// Slowly, so that nobody is put back out of the body, which moves without a speed.
+TEST(FreeBodies, KeepTheAngularMomentumOfWaterAndBody) {
+  Device device(-1, false, 0);
+  FreeFloat world =
+      drop_and_body({ShapeKind::box, {0.1, 0.08, 0.06}, 0.0, 0.0}, 300.0,
+                    {{0.5, 0.49, 0.6}, {0, 0, 0, 1}, {0.0, 0.0, -0.2}, {0.5, -1.0, 0.8}});
+  world.start(device);
+  const Balance before = world.balance();
+  world.run(0.2);
+  const Balance after = world.balance();
+  EXPECT_LT(length(after.turning - before.turning), 1.0e-4 * before.scale);
+}
+
+TEST(FreeBodies, FallAsBodiesDo) {
+  Device device(-1, false, 0);
+  FreeFloat world;
+  world.scene = tank_scene(0.05, {1.0, 1.0, 1.0}, 0.1);
+  world.add({ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0}, 500.0,
+            {{0.3, 0.4, 4.0}, {0, 0, 0, 1}, {0.2, 0.0, 0.0}, {0.0, 0.0, 3.0}});
+  world.start(device);
+  world.run(0.5);
+  const BodyState s = world.state(0);
+  EXPECT_NEAR(s.position[0], 0.3 + 0.2 * world.time, 1.0e-4);
+  EXPECT_NEAR(s.position[2], 4.0 - 0.5 * 9.81 * world.time * (world.time + world.dt), 1.0e-4);
+  EXPECT_NEAR(s.velocity[2], -9.81 * world.time, 1.0e-4);
+  EXPECT_NEAR(s.spin[2], 3.0, 1.0e-5);
+}
+
+// About its middle axis a box tumbles (Dzhanibekov): angular momentum and energy say how.
+TEST(FreeBodies, TumbleWithTheirAngularMomentumAndEnergy) {
+  Device device(-1, false, 0);
+  FreeFloat world;
+  world.scene = tank_scene(0.05, {1.0, 1.0, 1.0}, 0.1);
+  world.scene.fluid.gravity = {0.0, 0.0, 0.0};
+  world.add({ShapeKind::box, {0.3, 0.2, 0.1}, 0.0, 0.0}, 500.0,
+            {{0.5, 0.5, 0.7}, {0, 0, 0, 1}, {0.0, 0.0, 0.0}, {0.01, 6.0, 0.02}});
+  world.start(device);
+  const Balance before = world.balance();
+  double least = 1.0;
+  for (int k = 0; k < 800; ++k) {
+    world.run(world.dt);
+    least = std::min(least, rotate(world.state(0).rotation, {0.0, 1.0, 0.0})[1]);
+  }
+  EXPECT_LT(least, -0.9) << "it did not turn over";
+  const Balance after = world.balance();
+  EXPECT_LT(length(after.spin - before.spin), 1.0e-4 * length(before.spin));
+  EXPECT_NEAR(after.energy, before.energy, 5.0e-3 * before.energy);
+}
+
+TEST(FreeBodies, RestOnTheFloorAndRebound) {
+  Device device(-1, false, 0);
+  for (const Shape& shape : {Shape{ShapeKind::box, {0.2, 0.14, 0.1}, 0.0, 0.0},
+                             Shape{ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0},
+                             Shape{ShapeKind::cylinder, {0.2, 0.2, 0.1}, 0.0, 0.0}}) {
+    SCOPED_TRACE(static_cast<int>(shape.kind));
+    FreeFloat world;
+    world.scene = tank_scene(0.05, {2.0, 1.0, 1.0}, 0.1);
+    world.scene.water = {{{0.0, 0.0, 0.0}, {0.2, 1.0, 0.2}}};
+    world.add(shape, 5000.0, {{1.5, 0.5, 0.3}, {0, 0, 0, 1}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}});
+    world.scene.bodies[0].motion.restitution = 0.5;
+    world.scene.water[0].upper[2] = 0.06;  // it hardly spreads to where the body falls
+    world.start(device);
+    double lowest = 1.0, second = 0.0;
+    while (world.time < 1.2) {
+      world.run(world.dt);
+      const BodyState s = world.state(0);
+      lowest = std::min(lowest, s.position[2]);
+      if (world.time > 0.25) second = std::max(second, s.position[2]);
+    }
+    EXPECT_GT(lowest, 0.05 - 1.0e-5) << "in the floor";
+    EXPECT_NEAR(second, 0.05 + 0.25 * 0.25, 0.015) << "half the speed, a quarter of the height";
+    EXPECT_NEAR(world.state(0).position[2], 0.05, 0.003) << "at rest";
+  }
+}
+
+TEST(FreeBodies, SlideAsFarAsFrictionLetsThem) {
+  Device device(-1, false, 0);
+  FreeFloat world;
+  world.scene = tank_scene(0.05, {3.0, 1.0, 1.0}, 0.1);
+  world.scene.water = {{{0.0, 0.0, 0.0}, {0.2, 1.0, 0.06}}};
+  world.add({ShapeKind::box, {0.2, 0.2, 0.05}, 0.0, 0.0}, 8000.0,
+            {{1.0, 0.5, 0.025}, {0, 0, 0, 1}, {2.0, 0.0, 0.0}, {0.0, 0.0, 0.0}});
+  world.scene.bodies[0].motion.friction = 0.3;
+  world.start(device);
+  world.run(1.0);
+  EXPECT_NEAR(world.state(0).position[0] - 1.0, 2.0 * 2.0 / (2.0 * 0.3 * 9.81), 0.02);
+  EXPECT_NEAR(world.state(0).velocity[0], 0.0, 1.0e-3);
+}
+
+TEST(FreeBodies, DoTheSameTwice) {
+  Device device(-1, false, 0);
+  std::vector<BodyState> ends;
+  for (int k = 0; k < 2; ++k) {
+    FreeFloat world = drop_and_body({ShapeKind::box, {0.1, 0.08, 0.06}, 0.0, 0.0}, 50.0,
+                                    {{0.5, 0.49, 0.6}, {0, 0, 0, 1}, {0.0, 0.0, -1.0}, {}});
+    world.start(device);
+    world.run(0.05);
+    ends.push_back(world.state(0));
+  }
+  EXPECT_EQ(ends[0].position, ends[1].position);
+  EXPECT_EQ(ends[0].spin, ends[1].spin);
+}
+
+TEST(Mass, IsThatOfTheShape) {
+  BodySettings body;
+  body.shape = {ShapeKind::sphere, {0.2, 0.2, 0.2}, 0.0, 0.0};
+  body.motion.density = 700.0;
+  EXPECT_NEAR(mass_of(body), 700.0 * 4.0 / 3.0 * M_PI * 0.001, 1.0e-9);
+  body.motion.mass = 3.0;
+  EXPECT_EQ(mass_of(body), 3.0);
+  EXPECT_NEAR(inertia_of(body.shape, 3.0)[0], 0.4 * 3.0 * 0.01, 1.0e-12);
+  const Vector3 disc = inertia_of({ShapeKind::cylinder, {0.2, 0.2, 0.1}, 0.0, 0.0}, 3.0);
+  EXPECT_NEAR(disc[2], 0.5 * 3.0 * 0.01, 1.0e-12);
+  EXPECT_NEAR(disc[0], 3.0 * (3.0 * 0.01 + 0.01) / 12.0, 1.0e-12);
+  const Vector3 box = inertia_of({ShapeKind::box, {0.1, 0.2, 0.3}, 0.0, 0.0}, 12.0);
+  EXPECT_NEAR(box[0], 0.04 + 0.09, 1.0e-12);
+  EXPECT_NEAR(box[2], 0.01 + 0.04, 1.0e-12);
+}
+
+}  // namespace
+}  // namespace splash::sim

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "tests/sim-server/fluid/free_float.hpp"
+
+#include <cmath>
+
+#include "sim-server/bodies/mass.hpp"
+#include "sim-server/fluid/time_step.hpp"
+#include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+
+Vector3 Balance::all() const {
+  return water + bodies;
+}
+
+void FreeFloat::add(const Shape& shape, double density, const BodyState& start) {
+  BodySettings body;
+  body.name = "body " + std::to_string(scene.bodies.size());
+  body.shape = shape;
+  body.rest.position = start.position;
+  body.rest.rotation = start.rotation;
+  body.motion.kind = MotionKind::free;
+  body.motion.density = density;
+  body.motion.velocity = start.velocity;
+  body.motion.spin = start.spin;
+  scene.bodies.push_back(body);
+}
+
+void FreeFloat::start(Device& device) {
+  const auto particles = initial_particles(scene);
+  const FluidParams params = make_params(scene, particles);
+  const Smoothing smoothing = scene_smoothing(scene);
+  std::vector<std::unique_ptr<Motion>> motions;
+  for (const BodySettings& body : scene.bodies) {
+    motions.push_back(std::make_unique<FreeMotion>(
+        BodyState{body.rest.position, body.rest.rotation, body.motion.velocity, body.motion.spin}));
+  }
+  bodies = std::make_unique<Bodies>(sample_bodies(scene.bodies, scene.fluid.spacing, smoothing),
+                                    std::move(motions), smoothing.support);
+  const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
+  fluid = std::make_unique<Fluid>(device, params, particles, boundary, body_shapes(scene.bodies));
+  fluid->let_go(free_bodies(scene.bodies));
+  steps = bodies->at(0.0);
+  dt = largest_time_step(params, 3.0, 9.81, 1.0);
+}
+
+void FreeFloat::run(double seconds) {
+  const double end = time + seconds - 0.5 * dt;
+  while (time < end) {
+    const Step step = {dt, 0.0, 0.0, 0};
+    fluid->set_bodies(steps);
+    fluid->prepare(step);
+    fluid->advance(step);
+    static_cast<void>(fluid->survey());
+    const std::vector<FreeBodyEnd> ends = fluid->free_bodies()->ends();
+    for (std::size_t k = 0; k < ends.size(); ++k) steps[k] = ends[k].step;
+    time += dt;
+  }
+}
+
+Balance FreeFloat::balance() {
+  Balance sum;
+  const Snapshot water = fluid->snapshot();
+  const auto mass = static_cast<double>(fluid->params().mass);
+  const auto add = [&sum](double m, const Vector3& x, const Vector3& v, Vector3& to) {
+    to = to + m * v;
+    sum.turning = sum.turning + m * cross(x, v);
+    sum.scale += m * length(v);
+  };
+  for (std::size_t i = 0; i < water.id.size(); ++i) {
+    add(mass, vector_of(*fluid, water.position, i), vector_of(*fluid, water.velocity, i),
+        sum.water);
+  }
+  for (std::size_t b = 0; b < steps.size(); ++b) {
+    const BodyState s = state(b);
+    const double m = mass_of(scene.bodies[b]);
+    const Vector3 inertia = inertia_of(scene.bodies[b].shape, m);
+    Vector3 spin = rotate(inverse(s.rotation), s.spin);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sum.energy +=
+          0.5 * (inertia[axis] * spin[axis] * spin[axis] + m * s.velocity[axis] * s.velocity[axis]);
+      spin[axis] *= inertia[axis];
+    }
+    add(m, s.position, s.velocity, sum.bodies);
+    sum.spin = sum.spin + rotate(s.rotation, spin);
+    sum.turning = sum.turning + rotate(s.rotation, spin);
+  }
+  return sum;
+}
+
+}  // namespace splash::sim

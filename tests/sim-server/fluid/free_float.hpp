@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// A small body of water with bodies that it moves, step by step, and what they have together.
+#pragma once
+
+#include "sim-server/bodies/body_steps.hpp"
+#include "tests/sim-server/fluid/small_water.hpp"
+
+namespace splash::sim {
+
+/// Momentum and angular momentum about the origin, of the water and of the bodies.
+struct Balance {
+  Vector3 water = {0.0, 0.0, 0.0};    ///< [kg m/s]
+  Vector3 bodies = {0.0, 0.0, 0.0};   ///< [kg m/s]
+  Vector3 turning = {0.0, 0.0, 0.0};  ///< of both [kg m2/s]
+  Vector3 spin = {0.0, 0.0, 0.0};     ///< the bodies', each about its own centre [kg m2/s]
+  double energy = 0.0;                ///< kinetic, of the bodies [J]
+  double scale = 0.0;                 ///< sum of the magnitudes of all momenta [kg m/s]
+  [[nodiscard]] Vector3 all() const;
+};
+
+struct FreeFloat {
+  Scene scene;
+  std::vector<BodyStep> steps = {};
+  std::unique_ptr<Bodies> bodies = {};
+  std::unique_ptr<Fluid> fluid = {};
+  double dt = 0.0;    ///< [s]
+  double time = 0.0;  ///< [s]
+
+  void add(const Shape& shape, double density, const BodyState& start);
+  /// Builds it and lets the bodies go.
+  void start(Device& device);
+  /// For `seconds`, in steps of dt.
+  void run(double seconds);
+  [[nodiscard]] BodyState state(std::size_t body) const { return state_of(steps[body]); }
+  [[nodiscard]] Balance balance();
+};
+
+}  // namespace splash::sim

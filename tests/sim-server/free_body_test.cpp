@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Free bodies in the whole simulation: they make impacts, float, come to rest, and are taken back
+// with the water when a frame goes wrong.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim-server/gauge/gauges.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// A tank with 0.2 m of water and a ball above it, as a scene file says it.
+Scene pond(const std::string& height, const std::string& motion) {
+  return parse_scene(R"(
+fluid: {spacing: 0.025}
+tank: {lower: [0.0, 0.0, 0.0], upper: [0.5, 0.5, 0.6]}
+water:
+  - {lower: [0.0, 0.0, 0.0], upper: [0.5, 0.5, 0.2]}
+bodies:
+  - name: ball
+    shape: {kind: sphere, size: [0.15, 0.15, 0.15]}
+    rest: {position: [0.25, 0.25, )" +
+                         height + R"(]}
+    motion: {kind: free, )" +
+                         motion + R"(}
+gauges:
+  probes:
+    - {name: ball, kind: body, body: ball}
+)",
+                     "pond.yaml");
+}
+
+TEST(FreeBody, MakesOneImpactWithItsSpeed) {
+  Device device;
+  const Scene scene = pond("0.6", "density: 500");
+  Simulation simulation(device, scene, {});
+  std::vector<DetectedImpact> impacts;
+  while (simulation.seconds() < 1.0) {
+    const FrameResult frame = simulation.advance();
+    impacts.insert(impacts.end(), frame.found.impacts.begin(), frame.found.impacts.end());
+    ASSERT_FALSE(frame.mishap) << describe(*frame.mishap);
+  }
+  ASSERT_EQ(impacts.size(), 1U);
+  const double fall = 0.6 - 0.075 - 0.2;
+  // It is announced up to 15 ms ahead, with the speed of then.
+  const double speed = std::sqrt(2.0 * 9.81 * fall);
+  EXPECT_GT(impacts[0].speed, speed - 9.81 * scene.detect.impact_lookahead - 0.02);
+  EXPECT_LT(impacts[0].speed, speed + 0.02);
+  EXPECT_NEAR(impacts[0].time, std::sqrt(2.0 * fall / 9.81), 0.012);
+}
+
+TEST(FreeBody, FloatsWithTheForceOfItsWeight) {
+  Device device;
+  const Scene scene = pond("0.2", "density: 499");
+  Simulation simulation(device, scene, {});
+  while (simulation.seconds() < 4.0) static_cast<void>(simulation.advance());
+  const BodyState ball = simulation.bodies().state(0, simulation.seconds());
+  // Half in: what it drives away raises the water by 14 mm / 2 over the whole tank.
+  EXPECT_NEAR(ball.position[2], 0.2, 0.0125);
+  const double weight = 499.0 * 9.81 * M_PI / 6.0 * 0.15 * 0.15 * 0.15;
+  EXPECT_NEAR(simulation.bodies().force(0).force[2], weight, 0.05 * weight);
+  Gauges gauges(scene);
+  const std::vector<double> row =
+      gauges.read(simulation.seconds(), simulation.fluid(), simulation.bodies());
+  EXPECT_EQ(row.at(3), ball.position[2]);
+  EXPECT_EQ(row.at(16), simulation.bodies().force(0).force[2]);
+}
+
+TEST(FreeBody, IsNotHeldInTheAirByWaterThatSleeps) {
+  Device device;
+  Scene scene = pond("40.0", "density: 500");
+  scene.tank.upper[2] = 0.6;
+  Simulation simulation(device, scene, {});
+  while (simulation.seconds() < 2.0) static_cast<void>(simulation.advance());
+  const double fallen = 0.5 * 9.81 * simulation.seconds() * simulation.seconds();
+  EXPECT_NEAR(simulation.bodies().state(0, simulation.seconds()).position[2], 40.0 - fallen,
+              0.01 * fallen);
+}
+
+TEST(FreeBody, IsTakenBackWithTheWater) {
+  Device device;
+  const Scene scene = pond("0.35", "density: 500");
+  Simulation harmed(device, scene, {});
+  Simulation sound(device, scene, {});
+  while (harmed.seconds() < 0.15) static_cast<void>(harmed.advance());
+  while (sound.seconds() < 0.15) static_cast<void>(sound.advance());
+  const BodyState before = harmed.bodies().state(0, harmed.seconds());
+  int steps = 0;
+  harmed.set_hook([&steps](Fluid& fluid, Step&, Moment moment) {
+    if (moment != Moment::between || steps++ > 0) return;
+    std::vector<float> density = fluid.pressure_term().read(fluid.device(), 16);
+    density[3] = std::numeric_limits<float>::quiet_NaN();
+    Buffer<float> buffer = fluid.pressure_term();
+    buffer.write(fluid.device(), density);
+  });
+  const FrameResult frame = harmed.advance();
+  ASSERT_TRUE(frame.mishap);
+  EXPECT_EQ(frame.mishap->remedy, Remedy::retry);
+  const BodyState after = harmed.bodies().state(0, harmed.seconds());
+  EXPECT_TRUE(std::isfinite(after.position[2]));
+  EXPECT_LT(after.position[2], before.position[2]) << "the frame was done again";
+  static_cast<void>(sound.advance());
+  const double way = sound.seconds() - harmed.seconds();
+  EXPECT_NEAR(after.position[2] + way * after.velocity[2],
+              sound.bodies().state(0, sound.seconds()).position[2], 1.0e-3);
+}
+
+TEST(FreeBody, ThatIsNowhereIsAFault) {
+  Device device;
+  Simulation simulation(device, pond("0.35", "density: 500"), {});
+  int harms = 0;
+  simulation.set_hook([&harms](Fluid& fluid, Step& step, Moment moment) {
+    if (moment != Moment::between || harms++ > 0) return;
+    std::vector<BodyStep> steps = fluid.body_steps().read(fluid.device(), 1);
+    steps[0].px = std::numeric_limits<float>::infinity();
+    Buffer<BodyStep> buffer = fluid.body_steps();
+    buffer.write(fluid.device(), steps, static_cast<std::size_t>(step.first_body));
+  });
+  const FrameResult frame = simulation.advance();
+  ASSERT_TRUE(frame.mishap);
+  EXPECT_EQ(frame.mishap->what.fault, Fault::body);
+  EXPECT_NE(describe(*frame.mishap).find("'ball'"), std::string::npos) << describe(*frame.mishap);
+  EXPECT_NEAR(simulation.bodies().state(0, simulation.seconds()).position[0], 0.25, 1.0e-3);
+}
+
+TEST(FreeBody, ComesToRestAndThenCostsNothing) {
+  Device device;
+  Simulation simulation(device, pond("0.2", "density: 499"), {});
+  while (simulation.seconds() < 12.0) static_cast<void>(simulation.advance());
+  EXPECT_GT(simulation.totals().skipped.idle, 0U);
+}
+
+}  // namespace
+}  // namespace splash::sim
