@@ -22,10 +22,6 @@ BandFilter::BandFilter(const Band& band, double sample_rate) {
   sections_[3] = low_pass(band.high, kSecondQ, sample_rate);
 }
 
-void BandFilter::reset() noexcept {
-  for (Biquad& section : sections_) section.reset();
-}
-
 bool BandFilter::at_rest(double limit) const noexcept {
   return std::all_of(sections_.begin(), sections_.end(),
                      [limit](const Biquad& section) { return section.at_rest(limit); });

@@ -21,7 +21,9 @@ class BandFilter {
     return in;
   }
 
-  void reset() noexcept;
+  void reset() noexcept {
+    for (Biquad& section : sections_) section.reset();
+  }
   /// Whether no state exceeds `limit`.
   [[nodiscard]] bool at_rest(double limit) const noexcept;
 

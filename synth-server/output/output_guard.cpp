@@ -44,27 +44,41 @@ void OutputGuard::forget() noexcept {
   limiter_.reset();
 }
 
-/// `value`, or nil and a fresh start when it is no signal.
-double OutputGuard::checked(double value) noexcept {
-  if (is_signal(value)) return value;
-  forget();
-  ++resets_;
-  return 0.0;
-}
-
 void OutputGuard::process(const double* in, const double* fade, float* out, int count) noexcept {
+  // What changes with every sample is kept out of memory meanwhile: each sample waits for the last.
+  BandFilter band = band_;
+  Limiter limiter = limiter_;
+  HeatBudget heat = heat_;
+  double last = last_;
+  std::uint64_t resets = 0;
+  std::uint64_t limited = 0;
+  // The value, or nil and a fresh start when it is no signal.
+  const auto checked = [&](double value) {
+    if (is_signal(value)) return value;
+    band.reset();
+    equaliser_.reset();
+    limiter.reset();
+    ++resets;
+    return 0.0;
+  };
   for (int i = 0; i < count; ++i) {
     const double tame = std::clamp(checked(in[i]), -kMostInput, kMostInput);
     // Checked again: no filter of ours is unstable, but this is the place to be sure.
-    const double even = checked(equaliser_.process(checked(band_.process(tame))));
-    const double limit = heat_.limit();
-    const double limited = limiter_.process(even, limit);
-    if (limiter_.limiting()) ++limited_;
-    last_ += std::clamp(limited - last_, -slew_, slew_);
-    const double played = std::clamp(last_ * fade[i], -limit, limit);
-    heat_.note(played);
+    const double even = checked(equaliser_.process(checked(band.process(tame))));
+    const double limit = heat.limit();
+    const double quiet = limiter.process(even, limit);
+    if (limiter.limiting()) ++limited;
+    last += std::clamp(quiet - last, -slew_, slew_);
+    const double played = std::clamp(last * fade[i], -limit, limit);
+    heat.note(played);
     out[i] = static_cast<float>(played);
   }
+  band_ = band;
+  limiter_ = limiter;
+  heat_ = heat;
+  last_ = last;
+  resets_ += resets;
+  limited_ += limited;
 }
 
 bool OutputGuard::settle() noexcept {

@@ -39,7 +39,6 @@ class OutputGuard {
   [[nodiscard]] std::uint64_t limited() const noexcept { return limited_; }  ///< samples
 
  private:
-  double checked(double value) noexcept;
   void forget() noexcept;
 
   BandFilter band_;

@@ -15,8 +15,11 @@ namespace splash::synth {
 namespace {
 
 constexpr auto kLanes = static_cast<std::size_t>(kPackVoices);
-constexpr int kPiece = 32;  ///< samples
-constexpr std::size_t kPieceRows = kPiece * kLanes;
+constexpr int kPiece = 32;  ///< samples: rows of the packs that are mixed together stay near
+
+/// From one channel's sums to the next: not a multiple of a page, or what is read of one channel
+/// would be taken for what was just written of another.
+constexpr std::size_t kSumStride = kRows + 17 * kLanes;
 
 /// Fading voices keep their places for 5 ms: room for all that can be stolen in that time. Each
 /// group may have packs that are half empty.
@@ -57,6 +60,10 @@ class Pool final : public BubblePool {
  public:
   using Real = typename Pack::Real;
   static constexpr bool kAfresh = std::is_same_v<Pack, FastPack>;  ///< each cell starts afresh
+  /// Of many channels each piece costs a call of the kernel per channel: as long as rows of single
+  /// precision stay near.
+  static constexpr int kManyPiece = sizeof(Real) == sizeof(float) ? kCell : kPiece;
+  static constexpr std::size_t kPieceRows = kManyPiece * kLanes;
 
   explicit Pool(const PoolSettings& s)
       : kernels_(kernels_for<Pack>(s.instructions)),
@@ -67,12 +74,13 @@ class Pool final : public BubblePool {
         sitters_(packs_.size()),
         feeds_(packs_.size(), s.max_routes, s.channels),
         seating_(packs_.size(), s.groups),
-        sums_(static_cast<std::size_t>(s.channels) * kRows),
-        ranking_(packs_.size() * kLanes, s.sample_rate) {}
+        sums_(static_cast<std::size_t>(s.channels) * kSumStride),
+        ranking_(packs_.size() * kLanes, s.sample_rate),
+        piece_(s.channels > 1 ? kManyPiece : kPiece) {}
 
   Started start(const BubbleTone& tone, const VoiceLife& life, std::span<const Route> routes,
                 int group, std::int64_t sample) noexcept override {
-    const int found = seating_.find(group, [&](int p) { return feeds_.fits(p, routes); });
+    const int found = seating_.find(group, [&](int p) { return feeds_.added(p, routes); });
     if (found == Seating::kNone) return {};
     const auto pack = static_cast<std::size_t>(found);
     const Start result = make_room(life.log_amplitude, sample);
@@ -106,7 +114,7 @@ class Pool final : public BubblePool {
     for (std::size_t c = 0; c < mix.touched.size(); ++c) {
       if (!feeds_.reaches(c)) continue;
       mix.touched[c] = 1;
-      kernels_.collect(&sums_[c * kRows], begin, end, &mix.samples[c * kCell]);
+      kernels_.collect(&sums_[c * kSumStride], begin, end, &mix.samples[c * kCell]);
     }
   }
 
@@ -147,7 +155,7 @@ class Pool final : public BubblePool {
       feeds_.join(p, &rows_[k * kPieceRows]);
     }
     for (int from = begin; from < end;) {
-      const int to = std::min(end, from + kPiece);
+      const int to = std::min(end, from + piece_);
       for (std::size_t k = 0; k < count; ++k) {
         Real* const rows = &rows_[k * kPieceRows];
         kernels_.turn(*lanes_[k], from, to, rows);
@@ -157,7 +165,7 @@ class Pool final : public BubblePool {
         }
       }
       feeds_.for_each_joined([&](std::size_t channel, const PackMix<Real>& together) {
-        kernels_.mix(together, from, to, &sums_[channel * kRows]);
+        kernels_.mix(together, from, to, &sums_[channel * kSumStride]);
       });
       from = to;
     }
@@ -257,6 +265,7 @@ class Pool final : public BubblePool {
   Ranking ranking_;
   std::size_t size_ = 0;     ///< voices
   std::size_t lasting_ = 0;  ///< of them, those that were not told to make room
+  int piece_;                ///< samples that are mixed at once
   int mixed_ = 0;            ///< samples of this cell that are mixed
   // Of the packs that are being mixed:
   std::array<TurningLanes<Real>*, kMixedPacks> lanes_{};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "synth-server/render/routing.hpp"
+#include "synth-server/render/seating.hpp"
 #include "synth-server/voices/pack_kernels.hpp"
 
 namespace splash::synth {
@@ -43,12 +44,13 @@ class PackFeeds {
     joined_channels_.reserve(static_cast<std::size_t>(channels));
   }
 
-  /// Whether the pack has room for these channels beside its own.
-  [[nodiscard]] bool fits(int pack, std::span<const Route> routes) const noexcept {
+  /// How many of these channels the pack does not go to yet; kUnfit without room for them.
+  [[nodiscard]] int added(int pack, std::span<const Route> routes) const noexcept {
     const auto p = static_cast<std::size_t>(pack);
-    std::size_t count = static_cast<std::size_t>(counts_[p]);
-    for (const Route& route : routes) count += find(p, route.channel) < 0 ? 1 : 0;
-    return count <= most_;
+    int more = 0;
+    for (const Route& route : routes) more += find(p, route.channel) < 0 ? 1 : 0;
+    const bool fits = static_cast<std::size_t>(counts_[p] + more) <= most_;
+    return fits ? more : Seating::kUnfit;
   }
 
   void add(int pack, std::size_t lane, std::span<const Route> routes) noexcept {

@@ -20,20 +20,25 @@ int most_routes(const Output& output) {
 /// Of many groups, some share a number: their voices just share packs less well.
 constexpr int kMostGroups = 65536;
 
-/// A quarter of a tile: the channels in reach are nearly the same from everywhere in it.
+/// A tile: from everywhere in it, many of the channels in reach are the same.
 int places_of(const Output& output) {
-  return output.kind == OutputKind::tiles ? 4 * output.tiles_x * output.tiles_y : 1;
+  return output.kind == OutputKind::tiles ? output.tiles_x * output.tiles_y : 1;
 }
 
-int place_in(const Output& output, const protocol::Vec3& position) noexcept {
-  if (output.kind != OutputKind::tiles) return 0;
+struct Place {
+  int tile = 0;
+  int quarter = 0;
+};
+
+Place place_in(const Output& output, const protocol::Vec3& position) noexcept {
+  if (output.kind != OutputKind::tiles) return {};
   const auto half = [&](double offset, int tiles) {
     const double halves = std::floor(offset / (0.5 * output.tile_size));
     return static_cast<int>(std::clamp(halves, 0.0, 2.0 * tiles - 1.0));
   };
   const int x = half(static_cast<double>(position.x) - output.place[0], output.tiles_x);
   const int y = half(static_cast<double>(position.y) - output.place[1], output.tiles_y);
-  return y * 2 * output.tiles_x + x;
+  return {y / 2 * output.tiles_x + x / 2, y % 2 * 2 + x % 2};
 }
 
 }  // namespace
@@ -53,6 +58,7 @@ Routing::Routing(const Rig& rig, const Skips& skips) : skips_(skips), outputs_(r
     const std::int64_t product = std::int64_t{groups_} * (1 + places_of(output));
     groups_ = static_cast<int>(std::min<std::int64_t>(kMostGroups, product));
   }
+  groups_ *= kGroupParts;
   gains_.resize(widest);
 }
 
@@ -61,6 +67,7 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
   reach.floor = std::numeric_limits<double>::infinity();
   bool in_band = false;
   std::uint64_t group = 0;
+  int quarter = 0;
   int first = 0;
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
     const Output& output = outputs_[o];
@@ -81,10 +88,13 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
     }
     group *= 1U + static_cast<unsigned>(places_of(output));
     if (loudest <= 0.0) continue;
-    group += 1U + static_cast<unsigned>(place_in(output, source.position));
+    const Place place = place_in(output, source.position);
+    group += 1U + static_cast<unsigned>(place.tile);
+    if (output.kind == OutputKind::tiles) quarter = place.quarter;
     reach.floor = std::min(reach.floor, audibility_[o].floor(source.frequency) / loudest);
   }
-  reach.group = static_cast<int>(group % static_cast<unsigned>(groups_));
+  const auto tiles = static_cast<unsigned>(groups_ / kGroupParts);
+  reach.group = static_cast<int>(group % tiles) * kGroupParts + quarter;
   if (reach.routes > 0) {
     reach.result = Result::heard;
   } else if (!in_band) {

@@ -9,6 +9,7 @@
 #include "protocol/event.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/render/audibility.hpp"
+#include "synth-server/render/seating.hpp"
 
 namespace splash::synth {
 
@@ -37,7 +38,8 @@ class Routing {
     Result result = Result::unheard;
     int routes = 0;      ///< written
     double floor = 0.0;  ///< amplitude under which none of them needs the voice [m]
-    int group = 0;       ///< sources of one group reach almost the same channels
+    int group = 0;       ///< sources of one group, a quarter of a tile, reach almost the same
+                         ///< channels; those of kGroupParts in a row, a tile, many of the same
   };
   /// Writes up to max_routes() routes.
   Reach route(const Source& source, std::span<Route> routes) noexcept;

@@ -6,7 +6,10 @@
 namespace splash::synth {
 
 Seating::Seating(std::size_t packs, int groups)
-    : heads_(static_cast<std::size_t>(groups), kNone), links_(packs), empty_(packs) {
+    : heads_(static_cast<std::size_t>((groups + kGroupParts - 1) / kGroupParts), kNone),
+      sizes_(heads_.size(), 0),
+      links_(packs),
+      empty_(packs) {
   order_.reserve(packs);
 }
 
@@ -18,7 +21,21 @@ std::vector<int>::const_iterator Seating::place_of(int pack) const noexcept {
   });
 }
 
+std::size_t Seating::tile_of(int pack) const noexcept {
+  return static_cast<std::size_t>(links_[static_cast<std::size_t>(pack)].group / kGroupParts);
+}
+
+int Seating::begin(int group) noexcept {
+  const auto pack = static_cast<int>(empty_.take());
+  links_[static_cast<std::size_t>(pack)].group = group;
+  ++sizes_[tile_of(pack)];
+  link(pack);
+  order_.insert(place_of(pack), pack);  // within what was reserved
+  return pack;
+}
+
 void Seating::note_empty(int pack) noexcept {
+  --sizes_[tile_of(pack)];
   unlink(pack);
   order_.erase(place_of(pack));
   empty_.give_back(static_cast<std::uint32_t>(pack));
@@ -26,7 +43,7 @@ void Seating::note_empty(int pack) noexcept {
 
 void Seating::link(int pack) noexcept {
   Link& link = links_[static_cast<std::size_t>(pack)];
-  int& head = heads_[static_cast<std::size_t>(link.group)];
+  int& head = heads_[tile_of(pack)];
   link.previous = kNone;
   link.next = head;
   if (head != kNone) links_[static_cast<std::size_t>(head)].previous = pack;
@@ -39,7 +56,7 @@ void Seating::unlink(int pack) noexcept {
   if (link.previous != kNone) {
     links_[static_cast<std::size_t>(link.previous)].next = link.next;
   } else {
-    heads_[static_cast<std::size_t>(link.group)] = link.next;
+    heads_[tile_of(pack)] = link.next;
   }
 }
 

@@ -171,20 +171,26 @@ template <class Real, int kPacks>
   }
 }
 
-/// As many at once as registers hold, then half as many, and so on.
-template <class Real, int kPacks>
-[[gnu::always_inline]] inline void mix_from(const PackMix<Real>& packs, int first, int from, int to,
+/// The last of the packs, kMost at most: all at once.
+template <class Real, int kMost>
+[[gnu::always_inline]] inline void mix_rest(const PackMix<Real>& packs, int first, int from, int to,
                                             Real* sums) {
-  for (; first + kPacks <= packs.count; first += kPacks) {
-    mix_some<Real, kPacks>(packs, first, from, to, sums);
+  if (packs.count - first == kMost) {
+    mix_some<Real, kMost>(packs, first, from, to, sums);
+  } else if constexpr (kMost > 1) {
+    mix_rest<Real, kMost - 1>(packs, first, from, to, sums);
   }
-  if constexpr (kPacks > 1) mix_from<Real, kPacks / 2>(packs, first, from, to, sums);
 }
 
+/// As many at once as registers hold, then what is left: sums are fetched and put back seldom.
 template <class Real>
 void mix(const PackMix<Real>& packs, int from, int to, Real* sums) {
-  constexpr int kParts = kPackVoices / kSumLanes<Real>;
-  mix_from<Real, 8 / kParts>(packs, 0, from, to, sums);
+  constexpr int kAtOnce = 8 * kSumLanes<Real> / kPackVoices;
+  int first = 0;
+  for (; first + kAtOnce <= packs.count; first += kAtOnce) {
+    mix_some<Real, kAtOnce>(packs, first, from, to, sums);
+  }
+  if constexpr (kAtOnce > 1) mix_rest<Real, kAtOnce - 1>(packs, first, from, to, sums);
 }
 
 /// low: a0 b0 a1 b1 ..., high: the same of the upper halves.
