@@ -49,18 +49,24 @@ void print(const EngineCase& c) {
       c.routes, c.block, 100.0 * c.cost, c.voices_per_core());
 }
 
-void measure_engines(SynthFigures& figures) {
+void add(std::vector<EngineCase>& list, EngineCase wanted) {
+  list.push_back(measure_engine(std::move(wanted)));
+  print(list.back());
+}
+
+void measure_capacity(SynthFigures& figures) {
   std::printf("\nThe engine: events, pool, voices, mix, filters, limiters\n");
-  const auto add = [](std::vector<EngineCase>& list, EngineCase wanted) {
-    list.push_back(measure_engine(std::move(wanted)));
-    print(list.back());
-  };
   for (const char* precision : {"fast", "exact"}) {
     for (const Limit& limit : figures.limits) {
       for (const int tiles : {0, 6}) {
         add(figures.capacity, {precision, limit.instructions, 16384, tiles, 64});
       }
     }
+  }
+}
+
+void measure_engines(SynthFigures& figures) {
+  for (const char* precision : {"fast", "exact"}) {
     for (const int voices : {256, 1024, 4096, 16384, 65536}) {
       add(figures.by_voices, {precision, "best", voices, 0, 64});
     }
@@ -119,13 +125,23 @@ int main(int argc, char** argv) {
   std::filesystem::path folder = "out/bench-synth";
   CLI::App app("Measures the synth beside scsynth and Pd.", "bench-synth");
   app.add_option("--out", folder, "Where tables and charts go")->capture_default_str();
+  bool only_capacity = false;
+  app.add_flag("--capacity", only_capacity,
+               "Only what a core carries on one channel and on 36: some seconds");
   CLI11_PARSE(app, argc, argv);
   try {
     std::filesystem::create_directories(folder);
     std::printf("%s; best instruction set: %s\n", processor().c_str(),
                 name_of(splash::synth::InstructionSet::best));
     SynthFigures figures;
+    if (only_capacity) {
+      figures.limits = measure_limits();
+      measure_capacity(figures);
+      print_ratios(figures);
+      return 0;
+    }
     measure_voices(figures);
+    measure_capacity(figures);
     measure_engines(figures);
     measure_peers(figures);
     print_ratios(figures);
