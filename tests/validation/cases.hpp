@@ -65,5 +65,7 @@ struct Case {
 [[nodiscard]] Case slap();
 [[nodiscard]] Case pinch_off();
 [[nodiscard]] Case closed_box();
+[[nodiscard]] Case floating();
+[[nodiscard]] Case sinking_cube();
 
 }  // namespace splash::validation

@@ -17,6 +17,7 @@ constexpr const char* kThin = "sums over 30 neighbours feel 0.95 of a compressio
 constexpr const char* kStiff =
     "the packing of 30 neighbours resists shear: it is stiff, then yields";
 constexpr const char* kPacking = "a sensor one support wide sees how the particles happen to lie";
+constexpr const char* kThick = "the default viscosity is a thousand times water's";
 constexpr const char* kNoTension = "pressure is never negative: nothing pulls the water back";
 
 /// The range in which a figure is held, in its unit.
@@ -88,6 +89,20 @@ const std::vector<Check>& checks() {
        0.0,
        {{"impulse at 0.8 m/s, error", -20.0, 100.0, kNoTension},
         {"slope of log impulse against log speed", 0.9, 2.1, kNoTension}}},
+      {"Float",
+       "float",
+       1,
+       0.0,
+       {{"draft, error", -0.5, 0.5, ""},
+        {"draft, error, of the height", -5.0, 5.0, ""},
+        {"heave period over the hydrostatic one", 1.0, 1.5, ""},
+        {"tilt", 0.0, 5.0, ""}}},
+      {"SinkingCube",
+       "sinking_cube",
+       0,
+       0.0,
+       {{"way, mean error, of all of it", 0.0, 14.0, kThick},
+        {"time of landing, error", -10.0, 110.0, kThick}}},
       {"ClosedBox",
        "closed_box",
        0,
