@@ -78,6 +78,18 @@ void note(Verdict& verdict, bool holds, const std::string& what) {
   }
 }
 
+double fastest_free_body(const Simulation& simulation) {
+  double fastest = 0.0;
+  for (std::size_t b = 0; b < simulation.bodies().count(); ++b) {
+    if (!simulation.bodies().is_free(b)) continue;
+    const sim::BodyState state = simulation.bodies().state(b, simulation.seconds());
+    // A speed that is no number counts as one beyond all bounds.
+    const double speed = sim::length(state.velocity);
+    fastest = std::isfinite(speed) ? std::max(fastest, speed) : HUGE_VAL;
+  }
+  return fastest;
+}
+
 void watch(Simulation& simulation, const Drive& drive, double seconds, Verdict& verdict) {
   const double first = simulation.time_step();
   verdict.least_step = 1.0;
@@ -94,6 +106,7 @@ void watch(Simulation& simulation, const Drive& drive, double seconds, Verdict& 
     verdict.mean_excess = std::max(verdict.mean_excess, frame.survey.mean_excess);
     verdict.max_excess = std::max(verdict.max_excess, frame.survey.max_excess);
     verdict.calm = frame.survey.speed;
+    verdict.fastest_body = std::max(verdict.fastest_body, fastest_free_body(simulation));
     verdict.least_step = std::min(verdict.least_step, simulation.time_step() / first);
     if (frame.mishap && verdict.mishap.empty()) verdict.mishap = describe(*frame.mishap);
   }
@@ -129,6 +142,7 @@ Verdict run_trial(sim::Device& device, const Trial& trial, const Settings& setti
   }
   const double bound = kSplash * std::max(trial.speed, wave_speed(scene));
   note(verdict, verdict.fastest <= bound, "speed");
+  note(verdict, verdict.fastest_body <= bound, "body's speed");
   note(verdict, trial.harmed || verdict.mean_excess <= densest_mean(scene, trial.speed),
        "mean density");
   note(verdict, trial.harmed || verdict.max_excess <= 1.0, "largest density");

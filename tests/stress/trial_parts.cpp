@@ -57,6 +57,7 @@ Scene with(Scene scene, std::vector<BodySettings> bodies) {
 std::vector<Trial> all_trials() {
   std::vector<Trial> all;
   add_body_trials(all);
+  add_free_trials(all);
   add_water_trials(all);
   return all;
 }

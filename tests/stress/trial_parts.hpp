@@ -32,6 +32,8 @@ inline constexpr double kFall = 2.8;  ///< of what falls 0.4 m [m/s]
 
 /// Groups 1 to 5, and what was reported of bodies.
 void add_body_trials(std::vector<Trial>& all);
+/// Group 6: bodies that the water moves.
+void add_free_trials(std::vector<Trial>& all);
 /// Groups 7 to 12, and what was reported of tanks.
 void add_water_trials(std::vector<Trial>& all);
 

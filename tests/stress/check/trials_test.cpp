@@ -48,14 +48,15 @@ std::string words(const testing::TestParamInfo<Trials::ParamType>& info) {
 
 INSTANTIATE_TEST_SUITE_P(
     Both, Trials,
-    testing::Combine(testing::Values("rest, half in", "dam break", "jumps of 500 tenths dp",
-                                     "poses that are none", "gaps of 110 ms", "plunge at 5.00 m/s",
-                                     "plunge at 20.0 m/s", "pressed to the floor",
-                                     "all in pairs at one place", "95 m from the origin",
-                                     "gravity tilts at once", "a body appears in the water",
-                                     "spikes of a body's speed", "all of it bubbles"),
-                     testing::Values(PressureKind::weakly_compressible,
-                                     PressureKind::divergence_free)),
+    testing::Combine(
+        testing::Values("rest, half in", "dam break", "jumps of 500 tenths dp",
+                        "poses that are none", "gaps of 110 ms", "plunge at 5.00 m/s",
+                        "plunge at 20.0 m/s", "pressed to the floor", "all in pairs at one place",
+                        "95 m from the origin", "gravity tilts at once",
+                        "a body appears in the water", "spikes of a body's speed",
+                        "let go under water, density 0.001", "dropped from 10 m, density 0.5",
+                        "a box tumbles in, density 1000", "all of it bubbles"),
+        testing::Values(PressureKind::weakly_compressible, PressureKind::divergence_free)),
     words);
 
 // A scene that names no speed of sound gets one that suits its bodies; the built-in ones keep
