@@ -66,7 +66,7 @@ void say_hello(const Simulation& simulation, const Server& server, double second
   const Scene& scene = simulation.scene();
   std::printf("scene   %s: %d particles %.1f mm apart, %zu bodies, sound speed %.1f m/s\n",
               scene.name.c_str(), simulation.particles(), 1e3 * particle_spacing(scene),
-              scene.bodies.size(), scene_sound_speed(scene));
+              scene.bodies.size(), static_cast<double>(simulation.sound_speed()));
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
               seconds_to_build > 1.0 ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());

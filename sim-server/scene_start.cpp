@@ -23,6 +23,12 @@ std::vector<Vector3> particles_around(const Scene& scene, const Bodies& bodies) 
   return initial_particles(scene, poses);
 }
 
+/// With a speed of sound that suits its depth and its bodies, unless it names one.
+Scene with_sound(Scene scene, const Bodies& bodies) {
+  scene.fluid.sound_speed = scene_sound_speed(scene, bodies.fastest_ever());
+  return scene;
+}
+
 }  // namespace
 
 Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
@@ -37,12 +43,8 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
           smoothing.support};
 }
 
-Scene with_sound(Scene scene, const Bodies& bodies) {
-  scene.fluid.sound_speed = scene_sound_speed(scene, bodies.fastest_ever());
-  return scene;
-}
-
-Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
+Fluid make_fluid(Device& device, const Scene& asked, const Bodies& bodies) {
+  const Scene scene = with_sound(asked, bodies);
   const std::vector<Vector3> particles = particles_around(scene, bodies);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
   return {device, make_params(scene, particles), settled(scene, particles), boundary,

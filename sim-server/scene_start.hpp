@@ -19,9 +19,6 @@ namespace splash::sim {
 [[nodiscard]] Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
                                  std::vector<LiveMotion*>& live);
 
-/// With a speed of sound: the scene's own, or one that suits its depth and its bodies.
-[[nodiscard]] Scene with_sound(Scene scene, const Bodies& bodies);
-
 /// The scene's water, settled, with no particle in a body. Builds all kernels; throws
 /// protocol::ConfigError for what the scene says wrong, std::runtime_error for the device.
 [[nodiscard]] Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies);

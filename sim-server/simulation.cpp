@@ -54,7 +54,7 @@ Vector3 place_of(const Snapshot& state, int id, const FluidParams& params) {
 Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker)
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
-      fluid_(make_fluid(device, scene_ = with_sound(scene_, bodies_), bodies_)),
+      fluid_(make_fluid(device, scene_, bodies_)),
       detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed, !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   settle_in();

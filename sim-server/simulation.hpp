@@ -73,6 +73,9 @@ class Simulation {
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] Fluid& fluid() noexcept { return fluid_; }
   [[nodiscard]] double time_step() const noexcept { return largest_step_; }
+  [[nodiscard]] float sound_speed() const noexcept {
+    return fluid_.params().sound_speed;
+  }  ///< [m/s]
   /// The body that an OSC tracker moves, or null.
   [[nodiscard]] LiveMotion* live_body(int body) const noexcept;
   /// Index of the body nearest to a place, -1 without bodies.
