@@ -35,22 +35,25 @@ NeighbourGrid::NeighbourGrid(Device& device, const cl::Program& program, const F
   block_sum_ = Buffer<int>(device, static_cast<std::size_t>(blocks_));
   cell_start_ = Buffer<int>(device, cells + 1);
   source_ = Buffer<int>(device, max_points);
+  extent_ = Buffer<int>(device, static_cast<std::size_t>(chunks) + 2);
 }
 
 void NeighbourGrid::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, int points,
                          const PointArrays& from, const PointArrays& to) {
   const auto chunks = static_cast<std::size_t>(chunks_);
   const auto blocks = static_cast<std::size_t>(blocks_);
-  count_cells_.run(queue, chunks, params.memory(), points, from.stride, chunks_,
-                   from.position.memory(), cells_.memory(), count_.memory());
-  sum_blocks_.run(queue, blocks, params.memory(), chunks_, blocks_, count_.memory(),
-                  block_sum_.memory());
-  place_cells_.run(queue, blocks, params.memory(), chunks_, blocks_, block_sum_.memory(),
-                   count_.memory(), cell_start_.memory());
-  sort_points_.run(queue, chunks, params.memory(), points, from.stride, chunks_, cells_.memory(),
-                   count_.memory(), from.position.memory(), from.velocity.memory(),
+  const int whole = points == sorted_points_ ? 0 : 1;
+  sorted_points_ = points;
+  count_cells_.run(queue, chunks, params.memory(), points, from.stride, chunks_, whole,
+                   from.position.memory(), cells_.memory(), count_.memory(), extent_.memory());
+  sum_blocks_.run(queue, blocks, params.memory(), chunks_, blocks_, whole, extent_.memory(),
+                  count_.memory(), block_sum_.memory());
+  place_cells_.run(queue, blocks, params.memory(), chunks_, blocks_, whole, extent_.memory(),
+                   block_sum_.memory(), count_.memory(), cell_start_.memory());
+  sort_points_.run(queue, chunks, params.memory(), points, from.stride, chunks_, whole,
+                   cells_.memory(), count_.memory(), from.position.memory(), from.velocity.memory(),
                    from.id.memory(), to.position.memory(), to.velocity.memory(), to.id.memory(),
-                   source_.memory());
+                   source_.memory(), extent_.memory());
 }
 
 }  // namespace splash::sim

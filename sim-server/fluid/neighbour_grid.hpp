@@ -30,7 +30,8 @@ class NeighbourGrid {
   NeighbourGrid(Device& device, const cl::Program& program, const FluidParams& params,
                 std::size_t max_points, int chunks);
 
-  /// Sorts the first `points` of `from` into `to`; stable, the same on every run.
+  /// Sorts the first `points` of `from` into `to`; stable, the same on every run. Cells above all
+  /// points are left alone as long as there are as many points as last time.
   void sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, int points,
             const PointArrays& from, const PointArrays& to);
 
@@ -47,6 +48,8 @@ class NeighbourGrid {
   Buffer<int> block_sum_;
   Buffer<int> cell_start_;
   Buffer<int> source_;
+  Buffer<int> extent_;      ///< cells in use (kernels/cell_count.cl)
+  int sorted_points_ = -1;  ///< of the last sort
   Kernel count_cells_;
   Kernel sum_blocks_;
   Kernel place_cells_;

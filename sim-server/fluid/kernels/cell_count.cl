@@ -3,14 +3,34 @@
 // here), and where each chunk's points of each begin. A counting sort with one histogram per chunk
 // needs no atomics, so its order, and with it every sum that follows, is the same on every run.
 
+// Most cells lie above the water: past the last one in use nothing is counted or placed, cell_start
+// there says `points` since the last whole sort. extent[chunk]: one past the last cell in use by the
+// chunk; extent[chunks] and the next: by all of them, and how far the cells were gone through, both
+// in the last sort. `whole`: that is not known, all cells are gone through.
+
+static int all_cells(constant FluidParams* p) {
+  return p->cells_x * SLICES * p->cells_y * p->cells_z;
+}
+
+// Cells to go through: those in use now, and those of last time.
+static int cells_in_use(constant FluidParams* p, global const int* extent, int chunks, int whole) {
+  if (whole) return all_cells(p);
+  int most = 0;
+  for (int k = 0; k <= chunks; ++k) most = max(most, extent[k]);
+  return most;
+}
+
 // count[chunk][cell] for the points of one chunk; cells[i] is kept for the second half.
-kernel void count_cells(constant FluidParams* p, int points, int stride, int chunks,
-                        global const float* position, global int* cells, global int* count) {
+kernel void count_cells(constant FluidParams* p, int points, int stride, int chunks, int whole,
+                        global const float* position, global int* cells, global int* count,
+                        global int* extent) {
   const int chunk = get_global_id(0);
   if (chunk >= chunks) return;
-  const int cell_count = p->cells_x * SLICES * p->cells_y * p->cells_z;
+  const int cell_count = all_cells(p);
   global int* mine = count + (size_t)chunk * cell_count;
-  for (int c = 0; c < cell_count; ++c) mine[c] = 0;
+  const int filled = whole ? cell_count : extent[chunks + 1];
+  for (int c = 0; c < filled; ++c) mine[c] = 0;
+  int used = 0;
   const int size = (points + chunks - 1) / chunks;
   const int last = min((chunk + 1) * size, points);
   for (int i = chunk * size; i < last; ++i) {
@@ -18,17 +38,20 @@ kernel void count_cells(constant FluidParams* p, int points, int stride, int chu
     const int c = row * p->cells_x * SLICES + slice_x(p, position[i]);
     cells[i] = c;
     ++mine[c];
+    used = max(used, c + 1);
   }
+  extent[chunk] = used;
 }
 
 // Points in each block of cells.
-kernel void sum_blocks(constant FluidParams* p, int chunks, int blocks, global const int* count,
+kernel void sum_blocks(constant FluidParams* p, int chunks, int blocks, int whole,
+                       global const int* extent, global const int* count,
                        global int* block_sum) {
   const int block = get_global_id(0);
   if (block >= blocks) return;
-  const int cell_count = p->cells_x * SLICES * p->cells_y * p->cells_z;
-  const int size = (cell_count + blocks - 1) / blocks;
-  const int last = min((block + 1) * size, cell_count);
+  const int cell_count = all_cells(p), used = cells_in_use(p, extent, chunks, whole);
+  const int size = (used + blocks - 1) / blocks;
+  const int last = min((block + 1) * size, used);
   int sum = 0;
   for (int chunk = 0; chunk < chunks; ++chunk) {
     global const int* of_chunk = count + (size_t)chunk * cell_count;
@@ -39,13 +62,13 @@ kernel void sum_blocks(constant FluidParams* p, int chunks, int blocks, global c
 
 // Exclusive prefix sums, cell by cell and within a cell chunk by chunk: count becomes the place
 // of each chunk's first point, cell_start[c] that of each cell's.
-kernel void place_cells(constant FluidParams* p, int chunks, int blocks,
-                        global const int* block_sum, global int* count, global int* cell_start) {
+kernel void place_cells(constant FluidParams* p, int chunks, int blocks, int whole,
+                        global const int* extent, global const int* block_sum, global int* count, global int* cell_start) {
   const int block = get_global_id(0);
   if (block >= blocks) return;
-  const int cell_count = p->cells_x * SLICES * p->cells_y * p->cells_z;
-  const int size = (cell_count + blocks - 1) / blocks;
-  const int last = min((block + 1) * size, cell_count);
+  const int cell_count = all_cells(p), used = cells_in_use(p, extent, chunks, whole);
+  const int size = (used + blocks - 1) / blocks;
+  const int last = min((block + 1) * size, used);
   int place = 0;
   for (int b = 0; b < block; ++b) place += block_sum[b];
   for (int c = block * size; c < last; ++c) {
@@ -57,5 +80,5 @@ kernel void place_cells(constant FluidParams* p, int chunks, int blocks,
       place += here;
     }
   }
-  if (block == blocks - 1) cell_start[cell_count] = place;
+  if (block == blocks - 1) cell_start[used] = place;
 }

@@ -54,6 +54,11 @@ class NeighbourGrids : public ::testing::Test {
   }
 
   Sorted sort(int chunks) {
+    NeighbourGrid grid(device_, program_, params_, places_.size(), chunks);
+    return sort_with(grid);
+  }
+
+  Sorted sort_with(NeighbourGrid& grid) {
     const std::size_t n = places_.size();
     PointArrays from(device_, n);
     const PointArrays to(device_, n);
@@ -72,7 +77,6 @@ class NeighbourGrids : public ::testing::Test {
     from.velocity.write(device_, velocity);
     from.id.write(device_, ids);
     const Buffer<FluidParams> params(device_, std::span<const FluidParams>(&params_, 1));
-    NeighbourGrid grid(device_, program_, params_, n, chunks);
     grid.sort(device_.queue(), params, static_cast<int>(n), from, to);
     Sorted sorted = {to.position.read(device_, 3 * stride), to.velocity.read(device_, 3 * stride),
                      to.id.read(device_, n), std::vector<int>(cells() + 1)};
@@ -133,6 +137,23 @@ TEST_F(NeighbourGrids, LeaveTheMarginEmpty) {
         if (!margin) continue;
         ASSERT_EQ(sorted.cell_start[cell], sorted.cell_start[cell + 1]);
       }
+    }
+  }
+}
+
+// Cells above the water are left alone from sort to sort: water that rises into them, falls back
+// and is fewer must be sorted as by a grid that knows nothing.
+TEST_F(NeighbourGrids, SortTheNextTimeAsTheFirst) {
+  const std::vector<Vector3> spray = places_;
+  const auto low = random_places(places_.size(), {0, 0, 0}, {0.3, 0.2, 0.05}, 12);
+  const auto lower = random_places(places_.size(), {0, 0, 0}, {0.3, 0.2, 0.02}, 13);
+  const std::vector<Vector3> fewer(low.begin(), low.begin() + 700);
+  for (const int chunks : {1, 3}) {
+    NeighbourGrid grid(device_, program_, params_, spray.size(), chunks);
+    for (const auto* next : {&spray, &low, &lower, &spray, &low, &low, &lower, &fewer, &lower,
+                             &fewer, &low, &lower, &lower, &spray}) {
+      places_ = *next;
+      EXPECT_EQ(sort_with(grid), sort(chunks));
     }
   }
 }
