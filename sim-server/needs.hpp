@@ -23,6 +23,8 @@ struct SkipTotals {
   std::uint64_t contacts = 0;
   std::uint64_t bubbles = 0;
   std::uint64_t cavities = 0;
+  int kernel_parts =
+      0;  ///< not frames: parts that the kernels were built without (fluid/parts.hpp)
   double asleep_sum = 0.0;  ///< of the share of the particles that slept, over all frames [1]
 };
 

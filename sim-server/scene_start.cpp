@@ -47,8 +47,8 @@ Fluid make_fluid(Device& device, const Scene& asked, const Bodies& bodies) {
   const Scene scene = with_sound(asked, bodies);
   const std::vector<Vector3> particles = particles_around(scene, bodies);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
-  return {device, make_params(scene, particles), settled(scene, particles), boundary,
-          body_shapes(scene.bodies)};
+  return {device,   make_params(scene, particles), settled(scene, particles),
+          boundary, body_shapes(scene.bodies),     {false, !scene.skip.kernels}};
 }
 
 double start_flow(Fluid& fluid, const Scene& scene) {

@@ -49,6 +49,10 @@ Keyframe as_keyframe(const protocol::BodyPose& pose) {
   return key;
 }
 
+SolveTotals totals_of(const SolveWork& work) {
+  return {work.solves, work.iterations, work.most, work.given_up};
+}
+
 }  // namespace
 
 Server::Server(const Options& options, Simulation& simulation, const std::string& device)
@@ -263,11 +267,15 @@ RunReport Server::finish() {
   report.mean_density_error =
       totals.mean_excess_sum / static_cast<double>(std::max<std::int64_t>(healthy, 1));
   report.maximum_density_error = totals.max_excess;
+  const SolverWork work = simulation_.solver_work();
+  report.divergence_solve = totals_of(work.divergence);
+  report.density_solve = totals_of(work.density);
   const SkipTotals& skipped = totals.skipped;
   report.idle_frames = skipped.idle;
   report.without_contacts = skipped.contacts;
   report.without_bubbles = skipped.bubbles;
   report.without_cavities = skipped.cavities;
+  report.kernel_parts = skipped.kernel_parts;
   report.asleep =
       skipped.asleep_sum / static_cast<double>(std::max<std::int64_t>(totals.frames, 1));
   report.events = {sent.impacts, sent.bubbles, sent.cavities};

@@ -58,6 +58,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
       detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed, !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   settle_in();
+  fluid_.forget_work();
   if (scene_.gate.present) fluid_.drop_last_wall();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
   if (!free.empty()) fluid_.let_go(free);
@@ -69,6 +70,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   // The divergence-free solver balances all of the water in every step: none of it may sleep.
   const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
+  totals_.skipped.kernel_parts = fluid_.parts().left_out();
 }
 
 void Simulation::settle_in() {

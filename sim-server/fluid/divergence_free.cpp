@@ -5,7 +5,6 @@
 
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/kernel_sources.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {
@@ -31,7 +30,8 @@ constexpr float kFollow = 0.01F;
 
 }  // namespace
 
-DivergenceFree::DivergenceFree(Device& device, const FluidParams& params, bool relaxed)
+DivergenceFree::DivergenceFree(Device& device, const FluidParams& params,
+                               const std::vector<std::string>& defines, bool relaxed)
     : particles_(static_cast<std::size_t>(params.count)),
       groups_((particles_ + static_cast<std::size_t>(device.lanes()) - 1) /
               static_cast<std::size_t>(device.lanes())),
@@ -49,8 +49,7 @@ DivergenceFree::DivergenceFree(Device& device, const FluidParams& params, bool r
       error_part_(device, 2 * groups_),
       state_{Buffer<SolveState>(device, 1), Buffer<SolveState>(device, 1)},
       state_read_{} {
-  const cl::Program program = build_program(device, divergence_free_sources(),
-                                            smoothing_defines(params.smoothing), relaxed);
+  const cl::Program program = build_program(device, divergence_free_sources(), defines, relaxed);
   const std::size_t group = device.lanes() > 1 ? 4 : 64;
   recall_pressure_ = Kernel(program, "recall_pressure");
   measure_response_ = Kernel(program, "measure_response", group);
@@ -161,6 +160,13 @@ SolverWork DivergenceFree::work() const {
     return {s.solves, s.total, s.most, s.given_up, static_cast<double>(s.error)};
   };
   return {of(kDivergence), of(kDensity)};
+}
+
+void DivergenceFree::forget_work(Device& device) {
+  for (std::size_t s = 0; s < 2; ++s) {
+    state_[s].enqueue_clear(device);
+    state_read_[s] = {};
+  }
 }
 
 std::vector<float> DivergenceFree::pressure(Device& device) {

@@ -16,12 +16,14 @@ namespace splash::sim {
 
 class DivergenceFree : public PressureSolver {
  public:
-  DivergenceFree(Device& device, const FluidParams& params, bool relaxed);
+  DivergenceFree(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+                 bool relaxed);
 
   void recall_pressure(Fluid& fluid) override;
   void accelerate(Fluid& fluid, const Step& step) override;
   void enqueue_work(Device& device) override;
   [[nodiscard]] SolverWork work() const override;
+  void forget_work(Device& device) override;
   [[nodiscard]] std::vector<cl::Buffer> kept() const override {
     return {warm_.memory(), all_.memory()};
   }

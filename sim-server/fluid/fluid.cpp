@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "sim-server/fluid/kernel_sources.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 33 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 39 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 20 * sizeof(float));
 static_assert(sizeof(BodyShape) == 7 * sizeof(float));
 
@@ -30,14 +29,18 @@ float as_float(double value) {
 
 Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
              const std::vector<BoundaryPoint>& boundary, const std::vector<BodyShape>& shapes,
-             bool relaxed)
-    : device_(device), params_(params), body_count_(static_cast<int>(shapes.size())) {
+             const KernelBuild& build)
+    : device_(device),
+      params_(params),
+      build_(build),
+      parts_(build.whole ? KernelParts{} : parts_needed(params, static_cast<int>(shapes.size()))),
+      body_count_(static_cast<int>(shapes.size())) {
   load_particles(particles);
   params_.capacity = sorted_.stride;
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   load_boundary(boundary, shapes);
-  build_kernels(relaxed);
-  solver_ = make_pressure_solver(device_, params_, relaxed);
+  build_kernels();
+  solver_ = make_pressure_solver(device_, params_, kernel_defines(params_, parts_), build.relaxed);
 }
 
 void Fluid::load_particles(const std::vector<Vector3>& particles) {
@@ -91,9 +94,9 @@ void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
   body_shapes_ = Buffer<BodyShape>(device_, shapes);
 }
 
-void Fluid::build_kernels(bool relaxed) {
-  const std::vector<std::string> defines = smoothing_defines(params_.smoothing);
-  const cl::Program program = build_program(device_, fluid_sources(), defines, relaxed);
+void Fluid::build_kernels() {
+  const std::vector<std::string> defines = kernel_defines(params_, parts_);
+  const cl::Program program = build_program(device_, fluid_sources(), defines, build_.relaxed);
   const cl::Program guard = build_program(device_, survey_sources(), defines, false);
   const auto particles = static_cast<std::size_t>(params_.count);
   grid_ = NeighbourGrid(device_, program, params_, particles, device_.sort_chunks());

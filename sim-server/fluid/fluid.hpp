@@ -12,11 +12,22 @@
 #include "sim-server/fluid/free_bodies.hpp"
 #include "sim-server/fluid/health.hpp"
 #include "sim-server/fluid/neighbour_grid.hpp"
+#include "sim-server/fluid/parts.hpp"
 #include "sim-server/fluid/pressure_solver.hpp"
 #include "sim-server/fluid/sleep.hpp"
 #include "sim-server/fluid/step.hpp"
 
 namespace splash::sim {
+
+/// How kernels are built.
+struct KernelBuild {
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  KernelBuild(bool relaxed_mathematics = false, bool all_of_them = false)
+      : relaxed(relaxed_mathematics), whole(all_of_them) {}
+
+  bool relaxed;  ///< with relaxed mathematics; no faster with PoCL, whose vectors are explicit
+  bool whole;    ///< with parts that the scene does not need, too (parts.hpp)
+};
 
 /// Health and limits of the whole fluid.
 struct Survey {
@@ -60,10 +71,10 @@ class Fluid {
  public:
   /// `particles`: initial places [m]; `boundary`: points of the rigid bodies, `shapes`: their
   /// outlines, which nothing is caught in.
-  /// `relaxed`: kernels with relaxed mathematics; no faster with PoCL, whose vectors are explicit.
+  /// `build`: how its kernels are built.
   Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
         const std::vector<BoundaryPoint>& boundary, const std::vector<BodyShape>& shapes,
-        bool relaxed = false);
+        const KernelBuild& build = {});
 
   /// Bodies of all steps of the coming frame, step after step.
   void set_bodies(const std::vector<BodyStep>& steps);
@@ -111,12 +122,14 @@ class Fluid {
   [[nodiscard]] std::size_t groups() const;
   /// For tests.
   [[nodiscard]] const PressureSolver& solver() const noexcept { return *solver_; }
-  /// Work of the pressure solver until the last survey.
+  /// Work of the pressure solver until the last survey, without what was before forget_work.
   [[nodiscard]] SolverWork solver_work() const { return solver_->work(); }
+  void forget_work() { solver_->forget_work(device_); }
 
   // What detectors read between prepare and advance.
   [[nodiscard]] Device& device() noexcept { return device_; }
   [[nodiscard]] const FluidParams& params() const noexcept { return params_; }
+  [[nodiscard]] const KernelParts& parts() const noexcept { return parts_; }
   [[nodiscard]] const Buffer<FluidParams>& params_buffer() const noexcept { return params_buffer_; }
   [[nodiscard]] const PointArrays& particles() const noexcept { return sorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
@@ -142,7 +155,7 @@ class Fluid {
   void load_particles(const std::vector<Vector3>& particles);
   void load_boundary(const std::vector<BoundaryPoint>& boundary,
                      const std::vector<BodyShape>& shapes);
-  void build_kernels(bool relaxed);
+  void build_kernels();
   void place_bodies(const Step& step);
   void wake_and_sleep(const Step& step);
   void sort_particles();
@@ -151,6 +164,8 @@ class Fluid {
 
   Device& device_;
   FluidParams params_;
+  KernelBuild build_;
+  KernelParts parts_;
   int boundary_count_ = 0;
   int body_count_ = 0;
 

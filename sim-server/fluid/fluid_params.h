@@ -48,6 +48,12 @@ typedef struct {
   float gravity_x;      // [m/s2]
   float gravity_y;
   float gravity_z;
+  float pull_x;         // squared rates of the central field [1/s2]
+  float pull_y;
+  float pull_z;
+  float centre_x;       // where it draws to [m]
+  float centre_y;
+  float centre_z;
   float spacing;        // [m]
   float layer_weight;   // mass of a particle per rho0 and area spacing^2: weighs a layer of it [m]
   float least_density;  // of a particle in a body of water, not in spray or a film [kg/m3]

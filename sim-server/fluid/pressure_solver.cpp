@@ -17,6 +17,7 @@ class WeaklyCompressible : public PressureSolver {
   }
   void enqueue_work(Device& /*device*/) override {}
   [[nodiscard]] SolverWork work() const override { return {}; }
+  void forget_work(Device& /*device*/) override {}
   [[nodiscard]] std::vector<cl::Buffer> kept() const override { return {}; }
   [[nodiscard]] std::vector<float> pressure(Device& /*device*/) override { return {}; }
   void restore_pressure(Device& /*device*/, const std::vector<float>& /*pressure*/) override {}
@@ -25,9 +26,10 @@ class WeaklyCompressible : public PressureSolver {
 }  // namespace
 
 std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
+                                                     const std::vector<std::string>& defines,
                                                      bool relaxed) {
   if (params.solver == SPLASH_DIVERGENCE_FREE) {
-    return std::make_unique<DivergenceFree>(device, params, relaxed);
+    return std::make_unique<DivergenceFree>(device, params, defines, relaxed);
   }
   return std::make_unique<WeaklyCompressible>();
 }

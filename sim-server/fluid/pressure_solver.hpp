@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sim-server/device/device.hpp"
@@ -15,7 +16,7 @@ namespace splash::sim {
 
 class Fluid;
 
-/// One kind of solve, since the fluid was made; zeros where pressure needs none.
+/// One kind of solve, since counting began; zeros where pressure needs none.
 struct SolveWork {
   std::int64_t solves = 0;
   std::int64_t iterations = 0;  ///< of all solves
@@ -44,6 +45,8 @@ class PressureSolver {
   /// Enqueues the read of the work done; work() tells it once the queue is finished.
   virtual void enqueue_work(Device& device) = 0;
   [[nodiscard]] virtual SolverWork work() const = 0;
+  /// Counting begins anew.
+  virtual void forget_work(Device& device) = 0;
 
   /// What is kept from step to step, where it is on the device.
   [[nodiscard]] virtual std::vector<cl::Buffer> kept() const = 0;
@@ -52,9 +55,9 @@ class PressureSolver {
   virtual void restore_pressure(Device& device, const std::vector<float>& pressure) = 0;
 };
 
-/// The one that `params` ask for.
-[[nodiscard]] std::unique_ptr<PressureSolver> make_pressure_solver(Device& device,
-                                                                   const FluidParams& params,
-                                                                   bool relaxed);
+/// The one that `params` ask for, its kernels built with `defines`.
+[[nodiscard]] std::unique_ptr<PressureSolver> make_pressure_solver(
+    Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+    bool relaxed);
 
 }  // namespace splash::sim

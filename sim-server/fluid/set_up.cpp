@@ -121,6 +121,18 @@ double surface_height(const Scene& scene, const Vector3& place) {
   return height;
 }
 
+void set_pull(const FluidSettings& fluid, FluidParams& p) {
+  const auto squared = [&](std::size_t axis) {
+    return static_cast<float>(fluid.pull[axis] * fluid.pull[axis]);
+  };
+  p.pull_x = squared(0);
+  p.pull_y = squared(1);
+  p.pull_z = squared(2);
+  p.centre_x = static_cast<float>(fluid.pull_centre[0]);
+  p.centre_y = static_cast<float>(fluid.pull_centre[1]);
+  p.centre_z = static_cast<float>(fluid.pull_centre[2]);
+}
+
 }  // namespace
 
 Smoothing scene_smoothing(const Scene& scene) {
@@ -203,6 +215,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.gravity_x = static_cast<float>(scene.fluid.gravity[0]);
   p.gravity_y = static_cast<float>(scene.fluid.gravity[1]);
   p.gravity_z = static_cast<float>(scene.fluid.gravity[2]);
+  set_pull(scene.fluid, p);
   p.spacing = static_cast<float>(spacing);
   const double layer = 1.0 / (lattice_sum(step, smoothing) * spacing * spacing);
   p.layer_weight = static_cast<float>(layer);

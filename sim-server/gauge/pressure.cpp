@@ -25,7 +25,8 @@ double pressure_at(const WaterState& water, const Vector3& place) {
     if (r2 >= water.support * water.support) continue;
     const double w = kernel_value(std::sqrt(r2), water.kernel());
     weight += w;
-    sum += w * (water.pressure[j] + water.rest_density * dot(water.gravity, from));
+    sum +=
+        w * (water.pressure[j] + water.rest_density * dot(water.field_at(water.position[j]), from));
   }
   if (water.volume() * weight < kDry) return 0.0;
   return std::max(sum / weight, 0.0);

@@ -2,6 +2,7 @@
 #include "sim-server/gauge/water_state.hpp"
 
 #include "sim-server/fluid/body_image.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 
@@ -37,6 +38,23 @@ void read_pressures(Fluid& fluid, WaterState& water) {
 
 }  // namespace
 
+Vector3 WaterState::field_at(const Vector3& place) const {
+  Vector3 field = gravity;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    field[axis] -= pull[axis] * (place[axis] - pull_centre[axis]);
+  }
+  return field;
+}
+
+double WaterState::potential_at(const Vector3& place) const {
+  double potential = -dot(gravity, place);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double way = place[axis] - pull_centre[axis];
+    potential += 0.5 * pull[axis] * way * way;
+  }
+  return potential;
+}
+
 WaterState read_water(Fluid& fluid, bool pressures) {
   const FluidParams& p = fluid.params();
   const Snapshot snapshot = fluid.snapshot();
@@ -57,6 +75,10 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   water.point_weight = static_cast<double>(p.layer_weight) / water.spacing;
   water.gravity = {static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
                    static_cast<double>(p.gravity_z)};
+  water.pull = {static_cast<double>(p.pull_x), static_cast<double>(p.pull_y),
+                static_cast<double>(p.pull_z)};
+  water.pull_centre = {static_cast<double>(p.centre_x), static_cast<double>(p.centre_y),
+                       static_cast<double>(p.centre_z)};
   return water;
 }
 

@@ -28,11 +28,17 @@ struct WaterState {
   double viscous = 0.0;       ///< 10 nu [m2/s], as in fluid_params.h
   double artificial = 0.0;    ///< alpha c0 h [m2/s]
   double point_weight = 1.0;  ///< a body's point weighs this more than the water it displaces [1]
-  Vector3 gravity = {0.0, 0.0, 0.0};  ///< [m/s2]
+  Vector3 gravity = {0.0, 0.0, 0.0};      ///< [m/s2]
+  Vector3 pull = {0.0, 0.0, 0.0};         ///< squared rates of the central field [1/s2]
+  Vector3 pull_centre = {0.0, 0.0, 0.0};  ///< [m]
 
   /// Volume a particle takes up at rest [m3].
   [[nodiscard]] double volume() const { return mass / rest_density; }
   [[nodiscard]] Smoothing kernel() const { return {support, smoothing}; }
+  /// By gravity and the central field [m/s2].
+  [[nodiscard]] Vector3 field_at(const Vector3& place) const;
+  /// What raises water against them to there [J/kg].
+  [[nodiscard]] double potential_at(const Vector3& place) const;
 };
 
 /// Reads the fluid's state and waits for it; `pressures`: density, pressure and rise, too, which

@@ -103,6 +103,16 @@ Fields<F> force_fields() {
         .max = 100,
         .source = "standard gravity"},
        &F::gravity},
+      {{.key = "pull",
+        .unit = "1/s",
+        .meaning = "Central field: draws to `pull_centre` as a spring does, with this rate along "
+                   "x y z; the acceleration is -pull^2 times the way from the centre.",
+        .min = 0,
+        .max = 100,
+        .source = "Monaghan & Rafiee 2013"},
+       &F::pull},
+      {{.key = "pull_centre", .unit = "m", .meaning = "Where `pull` draws to, x y z."},
+       &F::pull_centre},
   };
 }
 

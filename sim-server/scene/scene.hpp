@@ -37,6 +37,9 @@ struct FluidSettings {
   double artificial = 0.1;      ///< Monaghan's artificial viscosity alpha [1]
   double time_step_factor = 1;  ///< multiplies the largest stable time step's safe share [1]
   Vector3 gravity = {0.0, 0.0, -9.81};  ///< [m/s2]
+  /// Rates of a central field, along each axis: it accelerates by -pull^2 (x - pull_centre) [1/s].
+  Vector3 pull = {0.0, 0.0, 0.0};
+  Vector3 pull_centre = {0.0, 0.0, 0.0};  ///< [m]
 };
 
 /// A box open at the top. Its five sides are walls; spray may rise above `upper`.
@@ -199,6 +202,7 @@ struct SkipSettings {
   bool contacts = true;       ///< no look for impacts while no body is near the water
   bool bubbles = true;        ///< none for bubbles while no water is fast and no bubble lives
   bool cavities = true;       ///< none for cavities while no bubble has enough others around it
+  bool kernels = true;        ///< kernels are built without what the scene lacks
 };
 
 /// Pacing and sending.

@@ -38,6 +38,11 @@ const Fields<SkipSettings>& skip_fields() {
         .unit = "",
         .meaning = "While no bubble has enough others around it, nobody looks for cavities."},
        &S::cavities},
+      {{.key = "kernels",
+        .unit = "",
+        .meaning = "Kernels are built without what the scene lacks: bodies, slope, wave maker, "
+                   "viscosity."},
+       &S::kernels},
   };
   return kFields;
 }

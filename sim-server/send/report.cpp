@@ -25,8 +25,15 @@ Json known_or_null(const std::optional<std::uint64_t>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-double per(double amount, double wall_seconds) {
-  return wall_seconds > 0.0 ? amount / wall_seconds : std::numeric_limits<double>::quiet_NaN();
+double per(double amount, double of) {
+  return of > 0.0 ? amount / of : std::numeric_limits<double>::quiet_NaN();
+}
+
+Json iterations_of(const SolveTotals& solve) {
+  return {{"mean", finite_or_null(solve.mean())},
+          {"most", solve.most},
+          {"given_up", solve.given_up},
+          {"solves", solve.solves}};
 }
 
 std::string known_or_dash(const std::optional<std::uint64_t>& value) {
@@ -55,6 +62,10 @@ void write_text(const std::filesystem::path& file_path, const std::filesystem::p
 
 }  // namespace
 
+double SolveTotals::mean() const noexcept {
+  return per(static_cast<double>(iterations), static_cast<double>(solves));
+}
+
 double RunReport::steps_per_second() const noexcept {
   return per(static_cast<double>(steps), wall_seconds);
 }
@@ -76,6 +87,8 @@ std::string to_json(const RunReport& report) {
   json["real_time_factor"] = finite_or_null(report.real_time_factor());
   json["mean_density_error"] = finite_or_null(report.mean_density_error);
   json["maximum_density_error"] = finite_or_null(report.maximum_density_error);
+  json["iterations"] = {{"divergence", iterations_of(report.divergence_solve)},
+                        {"density", iterations_of(report.density_solve)}};
   json["events"] = {{"impacts", report.events.impacts},
                     {"bubbles", report.events.bubbles},
                     {"cavities", report.events.cavities}};
@@ -90,11 +103,10 @@ std::string to_json(const RunReport& report) {
   json["overload"] = {{"lean_seconds", finite_or_null(report.lean_seconds)},
                       {"coarse_seconds", finite_or_null(report.coarse_seconds)},
                       {"slow_seconds", finite_or_null(report.slow_seconds)}};
-  json["skipped"] = {{"idle_frames", report.idle_frames},
-                     {"contact_passes", report.without_contacts},
-                     {"bubble_passes", report.without_bubbles},
-                     {"cavity_searches", report.without_cavities},
-                     {"asleep", finite_or_null(report.asleep)}};
+  json["skipped"] = {
+      {"idle_frames", report.idle_frames},       {"contact_passes", report.without_contacts},
+      {"bubble_passes", report.without_bubbles}, {"cavity_searches", report.without_cavities},
+      {"kernel_parts", report.kernel_parts},     {"asleep", finite_or_null(report.asleep)}};
   json["refused_poses"] = report.refused_poses;
   json["resets"] = report.resets;
   json["retried_frames"] = report.retried;
@@ -130,6 +142,13 @@ std::string summary(const RunReport& report) {
        << report.steps_per_second() << " steps/s\n";
   text << std::setprecision(2) << "density   error mean " << 100.0 * report.mean_density_error
        << " %, maximum " << 100.0 * report.maximum_density_error << " %\n";
+  if (report.density_solve.solves > 0) {
+    const SolveTotals& divergence = report.divergence_solve;
+    const SolveTotals& density = report.density_solve;
+    text << "solver    iterations per step: divergence " << divergence.mean() << ", at most "
+         << divergence.most << "; density " << density.mean() << ", at most " << density.most
+         << "; given up " << divergence.given_up + density.given_up << '\n';
+  }
   text << "events    " << report.events.impacts << " impacts, " << report.events.bubbles
        << " bubbles, " << report.events.cavities << " cavities\n";
   text << "receivers late " << known_or_dash(report.late) << ", lost " << known_or_dash(report.lost)

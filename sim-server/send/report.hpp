@@ -15,6 +15,17 @@ struct EventTotals {
   std::uint64_t cavities = 0;
 };
 
+/// What one kind of solve of the divergence-free solver took.
+struct SolveTotals {
+  std::int64_t solves = 0;  ///< one per step; 0: the solver in use needs none
+  std::int64_t iterations = 0;
+  std::int64_t most = 0;      ///< iterations of one solve
+  std::int64_t given_up = 0;  ///< solves that ended with more than the allowed error
+
+  /// Iterations per step [1]; not a number without solves.
+  [[nodiscard]] double mean() const noexcept;
+};
+
 struct RunReport {
   std::string device;
   std::string scene;
@@ -25,6 +36,8 @@ struct RunReport {
   double wall_seconds = 0.0;
   double mean_density_error = 0.0;     ///< of the compressed part, in the rest density [1]
   double maximum_density_error = 0.0;  ///< same [1]
+  SolveTotals divergence_solve;
+  SolveTotals density_solve;
   EventTotals events;
   std::uint64_t invalid_events = 0;    ///< outside the wire's ranges, not sent
   std::uint64_t overdue_events = 0;    ///< their moment had passed when they were sent
@@ -41,6 +54,7 @@ struct RunReport {
   std::uint64_t without_contacts = 0;  ///< frames that did not look for impacts
   std::uint64_t without_bubbles = 0;   ///< same for bubbles
   std::uint64_t without_cavities = 0;  ///< same for cavities
+  int kernel_parts = 0;                ///< that the kernels were built without
   double asleep = 0.0;                 ///< share of the particles that slept, on average [1]
   std::uint64_t refused_poses = 0;     ///< of trackers: no numbers, impossible speeds, late ones
   std::uint64_t retried = 0;           ///< frames that went well only with shorter steps

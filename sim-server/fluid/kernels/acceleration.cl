@@ -2,7 +2,7 @@
 // Acceleration by pressure, viscosity and gravity:
 //   a_i = - sum_j m (P_i + P_j) grad W_ij              P = p / rho^2, Monaghan 2005 eq. 3.1
 //         + sum_j m K_ij / rho0 (v_ij . x_ij) / (r^2 + eta^2) grad W_ij
-//         + g
+//         + g - Omega^2 (x_i - c)                             the scene's pull, along each axis
 // with K = 10 nu, and alpha c0 h more for pairs that approach (Monaghan 2005 sections 4 and 5).
 // Bodies and walls push with the particle's own pressure alone, -P_i grad rho_i: what the energy of
 // the particle's compression gives (Akinci et al. 2012 eq. 9). Mirroring the pressure as well
@@ -20,20 +20,27 @@ typedef struct {
   lanes x, y, z;
 } Push;
 
+// The viscous part of what one neighbour does, beside P_i + P_j.
+static lanes friction(constant FluidParams* p, const Movers* m, const Pair* pair,
+                      global const float* velocity, int stride, int j) {
+  const float eta2 = 0.01f * p->length * p->length;
+  const float viscous = p->viscous / p->rest_density;
+  const float artificial = p->artificial / p->rest_density;
+  const lanes closing = (m->u - velocity[j]) * pair->dx +
+                        (m->v - velocity[stride + j]) * pair->dy +
+                        (m->w - velocity[2 * stride + j]) * pair->dz;
+  return (viscous * closing + artificial * fmin(closing, 0.0f)) * inverse(pair->r2 + eta2);
+}
+
 // Adds what one neighbour does to the movers, divided by the factor of -grad W; `mass`: the
 // neighbour's, `theirs`: its p / rho^2.
 static void push(constant FluidParams* p, const Group* g, const Movers* m,
                  global const float* position, global const float* velocity, int stride,
                  int j, float mass, float theirs, Push* sum) {
-  const float eta2 = 0.01f * p->length * p->length;
-  const float viscous = p->viscous / p->rest_density;
-  const float artificial = p->artificial / p->rest_density;
   const Pair pair = pair_with(p, g, position, stride, j);
-  const lanes closing = (m->u - velocity[j]) * pair.dx + (m->v - velocity[stride + j]) * pair.dy +
-                        (m->w - velocity[2 * stride + j]) * pair.dz;
-  const lanes rub =
-      (viscous * closing + artificial * fmin(closing, 0.0f)) * inverse(pair.r2 + eta2);
-  const lanes f = mass * pair.slope * (m->own + theirs - rub);
+  lanes push = m->own + theirs;
+  if (HAS_FRICTION) push -= friction(p, m, &pair, velocity, stride, j);
+  const lanes f = mass * pair.slope * push;
   sum->x += f * pair.dx;
   sum->y += f * pair.dy;
   sum->z += f * pair.dz;
@@ -67,6 +74,14 @@ static void push_by_bodies(constant FluidParams* p, const Group* g, const Movers
            p->rest_density * body_volume[j], 0.0f, sum);
     }
   }
+}
+
+// What acts from afar: gravity and the central field.
+static Push field_at(constant FluidParams* p, const Group* g) {
+  const Push field = {p->gravity_x - p->pull_x * (g->x - p->centre_x),
+                      p->gravity_y - p->pull_y * (g->y - p->centre_y),
+                      p->gravity_z - p->pull_z * (g->z - p->centre_z)};
+  return field;
 }
 
 kernel void compute_acceleration(constant FluidParams* p, global const int* cell_start,
@@ -105,9 +120,10 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
     }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);
     const lanes own = LOAD(pressure_term, first) * p->rest_density;
-    a.x = select(a.x, gradient * by.x - own * wall.gx + p->gravity_x, g.mine);
-    a.y = select(a.y, gradient * by.y - own * wall.gy + p->gravity_y, g.mine);
-    a.z = select(a.z, gradient * by.z - own * wall.gz + p->gravity_z, g.mine);
+    const Push field = field_at(p, &g);
+    a.x = select(a.x, gradient * by.x - own * wall.gx + field.x, g.mine);
+    a.y = select(a.y, gradient * by.y - own * wall.gy + field.y, g.mine);
+    a.z = select(a.z, gradient * by.z - own * wall.gz + field.z, g.mine);
     turn = g.next;
   }
   if (first >= last) return;

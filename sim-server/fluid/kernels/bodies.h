@@ -11,6 +11,7 @@ static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
 // Whether any body is within reach: most particles are spared the search.
 static bool bodies_near_box(global const BodyStep* bodies, int first, int count, float3 lower,
                             float3 upper) {
+  if (!HAS_BODIES) return false;
   for (int b = first; b < first + count; ++b) {
     if (upper.x > bodies[b].lower_x && lower.x < bodies[b].upper_x &&
         upper.y > bodies[b].lower_y && lower.y < bodies[b].upper_y &&

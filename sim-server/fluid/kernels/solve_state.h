@@ -7,7 +7,7 @@ typedef struct {
   int done;
   int iterations;  // of the solve at hand
   float error;     // mean density error that the last judgement found [1]
-  int solves;      // these four since the fluid was made
+  int solves;      // these four since counting began
   int total;       // iterations of all solves
   int most;        // of one solve
   int given_up;    // solves that were not done after all iterations allowed

@@ -21,9 +21,11 @@ typedef struct {
   lanes swept;       // its growth per way of the piston [1/m]
 } WallField;
 
+static bool has_slope(constant FluidParams* p) { return HAS_SLOPE && p->slope >= 0; }
+
 static lanes wall_distance(constant FluidParams* p, int k, lanes x, lanes y, lanes z,
                            float piston) {
-  const float moved = k == p->piston ? piston : 0.0f;
+  const float moved = HAS_PISTON && k == p->piston ? piston : 0.0f;
   return p->walls[k].nx * x + p->walls[k].ny * y + p->walls[k].nz * z -
          (p->walls[k].offset + moved);
 }
@@ -47,7 +49,7 @@ static WallField wall_field(constant FluidParams* p, lanes x, lanes y, lanes z, 
   lanes open = 1.0f;
   for (int k = 0; k < p->wall_count; ++k) {
     lanes d = wall_distance(p, k, x, y, z, piston);
-    if (p->slope >= 0 && (k == 0 || k == p->slope)) {
+    if (has_slope(p) && (k == 0 || k == p->slope)) {
       // Of the floor and the slope the farther one is hidden.
       const lanes other = wall_distance(p, k == 0 ? p->slope : 0, x, y, z, piston);
       const lane_flags hidden = k == 0 ? other < d : other <= d;
@@ -55,13 +57,13 @@ static WallField wall_field(constant FluidParams* p, lanes x, lanes y, lanes z, 
     }
     if (!(least(d) < p->support)) continue;
     lanes fall;
-    const lanes behind = behind_wall(p, d, p->slope < 0 || (k != 0 && k != p->slope), &fall);
+    const lanes behind = behind_wall(p, d, !has_slope(p) || (k != 0 && k != p->slope), &fall);
     const lanes left = 1.0f - behind;
     const lanes pull = fall / left;
     field.gx -= pull * p->walls[k].nx;
     field.gy -= pull * p->walls[k].ny;
     field.gz -= pull * p->walls[k].nz;
-    if (k == p->piston) field.swept = pull;
+    if (HAS_PISTON && k == p->piston) field.swept = pull;
     open *= left;
   }
   field.share = 1.0f - open;

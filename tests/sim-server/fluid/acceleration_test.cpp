@@ -45,6 +45,7 @@ TEST_P(Acceleration, OfAllTogetherIsGravity) {
   std::vector<Water> all = situations();
   Water& water = all.at(1);
   water.scene.fluid.gravity = {0.0, 0.0, 0.0};
+  water.scene.fluid.pull = {0.0, 0.0, 0.0};
   water.start(device, GetParam().relaxed);
   FluidParams open = water.params;
   open.wall_count = 0;

@@ -171,6 +171,28 @@ TEST_P(DivergenceFreeTwin, SolvesAsTheTwinDoes) {
   }
 }
 
+/// What a scene reports leaves out how it came to rest.
+TEST(DivergenceFree, CountsItsWorkFromWhereItIsToldTo) {
+  Device device;
+  std::vector<Water> all = situations();
+  Water& water = all.front();
+  start(water, device, {});
+  for (int k = 0; k < 3; ++k) water.step(kStep);
+  static_cast<void>(water.fluid->survey());
+  const SolverWork before = water.fluid->solver_work();
+  EXPECT_EQ(before.density.solves, 3);
+  EXPECT_GT(before.density.most, 0);
+  EXPECT_GE(before.density.iterations, before.density.most);
+  water.fluid->forget_work();
+  EXPECT_EQ(water.fluid->solver_work().density.iterations, 0);
+  water.step(kStep);
+  static_cast<void>(water.fluid->survey());
+  const SolverWork after = water.fluid->solver_work();
+  EXPECT_EQ(after.density.solves, 1);
+  EXPECT_EQ(after.density.iterations, after.density.most) << "one solve is the longest";
+  EXPECT_EQ(after.divergence.solves, 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Builds, DivergenceFreeTwin, kTwinBuilds, build_name);
 
 }  // namespace

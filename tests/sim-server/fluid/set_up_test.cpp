@@ -21,6 +21,8 @@ Scene beach_scene() {
   scene.fluid.viscosity = 2.0e-6;
   scene.fluid.artificial = 0.07;
   scene.fluid.gravity = {0.5, -0.25, -9.5};
+  scene.fluid.pull = {3.0, 0.0, 0.5};
+  scene.fluid.pull_centre = {0.3, 0.2, -0.1};
   return scene;
 }
 
@@ -41,6 +43,11 @@ TEST(SetUp, ParametersFollowTheirFormulas) {
   EXPECT_FLOAT_EQ(p.gravity_x, 0.5F);
   EXPECT_FLOAT_EQ(p.gravity_y, -0.25F);
   EXPECT_FLOAT_EQ(p.gravity_z, -9.5F);
+  EXPECT_FLOAT_EQ(p.pull_x, 9.0F);
+  EXPECT_FLOAT_EQ(p.pull_y, 0.0F);
+  EXPECT_FLOAT_EQ(p.pull_z, 0.25F);
+  EXPECT_FLOAT_EQ(p.centre_x, 0.3F);
+  EXPECT_FLOAT_EQ(p.centre_z, -0.1F);
   EXPECT_NEAR(static_cast<double>(p.mass), 998.0 * 8.0e-6, 0.05 * 998.0 * 8.0e-6);
   EXPECT_NEAR(static_cast<double>(p.layer_weight), 0.02, 0.05 * 0.02);
 }

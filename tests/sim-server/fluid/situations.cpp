@@ -32,7 +32,9 @@ Water lattice() {
 }
 
 Water crowd() {
-  const Scene scene = tank_scene(kSpacing, {0.4, 0.3, 0.4}, 0.2);
+  Scene scene = tank_scene(kSpacing, {0.4, 0.3, 0.4}, 0.2);
+  scene.fluid.pull = {5.0, 0.0, 12.0};
+  scene.fluid.pull_centre = {0.2, 0.0, 0.1};
   return make("crowd", scene, random_places(1501, {0, 0, 0}, {0.25, 0.2, 0.2}, 1));
 }
 

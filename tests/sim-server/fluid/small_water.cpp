@@ -36,7 +36,7 @@ std::vector<Vector3> random_places(std::size_t count, const Vector3& lower, cons
   return places;
 }
 
-void Water::start(Device& device, bool relaxed) {
+void Water::start(Device& device, const KernelBuild& build) {
   params = make_params(scene, particles);
   const double support = scene_smoothing(scene).support;
   std::vector<std::unique_ptr<Motion>> moved;
@@ -45,7 +45,7 @@ void Water::start(Device& device, bool relaxed) {
                                     std::move(moved), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
   fluid = std::make_unique<Fluid>(device, params, settle ? settled(scene, particles) : particles,
-                                  boundary, body_shapes(scene.bodies), relaxed);
+                                  boundary, body_shapes(scene.bodies), build);
   time = 0.0;
 }
 

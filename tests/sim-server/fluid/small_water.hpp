@@ -41,7 +41,7 @@ struct Water {
   PistonState piston = {};  ///< held there
 
   /// Builds it all on `device`.
-  void start(Device& device, bool relaxed = false);
+  void start(Device& device, const KernelBuild& build = {});
   /// Gives each particle a velocity of up to `speed` along each axis, by its id.
   void stir(double speed, unsigned seed);
   /// One step: prepare, `between`, advance.

@@ -193,6 +193,10 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
     add(-s.pressure_term[i] * rest * walls.gradient);
     add({static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
          static_cast<double>(p.gravity_z)});
+    const Vector3& x = s.position[i];
+    add({static_cast<double>(p.pull_x) * (static_cast<double>(p.centre_x) - x[0]),
+         static_cast<double>(p.pull_y) * (static_cast<double>(p.centre_y) - x[1]),
+         static_cast<double>(p.pull_z) * (static_cast<double>(p.centre_z) - x[2])});
   }
   return result;
 }

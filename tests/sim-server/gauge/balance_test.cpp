@@ -38,6 +38,25 @@ TEST(Balance, EnergiesOfABlockThatMovesAsOne) {
   EXPECT_NEAR(e.total(), e.kinetic + e.potential + e.compression, 1e-12);
 }
 
+TEST(Balance, ACentralFieldHasAPotentialWhoseSlopeItIs) {
+  WaterState water = lattice_water({0.0, 0.0, 0.0}, {0.1, 0.1, 0.1}, 0.05);
+  water.pull = {4.0, 0.0, 9.0};
+  water.pull_centre = {0.2, 5.0, -0.1};
+  const Vector3 place = {0.5, 0.3, 0.4};
+  constexpr double kWay = 1.0e-4;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vector3 ahead = place;
+    Vector3 behind = place;
+    ahead[axis] += kWay;
+    behind[axis] -= kWay;
+    const double slope = (water.potential_at(ahead) - water.potential_at(behind)) / (2.0 * kWay);
+    EXPECT_NEAR(water.field_at(place)[axis], -slope, 1e-6);
+  }
+  EXPECT_NEAR(water.field_at(place)[0], -4.0 * 0.3, 1e-12);
+  EXPECT_NEAR(water.field_at(place)[2], -9.81 - 9.0 * 0.5, 1e-12);
+  EXPECT_NEAR(water.potential_at({0.7, 0.0, -0.1}), -0.981 + 0.5 * 4.0 * 0.25, 1e-12);
+}
+
 TEST(Balance, MomentumOfTurningWaterIsNone) {
   WaterState water = lattice_water({-0.1, -0.1, 0.0}, {0.1, 0.1, 0.1}, 0.01);
   for (std::size_t i = 0; i < water.position.size(); ++i) {

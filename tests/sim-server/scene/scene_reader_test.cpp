@@ -84,6 +84,9 @@ TEST(SceneReader, ReadsTheSolver) {
   EXPECT_EQ(fluid.solver, PressureKind::divergence_free);
   EXPECT_EQ(fluid.kernels, KernelKind::reference);
   EXPECT_DOUBLE_EQ(fluid.tolerance, 0.002);
+  EXPECT_EQ(fluid.pull, (Vector3{0.0, 0.0, 0.0}));
+  EXPECT_EQ(with("  pull: [1.5, 0.0, 2.0]\n").pull, (Vector3{1.5, 0.0, 2.0}));
+  EXPECT_THROW(static_cast<void>(with("  pull: [-1.0, 0.0, 0.0]\n")), protocol::ConfigError);
   EXPECT_THROW(static_cast<void>(with("  density_tolerance: 0.002\n")), protocol::ConfigError);
   EXPECT_THROW(static_cast<void>(with("  solver: magic\n")), protocol::ConfigError);
 }

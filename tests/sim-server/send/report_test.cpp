@@ -30,6 +30,8 @@ RunReport example() {
   report.wall_seconds = 24.0;
   report.mean_density_error = 0.004;
   report.maximum_density_error = 0.03;
+  report.divergence_solve = {.solves = 7200, .iterations = 9000, .most = 4, .given_up = 0};
+  report.density_solve = {.solves = 7200, .iterations = 36000, .most = 20, .given_up = 3};
   report.events = {.impacts = 3, .bubbles = 120, .cavities = 2};
   report.late = 0;
   report.lost = 7;
@@ -53,6 +55,10 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   EXPECT_DOUBLE_EQ(read.at("real_time_factor"), 1.25);
   EXPECT_DOUBLE_EQ(read.at("mean_density_error"), 0.004);
   EXPECT_DOUBLE_EQ(read.at("maximum_density_error"), 0.03);
+  const auto& iterations = read.at("iterations");
+  EXPECT_DOUBLE_EQ(iterations.at("divergence").at("mean"), 1.25);
+  EXPECT_EQ(iterations.at("density"),
+            (json{{"mean", 5.0}, {"most", 20}, {"given_up", 3}, {"solves", 7200}}));
   EXPECT_EQ(read.at("events"), (json{{"impacts", 3}, {"bubbles", 120}, {"cavities", 2}}));
   EXPECT_EQ(read.at("late"), 0);
   EXPECT_EQ(read.at("lost"), 7);
@@ -134,6 +140,9 @@ TEST(Report, SummaryTellsThePersonTheSame) {
   auto report = example();
   report.late.reset();
   EXPECT_THAT(summary(report), HasSubstr("no target answered"));
+  EXPECT_THAT(summary(report), HasSubstr("density 5.00, at most 20"));
+  report.density_solve = {};
+  EXPECT_THAT(summary(report), testing::Not(HasSubstr("iterations"))) << "nothing was solved";
 }
 
 }  // namespace

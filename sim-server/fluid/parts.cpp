@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/parts.hpp"
+
+#include "sim-server/fluid/smoothing.hpp"
+
+namespace splash::sim {
+
+int KernelParts::left_out() const noexcept {
+  return 4 - (int{bodies} + int{slope} + int{piston} + int{friction});
+}
+
+KernelParts parts_needed(const FluidParams& params, int body_count) {
+  return {body_count > 0, params.slope >= 0, params.piston >= 0,
+          params.viscous != 0.0F || params.artificial != 0.0F};
+}
+
+std::vector<std::string> kernel_defines(const FluidParams& params, const KernelParts& parts) {
+  std::vector<std::string> defines = smoothing_defines(params.smoothing);
+  // Only what is left out is said (kernels/parts.h has the rest): whole programs are cached once.
+  if (!parts.bodies) defines.emplace_back("HAS_BODIES=0");
+  if (!parts.slope) defines.emplace_back("HAS_SLOPE=0");
+  if (!parts.piston) defines.emplace_back("HAS_PISTON=0");
+  if (!parts.friction) defines.emplace_back("HAS_FRICTION=0");
+  return defines;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Kernels built without what the scene lacks say the same as whole ones, bit by bit.
+#include "sim-server/fluid/parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/sim-server/fluid/lane_settings.hpp"
+#include "tests/sim-server/fluid/situations.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kStep = 1.0e-3;  ///< [s]
+
+Snapshot after_some_steps(Water& water, Device& device, const KernelBuild& build) {
+  water.start(device, build);
+  water.stir(0.3, 7);
+  for (int k = 0; k < 3; ++k) water.step(kStep);
+  return water.fluid->snapshot();
+}
+
+class Parts : public ::testing::TestWithParam<PressureKind> {
+ protected:
+  static void expect_no_difference(Device& device, Water lean, Water whole) {
+    SCOPED_TRACE(lean.name);
+    for (Water* water : {&lean, &whole}) water->scene.fluid.solver = GetParam();
+    const Snapshot without = after_some_steps(lean, device, {false, false});
+    const Snapshot with = after_some_steps(whole, device, {false, true});
+    EXPECT_EQ(whole.fluid->parts().left_out(), 0);
+    EXPECT_GT(lean.fluid->parts().left_out(), 0);
+    EXPECT_EQ(without.id, with.id);
+    EXPECT_EQ(without.position, with.position);
+    EXPECT_EQ(without.velocity, with.velocity);
+    EXPECT_EQ(without.pressure, with.pressure);
+  }
+};
+
+TEST_P(Parts, WhatASceneLacksIsNotMissed) {
+  for (const int lanes : {1, 16}) {
+    Device device(-1, false, lanes);
+    std::vector<Water> lean = situations();
+    std::vector<Water> whole = situations();
+    for (std::size_t k = 0; k < lean.size(); ++k) {
+      expect_no_difference(device, std::move(lean[k]), std::move(whole[k]));
+    }
+  }
+}
+
+TEST_P(Parts, NorIsFrictionWhereThereIsNone) {
+  Device device;
+  std::vector<Water> lean = situations();
+  std::vector<Water> whole = situations();
+  for (Water* water : {&lean.front(), &whole.front()}) {
+    water->scene.fluid.viscosity = 0.0;
+    water->scene.fluid.artificial = 0.0;
+  }
+  expect_no_difference(device, std::move(lean.front()), std::move(whole.front()));
+  std::vector<Water> rubbing = situations();
+  rubbing.front().scene.fluid.solver = GetParam();
+  rubbing.front().start(device);
+  EXPECT_TRUE(rubbing.front().fluid->parts().friction);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, Parts,
+                         ::testing::Values(PressureKind::weakly_compressible,
+                                           PressureKind::divergence_free),
+                         [](const auto& parameter) {
+                           return parameter.param == PressureKind::divergence_free
+                                      ? "divergence_free"
+                                      : "weakly_compressible";
+                         });
+
+TEST(KernelParts, AreWhatTheSceneHas) {
+  FluidParams params = {};
+  params.slope = params.piston = -1;
+  EXPECT_EQ(parts_needed(params, 0).left_out(), 4);
+  EXPECT_TRUE(parts_needed(params, 1).bodies);
+  params.slope = 5;
+  EXPECT_TRUE(parts_needed(params, 0).slope);
+  params.piston = 1;
+  EXPECT_TRUE(parts_needed(params, 0).piston);
+  params.artificial = 0.1F;
+  EXPECT_TRUE(parts_needed(params, 0).friction);
+  params.artificial = 0.0F;
+  params.viscous = 0.01F;
+  EXPECT_TRUE(parts_needed(params, 0).friction);
+  EXPECT_EQ(parts_needed(params, 1).left_out(), 0);
+}
+
+}  // namespace
+}  // namespace splash::sim
