@@ -11,10 +11,11 @@ bool Figure::has_gate() const {
 }
 
 const std::vector<Case>& all_cases() {
-  static const std::vector<Case> kCases = {
-      hydrostatic(),      standing_wave(),     elliptical_drop(), vortex(),
-      dam_martin_moyce(), dam_koshizuka_oka(), spheric2(),        slap(),
-      pinch_off(),        closed_box(),        floating(),        sinking_cube()};
+  static const std::vector<Case> kCases = {hydrostatic(),       standing_wave(), elliptical_drop(),
+                                           oscillating_drop(),  vortex(),        dam_martin_moyce(),
+                                           dam_koshizuka_oka(), spheric2(),      slap(),
+                                           pinch_off(),         closed_box(),    floating(),
+                                           sinking_cube()};
   return kCases;
 }
 

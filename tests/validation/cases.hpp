@@ -58,6 +58,7 @@ struct Case {
 [[nodiscard]] Case hydrostatic();
 [[nodiscard]] Case standing_wave();
 [[nodiscard]] Case elliptical_drop();
+[[nodiscard]] Case oscillating_drop();
 [[nodiscard]] Case vortex();
 [[nodiscard]] Case dam_martin_moyce();
 [[nodiscard]] Case dam_koshizuka_oka();

@@ -63,8 +63,8 @@ void write_table(std::ostream& out, const std::vector<const Result*>& results) {
   };
   row("particles, thousands", "1", [](const Result& r) { return 1e-3 * r.particles; });
   row("simulated", "s", [](const Result& r) { return r.simulated; });
-  row("run time, settling and gauges included", "s", [](const Result& r) { return r.wall; });
-  row("processor time of it", "s", [](const Result& r) { return r.processor; });
+  row("run time, settling and gauges included", "s", [](const Result& r) { return r.all.wall; });
+  row("processor time of it", "s", [](const Result& r) { return r.all.processor; });
   out << "\n\n![" << item.name << "](" << item.name << ".png)\n\n";
 }
 
@@ -87,9 +87,9 @@ void write_figures(const std::filesystem::path& path, const std::vector<Result>&
   for (const Result& r : results) {
     for (const Figure& figure : r.outcome.figures) {
       out << r.item->name << ',' << r.spacing << ',' << r.item->size / r.spacing << ','
-          << r.particles << ',' << r.simulated << ',' << r.wall << ',' << r.processor << ",\""
-          << figure.name << "\"," << figure.unit << ',' << figure.value << ',' << figure.lowest
-          << ',' << figure.highest << ','
+          << r.particles << ',' << r.simulated << ',' << r.all.wall << ',' << r.all.processor
+          << ",\"" << figure.name << "\"," << figure.unit << ',' << figure.value << ','
+          << figure.lowest << ',' << figure.highest << ','
           << (figure.has_gate() ? (figure.passes() ? "1" : "0") : "") << '\n';
     }
   }
@@ -114,8 +114,12 @@ Result run_case(sim::Device& device, const Case& item, const Setting& setting,
     const Run& run = runs.back();
     result.particles = std::max(result.particles, run.particles);
     result.simulated += run.simulated;
-    result.wall += run.wall;
-    result.processor += run.processor;
+    result.steps += run.steps;
+    result.all += run.all;
+    result.steps_alone += run.steps_alone;
+    result.work = run.work;
+    result.mean_density_error = run.totals.mean_excess_sum /
+                                static_cast<double>(std::max<std::int64_t>(run.totals.frames, 1));
     if (!series_folder.empty()) {
       run.gauges.write(series_folder / (scene + "-" + text(1e3 * setting.spacing) + "mm.csv"));
     }

@@ -13,11 +13,14 @@ namespace splash::validation {
 /// One case at one resolution.
 struct Result {
   const Case* item = nullptr;
-  double spacing = 0.0;    ///< [m]
-  int particles = 0;       ///< of the largest scene of a sweep
-  double simulated = 0.0;  ///< all scenes of a sweep together [s]
-  double wall = 0.0;       ///< with settling and gauges [s]
-  double processor = 0.0;  ///< [s]
+  double spacing = 0.0;             ///< [m]
+  int particles = 0;                ///< of the largest scene of a sweep
+  double simulated = 0.0;           ///< all scenes of a sweep together [s]
+  std::int64_t steps = 0;           ///< of all scenes together
+  Effort all;                       ///< with set-up, settling and gauges
+  Effort steps_alone;               ///< without them
+  sim::SolverWork work;             ///< of the last scene
+  double mean_density_error = 0.0;  ///< of the last scene, over its frames [1]
   Outcome outcome;
 };
 

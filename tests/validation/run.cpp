@@ -3,6 +3,8 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 #include "protocol/time_tag.hpp"
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -16,12 +18,21 @@ std::filesystem::path folder() {
   return std::filesystem::path(SPLASH_SOURCE_DIR) / "tests" / "validation";
 }
 
-/// User time of all threads so far [s].
-double processor_time() {
+/// No water is as fast as twice this, and then nobody looks for bubbles [m/s].
+constexpr double kNever = 1.0e6;
+
+/// So far.
+Effort effort_now() {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+  return {protocol::monotonic_now(), static_cast<double>(usage.ru_utime.tv_sec) +
+                                         1e-6 * static_cast<double>(usage.ru_utime.tv_usec)};
+}
+
+void add_since(const Effort& before, Effort& sum) {
+  const Effort now = effort_now();
+  sum.wall += now.wall - before.wall;
+  sum.processor += now.processor - before.processor;
 }
 
 }  // namespace
@@ -41,8 +52,11 @@ Run run_scene(sim::Device& device, const std::string& name, const Setting& setti
   run.scene.fluid.spacing = setting.spacing;
   run.scene.fluid.smoothing = setting.smoothing;
   run.scene.fluid.solver = setting.solver;
-  const double wall = protocol::monotonic_now();
-  const double processor = processor_time();
+  run.scene.fluid.time_step_factor *= setting.time_step_factor;
+  if (setting.skip) run.scene.skip = *setting.skip;
+  run.scene.serve.frame_rate = std::min(run.scene.serve.frame_rate, setting.most_frames);
+  if (!setting.detects) run.scene.detect.bubble_speed = kNever;
+  const Effort start = effort_now();
   sim::Simulation simulation(device, run.scene, {});
   sim::Gauges gauges(run.scene);
   run.gauges = Series(gauges.columns());
@@ -54,15 +68,18 @@ Run run_scene(sim::Device& device, const std::string& name, const Setting& setti
   };
   sample();
   while (simulation.seconds() < seconds) {
+    const Effort before = effort_now();
     static_cast<void>(simulation.advance());
+    add_since(before, run.steps_alone);
     sample();
     if (progress) progress(simulation.seconds() / seconds);
   }
   run.particles = simulation.particles();
   run.steps = simulation.totals().steps;
   run.simulated = simulation.seconds();
-  run.wall = protocol::monotonic_now() - wall;
-  run.processor = processor_time() - processor;
+  run.work = simulation.solver_work();
+  run.totals = simulation.totals();
+  add_since(start, run.all);
   return run;
 }
 

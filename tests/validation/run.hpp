@@ -3,10 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene.hpp"
+#include "sim-server/simulation.hpp"
 #include "tests/validation/series.hpp"
 
 namespace splash::validation {
@@ -16,6 +18,22 @@ struct Setting {
   double spacing = 0.0;  ///< of particles [m]
   sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
+  double time_step_factor = 1.0;          ///< of the safe time step [1]
+  std::optional<sim::SkipSettings> skip;  ///< instead of the scene's
+  bool detects = true;                    ///< looks for bubbles and cavities
+  double most_frames = 1.0e6;             ///< per second, where the scene has more [1/s]
+};
+
+/// What it took to compute something [s].
+struct Effort {
+  double wall = 0.0;
+  double processor = 0.0;  ///< user time of all cores
+
+  Effort& operator+=(const Effort& other) {
+    wall += other.wall;
+    processor += other.processor;
+    return *this;
+  }
 };
 
 struct Run {
@@ -24,8 +42,10 @@ struct Run {
   int particles = 0;
   std::int64_t steps = 0;
   double simulated = 0.0;  ///< without settling [s]
-  double wall = 0.0;       ///< with settling and gauges [s]
-  double processor = 0.0;  ///< the same, user time of all cores [s]
+  Effort all;              ///< with set-up, settling and gauges
+  Effort steps_alone;      ///< without them
+  sim::SolverWork work;    ///< iterations of the divergence-free solver
+  sim::RunTotals totals;
 };
 
 /// Reads tests/validation/scenes/`name`.yaml.
