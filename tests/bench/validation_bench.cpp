@@ -41,7 +41,7 @@ class Progress {
 
 void print(const std::string& what, const Result& result) {
   std::printf("\r%s  %d particles, %.1f s (%.1f s of processor)\n", what.c_str(), result.particles,
-              result.wall, result.processor);
+              result.all.wall, result.all.processor);
   for (const Figure& figure : result.outcome.figures) {
     const char* verdict = "";
     if (figure.has_gate()) verdict = figure.passes() ? "  as wanted" : "  OUTSIDE";

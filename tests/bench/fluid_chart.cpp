@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/fluid_chart.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "synth-server/figure/gnuplot.hpp"
+
+namespace splash::bench {
+namespace {
+
+// Colours that people with colour blindness tell apart: Okabe and Ito 2008.
+constexpr const char* kNarrow[] = {"#0072b2", "#d55e00"};  // by solver
+constexpr const char* kWide[] = {"#56b4e9", "#e69f00"};
+
+/// Of the paper's section 6: 15,000 particles in the pool and on the beach, 7,000 in the basin.
+constexpr const char* kPaper = "$paper << EOD\n15000 152\n15000 147\n7000 240\nEOD\n";
+
+constexpr const char* kSetup = R"gp(
+set encoding utf8
+set minussign
+ink = "#30343b"
+set border 3 linecolor rgb ink linewidth 0.9
+set tics nomirror out scale 0.6 textcolor rgb ink
+set grid linecolor rgb "#dde1e7" linewidth 0.6
+set logscale xy
+set format xy "%g"
+set offsets graph 0.12, graph 0.25, graph 0.15, graph 0.15
+unset key
+)gp";
+
+std::string style(const Quality& q) {
+  const bool wide = q.smoothing == sim::SmoothingKind::wide;
+  const auto solver = static_cast<std::size_t>(q.solver == sim::PressureKind::divergence_free);
+  const bool scalar = q.kernels == sim::KernelKind::reference;
+  std::ostringstream text;
+  text << "linecolor rgb \"" << (wide ? kWide : kNarrow)[solver] << "\" linewidth 1.6 dashtype "
+       << (scalar                     ? 3
+           : q.time_step_factor < 1.0 ? 2
+           : q.time_step_factor > 1.0 ? 4
+                                      : 1)
+       << " pointtype "
+       << (scalar                      ? 4
+           : q.time_step_factor == 1.0 ? 7
+                                       : 6)
+       << " pointsize 1";
+  return text.str();
+}
+
+double cost(const SweepPoint& point, const ChartSettings& settings) {
+  return settings.clock == Clock::wall ? point.wall_cost() : point.processor_cost(settings.cores);
+}
+
+double resolution(const SweepPoint& point) {
+  return point.result.item->size / point.result.spacing;
+}
+
+std::vector<Quality> qualities_of(const std::vector<SweepPoint>& points) {
+  std::vector<Quality> list;
+  for (const SweepPoint& point : points) {
+    if (std::find(list.begin(), list.end(), point.quality) == list.end()) {
+      list.push_back(point.quality);
+    }
+  }
+  return list;
+}
+
+std::vector<const SweepCase*> cases_of(const std::vector<SweepPoint>& points) {
+  std::vector<const SweepCase*> list;
+  for (const SweepPoint& point : points) {
+    if (std::find(list.begin(), list.end(), point.item) == list.end()) list.push_back(point.item);
+  }
+  return list;
+}
+
+/// Lines "x y label" of one quality as a data block; a case, or all of them when null.
+template <class XAndY>
+void write_block(std::ostream& out, const std::string& name, const std::vector<SweepPoint>& points,
+                 const SweepCase* item, const Quality& quality, const XAndY& x_and_y) {
+  out << '$' << name << " << EOD\n";
+  for (const SweepPoint& point : points) {
+    if ((item != nullptr && point.item != item) || !(point.quality == quality)) continue;
+    const auto [x, y] = x_and_y(point);
+    out << x << ' ' << y << ' ' << resolution(point) << '\n';
+  }
+  out << "EOD\n";
+}
+
+void draw_case(std::ostream& out, const std::vector<SweepPoint>& points, const SweepCase& item,
+               const std::vector<Quality>& qualities, const ChartSettings& settings) {
+  std::string plot;
+  for (std::size_t q = 0; q < qualities.size(); ++q) {
+    const std::string block = item.name + std::to_string(q);
+    write_block(out, block, points, &item, qualities[q], [&](const SweepPoint& point) {
+      return std::pair(cost(point, settings), std::max(point.error(), 1.0e-3));
+    });
+    plot += (plot.empty() ? "" : ", ") + ("$" + block) + " with linespoints " + style(qualities[q]);
+    if (q == 0) {
+      plot += ", $" + block + " using 1:2:3 with labels offset 0,0.9 font \",9\" textcolor rgb ink";
+    }
+  }
+  out << "set title \"" << item.name << ": " << item.figure << " [%]\" noenhanced\n"
+      << "set arrow 1 from 1, graph 0 to 1, graph 1 nohead linecolor rgb \"#cc79a7\" linewidth "
+         "1.6\n"
+      << "plot " << plot << "\nunset arrow 1\n";
+}
+
+void draw_rates(std::ostream& out, const std::vector<SweepPoint>& points,
+                const std::vector<Quality>& qualities, const ChartSettings& settings) {
+  std::string plot;
+  for (std::size_t q = 0; q < qualities.size(); ++q) {
+    const std::string block = "rate" + std::to_string(q);
+    write_block(out, block, points, nullptr, qualities[q], [&](const SweepPoint& point) {
+      const double seconds = cost(point, settings) * point.result.simulated;
+      return std::pair(static_cast<double>(point.result.particles),
+                       static_cast<double>(point.result.steps) / seconds);
+    });
+    plot += (q == 0 ? "" : ", ") + ("$" + block) + " with points " + style(qualities[q]);
+  }
+  out << kPaper << "set title \"Steps per second, all cases; stars: the paper's three points\"\n"
+      << "set xlabel \"particles\"\nset ylabel \"steps per second of computing\"\nplot " << plot
+      << ", $paper with points pointtype 3 pointsize 2 linewidth 2 linecolor rgb \"#000000\"\n";
+}
+
+void draw_legend(std::ostream& out, const std::vector<Quality>& qualities) {
+  out << "unset border\nunset tics\nunset grid\nunset xlabel\nunset ylabel\nunset title\n"
+         "unset logscale\nset key center center reverse Left samplen 3\n"
+         "set xrange [0:1]\nset yrange [0:1]\nplot ";
+  for (const Quality& quality : qualities) {
+    out << "NaN with linespoints " << style(quality) << " title \"" << quality.name() << "\", ";
+  }
+  out << "NaN with lines linewidth 1.6 linecolor rgb \"#cc79a7\" title \"real time\", "
+         "NaN with points pointtype 3 linewidth 2 linecolor rgb \"#000000\" title "
+         "\"Cirio et al. 2013, a laptop's GPU\"\n";
+}
+
+void draw(const std::filesystem::path& folder, const ChartSettings& settings,
+          const std::vector<SweepPoint>& points) {
+  const synth::ScratchFolder scratch;
+  const std::filesystem::path script = scratch.path() / "error.gp";
+  const std::vector<Quality> qualities = qualities_of(points);
+  const std::vector<const SweepCase*> cases = cases_of(points);
+  const std::size_t rows = (cases.size() + 2 + 3) / 4;
+  std::ofstream out(script);
+  out << "set terminal pngcairo size 1800," << 500 * rows
+      << " enhanced font \"DejaVu Sans,11\" background \"#ffffff\"\nset output \""
+      << std::filesystem::absolute(folder / "error.png").string() << "\"\n"
+      << kSetup << "set multiplot layout " << rows
+      << ",4 title \"Run time against error: " << settings.device
+      << "; numbers: size over particle spacing\" noenhanced\n"
+      << "set xlabel \"seconds of "
+      << (settings.clock == Clock::wall ? "computing" : "processor per core")
+      << " per simulated second\"\nset ylabel \"error [%]\"\n";
+  for (const SweepCase* item : cases) draw_case(out, points, *item, qualities, settings);
+  draw_rates(out, points, qualities, settings);
+  draw_legend(out, qualities);
+  out << "unset multiplot\n";
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + script.string());
+  synth::run_gnuplot(script);
+}
+
+double per_solve(const sim::SolveWork& work) {
+  return static_cast<double>(work.iterations) / static_cast<double>(work.solves);
+}
+
+void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
+  out << "case,figure,size_over_spacing,particles,solver,smoothing,time_step_factor,kernels,"
+         "simulated_s,steps,wall_s,processor_s,error_percent,mean_density_error,"
+         "divergence_iterations,divergence_most,density_iterations,density_most,given_up\n";
+  for (const SweepPoint& p : points) {
+    const Quality& q = p.quality;
+    const validation::Result& r = p.result;
+    out << p.item->name << ",\"" << p.item->figure << "\"," << resolution(p) << ',' << r.particles
+        << ','
+        << (q.solver == sim::PressureKind::divergence_free ? "divergence_free"
+                                                           : "weakly_compressible")
+        << ',' << (q.smoothing == sim::SmoothingKind::wide ? "wide" : "narrow") << ','
+        << q.time_step_factor << ','
+        << (q.kernels == sim::KernelKind::reference ? "reference" : "vector") << ',' << r.simulated
+        << ',' << r.steps << ',' << r.steps_alone.wall << ',' << r.steps_alone.processor << ','
+        << p.error() << ',' << r.mean_density_error << ',';
+    if (r.work.density.solves > 0) {
+      out << per_solve(r.work.divergence) << ',' << r.work.divergence.most << ','
+          << per_solve(r.work.density) << ',' << r.work.density.most << ','
+          << r.work.divergence.given_up + r.work.density.given_up;
+    } else {
+      out << ",,,,";
+    }
+    out << '\n';
+  }
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+void write_markdown(std::ostream& out, const ChartSettings& settings,
+                    const std::vector<SweepPoint>& points) {
+  const std::vector<Quality> qualities = qualities_of(points);
+  for (const SweepCase* item : cases_of(points)) {
+    out << "| " << item->name << ": " << item->figure << " |";
+    std::vector<double> sizes;
+    for (const SweepPoint& p : points) {
+      const bool mine = p.item == item;
+      if (mine && std::find(sizes.begin(), sizes.end(), resolution(p)) == sizes.end()) {
+        sizes.push_back(resolution(p));
+        out << " at " << short_number(sizes.back()) << " | s/s |";
+      }
+    }
+    out << "\n| --- |";
+    for (std::size_t k = 0; k < sizes.size(); ++k) out << " --- | --- |";
+    for (const Quality& quality : qualities) {
+      out << "\n| " << quality.name() << " |";
+      for (const SweepPoint& p : points) {
+        if (p.item != item || !(p.quality == quality)) continue;
+        out << ' ' << short_number(p.error()) << " % | " << short_number(cost(p, settings)) << " |";
+      }
+    }
+    out << "\n\n";
+  }
+}
+
+}  // namespace
+
+void write_error_chart(const std::filesystem::path& folder, const ChartSettings& settings,
+                       const std::vector<SweepPoint>& points) {
+  std::ofstream csv(folder / "error.csv");
+  write_csv(csv, points);
+  std::ofstream markdown(folder / "error.md");
+  write_markdown(markdown, settings, points);
+  if (!csv || !markdown) throw std::runtime_error("cannot write into " + folder.string());
+  draw(folder, settings, points);
+}
+
+}  // namespace splash::bench

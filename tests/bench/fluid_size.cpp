@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "protocol/time_tag.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation.hpp"
+#include "tests/bench/fluid_block.hpp"
+#include "tests/bench/fluid_cost.hpp"
+#include "tests/bench/opencl_ledger.hpp"
+
+namespace splash::bench {
+namespace {
+
+using namespace splash::sim;
+
+constexpr int kSteps = 10;  ///< of a batch
+constexpr double kPoolSeconds = 2.0;
+
+struct StageTimes {
+  std::map<std::string, Launches> kernels;
+  std::int64_t steps = 0;
+  double wall = 0.0;  ///< [s]
+};
+
+void print(const char* what, const StageTimes& times, std::FILE* csv) {
+  std::vector<std::pair<std::string, Launches>> sorted(times.kernels.begin(), times.kernels.end());
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
+  double sum = 0.0;
+  std::int64_t launches = 0;
+  for (const auto& [name, stage] : sorted) {
+    sum += stage.seconds;
+    launches += stage.count;
+  }
+  const auto steps = static_cast<double>(times.steps);
+  std::printf("\n%s: %lld steps, %.1f launches each\n", what, static_cast<long long>(times.steps),
+              static_cast<double>(launches) / steps);
+  std::printf("stage                         launches/step   ms/step   of all\n");
+  for (const auto& [name, stage] : sorted) {
+    const double ms = 1e3 * stage.seconds / steps;
+    std::printf("%-28s  %13.2f  %8.4f  %5.1f %%\n", name.c_str(),
+                static_cast<double>(stage.count) / steps, ms, 100.0 * stage.seconds / sum);
+    if (csv != nullptr) std::fprintf(csv, "stage:%s:%s,,%g\n", what, name.c_str(), ms);
+  }
+  std::printf("kernels %.3f ms, between them %.3f ms (%.1f us per launch)\n", 1e3 * sum / steps,
+              1e3 * (times.wall - sum) / steps,
+              1e6 * (times.wall - sum) / static_cast<double>(launches));
+}
+
+StageTimes of_cube(Device& device, int count) {
+  Block block(device, count);
+  StageTimes times;
+  times.steps = 100;
+  begin_ledger();
+  const double start = protocol::monotonic_now();
+  for (int k = 0; k < times.steps; ++k) block.move();
+  device.queue().finish();
+  times.wall = protocol::monotonic_now() - start;
+  times.kernels = end_ledger();
+  return times;
+}
+
+StageTimes of_pool(Device& device) {
+  const auto path = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes" / "pool.yaml";
+  Simulation pool(device, read_scene(path), {});
+  StageTimes times;
+  begin_ledger();
+  const double start = protocol::monotonic_now();
+  while (pool.seconds() < kPoolSeconds) static_cast<void>(pool.advance());
+  times.wall = protocol::monotonic_now() - start;
+  times.kernels = end_ledger();
+  times.steps = pool.totals().steps;
+  return times;
+}
+
+/// Of a kernel that does nothing, wall and processor [s].
+std::pair<double, double> empty_launch(Device& device) {
+  const KernelSource source = {"tests/bench/nothing", "kernel void nothing(int n) { (void)n; }\n"};
+  Kernel nothing(build_program(device, {source}, {}, false), "nothing");
+  constexpr int kLaunches = 2000;
+  const auto run = [&] {
+    for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, k);
+    device.queue().finish();
+  };
+  run();
+  const double before = processor_time();
+  const double wall = wall_time(run, 5);
+  return {wall / kLaunches, (processor_time() - before) / (5 * kLaunches)};
+}
+
+}  // namespace
+
+void against_size(Device& device, int most_particles, std::FILE* csv) {
+  std::printf("\nThe whole step, without walls and bodies, in batches of %d; median of 7\n",
+              kSteps);
+  std::printf(
+      "particles   ms/step  of processors  steps/s  M particle updates/s    MiB  B/particle\n");
+  for (const int count :
+       {2'000, 4'000, 8'000, 15'625, 30'000, 60'000, 125'000, 250'000, 500'000, 1'000'000}) {
+    if (count > most_particles) break;
+    const std::size_t others = buffer_bytes();
+    Block block(device, count);
+    const auto memory = static_cast<double>(buffer_bytes() - others);
+    const int batches = count > 200'000 ? 3 : 7;
+    const double processor = processor_time();
+    const double step = wall_time(
+                            [&] {
+                              for (int k = 0; k < kSteps; ++k) block.move();
+                              device.queue().finish();
+                            },
+                            batches) /
+                        kSteps;
+    const double busy = (processor_time() - processor) / (kSteps * batches);
+    const double particles = block.params.count;
+    std::printf("%9.0f  %8.3f  %13.3f  %7.0f  %20.2f  %5.1f  %10.0f\n", particles, 1e3 * step,
+                1e3 * busy, 1.0 / step, 1e-6 * particles / step, memory / 1048576.0,
+                memory / particles);
+    std::fflush(stdout);
+    if (csv != nullptr) {
+      std::fprintf(csv, "step,%.0f,%g,%g,%g\n", particles, 1e3 * step, 1e3 * busy, memory);
+    }
+  }
+}
+
+void stage_by_stage(Device& device, std::FILE* csv) {
+  print("cube of 15,625", of_cube(device, 15'625), csv);
+  print("pool", of_pool(device), csv);
+  const auto [wall, processor] = empty_launch(device);
+  std::printf("a launch that does nothing: %.1f us, %.1f us of processors\n", 1e6 * wall,
+              1e6 * processor);
+  if (csv != nullptr) std::fprintf(csv, "launch,,%g,%g\n", 1e3 * wall, 1e3 * processor);
+}
+
+}  // namespace splash::bench

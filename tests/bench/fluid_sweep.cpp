@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/fluid_sweep.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+
+#include "protocol/time_tag.hpp"
+
+namespace splash::bench {
+namespace {
+
+using sim::KernelKind;
+using sim::PressureKind;
+using sim::SmoothingKind;
+
+constexpr PressureKind kSolvers[] = {PressureKind::weakly_compressible,
+                                     PressureKind::divergence_free};
+constexpr SmoothingKind kSmoothings[] = {SmoothingKind::narrow, SmoothingKind::wide};
+/// A frame has whole steps: a thousand a second would shorten those of the divergence-free solver.
+constexpr double kFrames = 200.0;
+constexpr double kHalf = 0.5;
+constexpr double kLonger = 1.25;
+
+/// One line that is written over until the run is done.
+class Line {
+ public:
+  explicit Line(std::string what) : what_(std::move(what)), shown_(protocol::monotonic_now()) {}
+  void progress(double share) {
+    const double now = protocol::monotonic_now();
+    if (!on_terminal_ || now - shown_ < 2.0) return;
+    shown_ = now;
+    std::printf("\r%s %3.0f %%", what_.c_str(), 100.0 * std::min(share, 1.0));
+    std::fflush(stdout);
+  }
+  void end(const SweepPoint& point) const {
+    const sim::SolverWork& work = point.result.work;
+    std::printf("%s%s %7d  %8.3f  %8.3f  %9.3g", on_terminal_ ? "\r" : "", what_.c_str(),
+                point.result.particles, point.wall_cost(), point.processor_cost(1), point.error());
+    if (work.density.solves > 0) {
+      const auto mean = [](const sim::SolveWork& w) {
+        return static_cast<double>(w.iterations) / static_cast<double>(w.solves);
+      };
+      std::printf("  %.1f (%d) + %.1f (%d)", mean(work.divergence), work.divergence.most,
+                  mean(work.density), work.density.most);
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+
+ private:
+  std::string what_;
+  double shown_;
+  bool on_terminal_ = isatty(STDOUT_FILENO) != 0;
+};
+
+/// Of SweepPoint::error in the outcome; what has no such figure is a mistake of ours.
+double figure_of(const validation::Outcome& outcome, const std::string& name) {
+  for (const validation::Figure& figure : outcome.figures) {
+    if (figure.name == name) return figure.value;
+  }
+  throw std::out_of_range("the case has no figure '" + name + "'");
+}
+
+validation::Setting setting_of(const Quality& quality, double spacing) {
+  validation::Setting setting;
+  setting.spacing = spacing;
+  setting.smoothing = quality.smoothing;
+  setting.solver = quality.solver;
+  setting.time_step_factor = quality.time_step_factor;
+  setting.detects = false;
+  setting.most_frames = kFrames;
+  setting.skip.emplace();
+  setting.skip->sleep = false;
+  setting.skip->idle = false;
+  return setting;
+}
+
+}  // namespace
+
+std::string Quality::name() const {
+  std::string text =
+      solver == PressureKind::divergence_free ? "divergence-free" : "weakly compressible";
+  text += smoothing == SmoothingKind::wide ? ", wide" : ", narrow";
+  if (time_step_factor != 1.0) {
+    char factor[32];
+    std::snprintf(factor, sizeof factor, ", dt x %g", time_step_factor);
+    text += factor;
+  }
+  if (kernels == KernelKind::reference) text += ", reference kernels";
+  return text;
+}
+
+double SweepPoint::error() const {
+  return std::abs(figure_of(result.outcome, item->figure));
+}
+
+double SweepPoint::wall_cost() const {
+  return result.steps_alone.wall / result.simulated;
+}
+
+double SweepPoint::processor_cost(unsigned cores) const {
+  return result.steps_alone.processor / result.simulated / cores;
+}
+
+const std::vector<SweepCase>& sweep_cases() {
+  static const std::vector<SweepCase> kCases = {
+      {"standing_wave", "period, error"},
+      {"hydrostatic", "profile, rms of rho g H", 8.0},
+      {"elliptical_drop", "short axis, error"},
+      {"oscillating_drop", "axis after one period, error"},
+      {"vortex", "decay rate, error"},
+      {"dam_martin_moyce", "front, rms with one shift"},
+      {"dam_koshizuka_oka", "front, rms with one shift"},
+  };
+  return kCases;
+}
+
+std::vector<Quality> quick_qualities() {
+  std::vector<Quality> list;
+  for (const PressureKind solver : kSolvers) {
+    for (const SmoothingKind smoothing : kSmoothings) list.push_back({solver, smoothing});
+  }
+  list.push_back({.time_step_factor = kHalf});
+  list.push_back({.kernels = KernelKind::reference});
+  return list;
+}
+
+std::vector<Quality> all_qualities() {
+  std::vector<Quality> list;
+  for (const PressureKind solver : kSolvers) {
+    for (const SmoothingKind smoothing : kSmoothings) {
+      for (const double factor : {1.0, kHalf, kLonger}) {
+        list.push_back({solver, smoothing, factor});
+      }
+      list.push_back({solver, smoothing, 1.0, KernelKind::reference});
+    }
+  }
+  return list;
+}
+
+std::vector<SweepPoint> sweep(const SweepPlan& plan, int device,
+                              const std::function<void(const std::vector<SweepPoint>&)>& done) {
+  sim::Device vectors(device);
+  sim::Device scalars(device, false, 1);
+  std::vector<SweepPoint> points;
+  std::printf(
+      "\ncase              resolution  quality                                particles"
+      "  seconds   of processors   error   iterations\n");
+  for (const SweepCase* item : plan.cases) {
+    static std::vector<std::unique_ptr<validation::Case>> kept;  // results point to them
+    kept.push_back(std::make_unique<validation::Case>(validation::case_named(item->name)));
+    validation::Case& run = *kept.back();
+    if (item->seconds > 0.0) run.seconds = item->seconds;
+    const std::size_t count = std::min(plan.resolutions, run.spacings.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      for (const Quality& quality : plan.qualities) {
+        char what[128];
+        std::snprintf(what, sizeof what, "%-17s %s/dp = %-4.0f  %-38s", item->name.c_str(),
+                      run.size_name.c_str(), run.size / run.spacings[k], quality.name().c_str());
+        Line line(what);
+        sim::Device& where = quality.kernels == KernelKind::reference ? scalars : vectors;
+        points.push_back({item, quality,
+                          validation::run_case(where, run, setting_of(quality, run.spacings[k]), {},
+                                               [&](double share) { line.progress(share); })});
+        line.end(points.back());
+        done(points);
+      }
+    }
+  }
+  return points;
+}
+
+}  // namespace splash::bench

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include "sim-server/fluid/kernel_sources.hpp"
+#include "tests/bench/fluid_block.hpp"
+#include "tests/bench/fluid_cost.hpp"
+#include "tests/bench/fluid_yardstick.hpp"
+
+namespace splash::bench {
+namespace {
+
+using namespace splash::sim;
+
+Particles copy_of(Device& device, Block& block) {
+  Particles p;
+  const auto stride = static_cast<std::size_t>(block.fluid.particles().stride);
+  p.params = block.params;
+  p.stride = static_cast<int>(stride);
+  p.position = block.fluid.particles().position.read(device, 3 * stride);
+  p.velocity = block.fluid.particles().velocity.read(device, 3 * stride);
+  p.pressure = block.fluid.pressure_term().read(device, stride);
+  for (auto* part : {&p.position, &p.velocity, &p.pressure}) part->resize(part->size() + 32);
+  const std::size_t cells = SPLASH_SLICES * static_cast<std::size_t>(p.params.cells_x) *
+                            static_cast<std::size_t>(p.params.cells_y) *
+                            static_cast<std::size_t>(p.params.cells_z);
+  p.cell_start.resize(cells + 1);
+  device.queue().enqueueReadBuffer(block.fluid.grid().cell_start(), CL_TRUE, 0,
+                                   4 * p.cell_start.size(), p.cell_start.data());
+  return p;
+}
+
+/// Times of a kernel on the device, from its own clock [s].
+double kernel_time(Device& device, cl::Kernel& kernel, std::size_t items, int runs) {
+  std::vector<double> times;
+  for (int k = 0; k < runs; ++k) {
+    cl::Event event;
+    device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(4),
+                                        nullptr, &event);
+    event.wait();
+    times.push_back(1e-9 *
+                    static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                        event.getProfilingInfo<CL_PROFILING_COMMAND_START>()));
+  }
+  return median(times);
+}
+
+/// Largest difference, over the largest value.
+double farthest(const std::vector<float>& a, const std::vector<float>& b, std::size_t stride,
+                std::size_t count) {
+  double most = 0.0;
+  double size = 0.0;
+  for (std::size_t first = 0; first + count <= std::min(a.size(), b.size()); first += stride) {
+    for (std::size_t i = first; i < first + count; ++i) {
+      most = std::max(most, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+      size = std::max(size, std::abs(static_cast<double>(b[i])));
+    }
+  }
+  return most / size;
+}
+
+/// The product's kernels with arguments of our own, to be timed one by one.
+struct MainKernels {
+  MainKernels(Device& device, Block& block)
+      : program(build_program(device, fluid_sources(), {}, false)),
+        density(program, "compute_density"),
+        acceleration(program, "compute_acceleration"),
+        awake(device, std::vector<int>(cells_and_rows(block.params), 1)),
+        none(device, 1),
+        nobody(device, 1) {
+    Fluid& f = block.fluid;
+    const auto points = static_cast<std::size_t>(f.particles().stride) + kReadAhead;
+    rho = Buffer<float>(device, points);
+    water = Buffer<float>(device, points);
+    term = Buffer<float>(device, points);
+    push = Buffer<float>(device, 3 * points);
+    moving = Buffer<int>(device, points);
+    set(density, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
+        f.grid().source(), rho.memory(), water.memory(), f.particles().position.memory(),
+        f.body_grid().cell_start(), f.boundary().position.memory(), none.memory(), 0,
+        nobody.memory(), 0, 0, 0.0F, rho.memory(), water.memory(), term.memory());
+    set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
+        f.particles().position.memory(), f.particles().velocity.memory(),
+        f.pressure_term().memory(), f.density().memory(), f.water_density().memory(),
+        f.body_grid().cell_start(), f.boundary().position.memory(), f.boundary().velocity.memory(),
+        none.memory(), 0, nobody.memory(), 0, 0, 0.0F, push.memory(), moving.memory());
+  }
+
+  /// Sleep has a number for each cell and for each row (kernels/sleep.h).
+  static std::size_t cells_and_rows(const FluidParams& p) {
+    return (static_cast<std::size_t>(p.cells_x) + 1) * static_cast<std::size_t>(p.cells_y) *
+           static_cast<std::size_t>(p.cells_z);
+  }
+
+  template <class... Args>
+  static void set(cl::Kernel& kernel, const Args&... args) {
+    cl_uint index = 0;
+    (kernel.setArg(index++, args), ...);
+  }
+
+  cl::Program program;
+  cl::Kernel density;
+  cl::Kernel acceleration;
+  Buffer<int> awake;
+  Buffer<float> none;
+  Buffer<BodyStep> nobody;
+  Buffer<float> rho, water, term, push;
+  Buffer<int> moving;
+};
+
+}  // namespace
+
+void beside_the_yardstick(sim::Device& device, int most_particles, std::FILE* csv) {
+  const int threads = static_cast<int>(
+      std::min<std::size_t>(device.facts().compute_units, std::thread::hardware_concurrency()));
+  std::printf(
+      "\nThe two main kernels beside C++ by hand, %d threads; interleaved, the fastest tenth\n",
+      threads);
+  std::printf(
+      "particles   density  by hand  ratio    forces  by hand  ratio   both   difference\n");
+  for (const int count : {2'000, 7'000, 15'625, 60'000, 250'000, 1'000'000}) {
+    if (count > most_particles) break;
+    Block block(device, count);
+    block.fluid.prepare(block.step);
+    device.queue().finish();
+    MainKernels kernels(device, block);
+    const Particles p = copy_of(device, block);
+    const auto stride = static_cast<std::size_t>(p.stride);
+    const auto particles = static_cast<std::size_t>(p.params.count);
+    const auto lanes = static_cast<std::size_t>(device.lanes());
+    const std::size_t packet = lanes == 1 ? 4 : 4 * SPLASH_STRIPS;
+    const std::size_t items = ((particles + lanes - 1) / lanes + packet - 1) / packet * packet;
+    std::vector<float> density(stride);
+    std::vector<float> push(3 * stride);
+    std::vector<double> ours_d, ours_f, hand_d, hand_f;
+    const int rounds = count > 100'000 ? 11 : 41;
+    for (int round = 0; round < rounds; ++round) {
+      ours_d.push_back(kernel_time(device, kernels.density, items, 1));
+      hand_d.push_back(wall_time([&] { density_by_hand(p, threads, density); }, 1));
+      ours_f.push_back(kernel_time(device, kernels.acceleration, items, 1));
+      hand_f.push_back(wall_time([&] { acceleration_by_hand(p, threads, push); }, 1));
+    }
+    const double d = undisturbed(ours_d), hd = undisturbed(hand_d);
+    const double f = undisturbed(ours_f), hf = undisturbed(hand_f);
+    // Gravity is the kernel's alone.
+    std::vector<float> theirs = kernels.push.read(device, 3 * stride);
+    for (std::size_t i = 0; i < particles; ++i) theirs[2 * stride + i] -= p.params.gravity_z;
+    const double off =
+        std::max(farthest(density, kernels.rho.read(device, stride), stride, particles),
+                 farthest(push, theirs, stride, particles));
+    std::printf("%9zu  %6.3f ms  %6.3f  %5.2f  %6.3f ms  %6.3f  %5.2f  %5.2f      %.1e\n",
+                particles, 1e3 * d, 1e3 * hd, hd / d, 1e3 * f, 1e3 * hf, hf / f,
+                (hd + hf) / (d + f), off);
+    if (csv != nullptr) {
+      std::fprintf(csv, "kernels,%zu,%g,%g,%g,%g\n", particles, 1e3 * d, 1e3 * hd, 1e3 * f,
+                   1e3 * hf);
+    }
+    if (!(off < 1e-4)) throw std::runtime_error("the yardstick and the kernels disagree");
+  }
+}
+
+}  // namespace splash::bench
