@@ -8,7 +8,7 @@ namespace splash::sim {
 
 Sleep::Sleep(Device& device, const cl::Program& program, const FluidParams& params)
     : rows_(static_cast<std::size_t>(params.cells_y) * static_cast<std::size_t>(params.cells_z)),
-      awake_(device, rows_ * static_cast<std::size_t>(params.cells_x)),
+      awake_(device, rows_ * (static_cast<std::size_t>(params.cells_x) + 1)),
       keep_awake_(program, "keep_awake", 4) {
   wake(device);
 }

@@ -15,6 +15,7 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
   const int row = get_global_id(0);
   if (row >= p->cells_y * p->cells_z) return;
   const int n = p->capacity;
+  global int* most = awake + p->cells_x * p->cells_y * p->cells_z + row;
   awake += row * p->cells_x;
   cell_start += row * p->cells_x * SLICES;
   for (int x = 0; x < p->cells_x; ++x) {
@@ -43,4 +44,6 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
                                  p->cells_x);
     for (int x = xs.x; x <= xs.y; ++x) awake[x] = hold;
   }
+  *most = 0;
+  for (int x = 0; x < p->cells_x; ++x) *most = max(*most, awake[x]);
 }
