@@ -3,10 +3,10 @@
 // here), and where each chunk's points of each begin. A counting sort with one histogram per chunk
 // needs no atomics, so its order, and with it every sum that follows, is the same on every run.
 
-// Most cells lie above the water: past the last one in use nothing is counted or placed, cell_start
-// there says `points` since the last whole sort. extent[chunk]: one past the last cell in use by the
-// chunk; extent[chunks] and the next: by all of them, and how far the cells were gone through, both
-// in the last sort. `whole`: that is not known, all cells are gone through.
+// Most cells lie above the water: past the last one in use nothing is counted or placed, and
+// cell_start says `points` since the last whole sort. extent[chunk]: one past the last cell in use
+// by the chunk; extent[chunks] and the next: by all of them, and how far the cells were gone
+// through, both in the last sort. `whole`: that is not known, all cells are gone through.
 
 static int all_cells(constant FluidParams* p) {
   return p->cells_x * SLICES * p->cells_y * p->cells_z;
