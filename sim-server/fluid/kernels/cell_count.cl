@@ -63,7 +63,8 @@ kernel void sum_blocks(constant FluidParams* p, int chunks, int blocks, int whol
 // Exclusive prefix sums, cell by cell and within a cell chunk by chunk: count becomes the place
 // of each chunk's first point, cell_start[c] that of each cell's.
 kernel void place_cells(constant FluidParams* p, int chunks, int blocks, int whole,
-                        global const int* extent, global const int* block_sum, global int* count, global int* cell_start) {
+                        global const int* extent, global const int* block_sum,
+                        global int* count, global int* cell_start) {
   const int block = get_global_id(0);
   if (block >= blocks) return;
   const int cell_count = all_cells(p), used = cells_in_use(p, extent, chunks, whole);
