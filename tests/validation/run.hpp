@@ -18,10 +18,10 @@ struct Setting {
   double spacing = 0.0;  ///< of particles [m]
   sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
-  double time_step_factor = 1.0;          ///< of the safe time step [1]
-  std::optional<sim::SkipSettings> skip;  ///< instead of the scene's
-  bool detects = true;                    ///< looks for bubbles and cavities
-  double most_frames = 1.0e6;             ///< per second, where the scene has more [1/s]
+  double time_step_factor = 1.0;                         ///< of the safe time step [1]
+  std::optional<sim::SkipSettings> skip = std::nullopt;  ///< instead of the scene's
+  bool detects = true;                                   ///< looks for bubbles and cavities
+  double most_frames = 1.0e6;  ///< per second, where the scene has more [1/s]
 };
 
 /// What it took to compute something [s].
