@@ -21,12 +21,9 @@ namespace splash::sim {
 
 /// How kernels are built.
 struct KernelBuild {
-  // NOLINTNEXTLINE(google-explicit-constructor)
-  KernelBuild(bool relaxed_mathematics = false, bool all_of_them = false)
-      : relaxed(relaxed_mathematics), whole(all_of_them) {}
-
-  bool relaxed;  ///< with relaxed mathematics; no faster with PoCL, whose vectors are explicit
-  bool whole;    ///< with parts that the scene does not need, too (parts.hpp)
+  bool relaxed =
+      false;           ///< with relaxed mathematics; no faster with PoCL, its vectors are explicit
+  bool whole = false;  ///< with parts that the scene does not need, too (parts.hpp)
 };
 
 /// Health and limits of the whole fluid.

@@ -24,7 +24,7 @@ TEST_P(Acceleration, IsTheTwins) {
   for (Water& water : situations()) {
     SCOPED_TRACE(water.name);
     water.scene.fluid.smoothing = GetParam().smoothing;
-    water.start(device, GetParam().relaxed);
+    water.start(device, {.relaxed = GetParam().relaxed});
     water.stir(1.0, 7);
     FluidState state;
     water.step(1.0e-4, [&](Fluid& fluid) { state = read_state(fluid, water.piston.offset); });
@@ -46,11 +46,12 @@ TEST_P(Acceleration, OfAllTogetherIsGravity) {
   Water& water = all.at(1);
   water.scene.fluid.gravity = {0.0, 0.0, 0.0};
   water.scene.fluid.pull = {0.0, 0.0, 0.0};
-  water.start(device, GetParam().relaxed);
+  water.start(device, {.relaxed = GetParam().relaxed});
   FluidParams open = water.params;
   open.wall_count = 0;
-  water.fluid = std::make_unique<Fluid>(device, open, water.particles, std::vector<BoundaryPoint>{},
-                                        std::vector<BodyShape>{}, GetParam().relaxed);
+  water.fluid =
+      std::make_unique<Fluid>(device, open, water.particles, std::vector<BoundaryPoint>{},
+                              std::vector<BodyShape>{}, KernelBuild{.relaxed = GetParam().relaxed});
   water.stir(1.0, 8);
   water.step(1.0e-4);
   Vector3 sum = {0.0, 0.0, 0.0};

@@ -24,7 +24,7 @@ TEST_P(Density, IsTheTwins) {
   for (Water& water : situations()) {
     SCOPED_TRACE(water.name);
     water.scene.fluid.smoothing = GetParam().smoothing;
-    water.start(device, GetParam().relaxed);
+    water.start(device, {.relaxed = GetParam().relaxed});
     water.fluid->set_bodies(water.bodies->at(0.0));
     water.fluid->prepare(water.step_at(0.0));
     const FluidState state = read_state(*water.fluid, water.piston.offset);
@@ -52,7 +52,7 @@ TEST_P(Density, OfOthersOutlivesNoNumbers) {
     SCOPED_TRACE(bad);
     std::vector<Water> all = situations();
     Water& water = all.front();
-    water.start(device, GetParam().relaxed);
+    water.start(device, {.relaxed = GetParam().relaxed});
     Snapshot snapshot = water.fluid->snapshot();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const std::size_t i : {7U, 300U}) {

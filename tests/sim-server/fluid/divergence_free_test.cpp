@@ -62,7 +62,7 @@ std::vector<double> part_of(const std::vector<Vector3>& vectors, std::size_t axi
 void start(Water& water, Device& device, const Build& build) {
   water.scene.fluid.solver = PressureKind::divergence_free;
   water.scene.fluid.smoothing = build.smoothing;
-  water.start(device, build.relaxed);
+  water.start(device, {.relaxed = build.relaxed});
   water.stir(0.3, 7);
 }
 

@@ -20,7 +20,7 @@ constexpr double kDt = 1.0e-4;  // [s]
 class HealthOf : public ::testing::TestWithParam<Build> {
  protected:
   HealthOf() {
-    water_.start(device_, GetParam().relaxed);
+    water_.start(device_, {.relaxed = GetParam().relaxed});
     water_.stir(1.0, 31);
     water_.step(kDt);
   }

@@ -76,7 +76,7 @@ TEST_P(KeepOut, LeavesNobodyDeepInside) {
                              Shape{ShapeKind::cylinder, {0.2, 0.2, 0.12}, 0.0, 0.0}}) {
     SCOPED_TRACE(static_cast<int>(shape.kind));
     Water water = body_among_particles(shape);
-    water.start(device, GetParam().relaxed);
+    water.start(device, {.relaxed = GetParam().relaxed});
     const std::vector<Vector3> places = scatter(water);
     water.step(1.0e-7);  // next to no motion of its own
     const Snapshot after = water.fluid->snapshot();

@@ -30,7 +30,7 @@ class Sleeping : public ::testing::TestWithParam<Build> {
     water_.motions = {[this](double) {
       return BodyState{{0.12, 0.12, height_}, {0, 0, 0, 1}, {0.0, 0.0, -drop_}, {0, 0, 0}};
     }};
-    water_.start(device_, GetParam().relaxed);
+    water_.start(device_, {.relaxed = GetParam().relaxed});
     water_.fluid->still();
     water_.fluid->let_sleep(kRule);
   }
@@ -157,7 +157,7 @@ TEST_P(Sleeping, WhileAllAreAwakeNothingDiffers) {
     Water water;
     water.scene = tank_scene(0.03, {0.4, 0.24, 0.6}, 0.12);
     water.particles = initial_particles(water.scene);
-    water.start(device, GetParam().relaxed);
+    water.start(device, {.relaxed = GetParam().relaxed});
     water.fluid->let_sleep({speed, 1000});
     water.stir(0.5, 3);
     water.fluid->set_bodies({});

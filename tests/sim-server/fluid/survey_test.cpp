@@ -18,7 +18,7 @@ namespace {
 class SurveyOf : public ::testing::TestWithParam<Build> {
  protected:
   SurveyOf() {
-    water_.start(device_, GetParam().relaxed);
+    water_.start(device_, {.relaxed = GetParam().relaxed});
     water_.stir(1.0, 31);
     water_.step(1.0e-4);
   }
