@@ -119,7 +119,7 @@ void draw_rates(std::ostream& out, const std::vector<SweepPoint>& points,
     });
     plot += (q == 0 ? "" : ", ") + ("$" + block) + " with points " + style(qualities[q]);
   }
-  out << kPaper << "set title \"Steps per second, all cases; stars: the paper's three points\"\n"
+  out << kPaper << "set title \"Steps per second; stars: the paper\"\n"
       << "set xlabel \"particles\"\nset ylabel \"steps per second of computing\"\nplot " << plot
       << ", $paper with points pointtype 3 pointsize 2 linewidth 2 linecolor rgb \"#000000\"\n";
 }
