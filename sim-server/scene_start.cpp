@@ -43,12 +43,12 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
           smoothing.support};
 }
 
-Fluid make_fluid(Device& device, const Scene& asked, const Bodies& bodies) {
-  const Scene scene = with_sound(asked, bodies);
+Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
+  const Scene sounding = with_sound(scene, bodies);
   const std::vector<Vector3> particles = particles_around(scene, bodies);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
-  return {device,   make_params(scene, particles), settled(scene, particles),
-          boundary, body_shapes(scene.bodies),     {false, !scene.skip.kernels}};
+  return {device,   make_params(sounding, particles), settled(sounding, particles),
+          boundary, body_shapes(scene.bodies),        {false, !scene.skip.kernels}};
 }
 
 double start_flow(Fluid& fluid, const Scene& scene) {

@@ -155,9 +155,11 @@ const Fields<Keyframe>& keyframe_fields() {
   return kFields;
 }
 
-const Fields<MotionEntry>& motion_fields() {
+namespace {
+
+Fields<MotionEntry> recorded_fields() {
   using M = MotionEntry;
-  static const Fields<M> kFields = {
+  return {
       {{.key = "kind",
         .unit = "",
         .meaning = "fixed: stays at rest; script: keyframes; csv: poses from a file; trc: markers "
@@ -194,6 +196,12 @@ const Fields<MotionEntry>& motion_fields() {
         .min = 0,
         .max = 86400},
        &M::start},
+  };
+}
+
+Fields<MotionEntry> live_fields() {
+  using M = MotionEntry;
+  return {
       {{.key = "gap",
         .unit = "",
         .meaning = "osc: what the body does between poses and when they stay out: bridge, goes on "
@@ -208,6 +216,12 @@ const Fields<MotionEntry>& motion_fields() {
         .min = 0,
         .max = 1},
        &M::gap_limit},
+  };
+}
+
+Fields<MotionEntry> free_fields() {
+  using M = MotionEntry;
+  return {
       {{.key = "density",
         .unit = "kg/m3",
         .meaning = "free: of the body, the same everywhere in it. Give this or `mass`, not both.",
@@ -245,6 +259,18 @@ const Fields<MotionEntry>& motion_fields() {
         .max = 10},
        &M::friction},
   };
+}
+
+}  // namespace
+
+const Fields<MotionEntry>& motion_fields() {
+  static const Fields<MotionEntry> kFields = [] {
+    Fields<MotionEntry> all = recorded_fields();
+    for (const auto& part : {live_fields(), free_fields()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }();
   return kFields;
 }
 

@@ -49,7 +49,7 @@ class PackFeeds {
     const auto p = static_cast<std::size_t>(pack);
     int more = 0;
     for (const Route& route : routes) more += find(p, route.channel) < 0 ? 1 : 0;
-    const bool fits = static_cast<std::size_t>(counts_[p] + more) <= most_;
+    const bool fits = counts_[p] + more <= static_cast<int>(most_);
     return fits ? more : Seating::kUnfit;
   }
 
