@@ -18,12 +18,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
   const Column& time = g["time"];
   const Column& total = g["sum_total"];
   const double freed = 998.0 * 0.2 * 0.12 * 0.3 * 9.81 * kFreed;
-  double least = total.front();
-  double rise = 0.0;
-  for (const double e : total) {
-    least = std::min(least, e);
-    rise = std::max(rise, e - least);
-  }
+  const double rise = largest_rise(total);
   const Column lost =
       combine(-1.0 / freed, total, total.front() / freed, Column(total.size(), 1.0));
   return {{{"largest rise of energy, of what was freed", 100.0 * rise / freed, "%", 0.0, 0.1},

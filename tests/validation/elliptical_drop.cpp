@@ -54,12 +54,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
   const double a = interpolate(time, shorter, kEnd);
   const double b = interpolate(time, longer, kEnd);
   const Column& energy = g["sum_total"];
-  double rise = 0.0;
-  double least = energy.front();
-  for (const double e : energy) {
-    least = std::min(least, e);
-    rise = std::max(rise, e - least);
-  }
+  const double rise = largest_rise(energy);
   const double mass = 998.0 * M_PI * kRadius * kRadius * 0.02;
   double drift = 0.0;
   for (const char* axis : {"all_x", "all_z"}) {  // the walls push along y

@@ -105,6 +105,16 @@ double largest_between(const Column& x, const Column& y, double first, double la
   return largest;
 }
 
+double largest_rise(const Column& y) {
+  double least = std::numeric_limits<double>::infinity();
+  double rise = 0.0;
+  for (const double value : y) {
+    least = std::min(least, value);
+    rise = std::max(rise, value - least);
+  }
+  return rise;
+}
+
 Column zero_crossings(const Column& x, const Column& y) {
   Column crossings;
   for (std::size_t k = 1; k < x.size(); ++k) {

@@ -37,6 +37,8 @@ class Series {
 /// Mean of y where first <= x <= last; throws std::runtime_error where there is no sample.
 [[nodiscard]] double mean_between(const Column& x, const Column& y, double first, double last);
 [[nodiscard]] double largest_between(const Column& x, const Column& y, double first, double last);
+/// The most that a later value lies above an earlier one; 0 where none does.
+[[nodiscard]] double largest_rise(const Column& y);
 /// Where y changes sign, by straight lines.
 [[nodiscard]] Column zero_crossings(const Column& x, const Column& y);
 /// First x at which y reaches `level`, by straight lines; not a number when it never does.
