@@ -20,6 +20,32 @@ namespace {
 constexpr auto kLongestBlock = std::chrono::milliseconds(500);
 constexpr int kNotSeen = -1;
 
+struct Found {
+  std::unique_ptr<RtAudio> audio;
+  rtaudio_port::Device device;
+};
+
+/// The device that is meant, with the object that listed it: JACK makes a client each time it is
+/// asked for its devices, which takes a tenth of a second.
+Found find(const DeviceChoice& choice) {
+  std::vector<std::unique_ptr<RtAudio>> audios;
+  std::vector<std::size_t> listed_by;
+  std::vector<rtaudio_port::Device> devices;
+  const auto apis =
+      choice.api.empty() ? rtaudio_port::apis() : std::vector<std::string>{choice.api};
+  for (const auto& api : apis) {
+    audios.push_back(rtaudio_port::create(api));
+    for (auto& device : rtaudio_port::devices(*audios.back(), api)) {
+      devices.push_back(std::move(device));
+      listed_by.push_back(audios.size() - 1);
+    }
+  }
+  std::vector<DeviceDescription> all;
+  for (const auto& device : devices) all.push_back(device.description);
+  const std::size_t chosen = choose_device(all, choice.device);
+  return {std::move(audios[listed_by[chosen]]), devices[chosen]};
+}
+
 }  // namespace
 
 /// Everything RtAudio's thread touches. Nothing here asks RtAudio about a stream that has started:
@@ -76,8 +102,8 @@ struct RtAudioOutput::Stream {
 };
 
 RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_shared<Stream>()) {
-  const auto all = list_devices(choice.api);
-  const DeviceDescription& chosen = all[choose_device(all, choice.device)];
+  Found found = find(choice);
+  const DeviceDescription& chosen = found.device.description;
   const std::string title = chosen.api + " device '" + chosen.name + "'";
   if (chosen.channels < choice.channels) {
     throw DeviceError(title + " has " + std::to_string(chosen.channels) +
@@ -85,15 +111,9 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
                       "; choose another device (--list-devices) or rig");
   }
   std::vector<std::string> ports = port_names(chosen.api, chosen.name, choice.channels);
-  stream_->audio = rtaudio_port::create(chosen.api);
-  const auto devices = rtaudio_port::devices(*stream_->audio, chosen.api);
-  const auto found = std::find_if(devices.begin(), devices.end(), [&](const auto& device) {
-    return device.description.name == chosen.name;
-  });
-  if (found == devices.end()) throw DeviceError(title + " has gone while it was being opened");
-
+  stream_->audio = std::move(found.audio);
   const int rate = choice.sample_rate != 0 ? choice.sample_rate : chosen.preferred_rate;
-  rtaudio_port::Opening opening{found->id,
+  rtaudio_port::Opening opening{found.device.id,
                                 static_cast<unsigned int>(choice.channels),
                                 static_cast<unsigned int>(rate),
                                 static_cast<unsigned int>(choice.block),
