@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -14,12 +13,11 @@
 #include <iostream>
 #include <memory>
 #include <random>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "protocol/time_tag.hpp"
+#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/synth-server/live/jack_capture.hpp"
 #include "tests/system/kills.hpp"
@@ -39,28 +37,11 @@ struct Settings {
 
 constexpr double kPatience = 30.0;  ///< [s]
 
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
 Progress counter(const char* what, int rounds) {
   return [what, rounds](int round) {
     std::fprintf(stderr, "\r%s: %d of %d ", what, round, rounds);
     if (round == rounds) std::fprintf(stderr, "\n");
   };
-}
-
-/// User and system time of another process [s].
-double cpu_seconds(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  text.erase(0, text.rfind(')') + 1);  // the name may have spaces
-  std::vector<std::string> fields;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) fields.push_back(word);
-  return (std::stod(fields.at(11)) + std::stod(fields.at(12))) /
-         static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 /// Seconds until `words` have been said `times` times; throws when they are not.

@@ -25,10 +25,12 @@
 #include "protocol/udp_socket.hpp"
 #include "synth-server/figure/gnuplot.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/process_use.hpp"
 
 namespace {
 
 using namespace splash;
+using tests::sleep;
 using tests::ChildProcess;
 
 constexpr int kRate = 48000;
@@ -39,10 +41,6 @@ constexpr double kPatience = 20.0;
 constexpr double kMargin = 0.0002;   ///< over one block, for events with a time tag [s]
 constexpr double kLongest = 0.030;   ///< an onset later than this belongs to no event [s]
 constexpr double kDistance = 0.031;  ///< between events, at least [s]
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
 
 void ignore(const char* /*text*/) {}
 

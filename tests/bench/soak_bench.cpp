@@ -5,19 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <random>
 #include <string>
-#include <thread>
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 
 namespace {
@@ -35,19 +33,6 @@ struct Settings {
 constexpr double kLineSeconds = 30.0;
 constexpr double kWarmSeconds = 60.0;  ///< after which memory may not grow [s]
 constexpr std::array kScenes = {"pool", "beach", "basin"};
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
-/// Resident memory [KiB].
-long resident(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
-  }
-  return 0;
-}
 
 /// One program's memory over its life.
 class Memory {

@@ -2,17 +2,16 @@
 #include "tests/system/kills.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <thread>
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
 #include "tests/system/small_scene.hpp"
@@ -24,10 +23,6 @@ constexpr double kLongestLife = 1.2;  ///< of a program that is to be killed [s]
 constexpr double kPatience = 30.0;    ///< [s]
 constexpr double kTop = 750.0;        ///< of the handheld rig's band [Hz]
 constexpr double kRate = 48000.0;     ///< [Hz]
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
 
 double between(double least, double most, std::mt19937& random) {
   return std::uniform_real_distribution<double>(least, most)(random);
@@ -52,12 +47,11 @@ std::optional<std::uint64_t> events_of(Daemon& synth) {
   return status ? std::optional(status->events) : std::nullopt;
 }
 
-/// Until the synth has taken more than `before`: how long that took [s].
-std::optional<double> await_event(Daemon& synth, std::uint64_t before) {
-  const double start = protocol::monotonic_now();
+/// Until the synth has taken more than `before`: how long after `start` that was [s].
+std::optional<double> await_event(Daemon& synth, std::uint64_t before, double start) {
   while (protocol::monotonic_now() - start < kPatience) {
     if (events_of(synth).value_or(0) > before) return protocol::monotonic_now() - start;
-    sleep(0.15);  // it answers ten times a second at most
+    sleep(0.11);  // it answers ten times a second at most
   }
   return std::nullopt;
 }
@@ -110,8 +104,10 @@ Kills kill_simulators(int rounds, std::mt19937& random, const Progress& progress
   for (int k = 0; k < rounds; ++k) {
     const Arguments simulator = simulator_to(scene, synth.endpoint());
     live_and_die(command("sim-server", simulator), random);
+    const double start = protocol::monotonic_now();
+    const std::uint64_t before = events_of(synth).value_or(0);
     Simulator next(simulator);
-    judge(synth, await_event(synth, events_of(synth).value_or(0)), kills);
+    judge(synth, await_event(synth, before, start), kills);
     next.process().signal(SIGKILL);
     next.process().wait_for_end();
     progress(k + 1);
@@ -132,8 +128,9 @@ Kills kill_synths(int rounds, std::mt19937& random, const Progress& progress) {
   for (int k = 0; k < rounds; ++k) {
     const Arguments synth = synth_on(protocol::to_string(port));
     live_and_die(command("synth-server", synth), random);
+    const double start = protocol::monotonic_now();
     Synth next(synth);
-    judge(simulator, await_event(next, 0), kills);
+    judge(simulator, await_event(next, 0, start), kills);
     next.process().signal(SIGKILL);
     next.process().wait_for_end();
     progress(k + 1);
@@ -152,11 +149,15 @@ Kills start_in_any_order(int rounds, std::mt19937& random, const Progress& progr
     const auto start_synth = [&] {
       synth = std::make_unique<Synth>(synth_on(protocol::to_string(port)));
     };
-    if (k % 2 == 0) start_synth();
-    simulator = std::make_unique<Simulator>(simulator_to(scene, port));
+    const auto start_simulator = [&] {
+      simulator = std::make_unique<Simulator>(simulator_to(scene, port));
+    };
+    const bool synth_first = k % 2 == 0;
+    synth_first ? start_synth() : start_simulator();
     sleep(between(0.0, 1.0, random));
-    if (synth == nullptr) start_synth();
-    judge(*simulator, await_event(*synth, 0), kills);
+    const double start = protocol::monotonic_now();
+    synth_first ? start_simulator() : start_synth();
+    judge(*simulator, await_event(*synth, 0, start), kills);
     end_in_peace(*simulator, kills);
     end_in_peace(*synth, kills);
     progress(k + 1);

@@ -12,7 +12,7 @@ namespace splash::tests {
 
 struct Kills {
   int survived = 0;                     ///< rounds in which the other program ran on and answered
-  std::vector<double> recovery;         ///< from "listening" after the kill to the first event [s]
+  std::vector<double> recovery;         ///< from the start of the next one to its first event [s]
   std::vector<std::string> complaints;  ///< what went wrong, with the programs' words
   double largest_step = 0.0;  ///< between two samples of the synth's recording [full scale]
   double slew_limit = 0.0;    ///< of the rig it drove [full scale per sample]

@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <thread>
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
 #include "tests/system/small_scene.hpp"
@@ -18,10 +17,6 @@ namespace splash::tests {
 namespace {
 
 constexpr double kPatience = 30.0;  // [s]
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
 
 Arguments synth_on(const std::string& listen) {
   return {"--rig", rig_path("stereo.yaml"), "--device", "null", "--listen", listen};

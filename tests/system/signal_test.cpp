@@ -4,13 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "protocol/event_log.hpp"
+#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
 #include "tests/system/small_scene.hpp"
@@ -22,10 +21,6 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr double kPatience = 60.0;  ///< [s]
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
 
 class Signals : public testing::Test {
  protected:

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What another process takes of the machine, and waiting while it does.
+#pragma once
+
+#include <sys/types.h>
+
+namespace splash::tests {
+
+/// Resident memory [KiB]; 0: there is no such process.
+[[nodiscard]] long resident(pid_t process);
+/// User and system time since its start [s]. Throws when there is no such process.
+[[nodiscard]] double cpu_seconds(pid_t process);
+
+void sleep(double seconds);
+
+}  // namespace splash::tests
