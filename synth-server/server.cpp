@@ -211,16 +211,23 @@ std::string Server::state() const {
          ", " + level_text(playing_->player.meter(), channel_names(rig_));
 }
 
-Totals Server::totals() const {
+// An event is counted where it ends up: what is asked for last, when nothing moves any more, must
+// also tell of those that are still on their way.
+Totals Server::stop() {
   Totals all;
   all.seconds = protocol::monotonic_now() - started_;
-  all.taken = receiver_->counters();
   all.dropped_by_kernel = receiver_->dropped_by_kernel();
+  all.taken = receiver_->counters();
+  receiver_.reset();
   all.device_losses = output_->losses();
   all.scheduling = output_->scheduling();
-  const std::lock_guard lock(mutex_);
+  output_.reset();
   all.player = playing_->player.counters();
   all.engine = playing_->engine.counters();
+  all.waiting = all.engine.scheduled;
+  queue_.consume_all([&](const Command& command) {
+    if (command.kind == Command::Kind::play) ++all.waiting;
+  });
   return all;
 }
 
@@ -238,9 +245,7 @@ void Server::await_silence() const {
 
 void Server::finish() {
   await_silence();
-  const Totals all = totals();
-  receiver_.reset();
-  output_.reset();
+  const Totals all = stop();
   if (recorder_ != nullptr) {
     recorder_->finish();
     protocol::failing_with(protocol::kExitIo, [&] {

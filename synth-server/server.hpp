@@ -67,7 +67,8 @@ class Server {
   void introduce() const;
   void warn_of_latency(const AudioFormat& format) const;
   void await_silence() const;
-  [[nodiscard]] Totals totals() const;
+  /// Ends receiving and playing.
+  [[nodiscard]] Totals stop();
   [[nodiscard]] protocol::SynthStatus complete(protocol::SynthStatus status) const;
 
   const Options options_;

@@ -20,6 +20,7 @@ struct Totals {
   std::uint64_t dropped_by_kernel = 0;
   PlayerCounters player;
   EngineCounters engine;
+  std::uint64_t waiting = 0;  ///< events whose moment had not come when the program ended
   std::uint64_t device_losses = 0;
   std::string scheduling;  ///< of the rendering thread
 };

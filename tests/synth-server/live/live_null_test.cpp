@@ -7,6 +7,8 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <regex>
+#include <string>
 #include <thread>
 
 #include "protocol/status.hpp"
@@ -54,6 +56,15 @@ class LiveNull : public testing::Test {
   std::vector<std::string> arguments(const std::string& rig = "stereo.yaml") {
     return {"--rig", rig_path(rig), "--device", "null", "--record-audio", wav_};
   }
+  /// Waits until the program has rendered this much more, however slow the machine is [s].
+  void await_sound(double seconds) {
+    constexpr double kBytesPerSecond = 2.0 * sizeof(float) * kRate;
+    constexpr double kUnwritten = 1.0;  // a file is whole up to its last second
+    const auto written = [&] { return static_cast<double>(std::filesystem::file_size(wav_)); };
+    const double enough = written() + (seconds + kUnwritten) * kBytesPerSecond;
+    const double limit = protocol::monotonic_now() + 60.0;
+    while (written() < enough && protocol::monotonic_now() < limit) sleep(0.02);
+  }
   std::string wav_ = temporary_path("live.wav");
 };
 
@@ -66,10 +77,10 @@ TEST_F(LiveNull, PlaysTimeTagsExactToTheSample) {
     synth.send(protocol::encode(after(first, steps[i]), {bubble(static_cast<int>(i), 0.004F)}));
     sleep(0.1);
   }
-  sleep(2.0);
+  await_sound(2.0);
   synth.process().signal(SIGTERM);
   ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
-  EXPECT_THAT(synth.process().output(), testing::HasSubstr("played 0 impacts, 4 bubbles"));
+  ASSERT_THAT(synth.process().output(), testing::HasSubstr("played 0 impacts, 4 bubbles"));
 
   const Recording recording = tests::read_recording(wav_);
   ASSERT_EQ(recording.channels.size(), 2U);
@@ -217,6 +228,47 @@ TEST_F(LiveNull, CountsWhatComesTooLateAndTooEarly) {
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("not played: 1 too late"));
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("0 events late, 1 too early"));
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("played 0 impacts, 1 bubbles"));
+}
+
+TEST_F(LiveNull, CountsWhatIsStillToComeAtTheEnd) {
+  auto patient = arguments();
+  patient.insert(patient.end(), {"--horizon-ms", "60000"});
+  Synth synth(patient);
+  const double now = protocol::unix_now();
+  synth.send(protocol::encode(TimeTag{1}, {bubble(1)}));
+  synth.send(protocol::encode(protocol::to_time_tag(now + 50.0), {bubble(2), bubble(3)}));
+  EXPECT_EQ(synth.ask({"/sync", {9}}, "/synced"), (Message{"/synced", {9}}));
+  synth.process().signal(SIGTERM);
+  ASSERT_EQ(synth.process().wait_for_end(), 0);
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("2 still to come at the end"));
+}
+
+/// The null clock gives up a backlog of over a second: what was scheduled then sounds later, and
+/// what does not sound before the end is told.
+TEST_F(LiveNull, LosesNoEventUntoldWhenTheMachineStalls) {
+  Synth synth(arguments());
+  await_sound(0.5);
+  const double now = protocol::unix_now();
+  for (int i = 0; i < 4; ++i) {
+    synth.send(protocol::encode(protocol::to_time_tag(now + 0.5 + 0.4 * i), {bubble(i)}));
+  }
+  EXPECT_EQ(synth.ask({"/sync", {9}}, "/synced"), (Message{"/synced", {9}}));
+  sleep(0.1);
+  synth.process().signal(SIGSTOP);
+  sleep(1.5);
+  synth.process().signal(SIGCONT);
+  sleep(0.5);
+  synth.process().signal(SIGTERM);
+  ASSERT_EQ(synth.process().wait_for_end(), 0);
+  std::smatch found;
+  const std::string text = synth.process().output();
+  ASSERT_TRUE(std::regex_search(text, found, std::regex("(\\d+) bubbles"))) << text;
+  const int played = std::stoi(found[1]);
+  ASSERT_TRUE(std::regex_search(text, found, std::regex("(\\d+) too late"))) << text;
+  const int late = std::stoi(found[1]);
+  ASSERT_TRUE(std::regex_search(text, found, std::regex("(\\d+) still to come"))) << text;
+  const int waiting = std::stoi(found[1]);
+  EXPECT_EQ(played + late + waiting, 4) << text;
 }
 
 }  // namespace
