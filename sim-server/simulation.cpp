@@ -3,29 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/settle.hpp"
 #include "sim-server/free_body_watch.hpp"
-#include "sim-server/scene/rotation.hpp"
+#include "sim-server/rescue.hpp"
 #include "sim-server/scene_start.hpp"
 
 namespace splash::sim {
 namespace {
 
-/// Water is stopped this far around a fault, and twice as far when that did not help [supports].
-constexpr double kCalmed = 4.0;
-
 /// What moves faster than this part of sound throws water that may reach the speed limit: splashes
 /// are some times as fast as what makes them [1]. It flies for so long [s].
 constexpr double kThrows = 1.0 / 8.0;
 constexpr double kFlight = 1.0;
-
-/// Share of the particles that is no longer a matter of single ones [1].
-constexpr double kMany = 0.01;
 
 /// The lattice is no stable packing: the water finds a better one in the first second, and would
 /// be heard doing so. It is given this long before time begins [s].
@@ -34,19 +27,6 @@ constexpr double kSettleSeconds = 1.0;
 SleepRule sleep_rule(const Scene& scene) {
   return {scene.skip.sleep_speed,
           static_cast<int>(std::ceil(scene.skip.sleep_after * scene.serve.frame_rate))};
-}
-
-Vector3 place_at(const Snapshot& state, std::size_t i, const FluidParams& params) {
-  const auto stride = static_cast<std::size_t>(params.capacity);
-  return {static_cast<double>(state.position[i]), static_cast<double>(state.position[stride + i]),
-          static_cast<double>(state.position[2 * stride + i])};
-}
-
-/// Of the particle `id`; the origin if there is none of that name.
-Vector3 place_of(const Snapshot& state, int id, const FluidParams& params) {
-  const auto found = std::find(state.id.begin(), state.id.end(), id);
-  if (found == state.id.end()) return {};
-  return place_at(state, static_cast<std::size_t>(found - state.id.begin()), params);
 }
 
 }  // namespace
@@ -234,15 +214,7 @@ Mishap Simulation::examine(const Diagnosis& what, double dt) {
   mishap.what = what;
   mishap.step = totals_.steps + what.step;
   mishap.seconds = seconds_ + what.step * dt;
-  if (what.particle < 0 && what.body < 0) return mishap;
-  mishap.place = what.body >= 0
-                     ? bodies_.state(static_cast<std::size_t>(what.body), seconds_).position
-                     : place_of(fluid_.snapshot(), what.particle, fluid_.params());
-  const int body = what.body >= 0 ? what.body : nearest_body(mishap.place);
-  if (body < 0) return mishap;
-  const auto b = static_cast<std::size_t>(body);
-  mishap.body = scene_.bodies[b].name;
-  mishap.distance = length(mishap.place - bodies_.state(b, mishap.seconds).position);
+  locate(mishap, fluid_, bodies_, scene_, seconds_);
   return mishap;
 }
 
@@ -252,7 +224,7 @@ FrameResult Simulation::give_up(Mishap& mishap, double frame) {
     bodies_.reset(seconds_ + frame);
     ++totals_.resets;
   } else {
-    calm(mishap);
+    calm(mishap, fluid_, bodies_, recovery_.given_up(), seconds_);
     ++totals_.calmed;
   }
   sound_.keep(fluid_.device(), state());
@@ -265,42 +237,9 @@ FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   return result;
 }
 
-void Simulation::calm(Mishap& mishap) {
-  const FluidParams& p = fluid_.params();
-  const bool many = mishap.what.particles == 0 || mishap.what.particles > kMany * p.count;
-  mishap.calmed = many ? std::numeric_limits<double>::infinity()
-                       : kCalmed * recovery_.given_up() * static_cast<double>(p.support);
-  Snapshot state = fluid_.snapshot();
-  const auto stride = static_cast<std::size_t>(p.capacity);
-  for (std::size_t i = 0; i < state.id.size(); ++i) {
-    if (length(place_at(state, i, p) - mishap.place) > mishap.calmed) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) state.velocity[axis * stride + i] = 0.0F;
-  }
-  fluid_.restore(state);
-  for (std::size_t b = 0; b < bodies_.count(); ++b) {
-    const bool near = length(bodies_.state(b, seconds_).position - mishap.place) <= mishap.calmed;
-    if (bodies_.is_free(b) && near) bodies_.still(b);
-  }
-}
-
 LiveMotion* Simulation::live_body(int body) const noexcept {
   const bool known = body >= 0 && static_cast<std::size_t>(body) < live_.size();
   return known ? live_[static_cast<std::size_t>(body)] : nullptr;
-}
-
-int Simulation::nearest_body(const Vector3& place) const {
-  int nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < bodies_.count(); ++b) {
-    const Vector3 centre = bodies_.state(b, detected_at_).position;
-    const double distance =
-        std::hypot(place[0] - centre[0], place[1] - centre[1], place[2] - centre[2]);
-    if (distance < least) {
-      least = distance;
-      nearest = static_cast<int>(b);
-    }
-  }
-  return nearest;
 }
 
 }  // namespace splash::sim

@@ -80,8 +80,10 @@ class Simulation {
   }  ///< [m/s]
   /// The body that an OSC tracker moves, or null.
   [[nodiscard]] LiveMotion* live_body(int body) const noexcept;
-  /// Index of the body nearest to a place, -1 without bodies.
-  [[nodiscard]] int nearest_body(const Vector3& place) const;
+  /// Index of the body nearest to a place when events were last looked for, -1 without bodies.
+  [[nodiscard]] int nearest_body(const Vector3& place) const {
+    return bodies_.nearest(place, detected_at_);
+  }
 
  private:
   [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps,
@@ -102,7 +104,6 @@ class Simulation {
   [[nodiscard]] Mishap examine(const Diagnosis& what, double dt);
   /// Ends a frame that no try made sound.
   [[nodiscard]] FrameResult give_up(Mishap& mishap, double frame);
-  void calm(Mishap& mishap);
 
   Scene scene_;
   std::vector<LiveMotion*> live_;

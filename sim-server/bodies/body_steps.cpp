@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sim-server/scene/rotation.hpp"
@@ -108,6 +109,19 @@ double Bodies::fastest_ever() const {
   double fastest = 0.0;
   for (const auto& motion : motions_) fastest = std::max(fastest, motion->fastest());
   return fastest;
+}
+
+int Bodies::nearest(const Vector3& place, double seconds) const {
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < motions_.size(); ++b) {
+    const double distance = length(place - state(b, seconds).position);
+    if (distance < least) {
+      least = distance;
+      nearest = static_cast<int>(b);
+    }
+  }
+  return nearest;
 }
 
 void Bodies::put(std::size_t body, const BodyState& state, const BodyForce& force, double seconds) {

@@ -39,6 +39,8 @@ class Bodies {
   [[nodiscard]] double fastest(double seconds) const;
   /// The fastest any body's centre will ever move, of those whose motion is known beforehand [m/s].
   [[nodiscard]] double fastest_ever() const;
+  /// Index of the body whose centre is nearest to `place` at `seconds`, -1 without bodies.
+  [[nodiscard]] int nearest(const Vector3& place, double seconds) const;
 
   /// Whether the water moves the body.
   [[nodiscard]] bool is_free(std::size_t body) const noexcept { return free_[body] != nullptr; }

@@ -30,8 +30,8 @@
 namespace {
 
 using namespace splash;
-using tests::sleep;
 using tests::ChildProcess;
+using tests::sleep;
 
 constexpr int kRate = 48000;
 constexpr int kEvents = 200;

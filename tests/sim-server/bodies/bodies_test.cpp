@@ -38,6 +38,16 @@ Bodies two() {
   return {sample_bodies({foot, ball}, 0.02, kSupport), std::move(motions), kSupport};
 }
 
+TEST(Bodies, NameTheOneWhoseCentreIsNearest) {
+  const Bodies bodies = two();
+  const Vector3 first = bodies.state(0, 0.25).position;
+  const Vector3 second = bodies.state(1, 0.25).position;
+  EXPECT_EQ(bodies.nearest(first, 0.25), 0);
+  EXPECT_EQ(bodies.nearest(second, 0.25), 1);
+  EXPECT_EQ(bodies.nearest(second, 0.95), 0) << "the first one is there by then";
+  EXPECT_EQ(Bodies({}, {}, kSupport).nearest(first, 0.25), -1);
+}
+
 TEST(BodySteps, CarryTheMotionsState) {
   const Bodies bodies = two();
   const auto steps = bodies.at(0.25);
