@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "protocol/failure.hpp"
+#include "sim-server/run_report.hpp"
 
 namespace splash::sim {
 namespace {
@@ -47,10 +48,6 @@ Keyframe as_keyframe(const protocol::BodyPose& pose) {
   key.rotation = {static_cast<double>(pose.qx), static_cast<double>(pose.qy),
                   static_cast<double>(pose.qz), static_cast<double>(pose.qw)};
   return key;
-}
-
-SolveTotals totals_of(const SolveWork& work) {
-  return {work.solves, work.iterations, work.most, work.given_up};
 }
 
 }  // namespace
@@ -253,47 +250,13 @@ void Server::print_progress() {
 RunReport Server::finish() {
   keep_going([this] { sender_.close(simulation_.seconds()); }, [this] { sender_.stop_logging(); });
   target_status_.finish(kAnswerTimeout);
-  const RunTotals& totals = simulation_.totals();
-  const SendCounts& sent = sender_.counts();
-  RunReport report;
+  RunReport report = report_on(simulation_, sender_.counts(), pacer_.counts(), overload_);
   report.device = device_;
-  report.scene = simulation_.scene().name;
-  report.particles = simulation_.particles();
-  report.steps = totals.steps;
-  report.frames = totals.frames;
-  report.simulated_seconds = simulation_.seconds();
   report.wall_seconds = wall_seconds_;
-  const auto healthy = totals.frames - static_cast<std::int64_t>(totals.calmed + totals.resets);
-  report.mean_density_error =
-      totals.mean_excess_sum / static_cast<double>(std::max<std::int64_t>(healthy, 1));
-  report.maximum_density_error = totals.max_excess;
-  const SolverWork work = simulation_.solver_work();
-  report.divergence_solve = totals_of(work.divergence);
-  report.density_solve = totals_of(work.density);
-  const SkipTotals& skipped = totals.skipped;
-  report.idle_frames = skipped.idle;
-  report.without_contacts = skipped.contacts;
-  report.without_bubbles = skipped.bubbles;
-  report.without_cavities = skipped.cavities;
-  report.kernel_parts = skipped.kernel_parts;
-  report.asleep =
-      skipped.asleep_sum / static_cast<double>(std::max<std::int64_t>(totals.frames, 1));
-  report.events = {sent.impacts, sent.bubbles, sent.cavities};
-  report.invalid_events = sent.invalid;
-  report.overdue_events = sent.overdue;
   for (const Target& target : targets_.list()) report.send_failures += target.failed;
   report.late = target_status_.late();
   report.lost = target_status_.lost();
-  report.behind = pacer_.counts().behind;
-  report.slipped_seconds = pacer_.counts().slipped;
-  report.most_behind = pacer_.counts().most_behind;
-  report.lean_seconds = overload_.spent_at(Load::lean);
-  report.coarse_seconds = overload_.spent_at(Load::coarse);
-  report.slow_seconds = overload_.spent_at(Load::slow);
   report.refused_poses = refused_poses_;
-  report.retried = totals.retried;
-  report.calmed = totals.calmed;
-  report.resets = totals.resets;
   if (!options_.report.empty()) {
     protocol::failing_with(protocol::kExitIo, [&] { write_report(options_.report, report); });
   }
