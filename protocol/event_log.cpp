@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
 #include "protocol/limits.hpp"
+#include "protocol/write_error.hpp"
 
 namespace splash::protocol {
 namespace {
@@ -19,15 +19,21 @@ constexpr std::uintmax_t kMaxLogBytes = std::uintmax_t{256} << 20U;
 constexpr std::uint32_t kBundleHead = 16;
 
 std::runtime_error cannot(const std::string& what, const std::filesystem::path& path) {
-  std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
-  if (errno == ENOSPC) cause += "; free space there or name a file elsewhere";
-  return std::runtime_error("cannot " + what + " event log '" + path.string() + "': " + cause);
+  return std::runtime_error("cannot " + what + " event log '" + path.string() +
+                            "': " + write_error(errno));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::uintmax_t offset,
                          const std::string& reason) {
   throw std::runtime_error("event log '" + path.string() + "', byte " + std::to_string(offset) +
                            ": " + reason);
+}
+
+/// How to keep what comes before the damage.
+std::string whole_part(const std::filesystem::path& path, std::uintmax_t offset) {
+  if (offset == 0) return {};
+  return "; 'head -c " + std::to_string(offset) + " " + path.string() +
+         " > whole.osc' keeps what is whole";
 }
 
 std::uint32_t read_u32(const std::array<char, 4>& bytes) {
@@ -49,18 +55,20 @@ std::uint32_t read_size(const std::filesystem::path& path, std::uintmax_t offset
                         std::uintmax_t left, std::istream& file) {
   std::array<char, 4> bytes{};
   if (left < bytes.size() || !file.read(bytes.data(), bytes.size())) {
-    refuse(path, offset, "the file ends inside a packet's size");
+    refuse(path, offset, "the file ends inside a packet's size" + whole_part(path, offset));
   }
   const std::uint32_t size = read_u32(bytes);
   if (size < kBundleHead || size % 4 != 0 || size > kMaxDatagram) {
     refuse(path, offset,
            "packet size " + std::to_string(size) + ", expected a multiple of 4 in " +
-               std::to_string(kBundleHead) + ".." + std::to_string(kMaxDatagram));
+               std::to_string(kBundleHead) + ".." + std::to_string(kMaxDatagram) +
+               (offset == 0 ? "; this is no event log (sim-server --record writes them)"
+                            : whole_part(path, offset)));
   }
   if (size > left - bytes.size()) {
     refuse(path, offset,
            "the file ends inside a packet: it has " + std::to_string(size) + " bytes, " +
-               std::to_string(left - bytes.size()) + " are left");
+               std::to_string(left - bytes.size()) + " are left" + whole_part(path, offset));
   }
   return size;
 }

@@ -11,10 +11,16 @@
 namespace splash::protocol {
 namespace {
 
+std::string nowhere(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto here = std::filesystem::current_path(ignored);
+  return "there is no such file" + (path.is_absolute() ? std::string() : " in " + here.string());
+}
+
 std::string why_not(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) return "there is no such file";
+  if (status.type() == std::filesystem::file_type::not_found) return nowhere(path);
   if (error) return "it cannot be read: " + error.message();
   if (std::filesystem::is_directory(status)) return "it is a folder; name a file in it";
   if (!std::filesystem::is_regular_file(status)) return "it is a device or a pipe, not a file";

@@ -49,6 +49,7 @@ std::uint16_t parse_port(const std::string& text, const std::string& port) {
   return static_cast<std::uint16_t>(value);
 }
 
+/// `text` is what the person wrote, `host` the name in it.
 std::uint32_t resolve(const std::string& text, const std::string& host) {
   // By its name, too: a bare system has no /etc/hosts to ask (RFC 6761, section 6.3).
   if (host.empty() || host == "localhost") return INADDR_LOOPBACK;
@@ -59,19 +60,33 @@ std::uint32_t resolve(const std::string& text, const std::string& host) {
   const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found);
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> guard(found, &freeaddrinfo);
   if (error != 0) {
-    throw bad_endpoint(text, "host '" + host + "': " + std::string(gai_strerror(error)));
+    throw std::invalid_argument("'" + text + "': host '" + host + "': " + gai_strerror(error) +
+                                "; write another name, or an IPv4 address as 127.0.0.1");
   }
   sockaddr_in address{};
   std::memcpy(&address, found->ai_addr, sizeof address);
   return ntohl(address.sin_addr.s_addr);
 }
 
+std::string why_not_bound(const Endpoint& local, int error) {
+  switch (error) {
+    case EADDRINUSE:
+      return ", another program holds it; use --listen host:port with a port that is free, or "
+             "port 0";
+    case EADDRNOTAVAIL:
+      return "; use --listen with an address of this host ('ip address' lists them), with "
+             "127.0.0.1 or, for all of them, 0.0.0.0";
+    case EACCES:
+      return local.port < 1024 ? "; use --listen with a port of 1024 or above" : "";
+    default:
+      return "; use --listen with another host:port";
+  }
+}
+
 std::runtime_error cannot_bind(const Endpoint& local, int error) {
-  std::string cause = std::strerror(error);
-  if (error == EADDRINUSE) cause += ", another program holds it";
   return std::runtime_error("cannot listen on UDP port " + std::to_string(local.port) + " (" +
-                            to_string(local) + "): " + cause +
-                            "; use --listen host:port with a port that is free, or port 0");
+                            to_string(local) + "): " + std::strerror(error) +
+                            why_not_bound(local, error));
 }
 
 void apply_options(int descriptor) {
@@ -116,6 +131,15 @@ Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port) {
   }
   const auto port = parse_port(text, text.substr(colon + 1));
   return {resolve(text, text.substr(0, colon)), port};
+}
+
+Endpoint endpoint_of(const std::string& option, const std::string& text,
+                     std::uint16_t default_port) {
+  try {
+    return parse_endpoint(text, default_port);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(option + " " + error.what());
+  }
 }
 
 std::string to_string(const Endpoint& endpoint) {

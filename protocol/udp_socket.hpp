@@ -24,6 +24,9 @@ struct Endpoint {
 /// "host:port", ":port" or "host" -> Endpoint; names are resolved.
 /// Throws std::invalid_argument with the text, the cause and an example.
 [[nodiscard]] Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port);
+/// The same for the value of an option, which the exception names, too.
+[[nodiscard]] Endpoint endpoint_of(const std::string& option, const std::string& text,
+                                   std::uint16_t default_port);
 [[nodiscard]] std::string to_string(const Endpoint& endpoint);
 
 class UdpSocket {

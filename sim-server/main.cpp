@@ -30,10 +30,12 @@ using namespace splash::sim;
 volatile std::sig_atomic_t asked_to_end = 0;
 volatile std::sig_atomic_t asked_to_reopen = 0;
 
-/// The first signal ends the run in peace, the second at once.
+/// The first signal ends the run in peace, the second at once, by what it does by itself. (Two that
+/// come together both find this handler: the second is sent once more.)
 extern "C" void note_end(int number) {
-  if (asked_to_end != 0) std::_Exit(128 + number);
+  if (asked_to_end != 0) std::raise(number);
   asked_to_end = 1;
+  for (const int ending : {SIGINT, SIGTERM, number}) std::signal(ending, SIG_DFL);
 }
 
 extern "C" void note_reopen(int /*number*/) {

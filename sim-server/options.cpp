@@ -8,6 +8,7 @@
 #include "protocol/control.hpp"
 #include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/unknown_option.hpp"
 
 namespace splash::sim {
 namespace {
@@ -69,14 +70,25 @@ void check(const Options& options) {
 }
 
 void apply(const Texts& texts, Options& options) {
-  options.listen = protocol::parse_endpoint(texts.listen, protocol::kSimPort);
+  options.listen = protocol::endpoint_of("--listen", texts.listen, protocol::kSimPort);
   for (const auto& target : texts.targets) {
-    options.targets.push_back(protocol::parse_endpoint(target, protocol::kSynthPort));
+    options.targets.push_back(protocol::endpoint_of("--target", target, protocol::kSynthPort));
   }
   for (const auto& host : texts.allow) {
-    options.allow.push_back(protocol::parse_endpoint(host, 0).address);
+    options.allow.push_back(protocol::endpoint_of("--allow", host, 0).address);
   }
   options.real_time = !texts.fast;
+}
+
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
+  return names;
+}
+
+ParsedOptions refuse(const std::string& text) {
+  std::cerr << "sim-server: " << text << " (sim-server --help lists the options)\n";
+  return {std::nullopt, protocol::kExitUsage};
 }
 
 }  // namespace
@@ -94,11 +106,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     app.parse(argc, argv);
     check(options);
     apply(texts, options);
+  } catch (const CLI::Success& help) {
+    return {std::nullopt, app.exit(help) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+  } catch (const CLI::ExtrasError&) {
+    return refuse(protocol::unknown_option(app.remaining(), names_of(app)));
   } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+    return refuse(error.what());
   } catch (const std::invalid_argument& error) {
-    std::cerr << "sim-server: " << error.what() << '\n';
-    return {std::nullopt, protocol::kExitUsage};
+    return refuse(error.what());
   }
   return {options, protocol::kExitOk};
 }

@@ -8,6 +8,7 @@
 #include "protocol/control.hpp"
 #include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/unknown_option.hpp"
 #include "synth-server/voice_options.hpp"
 
 namespace splash::synth {
@@ -101,14 +102,25 @@ void check(const Options& options) {
 }
 
 void apply(const Texts& texts, Options& options) {
-  options.listen = protocol::parse_endpoint(texts.listen, protocol::kSynthPort);
+  options.listen = protocol::endpoint_of("--listen", texts.listen, protocol::kSynthPort);
   for (const auto& host : texts.allow) {
-    options.allow.push_back(protocol::parse_endpoint(host, 0).address);
+    options.allow.push_back(protocol::endpoint_of("--allow", host, 0).address);
   }
   apply(texts.voices, options.engine);
   options.latency = 1e-3 * texts.latency_ms;
   options.late_window = 1e-3 * texts.late_ms;
   options.horizon = 1e-3 * texts.horizon_ms;
+}
+
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
+  return names;
+}
+
+ParsedOptions refuse(const std::string& text) {
+  std::cerr << "synth-server: " << text << " (synth-server --help lists the options)\n";
+  return {std::nullopt, protocol::kExitUsage};
 }
 
 }  // namespace
@@ -127,11 +139,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     app.parse(argc, argv);
     check(options);
     apply(texts, options);
+  } catch (const CLI::Success& help) {
+    return {std::nullopt, app.exit(help) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+  } catch (const CLI::ExtrasError&) {
+    return refuse(protocol::unknown_option(app.remaining(), names_of(app)));
   } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+    return refuse(error.what());
   } catch (const std::invalid_argument& error) {
-    std::cerr << "synth-server: " << error.what() << '\n';
-    return {std::nullopt, protocol::kExitUsage};
+    return refuse(error.what());
   }
   return {options, protocol::kExitOk};
 }

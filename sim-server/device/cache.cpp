@@ -5,7 +5,9 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
@@ -30,11 +32,14 @@ void try_to_write(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   const auto probe = folder / (".probe-" + std::to_string(getpid()));
+  errno = 0;
   const bool written = std::ofstream(probe).put('x').flush().good();
+  const std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
   std::filesystem::remove(probe, error);
   if (!written) {
     throw std::runtime_error("the folder for compiled kernels, " + folder.string() +
-                             ", cannot be written; set POCL_CACHE_DIR to one that can");
+                             ", cannot be written: " + cause +
+                             "; mend that, or set POCL_CACHE_DIR to a folder that can");
   }
 }
 

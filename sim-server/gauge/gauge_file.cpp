@@ -2,8 +2,9 @@
 #include "sim-server/gauge/gauge_file.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
+
+#include "protocol/write_error.hpp"
 
 namespace splash::sim {
 
@@ -17,9 +18,8 @@ const Scene& with_probes(const Scene& scene) {
 }
 
 std::runtime_error cannot_write(const std::filesystem::path& path) {
-  std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
-  if (errno == ENOSPC) cause += "; free space there or name a file elsewhere";
-  return std::runtime_error("cannot write gauges to " + path.string() + ": " + cause);
+  return std::runtime_error("cannot write gauges to " + path.string() + ": " +
+                            protocol::write_error(errno));
 }
 
 }  // namespace

@@ -76,7 +76,8 @@ std::filesystem::path find_file(const ConfigMap& map, const std::string& name) {
   if (name.empty()) return {};
   std::filesystem::path path = map.folder() / name;
   if (!std::filesystem::is_regular_file(path)) {
-    throw map.error("file", "there is no file " + path.string());
+    throw map.error("file", "there is no file " + path.string() +
+                                " (a relative name begins in the scene's folder)");
   }
   return path;
 }

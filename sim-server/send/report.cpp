@@ -4,13 +4,14 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "protocol/write_error.hpp"
 
 namespace splash::sim {
 namespace {
@@ -41,9 +42,8 @@ std::string known_or_dash(const std::optional<std::uint64_t>& value) {
 }
 
 std::runtime_error cannot_write(const std::filesystem::path& path, int error) {
-  const std::string cause = error != 0 ? std::strerror(error) : "input/output error";
-  return std::runtime_error("cannot write the report '" + path.string() + "': " + cause +
-                            "; name a file in a folder that exists and is writable");
+  return std::runtime_error("cannot write the report '" + path.string() +
+                            "': " + protocol::write_error(error));
 }
 
 /// `path` is what the person asked for, `file_path` where the bytes go.

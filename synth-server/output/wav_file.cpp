@@ -8,9 +8,10 @@
 #include <array>
 #include <bit>
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <string>
+
+#include "protocol/write_error.hpp"
 
 namespace splash::synth {
 namespace {
@@ -111,9 +112,8 @@ WavFile::~WavFile() {
 }
 
 void WavFile::fail(const std::string& action) const {
-  std::string cause = errno != 0 ? std::strerror(errno) : "an earlier write failed";
-  if (errno == ENOSPC) cause += "; free space there or name a file elsewhere";
-  throw std::runtime_error(path_.string() + ": cannot " + action + ": " + cause);
+  throw std::runtime_error(path_.string() + ": cannot " + action + ": " +
+                           protocol::write_error(errno));
 }
 
 void WavFile::write_header() {

@@ -92,6 +92,9 @@ TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
   EXPECT_EQ(launch("demo --no-instal").exit_code, 64);
   EXPECT_EQ(run_command(std::string(SPLASH_SOURCE_DIR) + "/splash test --filter").exit_code, 64);
   EXPECT_EQ(launch("run").exit_code, 64);
+  const CommandResult bench = launch("bench fauts");  // before anything is installed or built
+  EXPECT_EQ(bench.exit_code, 66);
+  EXPECT_THAT(bench.output, AllOf(HasSubstr("'fauts'"), HasSubstr(" faults ")));
 }
 
 TEST_F(Launcher, HelpAndVersionNeedNothing) {

@@ -13,6 +13,10 @@
 namespace splash::tests {
 namespace {
 
+/// 127.0.0.2. A program answers each host ten times a second at most: its partner, which asks from
+/// 127.0.0.1, must not use up what the test has.
+constexpr std::uint32_t kOwnHost = INADDR_LOOPBACK + 1;
+
 Arguments on_some_port(Arguments arguments) {
   if (std::find(arguments.begin(), arguments.end(), "--listen") == arguments.end()) {
     arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
@@ -63,7 +67,7 @@ Daemon::Daemon(const std::string& name, const Arguments& arguments,
                const ChildProcess::Environment& environment)
     : process_(command(name, on_some_port(arguments)), environment),
       endpoint_(announced(process_)),
-      socket_(protocol::Endpoint{INADDR_LOOPBACK, 0}) {}
+      socket_(protocol::Endpoint{kOwnHost, 0}) {}
 
 protocol::Message Daemon::ask(const protocol::Message& command, const std::string& address) {
   const double limit = protocol::monotonic_now() + 20.0;

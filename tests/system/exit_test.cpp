@@ -37,6 +37,9 @@ TEST(Exit, MissingFilesAreNamed) {
   const auto rig = run_program("synth-server", {"--rig", "/nowhere/rig.yaml"});
   EXPECT_EQ(rig.code, 66);
   EXPECT_THAT(rig.text, HasSubstr("/nowhere/rig.yaml"));
+  EXPECT_THAT(run_program("synth-server", {"--rig", "nowhere"}).text,
+              HasSubstr("no such file in " + std::filesystem::current_path().string()))
+      << "which folder was meant";
 }
 
 TEST(Exit, MissingRecordingsAreNamed) {
@@ -71,6 +74,31 @@ TEST(Exit, WrongOptionsAreUsage) {
   }
 }
 
+TEST(Exit, MistypedOptionsGetTheNearestName) {
+  const auto simulator = run_program("sim-server", {"--scne", "x"});
+  EXPECT_EQ(simulator.code, 64);
+  EXPECT_THAT(simulator.text, HasSubstr("no option --scne; did you mean --scene?"));
+  const auto synth = run_program("synth-server", {"--recod-audio=x"});
+  EXPECT_EQ(synth.code, 64);
+  EXPECT_THAT(synth.text, HasSubstr("no option --recod-audio; did you mean --record-audio?"));
+  EXPECT_THAT(run_program("synth-server", {"tiles36"}).text,
+              HasSubstr("'tiles36' belongs to no option"));
+}
+
+TEST(Exit, HostsThatAreNoneAreNamedWithTheirOption) {
+  const SmallScene scene(plunging());
+  for (const char* option : {"--listen", "--target", "--allow"}) {
+    const auto [code, text] = simulate(scene, {option, "nohost.invalid"});
+    EXPECT_EQ(code, 64);
+    EXPECT_THAT(text,
+                HasSubstr(std::string(option) + " 'nohost.invalid': host 'nohost.invalid': "));
+  }
+  // 192.0.2.0/24 is nobody's (RFC 5737).
+  const auto foreign = simulate(scene, {"--listen", "192.0.2.1:57300"});
+  EXPECT_EQ(foreign.code, 69);
+  EXPECT_THAT(foreign.text, HasSubstr("with an address of this host"));
+}
+
 TEST(Exit, FilesThatCannotBeWrittenAreNamed) {
   const SmallScene scene(plunging());
   const auto log = simulate(scene, {"--listen", "127.0.0.1:0", "--record", "/nowhere/a.osc"});
@@ -79,6 +107,9 @@ TEST(Exit, FilesThatCannotBeWrittenAreNamed) {
   const auto report = simulate(scene, {"--listen", "127.0.0.1:0", "--report", "/nowhere/a.json"});
   EXPECT_EQ(report.code, 74);
   EXPECT_THAT(report.text, HasSubstr("/nowhere/a.json"));
+  for (const auto& text : {log.text, report.text}) {
+    EXPECT_THAT(text, HasSubstr("No such file or directory; name a file in a folder that exists"));
+  }
 }
 
 TEST(Exit, FullDiskIsSaid) {

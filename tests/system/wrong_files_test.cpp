@@ -238,13 +238,13 @@ TEST_F(WrongFiles, OfLogsAreNamedWithTheByte) {
   };
   using namespace std::string_literals;
   const std::vector<std::pair<std::string, std::string>> kLogs{
-      {"no log at all", "byte 0: packet size"},
+      {"no log at all", "16..1472; this is no event log (sim-server --record"},
       {"\0\0"s, "byte 0: the file ends inside a packet's size"},
       {"\xff\xff\xff\xff"s, "packet size 4294967295"},
       {"\0\0\0\0"s, "packet size 0, expected a multiple of 4 in 16..1472"},
       {bundle("\0\0\0\x14"s, ""), "the file ends inside a packet"},
       {"\0\0\0\x10"s + std::string(16, 'x'), "byte 0: the packet is refused"},
-      {bundle("\0\0\0\x10"s, "") + "\0\0\0\x11"s, "byte 20: packet size 17"},
+      {bundle("\0\0\0\x10"s, "") + "\0\0\0\x11"s, "16..1472; 'head -c 20 "},
       {bundle("\0\0\0\x18"s, "\x7f\xff\xff\xf0zzzz"s), "byte 0: the packet is refused"},
       {bundle("\0\0\0\x20"s, "\0\0\0\x0c/b\0\0,b\0\0\x7f\xff\xff\xf0"s),
        "byte 0: the packet is refused"},
