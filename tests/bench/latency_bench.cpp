@@ -6,6 +6,7 @@
 #include <jack/jack.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -105,14 +106,14 @@ class Recorder {
   std::atomic<int> xruns_{0};
 };
 
-std::unique_ptr<ChildProcess> start_jack(const std::string& name, int period) {
+std::unique_ptr<ChildProcess> start_jack(const std::string& name, int period, bool realtime) {
   setenv("JACK_DEFAULT_SERVER", name.c_str(), 1);
   setenv("JACK_NO_AUDIO_RESERVATION", "1", 1);
   jack_set_error_function(ignore);
   jack_set_info_function(ignore);
   auto jackd = std::make_unique<ChildProcess>(std::vector<std::string>{
-      "jackd", "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C", "0", "-P", "2", "-r",
-      std::to_string(kRate), "-p", std::to_string(period)});
+      "jackd", realtime ? "--realtime" : "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C",
+      "0", "-P", "2", "-r", std::to_string(kRate), "-p", std::to_string(period)});
   for (double waited = 0.0; waited < kPatience && jackd->running(); waited += 0.1) {
     if (auto* probe = jack_client_open("probe", JackNoStartServer, nullptr)) {
       jack_client_close(probe);
@@ -189,8 +190,8 @@ Result match(const std::vector<double>& sent, const Recorder& recorder) {
   return result;
 }
 
-Result measure(int period, const Mode& mode) {
-  const auto jackd = start_jack("splash-bench-" + std::to_string(getpid()), period);
+Result measure(int period, const Mode& mode, bool realtime) {
+  const auto jackd = start_jack("splash-bench-" + std::to_string(getpid()), period, realtime);
   std::vector<std::string> command{std::string(SPLASH_BINARY_DIR) + "/synth-server",
                                    "--rig",
                                    std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml",
@@ -237,7 +238,7 @@ void draw(const std::filesystem::path& folder, const std::vector<int>& periods,
   std::filesystem::remove(folder / "latency.log");
 }
 
-void bench(const std::filesystem::path& folder) {
+void bench(const std::filesystem::path& folder, bool realtime) {
   const std::vector<int> periods{64, 128, 256};
   const std::vector<Mode> modes{{"without a time", false}, {"time tag of now", true}};
   std::ofstream csv;
@@ -246,12 +247,12 @@ void bench(const std::filesystem::path& folder) {
     csv.open(folder / "latency.csv");
     csv << "frames,mode,latency_ms\n";
   }
-  std::printf("%d events each over loopback; JACK without a device at %d Hz, no realtime\n\n",
-              kEvents, kRate);
+  std::printf("%d events each over loopback; JACK without a device at %d Hz, %s\n\n", kEvents,
+              kRate, realtime ? "at real-time priority" : "no realtime");
   std::printf("frames  sent with         median     5 %%    95 %%     max  [ms]  unheard  xruns\n");
   for (const int period : periods) {
     for (const Mode& mode : modes) {
-      const Result r = measure(period, mode);
+      const Result r = measure(period, mode, realtime);
       if (r.latencies.empty()) throw std::runtime_error("no event was heard");
       std::printf("%6d  %-15s  %7.2f %7.2f %7.2f %7.2f        %7d  %5d\n", period,
                   mode.name.c_str(), 1e3 * r.quantile(0.5), 1e3 * r.quantile(0.05),
@@ -269,8 +270,15 @@ void bench(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::filesystem::path folder;
+  bool realtime = false;
+  CLI::App app("Measures how long an event takes to its first sample.", "bench-latency");
+  app.add_option("folder", folder, "Where latency.csv and latency.png go");
+  app.add_flag("--realtime", realtime,
+               "JACK at real-time priority, which not everybody may ask for");
+  CLI11_PARSE(app, argc, argv);
   try {
-    bench(argc > 1 ? argv[1] : "");
+    bench(folder, realtime);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "bench-latency: " << error.what() << '\n';
