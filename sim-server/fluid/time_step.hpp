@@ -11,7 +11,7 @@ namespace splash::sim {
 ///   acoustic  dt <= C H / (c0 + v)        C of the smoothing kernel, below where still water
 ///                                          grows rough (smoothing.cpp)
 ///   push      dt <= 0.25 sqrt(h / a)      Monaghan 1992
-///   viscous   dt <= 0.125 h^2 / nu        Morris et al. 1997
+///   viscous   dt <= 0.125 h^2 / nu        Morris et al. 1997; 0.13 at most, whatever the factor
 /// Of the divergence-free solver:
 ///   way       dt <= 0.3 dx / max(v, sqrt(g depth))   neither the fastest thing nor the longest
 ///                                          wave gets farther: calm to 0.32 in a plunge and

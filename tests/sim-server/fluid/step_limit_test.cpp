@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/resolution.hpp"
 
 namespace splash::sim {
@@ -118,6 +119,61 @@ TEST_P(StepLimit, OfTheoryIsAboveTheLongestStepAndFarBelowTwiceTheDefault) {
                 basis.size(), limits.frictionless, limits.rubbing, share);
     EXPECT_LE(most * share, limits.rubbing);
     EXPECT_GT(2.0 * share, 1.5 * limits.frictionless);
+  }
+}
+
+/// The largest eigenvalue of G / K for the wave k, by the power method from a skew start [1/m2].
+double damping(const std::vector<Vector3>& places, const Smoothing& smoothing, double length,
+               const Vector3& k) {
+  Vector3 way = {0.8, 0.5, 0.33};
+  double largest = 0.0;
+  for (int turn = 0; turn < 40; ++turn) {
+    Vector3 next = {};
+    for (const Vector3& x : places) {
+      const double r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+      const double along = x[0] * way[0] + x[1] * way[1] + x[2] * way[2];
+      const double wave = 1.0 - std::cos(k[0] * x[0] + k[1] * x[1] + k[2] * x[2]);
+      const double weight =
+          -kernel_gradient(std::sqrt(r2), smoothing) * wave * along / (r2 + 0.01 * length * length);
+      for (std::size_t a = 0; a < 3; ++a) next[a] += weight * x[a];
+    }
+    const double size = std::hypot(next[0], next[1], next[2]);
+    largest = kSpacing * kSpacing * kSpacing * size;
+    for (std::size_t a = 0; a < 3; ++a) way[a] = next[a] / std::max(size, 1.0e-12);
+  }
+  return largest;
+}
+
+/// What nu dt / h^2 may be at most: viscosity alone, explicit in time, is stable while 10 nu g dt <
+/// 2, g the largest damping.
+double viscous_limit(SmoothingKind kind, const std::vector<Vector3>& basis) {
+  const SmoothingTraits& traits = traits_of(kind);
+  const Smoothing smoothing(traits.support_spacings * kSpacing, kind);
+  const double length = traits.length * smoothing.support;
+  const std::vector<Vector3> places = lattice(basis, smoothing.support);
+  constexpr int kParts = 9;
+  double most = 0.0;
+  for (int part = 1; part < kParts * kParts * kParts; ++part) {
+    const auto at = [](int i) { return 6.5 / kSpacing * (i % kParts) / (kParts - 1.0); };
+    most = std::max(most, damping(places, smoothing, length,
+                                  {at(part), at(part / kParts), at(part / kParts / kParts)}));
+  }
+  return 0.2 / (most * length * length);
+}
+
+// The longest step that a scene may ask for stays below it (time_step.cpp).
+TEST_P(StepLimit, OfViscosityIsAboveTheLongestStep) {
+  for (const auto& basis : kLattices) {
+    FluidParams p = {};
+    p.solver = SPLASH_DIVERGENCE_FREE;
+    p.spacing = p.length = static_cast<float>(kSpacing);  // either kernel: h is one spacing
+    p.viscous = 1.0F;                                     // 10 nu
+    const double most = longest_step_factor(PressureKind::divergence_free);
+    const double used = largest_time_step(p, 0.0, 0.0, most) * 0.1 / (kSpacing * kSpacing);
+    const double limit = viscous_limit(GetParam(), basis);
+    std::printf("%zu per cell: %.3f h^2/nu; used: %.3f\n", basis.size(), limit, used);
+    EXPECT_LT(used, limit);
+    EXPECT_GT(used, 0.75 * limit);
   }
 }
 

@@ -39,6 +39,15 @@ TEST(TimeStep, ViscousLimit) {
   EXPECT_LT(largest_time_step(p, 0.0, 0.0, 1.0), largest_time_step(params(), 0.0, 0.0, 1.0));
 }
 
+TEST(TimeStep, ViscousLimitIsNotExceededByWhatASceneAsks) {
+  FluidParams p = params();
+  p.viscous = 0.97F;
+  p.solver = SPLASH_DIVERGENCE_FREE;
+  p.spacing = 0.02F;
+  EXPECT_NEAR(largest_time_step(p, 0.0, 0.0, 1.02), 1.02 * 0.125 * 0.02 * 0.02 / 0.1, 1.0e-9);
+  EXPECT_NEAR(largest_time_step(p, 0.0, 0.0, 2.0), 0.13 * 0.02 * 0.02 / 0.1, 1.0e-9);
+}
+
 TEST(TimeStep, FactorScalesIt) {
   EXPECT_NEAR(largest_time_step(params(), 1.0, 10.0, 0.5),
               0.5 * largest_time_step(params(), 1.0, 10.0, 1.0), 1.0e-12);
