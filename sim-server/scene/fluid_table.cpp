@@ -45,7 +45,7 @@ Fields<F> method_fields() {
             "fast; wide, 2.5 spacings, 65 neighbours, more accurate (sim-server/fluid/README "
             "compares both).",
         .choices = {"narrow", "wide"},
-        .source = "Wendland 1995; Price 2012"},
+        .source = "Wendland 1995; sim-server/fluid/kernels/smoothing.h"},
        &F::smoothing_name},
       {{.key = "kernels",
         .unit = "",

@@ -47,7 +47,7 @@ static float4 water_velocity(constant FluidParams* p, global const int* cell_sta
       w += weight * LOAD(velocity + 2 * n, j);
     }
   }
-  const float share = 1.0f / fmax(total(c), TINY);
+  const float share = 1.0f / fmax(total(c), FLT_MIN);  // a weight is 1e-15 just inside the support
   return (float4)(share * total(u), share * total(v), share * total(w), 0.0f);
 }
 

@@ -87,7 +87,7 @@ TwinSolve twin_solve(const FluidState& s, const TwinResponse& r, const std::vect
   const std::size_t count = s.position.size();
   const Smoothing kernel = smoothing_of(s.params);
   const double support = kernel.support;
-  const double strongest = (s.params.smoothing == SPLASH_WIDE ? 4.0 : 20.0) * kernel_norm(kernel) /
+  const double strongest = (s.params.smoothing == SPLASH_WIDE ? 2.0 : 20.0) * kernel_norm(kernel) /
                            support * static_cast<double>(s.params.mass);
   const double least = 1.0e-4 * strongest * strongest;
   TwinSolve solve = std::move(from);

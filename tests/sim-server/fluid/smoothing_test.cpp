@@ -83,5 +83,23 @@ TEST_P(Smoothings, MarginalFallsByTwoPiZW) {
   }
 }
 
+/// The kernel's Fourier transform at a wave number per spacing, 1 at 0.
+double transform(const Smoothing& kernel, double waves) {
+  const double k = waves * 2.5 / kernel.support;
+  return integral(0.0, kernel.support, [&](double r) {
+    return 4.0 * std::numbers::pi * r * std::sin(k * r) / k * kernel_value(r, kernel);
+  });
+}
+
+// So that a sum over neighbours says the same on every packing: nothing is left where the structure
+// of packed particles begins, and nothing below zero before.
+TEST(WideKernel, DoesNotSeeHowParticlesArePacked) {
+  const Smoothing kernel = {kSupport, SmoothingKind::wide};
+  for (double waves = 0.5; waves < 5.5; waves += 0.1) EXPECT_GT(transform(kernel, waves), 1.0e-4);
+  for (double waves = 5.5; waves < 12.0; waves += 0.1) {
+    EXPECT_NEAR(transform(kernel, waves), 0.0, 2.0e-4) << waves;
+  }
+}
+
 }  // namespace
 }  // namespace splash::sim
