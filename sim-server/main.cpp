@@ -2,6 +2,7 @@
 // sim-server: from the command line to an exit code.
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -27,14 +28,15 @@ namespace {
 using namespace splash;
 using namespace splash::sim;
 
-volatile std::sig_atomic_t asked_to_end = 0;
+/// Lock-free, so that a handler may use it: two threads may be handed a signal at once.
+std::atomic<bool> asked_to_end = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 volatile std::sig_atomic_t asked_to_reopen = 0;
 
 /// The first signal ends the run in peace, the second at once, by what it does by itself. (Two that
 /// come together both find this handler: the second is sent once more.)
 extern "C" void note_end(int number) {
-  if (asked_to_end != 0) std::raise(number);
-  asked_to_end = 1;
+  if (asked_to_end.exchange(true)) std::raise(number);
   for (const int ending : {SIGINT, SIGTERM, number}) std::signal(ending, SIG_DFL);
 }
 
@@ -83,7 +85,7 @@ void serve(Server& server, protocol::ServiceNotice& service) {
       asked_to_reopen = 0;
       server.reopen();
     }
-    return asked_to_end != 0;
+    return asked_to_end.load();
   });
   service.stopping();
   std::printf("%s", summary(server.finish()).c_str());
