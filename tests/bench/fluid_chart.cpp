@@ -2,6 +2,7 @@
 #include "tests/bench/fluid_chart.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -142,13 +143,15 @@ void draw(const std::filesystem::path& folder, const ChartSettings& settings,
   const std::filesystem::path script = scratch.path() / "error.gp";
   const std::vector<Quality> qualities = qualities_of(points);
   const std::vector<const SweepCase*> cases = cases_of(points);
-  const std::size_t rows = (cases.size() + 2 + 3) / 4;
+  const std::size_t panels = cases.size() + 2;
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(panels)));
+  const std::size_t rows = (panels + columns - 1) / columns;
   std::ofstream out(script);
-  out << "set terminal pngcairo size 1800," << 500 * rows
+  out << "set terminal pngcairo size " << 450 * columns << ',' << 500 * rows
       << " enhanced font \"DejaVu Sans,11\" background \"#ffffff\"\nset output \""
       << std::filesystem::absolute(folder / "error.png").string() << "\"\n"
-      << kSetup << "set multiplot layout " << rows
-      << ",4 title \"Run time against error: " << settings.device
+      << kSetup << "set multiplot layout " << rows << ',' << columns
+      << " title \"Run time against error: " << settings.device
       << "; numbers: size over particle spacing\" noenhanced\n"
       << "set xlabel \"seconds of "
       << (settings.clock == Clock::wall ? "computing" : "processor per core")
