@@ -10,10 +10,11 @@ namespace splash::sim {
 namespace {
 
 /// Surface loss of the narrow kernel: 0.15 measured in 0.3 m of water, 0.15 to 0.18 in 0.2 m, 0.18
-/// in 0.09 m, 0.2 in 0.5 m; wide, 0.21 and 0.23. Time steps: still water and dam breaks stay calm
-/// with the narrow kernel up to 0.9 and grow rough from 1.05 on; with the wide one up to 0.72 and
-/// from 0.81 on. Densities, on the lattice, of a lone particle, a film of one layer, the top layer
-/// of a flat surface: 0.40, 0.75, 0.88 narrow; 0.23, 0.63, 0.81 wide.
+/// in 0.09 m, 0.2 in 0.5 m; wide, 0.21 and 0.23, with a spline of the same support. Time steps:
+/// still water and dam breaks stay calm with the narrow kernel up to 0.9 and grow rough from 1.05
+/// on; with the wide one up to 0.72 and from 0.81 on. Densities, on the lattice, of a lone
+/// particle, a film of one layer, the top layer of a flat surface: 0.40, 0.75, 0.88 narrow; 0.23,
+/// 0.63, 0.81 wide.
 constexpr SmoothingTraits kNarrow = {2.0, 0.5, 0.17, 0.75, 0.82};
 constexpr SmoothingTraits kWide = {2.5, 0.4, 0.22, 0.65, 0.72};
 
