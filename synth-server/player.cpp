@@ -2,6 +2,7 @@
 #include "synth-server/player.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "protocol/time_tag.hpp"
 
@@ -28,11 +29,8 @@ Player::Player(Engine& engine, CommandQueue& queue, Recorder* recorder,
 
 void Player::render(const AudioBlock& block) noexcept {
   const double start = protocol::monotonic_now();
-  if (block.xrun) xruns_.add();
-  if (block.xrun || block.restart) clock_.reset();
   if (block.restart || blocks_.get() == 0) take_device(block);
-  clock_.update(block.time, engine_.clock(), block.frames);
-  clock_resets_.set(clock_.resets());
+  follow(block);
   queue_.consume_all([this](const Command& command) { obey(command); });
   if (finishing_.load(std::memory_order_relaxed)) engine_.silence(true);
   render_parts(block);
@@ -46,6 +44,23 @@ void Player::take_device(const AudioBlock& block) noexcept {
   if (blocks_.get() != 0) gate_.restart();
   schedule_.latency = latency_for(settings_.schedule.latency, block.frames, settings_.sample_rate);
   latency_shown_ = schedule_.latency;
+}
+
+/// The sample clock goes with the device. Where it has to start anew (an xrun, another device, a
+/// machine that stood still), what waits in the engine keeps its moment, not its sample.
+void Player::follow(const AudioBlock& block) noexcept {
+  if (block.xrun) xruns_.add();
+  const std::uint64_t resets = clock_.resets();
+  const double expected = clock_.sample_at(block.time);
+  if (block.xrun || block.restart) clock_.reset();
+  clock_.update(block.time, engine_.clock(), block.frames);
+  if (clock_.resets() == resets) return;
+  clock_resets_.set(clock_.resets());
+  const double lost = expected - static_cast<double>(engine_.clock());  // [samples]
+  const Engine::Overtaken overtaken = engine_.catch_up(
+      std::llround(lost), std::llround(schedule_.late_window * settings_.sample_rate));
+  late_.add(overtaken.late);
+  too_late_.add(overtaken.too_late);
 }
 
 void Player::obey(const Command& command) noexcept {

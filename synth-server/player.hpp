@@ -58,6 +58,7 @@ class Player final : public BlockSource {
 
  private:
   void take_device(const AudioBlock& block) noexcept;
+  void follow(const AudioBlock& block) noexcept;
   void obey(const Command& command) noexcept;
   void set_silent(bool silent) noexcept;
   void play(const Command& command) noexcept;

@@ -145,6 +145,19 @@ bool Engine::schedule(const TimedEvent& timed) noexcept {
   return true;
 }
 
+Engine::Overtaken Engine::catch_up(std::int64_t samples, std::int64_t late_window) noexcept {
+  State& s = *state_;
+  Overtaken overtaken;
+  s.queue.advance(samples);
+  while (s.queue.due(s.clock - late_window)) {
+    (void)s.queue.pop();
+    ++overtaken.too_late;
+  }
+  overtaken.late = s.queue.count_before(s.clock);
+  s.counts.scheduled.set(s.queue.size());
+  return overtaken;
+}
+
 void Engine::render(float* const* channels, int frames) noexcept {
   const FlushDenormals flush;
   State& s = *state_;

@@ -65,6 +65,14 @@ class Engine {
   /// past starts with the next sample.
   bool schedule(const TimedEvent& timed) noexcept;
 
+  struct Overtaken {
+    std::uint64_t late = 0;      ///< due before the next sample: they start with it
+    std::uint64_t too_late = 0;  ///< by more than the window: dropped
+  };
+  /// The samples to come sound this much later than was thought when events were scheduled: all
+  /// that wait start so many samples earlier, to keep their moments. `late_window` [samples].
+  Overtaken catch_up(std::int64_t samples, std::int64_t late_window) noexcept;
+
   /// Fills `frames` samples (up to max_block) of each channel: channels[c][i], in the rig's order.
   void render(float* const* channels, int frames) noexcept;
 

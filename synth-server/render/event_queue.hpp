@@ -41,6 +41,17 @@ class EventQueue {
     return first;
   }
 
+  /// All events come `samples` earlier than they were told.
+  void advance(std::int64_t samples) noexcept {
+    for (Waiting& waiting : waiting_) waiting.sample -= samples;
+  }
+  /// How many start before `end`.
+  [[nodiscard]] std::uint64_t count_before(std::int64_t end) const noexcept {
+    return static_cast<std::uint64_t>(
+        std::count_if(waiting_.begin(), waiting_.end(),
+                      [end](const Waiting& waiting) { return waiting.sample < end; }));
+  }
+
   [[nodiscard]] std::size_t size() const noexcept { return waiting_.size(); }
   void clear() noexcept { waiting_.clear(); }
 

@@ -119,6 +119,43 @@ TEST_F(PlayerTest, AnXrunMovesTheSamplesAndTheClockFollows) {
   EXPECT_EQ(player_.counters().clock_resets, 1U);
 }
 
+TEST_F(PlayerTest, WhatWaitsDuringAnXrunStartsAtItsMoment) {
+  for (int i = 0; i < 1000; ++i) call();
+  const std::size_t before = samples_.size();
+  const double moment = kStart + static_cast<double>(before) / kRate + 0.040;
+  play(moment);
+  call();  // it waits in the engine now
+  shift_ = 0.012;
+  call(0.0, kBlock, true);
+  for (int i = 0; i < 20; ++i) call();
+  const std::int64_t ideal = std::llround((moment + kLatency - kStart - shift_) * kRate);
+  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+  EXPECT_EQ(player_.counters().late, 0U);
+}
+
+TEST_F(PlayerTest, WhatALongStallOvertookIsCountedLateOrDropped) {
+  for (int i = 0; i < 1000; ++i) call();
+  const std::size_t before = samples_.size();
+  const double now = kStart + static_cast<double>(before) / kRate;
+  play(now + 0.5);   // 1 s too late when the machine goes on
+  play(now + 1.47);  // 30 ms: within the window
+  play(now + 1.9);   // not overtaken
+  call();
+  EXPECT_EQ(engine_.counters().scheduled, 3U);
+  shift_ = 1.5;
+  call(0.0, kBlock, true);
+  EXPECT_EQ(player_.counters().too_late, 1U);
+  EXPECT_EQ(player_.counters().late, 1U);
+  EXPECT_NEAR(static_cast<double>(onset_after(before)), static_cast<double>(before + kBlock), 2.0)
+      << "the late one starts at once";
+  for (int i = 0; i < 100; ++i) call();
+  const std::size_t between = before + 16000;  // it has rung out
+  const std::int64_t ideal = std::llround((now + 1.9 + kLatency - kStart - shift_) * kRate);
+  EXPECT_NEAR(static_cast<double>(onset_after(between) - ideal), 1.0, 1.0);
+  EXPECT_EQ(engine_.counters().bubbles, 2U);
+  EXPECT_EQ(engine_.counters().scheduled, 0U);
+}
+
 TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
   Engine undisturbed(rig_, settings());
   std::vector<float> expected;

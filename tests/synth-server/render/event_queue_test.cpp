@@ -30,5 +30,19 @@ TEST(EventQueue, RefusesWhatItCannotHold) {
   EXPECT_EQ(queue.size(), 0U);
 }
 
+TEST(EventQueue, AdvancesAllThatWait) {
+  EventQueue queue(10);
+  for (const std::int64_t sample : {500, 100, 300}) {
+    ASSERT_TRUE(queue.push(impact(1.0F, static_cast<int>(sample)), sample));
+  }
+  queue.advance(250);
+  EXPECT_EQ(queue.count_before(0), 1U);
+  EXPECT_EQ(queue.count_before(51), 2U);
+  EXPECT_EQ(queue.pop().sample, -150);
+  EXPECT_EQ(queue.pop().sample, 50);
+  queue.advance(-250);
+  EXPECT_EQ(queue.pop().sample, 500);
+}
+
 }  // namespace
 }  // namespace splash::synth
