@@ -129,6 +129,8 @@ class Fluid {
   [[nodiscard]] const KernelParts& parts() const noexcept { return parts_; }
   [[nodiscard]] const Buffer<FluidParams>& params_buffer() const noexcept { return params_buffer_; }
   [[nodiscard]] const PointArrays& particles() const noexcept { return sorted_; }
+  /// As they were before the step and its sort: grid().source() says where each was.
+  [[nodiscard]] const PointArrays& particles_before() const noexcept { return unsorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
   /// Frames that each cell stays awake (kernels/sleep.h).
   [[nodiscard]] const cl::Buffer& awake_cells() const noexcept { return sleep_.cells(); }

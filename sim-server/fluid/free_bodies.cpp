@@ -96,9 +96,11 @@ void FreeBodies::move(Fluid& fluid, const Step& step) {
   const PointArrays& particles = fluid.particles();
   const auto piston = as_float(step.piston);
   const auto speed = as_float(step.piston_speed);
-  keep_out_of_free_.run(queue, groups_, params, piston, speed, count_, bodies_.memory(), shapes,
-                        fluid.body_steps().memory(), step.first_body, particles.position.memory(),
-                        particles.velocity.memory(), reach_.memory(), reached_.memory());
+  keep_out_of_free_.run(queue, groups_, params, as_float(step.dt), piston, speed, count_,
+                        bodies_.memory(), shapes, fluid.body_steps().memory(), step.first_body,
+                        fluid.particles_before().position.memory(), fluid.grid().source(),
+                        particles.position.memory(), particles.velocity.memory(), reach_.memory(),
+                        reached_.memory());
   answer(fluid, step,
          {.pressure = &fluid.pressure_term(), .rubbing = 1.0, .velocity = &particles.velocity});
   move_bodies_.run(queue, 1, params, as_float(step.dt), piston, speed, count_, bodies_.memory(),

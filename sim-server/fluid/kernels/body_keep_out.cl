@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Nobody is caught inside a free body, either (keep_out.h): what is too deep is put back, and its
-// motion into the body ends, as in a collision without rebound. The particle then moves along with
-// the body's face, so it yields by all of the body's change in that direction (body_reach.h with
-// g_i = out, b_i = 1 and a_i the change of its speed), and the collision of all that were too deep
-// with the body conserves momentum and angular momentum.
+// Nobody is caught inside a free body or goes through it, either (keep_out.h): what is too deep is
+// put back, and its motion into the body ends, as in a collision without rebound. It then moves
+// along with the body's face, so it yields by all of the body's change in that direction
+// (body_reach.h with g_i = out, b_i = 1 and a_i the change of its speed), and the collision of all
+// that were too deep with the body conserves momentum and angular momentum.
 // Written over what body_reach.cl found, which has been answered.
 
 typedef struct {
-  float place[3][LANES], speed[3][LANES];
+  float before[3][LANES], place[3][LANES], speed[3][LANES];
 } Crowd;
 
 static bool leave_free_body(constant FluidParams* p, BodyShape shape, BodyStep b, int here,
@@ -15,11 +15,13 @@ static bool leave_free_body(constant FluidParams* p, BodyShape shape, BodyStep b
   float out_of[3][LANES], stop[LANES];
   bool any = false;
   for (int lane = 0; lane < LANES; ++lane) {
+    const float3 from =
+        (float3)(crowd->before[0][lane], crowd->before[1][lane], crowd->before[2][lane]);
     float3 at = (float3)(crowd->place[0][lane], crowd->place[1][lane], crowd->place[2][lane]);
     float3 moving = (float3)(crowd->speed[0][lane], crowd->speed[1][lane], crowd->speed[2][lane]);
     float3 out = (float3)(0.0f, 0.0f, 0.0f);
     float stopped = 0.0f;
-    const bool caught = lane < here && leave_body(p, shape, b, &at, &moving, &out, &stopped);
+    const bool caught = lane < here && leave_body(p, shape, b, from, &at, &moving, &out, &stopped);
     any |= caught;
     stop[lane] = caught ? stopped : 0.0f;
     const float3 normal = stop[lane] > 0.0f ? out : (float3)(0.0f, 0.0f, 0.0f);
@@ -45,9 +47,15 @@ static bool leave_free_body(constant FluidParams* p, BodyShape shape, BodyStep b
   return any;
 }
 
+// `position_before`: as it was when the step began, unsorted; `source`: where each was among those.
 static void load_crowd(constant FluidParams* p, global const float* position,
-                       global const float* velocity, int i, Crowd* crowd) {
+                       global const float* velocity, global const float* position_before,
+                       global const int* source, int i, Crowd* crowd) {
   for (int axis = 0; axis < 3; ++axis) {
+    for (int lane = 0; lane < LANES; ++lane) {
+      const int before = source[min(i + lane, p->count - 1)];
+      crowd->before[axis][lane] = position_before[axis * p->capacity + before];
+    }
     STORE(LOAD(position + axis * p->capacity, i), crowd->place[axis], 0);
     STORE(LOAD(velocity + axis * p->capacity, i), crowd->speed[axis], 0);
   }
@@ -69,9 +77,10 @@ static void store_crowd(constant FluidParams* p, float piston, float piston_spee
 }
 
 // One work-item for each group of particles, after they have moved.
-kernel void keep_out_of_free(constant FluidParams* p, float piston, float piston_speed,
+kernel void keep_out_of_free(constant FluidParams* p, float dt, float piston, float piston_speed,
                              int free_count, constant FreeBody* frees, constant BodyShape* shapes,
                              global const BodyStep* bodies, int first_body,
+                             global const float* position_before, global const int* source,
                              global float* position, global float* velocity, global float* reach,
                              global int* reached) {
   const int groups = group_count(p);
@@ -87,13 +96,15 @@ kernel void keep_out_of_free(constant FluidParams* p, float piston, float piston
                    least(select(far, z, mine)));
   upper = (float3)(most(select(-far, x, mine)), most(select(-far, y, mine)),
                    most(select(-far, z, mine)));
+  lower -= dt * p->speed_limit;  // nobody came from farther away
+  upper += dt * p->speed_limit;
   Crowd crowd;
   bool moved = false;
   for (int k = 0; k < free_count; ++k) {
     reached[k * groups + group] = 0;
     const int body = frees[k].body;
     if (!bodies_near_box(bodies, first_body + body, 1, lower, upper)) continue;
-    if (!moved) load_crowd(p, position, velocity, i, &crowd);
+    if (!moved) load_crowd(p, position, velocity, position_before, source, i, &crowd);
     Reach r;
     if (!leave_free_body(p, shapes[body], bodies[first_body + body], here, &crowd, &r)) continue;
     moved = true;

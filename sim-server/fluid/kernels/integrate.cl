@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Symplectic Euler: v += a dt, x += v dt. Then nobody is left behind a wall, and nobody outruns
-// the speed limit; nobody is caught in a body. Sleeping particles stay where they are, and keep
-// their speed for when they wake.
+// the speed limit; nobody is caught in a body or goes through it. Sleeping particles stay where
+// they are, and keep their speed for when they wake.
 
 kernel void integrate(constant FluidParams* p, float dt, float piston, float piston_speed,
                       constant BodyShape* shapes, global const BodyStep* bodies, int first_body,
@@ -19,15 +19,16 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
   u *= slower;
   v *= slower;
   w *= slower;
-  lanes x = LOAD(position, i) + dt * u;
-  lanes y = LOAD(position + n, i) + dt * v;
-  lanes z = LOAD(position + 2 * n, i) + dt * w;
-  keep_lanes_out(p, shapes, bodies, first_body, body_count, &x, &y, &z, &u, &v, &w);
+  const lanes a = LOAD(position, i), b = LOAD(position + n, i), c = LOAD(position + 2 * n, i);
+  lanes x = a + dt * u;
+  lanes y = b + dt * v;
+  lanes z = c + dt * w;
+  keep_lanes_out(p, shapes, bodies, first_body, body_count, a, b, c, &x, &y, &z, &u, &v, &w);
 
   keep_in_tank(p, piston, piston_speed, &x, &y, &z, &u, &v, &w);
-  STORE(select(LOAD(position, i), x, move), position, i);
-  STORE(select(LOAD(position + n, i), y, move), position + n, i);
-  STORE(select(LOAD(position + 2 * n, i), z, move), position + 2 * n, i);
+  STORE(select(a, x, move), position, i);
+  STORE(select(b, y, move), position + n, i);
+  STORE(select(c, z, move), position + 2 * n, i);
   STORE(select(LOAD(velocity, i), u, move), velocity, i);
   STORE(select(LOAD(velocity + n, i), v, move), velocity + n, i);
   STORE(select(LOAD(velocity + 2 * n, i), w, move), velocity + 2 * n, i);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Nothing is caught in a body: particles put anywhere in bodies of every shape, turned and moving,
 // are at most half a spacing deep after one step, on the side of the nearest face, and no longer
-// on their way in.
+// on their way in. And nobody goes through one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/bodies/mass.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
@@ -66,14 +67,42 @@ Vector3 in_body(const Vector3& place) {
   return rotate({-q[0], -q[1], -q[2], q[3]}, place - kCentre);
 }
 
+const std::vector<Shape> kShapes = {Shape{ShapeKind::box, {0.2, 0.14, 0.1}, 0.0, 0.0},
+                                    Shape{ShapeKind::box, {0.3, 0.14, 0.1}, 0.03, 0.4},
+                                    Shape{ShapeKind::sphere, {0.2, 0.2, 0.2}, 0.0, 0.0},
+                                    Shape{ShapeKind::cylinder, {0.2, 0.2, 0.12}, 0.0, 0.0}};
+
+/// A particle before each of a body's six sides, 3 cm off, too far from each other to push or rub.
+std::vector<Vector3> before_the_sides(const Shape& shape) {
+  std::vector<Vector3> places;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Vector3 place = {};
+      place[axis] = side * (shape.size[axis] / 2.0 + 0.03);
+      places.push_back(place);
+    }
+  }
+  return places;
+}
+
+/// Throws each at the body's middle, so that it would get `far` beyond, in its way to there.
+void throw_through(Water& water, const std::vector<Vector3>& places, double far, double dt) {
+  Snapshot snapshot = water.fluid->snapshot();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vector3& place = places[static_cast<std::size_t>(snapshot.id[i])];
+    const Vector3 v = (-(1.0 + far) / dt) * rotate(turned(), place);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      snapshot.velocity[part(*water.fluid, axis, i)] = static_cast<float>(v[axis]);
+    }
+  }
+  water.fluid->restore(snapshot);
+}
+
 class KeepOut : public ::testing::TestWithParam<Build> {};
 
 TEST_P(KeepOut, LeavesNobodyDeepInside) {
   Device device(-1, false, GetParam().lanes);
-  for (const Shape& shape : {Shape{ShapeKind::box, {0.2, 0.14, 0.1}, 0.0, 0.0},
-                             Shape{ShapeKind::box, {0.3, 0.14, 0.1}, 0.03, 0.4},
-                             Shape{ShapeKind::sphere, {0.2, 0.2, 0.2}, 0.0, 0.0},
-                             Shape{ShapeKind::cylinder, {0.2, 0.2, 0.12}, 0.0, 0.0}}) {
+  for (const Shape& shape : kShapes) {
     SCOPED_TRACE(static_cast<int>(shape.kind));
     Water water = body_among_particles(shape);
     water.start(device, {.relaxed = GetParam().relaxed});
@@ -98,6 +127,44 @@ TEST_P(KeepOut, LeavesNobodyDeepInside) {
       EXPECT_GT(dot(vector_of(*water.fluid, after.velocity, i) - skin, out), -1.0e-3);
     }
     EXPECT_GT(moved, 20);
+  }
+}
+
+void expect_nobody_through(Device& device, const KernelBuild& build, const Shape& shape, bool free,
+                           double far) {
+  constexpr double kStep = 0.025;
+  Water water = body_among_particles(shape);
+  water.scene.fluid.gravity = {};
+  water.scene.fluid.viscosity = water.scene.fluid.artificial = 0.0;
+  const std::vector<Vector3> places = before_the_sides(shape);
+  water.particles.clear();
+  for (const Vector3& x : places) water.particles.push_back(kCentre + rotate(turned(), x));
+  water.start(device, build);
+  MotionSettings& motion = water.scene.bodies[0].motion;
+  motion.kind = MotionKind::free;
+  motion.density = 500.0;
+  if (free) water.fluid->let_go(free_bodies(water.scene.bodies));
+  throw_through(water, places, far, kStep);
+  water.step(kStep);
+  const Snapshot after = water.fluid->snapshot();
+  for (std::size_t i = 0; i < after.id.size(); ++i) {
+    const Vector3 x = in_body(vector_of(*water.fluid, after.position, i));
+    EXPECT_NEAR(depth_of(shape, x), 0.5 * water.scene.fluid.spacing, 1.0e-5);
+    EXPECT_GT(dot(x, places[static_cast<std::size_t>(after.id[i])]), 0.0) << "on the other side";
+  }
+}
+
+// As what a heavy ball squeezes against the floor: into the body's far half, or out behind it.
+TEST_P(KeepOut, LetsNobodyThrough) {
+  Device device(-1, false, GetParam().lanes);
+  for (const bool free : {false, true}) {
+    for (const Shape& shape : kShapes) {
+      for (const double far : {0.3, 1.0}) {
+        SCOPED_TRACE(testing::Message()
+                     << "shape " << static_cast<int>(shape.kind) << free << ' ' << far);
+        expect_nobody_through(device, {.relaxed = GetParam().relaxed}, shape, free, far);
+      }
+    }
   }
 }
 
