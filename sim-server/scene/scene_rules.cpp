@@ -180,9 +180,9 @@ void check_resolution(const ConfigMap& fluid, const Scene& scene) {
   const double volume = water_volume(scene);
   if (volume <= 0.0) throw fluid.error(key, "no water is left above the slope");
   const double spacing = particle_spacing(scene);
-  const double number = volume / (spacing * spacing * spacing);
+  const double number = std::round(volume / (spacing * spacing * spacing));
   if (number < kParticlesMin || number > kParticlesMax) {
-    throw fluid.error(key, "makes " + text(std::round(number)) + " particles, allowed are " +
+    throw fluid.error(key, "makes " + text(number) + " particles, allowed are " +
                                std::to_string(kParticlesMin) + " to " +
                                std::to_string(kParticlesMax));
   }

@@ -104,6 +104,16 @@ TEST(SceneReader, AllowsNoLongerStepsThanTheSolverStands) {
                protocol::ConfigError);
 }
 
+// By the spacing's rounding they are a billionth more.
+TEST(SceneReader, TakesAsManyParticlesAsItSaysAreAllowed) {
+  for (const char* depth : {"0.31", "0.37", "0.41", "0.43", "0.5"}) {
+    std::string text = kGood;
+    text.replace(text.find("particles: 1000"), 15, "particles: 4000000");
+    text.replace(text.find("0.5]\nbodies"), 3, depth);
+    EXPECT_EQ(parse_scene(text, "small.yaml").fluid.particles, 4'000'000) << depth;
+  }
+}
+
 /// One change to the good scene, and what the error must say.
 struct Mistake {
   std::string name;
