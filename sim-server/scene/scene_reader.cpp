@@ -184,7 +184,16 @@ FluidSettings read_fluid(const ConfigMap& map) {
   return entry;
 }
 
+/// Whoever confuses the two kinds of file is told so, not that a key is unknown.
+void refuse_rig(const ConfigMap& map) {
+  if (!map.has("outputs") || map.has("tank") || map.has("fluid")) return;
+  throw map.error("outputs",
+                  "this is a rig, which says what synth-server drives (--rig); a scene is wanted "
+                  "here, which says what sim-server simulates, e.g. configs/scenes/basin.yaml");
+}
+
 Scene build(const ConfigMap& map, const std::string& file_stem) {
+  refuse_rig(map);
   Scene scene;
   map.read(scene_fields(),
            {"fluid", "tank", "slope", "wave_maker", "water", "gate", "flow", "bodies", "gauges",

@@ -77,7 +77,20 @@ Output read_output(const ConfigMap& map) {
   return entry;
 }
 
+/// Whoever confuses the two kinds of file is told so, not that a key is unknown.
+void refuse_scene(const ConfigMap& map) {
+  if (map.has("outputs")) return;
+  for (const char* key : {"tank", "fluid"}) {
+    if (!map.has(key)) continue;
+    throw map.error(key,
+                    "this is a scene, which says what sim-server simulates (--scene); a rig is "
+                    "wanted here, which says what synth-server drives, e.g. "
+                    "configs/rigs/stereo.yaml");
+  }
+}
+
 Rig read_map(const ConfigMap& map) {
+  refuse_scene(map);
   Rig rig;
   map.read(rig_fields(), {"outputs"}, rig);
   for (const ConfigMap& output : map.list("outputs")) {

@@ -222,6 +222,15 @@ TEST_F(WrongFiles, OfRigsAreNamedWithPlaceKeyValueAndRange) {
   for (const Mistake& mistake : kWrongRigs) expect("synth-server", "--rig", kRig, mistake);
 }
 
+TEST_F(WrongFiles, OfTheOtherKindAreToldWhoWantsThem) {
+  const Ended scene = read("synth-server", "--rig", kScene);
+  EXPECT_EQ(scene.code, 78);
+  EXPECT_THAT(scene.text, testing::AllOf(HasSubstr("this is a scene"), HasSubstr("--scene")));
+  const Ended rig = read("sim-server", "--scene", kRig);
+  EXPECT_EQ(rig.code, 78);
+  EXPECT_THAT(rig.text, testing::AllOf(HasSubstr("this is a rig"), HasSubstr("--rig")));
+}
+
 TEST_F(WrongFiles, AreNotTheRightOnes) {
   EXPECT_EQ(read("sim-server", "--scene", kScene).code, 0);
   std::ofstream(path_) << kRig;
