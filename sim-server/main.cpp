@@ -66,11 +66,25 @@ Scene load_scene(const std::filesystem::path& path) {
   return read_scene(path);
 }
 
+/// Whoever asks for longer steps is told what they cost.
+void say_price(const Simulation& simulation) {
+  Scene usual = simulation.scene();
+  usual.fluid.time_step_factor = 1.0;
+  const double sound = scene_sound_speed(usual, simulation.bodies().fastest_ever());
+  const double share = static_cast<double>(simulation.sound_speed()) / sound;
+  if (share > 0.999) return;
+  std::printf(
+      "sound   is %.2f times as fast as by default, for longer steps: water is compressed "
+      "%.1f times as much (fluid.time_step_factor)\n",
+      share, 1.0 / (share * share));
+}
+
 void say_hello(const Simulation& simulation, const Server& server, double seconds_to_build) {
   const Scene& scene = simulation.scene();
   std::printf("scene   %s: %d particles %.1f mm apart, %zu bodies, sound speed %.1f m/s\n",
               scene.name.c_str(), simulation.particles(), 1e3 * particle_spacing(scene),
               scene.bodies.size(), static_cast<double>(simulation.sound_speed()));
+  say_price(simulation);
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
               seconds_to_build > 1.0 ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());

@@ -10,6 +10,7 @@
 #include "sim-server/fluid/settle.hpp"
 #include "sim-server/free_body_watch.hpp"
 #include "sim-server/rescue.hpp"
+#include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene_start.hpp"
 
 namespace splash::sim {
@@ -44,7 +45,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   if (!free.empty()) fluid_.let_go(free);
   const double fastest = std::max(start_flow(fluid_, scene_), bodies_.fastest(0.0));
   largest_step_ = largest_time_step(fluid_.params(), fastest, std::abs(scene_.fluid.gravity[2]),
-                                    scene_.fluid.time_step_factor);
+                                    step_factor(scene_.fluid));
   start_ = fluid_.snapshot();
   sound_.keep(device, state());
   // The divergence-free solver balances all of the water in every step: none of it may sleep.
@@ -57,7 +58,7 @@ void Simulation::settle_in() {
   const Snapshot lattice = fluid_.snapshot();
   const PistonState piston = piston_at(scene_.wave_maker, 0.0);
   double dt = largest_time_step(fluid_.params(), bodies_.fastest(0.0),
-                                std::abs(scene_.fluid.gravity[2]), scene_.fluid.time_step_factor);
+                                std::abs(scene_.fluid.gravity[2]), step_factor(scene_.fluid));
   std::optional<Diagnosis> wrong;
   for (int k = 0; k <= Recovery::kTries; ++k) {
     settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, dt);
@@ -203,7 +204,7 @@ void Simulation::keep(const FrameResult& result) {
   totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
   const double fastest = std::max(survey_.speed, bodies_.fastest(seconds_));
   largest_step_ = largest_time_step(fluid_.params(), fastest, survey_.acceleration,
-                                    stretch_ * scene_.fluid.time_step_factor);
+                                    stretch_ * step_factor(scene_.fluid));
 }
 
 Mishap Simulation::examine(const Diagnosis& what, double dt) {

@@ -90,9 +90,10 @@ Fields<F> force_fields() {
        &F::artificial},
       {{.key = "time_step_factor",
         .unit = "1",
-        .meaning =
-            "Multiplies the safe time step; smaller is slower and steadier. At most 1.05 with "
-            "weakly_compressible, or still water boils.",
+        .meaning = "Multiplies the default time step; smaller is slower and steadier. With "
+                   "weakly_compressible what is beyond 1.05 makes sound slower, and water more "
+                   "compressible by the square (sim-server/fluid/README has a table); not where "
+                   "`sound_speed` is given.",
         .min = 0.05,
         .max = 2},
        &F::time_step_factor},

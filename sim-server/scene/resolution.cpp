@@ -86,13 +86,23 @@ double scene_sound_speed(const Scene& scene, double fastest_body) {
   constexpr double kMach = 0.3;
   const auto& g = scene.fluid.gravity;
   const double wave = std::sqrt(std::hypot(g[0], g[1], g[2]) * water_depth(scene));
-  return std::max({kRatio * wave, kLeast, fastest_body / kMach});
+  return std::max(sound_share(scene.fluid) * std::max(kRatio * wave, kLeast), fastest_body / kMach);
 }
 
 double longest_step_factor(PressureKind solver) noexcept {
   // Measured by the trials of tests/stress: the state equation's water is calm at 1.05 and no
   // longer at 1.1 around a sunken ball; the other solver passes all of them at 2.
   return solver == PressureKind::weakly_compressible ? 1.05 : 2.0;
+}
+
+double sound_share(const FluidSettings& fluid) noexcept {
+  if (fluid.solver != PressureKind::weakly_compressible) return 1.0;
+  return std::min(longest_step_factor(fluid.solver) / fluid.time_step_factor, 1.0);
+}
+
+double step_factor(const FluidSettings& fluid) noexcept {
+  // Of a speed of sound that the scene names nothing is taken.
+  return (fluid.sound_speed > 0.0 ? 1.0 : sound_share(fluid)) * fluid.time_step_factor;
 }
 
 }  // namespace splash::sim

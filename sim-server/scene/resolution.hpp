@@ -17,10 +17,15 @@ inline constexpr int kParticlesMax = 4'000'000;
 [[nodiscard]] double particle_spacing(const Scene& scene);
 /// Deepest water at rest [m].
 [[nodiscard]] double water_depth(const Scene& scene);
-/// As given, or from the depth and the speed of the fastest body [m/s].
+/// As given, or from the depth, times sound_share, and the speed of the fastest body [m/s].
 [[nodiscard]] double scene_sound_speed(const Scene& scene, double fastest_body = 0.0);
-/// The most that `time_step_factor` may be, by what still water stands (sim-server/fluid/README,
-/// "How long a step may be") [1].
+/// The most by which steps may exceed the default at one speed of sound, by what still water stands
+/// (sim-server/fluid/README, "How long a step may be") [1].
 [[nodiscard]] double longest_step_factor(PressureKind solver) noexcept;
+/// Part of the speed of sound that suits the scene: longer steps than still water stands are bought
+/// with slower sound, which costs compression and not stability [1].
+[[nodiscard]] double sound_share(const FluidSettings& fluid) noexcept;
+/// What is left of `time_step_factor` to make steps longer with [1].
+[[nodiscard]] double step_factor(const FluidSettings& fluid) noexcept;
 
 }  // namespace splash::sim

@@ -162,13 +162,13 @@ void check_detect(const ConfigMap& map, const DetectSettings& d) {
 
 void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
   const double most = longest_step_factor(fluid.solver);
-  if (fluid.time_step_factor <= most) return;
+  if (fluid.time_step_factor <= most || !map.has("sound_speed")) return;
   throw map.error("time_step_factor",
-                  "must be in 0.05.." + text(most) + " with solver weakly_compressible, got '" +
+                  "must be in 0.05.." + text(most) +
+                      " with a sound_speed of the scene's own, got '" +
                       text(fluid.time_step_factor) +
-                      "': with longer steps still water begins to boil. Leave it out, or choose "
-                      "solver: divergence_free, whose water stays calm up to " +
-                      text(longest_step_factor(PressureKind::divergence_free)));
+                      "': with longer steps still water begins to boil. Leave sound_speed out, and "
+                      "it becomes as slow as such steps need");
 }
 
 void check_resolution(const ConfigMap& fluid, const Scene& scene) {

@@ -21,7 +21,7 @@ void check_shape(const protocol::ConfigMap& map, const Shape& shape);
 /// Of a free motion: density or mass, one of them.
 void check_free(const protocol::ConfigMap& map, const MotionSettings& motion);
 void check_detect(const protocol::ConfigMap& map, const DetectSettings& detect);
-/// Steps no longer than the solver's water stands.
+/// Steps no longer than the solver's water stands at a speed of sound that is given.
 void check_time_step(const protocol::ConfigMap& map, const FluidSettings& fluid);
 /// Spacing or particles, one of them; a number of particles that can be simulated.
 void check_resolution(const protocol::ConfigMap& fluid, const Scene& scene);

@@ -31,6 +31,7 @@ struct Settings {
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
   double spacing = 0.05;  ///< [m]
   double factor = 1.0;    ///< of the time step
+  bool stiff = false;     ///< sound stays as fast as it is at 1, which no scene file may ask for
 };
 
 struct Verdict {

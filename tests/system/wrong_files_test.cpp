@@ -89,9 +89,10 @@ const std::vector<Mistake> kWrongScenes{
      {"'fluid.solver'", "one of weakly_compressible, divergence_free"}},
     {"weakly_compressible", "dfsph", "dfsph", {"'fluid.solver'", "got 'dfsph'", "divergence_free"}},
     {"viscosity: 0.001",
-     "time_step_factor: 2",
+     "sound_speed: 15\n  time_step_factor: 2",
      "2",
-     {"'fluid.time_step_factor'", "0.05..1.05", "got '2'", "boil", "divergence_free"}},
+     {"'fluid.time_step_factor'", "0.05..1.05", "got '2'", "boil", "sound_speed out"}},
+    {"viscosity: 0.001", "time_step_factor: 2.5", "2.5", {"'fluid.time_step_factor'", "0.05..2"}},
     {"viscosity: 0.001", "viscosity: -1", "-1", {"'fluid.viscosity'", "got '-1'", "0..1 m2/s"}},
     {"viscosity: 0.001", "viscosity: \"0.001\"", "\"0.001\"", {"'fluid.viscosity'", "quotes"}},
     {"viscosity: 0.001", "viscosity:", "\n  gravity", {"'fluid.viscosity'", "has no value"}},
@@ -232,7 +233,11 @@ TEST_F(WrongFiles, OfTheOtherKindAreToldWhoWantsThem) {
 }
 
 TEST_F(WrongFiles, AreNotTheRightOnes) {
-  EXPECT_EQ(read("sim-server", "--scene", kScene).code, 0);
+  std::string scene = kScene;
+  EXPECT_EQ(read("sim-server", "--scene", scene).code, 0);
+  scene.replace(scene.find("viscosity: 0.001"), 16, "time_step_factor: 2");
+  EXPECT_THAT(read("sim-server", "--scene", scene).text,
+              testing::AllOf(HasSubstr("sound   is 0.5"), HasSubstr("fluid.time_step_factor")));
   std::ofstream(path_) << kRig;
   EXPECT_EQ(run_program("synth-server", {"--rig", path_, "--device", "null", "--listen",
                                          "127.0.0.1:0", "--duration", "0.01"})

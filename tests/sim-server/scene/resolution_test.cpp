@@ -74,6 +74,10 @@ TEST(Resolution, SoundIsEightTimesTheWaveSpeedButNeverTooSlow) {
   EXPECT_GE(scene_sound_speed(scene), 13.0);
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 3.0), scene_sound_speed(scene)) << "fast enough";
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 12.0), 40.0) << "Mach 0.3";
+  scene.fluid.time_step_factor = 2.1;
+  EXPECT_DOUBLE_EQ(scene_sound_speed(scene), 6.5) << "half, by which steps are longer";
+  EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 12.0), 40.0) << "but not below what bodies need";
+  EXPECT_DOUBLE_EQ(step_factor(scene.fluid), 1.05);
   scene.fluid.sound_speed = 33.0;
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene), 33.0);
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 12.0), 33.0) << "the scene's own wish";

@@ -96,10 +96,13 @@ TEST(SceneReader, AllowsNoLongerStepsThanTheSolverStands) {
     std::string text = kGood;
     return parse_scene(text.insert(text.find("  particles"), keys), "small.yaml").fluid;
   };
-  EXPECT_DOUBLE_EQ(with("  time_step_factor: 1.05\n").time_step_factor, 1.05);
+  EXPECT_DOUBLE_EQ(with("  time_step_factor: 2\n").time_step_factor, 2.0) << "slower sound";
+  EXPECT_DOUBLE_EQ(with("  sound_speed: 15\n  time_step_factor: 1.05\n").time_step_factor, 1.05);
   EXPECT_DOUBLE_EQ(with("  solver: divergence_free\n  time_step_factor: 2\n").time_step_factor,
                    2.0);
-  EXPECT_THROW(static_cast<void>(with("  time_step_factor: 1.06\n")), protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  sound_speed: 15\n  time_step_factor: 1.06\n")),
+               protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  time_step_factor: 2.1\n")), protocol::ConfigError);
   EXPECT_THROW(static_cast<void>(with("  solver: divergence_free\n  time_step_factor: 2.1\n")),
                protocol::ConfigError);
 }
