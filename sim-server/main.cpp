@@ -92,6 +92,22 @@ void say_hello(const Simulation& simulation, const Server& server, double second
   std::fflush(stdout);
 }
 
+/// Much water takes minutes to come to rest: nobody is to wonder what is going on.
+Progress telling_how_it_settles() {
+  constexpr double kPeriod = 3.0;  // [s]
+  return [start = 0.0, last = 0.0](double share) mutable {
+    const double now = protocol::monotonic_now();
+    if (share <= 0.0) start = last = now;
+    if (now - last < kPeriod) return;
+    last = now;
+    std::printf(
+        "the water comes to rest before it begins: %.0f %%, %.0f s to go (fewer "
+        "fluid.particles or a faster --device would help)\n",
+        100.0 * share, (now - start) * (1.0 / share - 1.0));
+    std::fflush(stdout);
+  };
+}
+
 void serve(Server& server, protocol::ServiceNotice& service) {
   server.run([&] {
     if (service.is_due() && server.listens()) service.alive();
@@ -120,7 +136,7 @@ void run(const Options& options) {
   std::printf("device  %s\n", describe(device.facts()).c_str());
   std::printf("compiling kernels (the first start on a machine takes some seconds)\n");
   std::fflush(stdout);
-  Simulation simulation(device, scene, options.tracker);
+  Simulation simulation(device, scene, options.tracker, telling_how_it_settles());
   last_words.built();
   seal.renew();
   Server server(options, simulation, device.facts().name);

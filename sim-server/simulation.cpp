@@ -32,13 +32,14 @@ SleepRule sleep_rule(const Scene& scene) {
 
 }  // namespace
 
-Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker)
+Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
+                       const Progress& tell)
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
       fluid_(make_fluid(device, scene_, bodies_)),
       detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed, !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
-  settle_in();
+  settle_in(tell);
   fluid_.forget_work();
   if (scene_.gate.present) fluid_.drop_last_wall();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
@@ -54,14 +55,14 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
 }
 
-void Simulation::settle_in() {
+void Simulation::settle_in(const Progress& tell) {
   const Snapshot lattice = fluid_.snapshot();
   const PistonState piston = piston_at(scene_.wave_maker, 0.0);
   double dt = largest_time_step(fluid_.params(), bodies_.fastest(0.0),
                                 std::abs(scene_.fluid.gravity[2]), step_factor(scene_.fluid));
   std::optional<Diagnosis> wrong;
   for (int k = 0; k <= Recovery::kTries; ++k) {
-    settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, dt);
+    settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, dt, tell);
     const Step step = {dt, piston.offset, 0.0, 0};
     fluid_.begin_watch(1);
     fluid_.prepare(step);

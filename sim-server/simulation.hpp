@@ -11,6 +11,7 @@
 #include "sim-server/detect/detector.hpp"
 #include "sim-server/fluid/checkpoint.hpp"
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/settle.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/mishap.hpp"
 #include "sim-server/needs.hpp"
@@ -48,9 +49,11 @@ using StepHook = std::function<void(Fluid&, Step&, Moment)>;
 
 class Simulation {
  public:
-  /// `tracker`: a marker file that replaces the scene's, or empty. Builds all kernels. Throws
-  /// protocol::ConfigError for what the scene says wrong, std::runtime_error for the device.
-  Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker);
+  /// `tracker`: a marker file that replaces the scene's, or empty. Builds all kernels and lets the
+  /// water settle, whose progress it can `tell`. Throws protocol::ConfigError for what the scene
+  /// says wrong, std::runtime_error for the device.
+  Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
+             const Progress& tell = {});
 
   /// Simulates one frame: some equal steps, the detectors in the last one. What is not sound is
   /// done again or given up (Recovery); nothing of it is told.
@@ -99,7 +102,7 @@ class Simulation {
   void count(const FrameNeeds& needs);
 
   [[nodiscard]] std::vector<cl::Buffer> state() const;
-  void settle_in();
+  void settle_in(const Progress& tell);
   /// Takes the state back to the last sound one, and notes what was wrong.
   [[nodiscard]] Mishap examine(const Diagnosis& what, double dt);
   /// Ends a frame that no try made sound.

@@ -13,10 +13,12 @@ constexpr double kLoose = 0.6;
 /// a column half a metre deep breathes, 4 H / c0, so that what it stores is taken as it comes out.
 constexpr double kBetweenStops = 0.025;
 
+constexpr int kTold = 8;  ///< steps between two words on how far it is
+
 }  // namespace
 
 void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
-            double dt) {
+            double dt, const Progress& tell) {
   std::vector<BodyStep> still = bodies;
   for (BodyStep& body : still) {
     body.vx = body.vy = body.vz = 0.0F;
@@ -27,6 +29,10 @@ void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, do
   const int steps = static_cast<int>(seconds / dt);
   const int between = std::max(1, static_cast<int>(kBetweenStops / dt));
   for (int k = 0; k < steps; ++k) {
+    if (tell && k % kTold == 0) {
+      fluid.device().queue().finish();
+      tell(static_cast<double>(k) / steps);
+    }
     fluid.prepare(step);
     fluid.advance(step);
     if (k > kLoose * steps && k % between == 0) fluid.still();

@@ -2,16 +2,20 @@
 // Lets water come to rest before anything happens to it.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "sim-server/fluid/fluid.hpp"
 
 namespace splash::sim {
 
+/// Is told now and then which part of a long task is done [1].
+using Progress = std::function<void(double share)>;
+
 /// Runs `fluid` for `seconds` in steps of `dt` with its bodies at rest where `bodies` says: first
 /// freely, so that the lattice finds a better packing, then stopping all motion again and again, so
 /// that the column ceases to breathe. `piston`: offset of the wave maker [m].
 void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
-            double dt);
+            double dt, const Progress& tell = {});
 
 }  // namespace splash::sim

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
@@ -28,6 +30,19 @@ TEST(Exit, UnknownSceneKeyIsNamedWithItsPlace) {
   EXPECT_EQ(code, 78);
   EXPECT_THAT(text, AllOf(testing::ContainsRegex(scene.path() + ":[0-9]+:28: "),
                           HasSubstr("repaet"), HasSubstr("repeat")));
+}
+
+// Minutes of silence would look like a hang.
+TEST(Exit, SaysWhatTakesLongBeforeItBegins) {
+  const SmallScene small("{kind: fixed}");
+  std::ifstream file(small.path());
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  text.replace(text.find("1400"), 4, "400000");
+  text.replace(text.find("    motion"), std::string::npos, "    rest: {position: [0, 0, 0.4]}\n");
+  std::ofstream(small.path()) << text;
+  ChildProcess simulator(
+      command("sim-server", {"--scene", small.path(), "--listen", "127.0.0.1:0"}));
+  EXPECT_TRUE(simulator.wait_for_text(" s to go (fewer fluid.particles")) << simulator.output();
 }
 
 TEST(Exit, MissingFilesAreNamed) {
