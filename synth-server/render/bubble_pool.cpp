@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "synth-server/render/pack_feeds.hpp"
@@ -149,7 +150,6 @@ class Pool final : public BubblePool {
     const bool passing = kAfresh && begin == 0 && end == kCell;
     for (std::size_t k = 0; k < count; ++k) {
       const auto p = static_cast<std::size_t>(packs[k]);
-      if (k + 1 < packs.size()) fetch(static_cast<std::size_t>(packs[k + 1]));
       lanes_[k] = passing ? &passing_[k] : &packs_[p];
       if (begin == 0) kernels_.begin(packs_[p], *lanes_[k]);
       feeds_.join(p, &rows_[k * kPieceRows]);
@@ -158,6 +158,11 @@ class Pool final : public BubblePool {
       const int to = std::min(end, from + piece_);
       for (std::size_t k = 0; k < count; ++k) {
         Real* const rows = &rows_[k * kPieceRows];
+        // Nothing is waited for while voices turn: time to fetch what is needed next.
+        if (from == begin) feeds_.fetch_gains(static_cast<std::size_t>(packs[k]));
+        if (from == begin && k + count < packs.size()) {
+          fetch(static_cast<std::size_t>(packs[k + count]));
+        }
         kernels_.turn(*lanes_[k], from, to, rows);
         const Sitters& sitters = sitters_[static_cast<std::size_t>(packs[k])];
         if (cell + from < sitters.calm_from || cell + to > sitters.calm_to) {
@@ -213,12 +218,19 @@ class Pool final : public BubblePool {
     copy_lane(latecomer, pack, lane);
   }
 
-  /// Neighbours in the order of mixing are none in memory: the processor is told what comes next.
+  /// Neighbours in the order of mixing are none in memory: the processor is told which pack comes
+  /// next, into its second cache, as the first one is full of rows.
   void fetch(std::size_t p) const noexcept {
+    constexpr int kToWrite = 1;
+    constexpr int kSecondCache = 2;
+    // Lanes that begin() writes anew are not read.
+    constexpr std::size_t kFirst = kAfresh ? offsetof(TurningLanes<Real>, rise) : 0;
     const char* const pack = reinterpret_cast<const char*>(&packs_[p]);
-    for (std::size_t line = 0; line < sizeof(Pack); line += 64) __builtin_prefetch(pack + line);
+    for (std::size_t at = kFirst; at < sizeof(Pack); at += 64) {
+      __builtin_prefetch(pack + at, kToWrite, kSecondCache);
+    }
     __builtin_prefetch(&sitters_[p]);
-    feeds_.fetch(p);
+    feeds_.fetch_channels(p);
   }
 
   static void shape(const Sitters& sitters, std::int64_t from, int count, Real* rows) noexcept {

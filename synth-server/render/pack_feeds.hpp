@@ -103,8 +103,10 @@ class PackFeeds {
     joined_channels_.clear();
   }
 
-  void fetch(std::size_t pack) const noexcept {
+  void fetch_channels(std::size_t pack) const noexcept {
     __builtin_prefetch(&channels_[pack * most_]);
+  }
+  void fetch_gains(std::size_t pack) const noexcept {
     for (std::int32_t slot = 0; slot < counts_[pack]; ++slot) {
       __builtin_prefetch(&gains_[at(pack, slot)]);
     }
