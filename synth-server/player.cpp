@@ -12,6 +12,8 @@ namespace {
 /// The load is averaged over this [s].
 constexpr double kLoadSpan = 1.0;
 constexpr double kPartsPerMillion = 1e6;
+/// Callbacks are late on a busy machine; when so much later, samples were lost, too [s].
+constexpr double kStall = 0.25;
 
 }  // namespace
 
@@ -46,7 +48,7 @@ void Player::take_device(const AudioBlock& block) noexcept {
   latency_shown_ = schedule_.latency;
 }
 
-/// The sample clock goes with the device. Where it has to start anew (an xrun, another device, a
+/// The sample clock goes with the device. Where samples were lost (an xrun, another device, a
 /// machine that stood still), what waits in the engine keeps its moment, not its sample.
 void Player::follow(const AudioBlock& block) noexcept {
   if (block.xrun) xruns_.add();
@@ -57,6 +59,8 @@ void Player::follow(const AudioBlock& block) noexcept {
   if (clock_.resets() == resets) return;
   clock_resets_.set(clock_.resets());
   const double lost = expected - static_cast<double>(engine_.clock());  // [samples]
+  const bool late_only = !block.xrun && !block.restart;                 // callbacks, not samples
+  if (late_only && std::abs(lost) < kStall * settings_.sample_rate) return;
   const Engine::Overtaken overtaken = engine_.catch_up(
       std::llround(lost), std::llround(schedule_.late_window * settings_.sample_rate));
   late_.add(overtaken.late);

@@ -156,6 +156,19 @@ TEST_F(PlayerTest, WhatALongStallOvertookIsCountedLateOrDropped) {
   EXPECT_EQ(engine_.counters().scheduled, 0U);
 }
 
+TEST_F(PlayerTest, WhatWaitsKeepsItsSampleWhenOnlyCallbacksAreLate) {
+  for (int i = 0; i < 1000; ++i) call();
+  const std::size_t before = samples_.size();
+  const double moment = kStart + static_cast<double>(before) / kRate + 0.020;
+  play(moment);
+  call();
+  for (int i = 0; i < 5; ++i) call(0.030);  // the clock takes them for moved samples
+  EXPECT_EQ(player_.counters().clock_resets, 1U);
+  for (int i = 0; i < 20; ++i) call();
+  const std::int64_t ideal = std::llround((moment + kLatency - kStart) * kRate);
+  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+}
+
 TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
   Engine undisturbed(rig_, settings());
   std::vector<float> expected;
