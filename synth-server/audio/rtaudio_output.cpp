@@ -18,6 +18,10 @@ namespace {
 
 /// stop() waits this long for a block that is being rendered.
 constexpr auto kLongestBlock = std::chrono::milliseconds(500);
+/// It gives RtAudio so long to close a JACK stream whose server died ...
+constexpr auto kOwnClosing = std::chrono::milliseconds(1000);
+/// ... and then so long to leave the object that did it.
+constexpr auto kLeaving = std::chrono::milliseconds(50);
 constexpr int kNotSeen = -1;
 
 struct Found {
@@ -65,10 +69,14 @@ struct RtAudioOutput::Stream {
     if (audio != nullptr) rtaudio_port::close(*audio);
   }
 
-  /// Always 0: any other answer makes RtAudio start a thread from within the callback.
+  /// Always 0: any other answer makes RtAudio start a thread from within the callback. When its
+  /// server dies, libjack cancels the thread wherever it is: not in the middle of our block.
   static int called(void* output, void* /*input*/, unsigned int frames, double /*stream_time*/,
                     RtAudioStreamStatus status, void* context) {
+    int before = PTHREAD_CANCEL_ENABLE;
+    pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before);
     static_cast<Stream*>(context)->fill(static_cast<float*>(output), frames, status);
+    pthread_setcancelstate(before, nullptr);
     return 0;
   }
 
@@ -90,6 +98,17 @@ struct RtAudioOutput::Stream {
     }
     frames.store(frames.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
     rendering = false;  // last: stop() takes it as the end of this call
+  }
+
+  /// When its server dies, RtAudio closes a JACK stream in a thread of its own, which must not find
+  /// the object gone. Waits until it is done, or the device shows that it lives.
+  void await_own_closing() const noexcept {
+    const auto limit = std::chrono::steady_clock::now() + kOwnClosing;
+    const std::uint64_t seen = frames;
+    while (frames == seen && std::chrono::steady_clock::now() < limit) {
+      if (!rtaudio_port::is_open(*audio)) return std::this_thread::sleep_for(kLeaving);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
 
   void note_scheduling() noexcept {
@@ -141,11 +160,12 @@ void RtAudioOutput::start(BlockSource& source) {
 }
 
 void RtAudioOutput::stop() noexcept {
-  stream_->source = nullptr;
+  if (stream_->source.exchange(nullptr) == nullptr) return;
   const auto limit = std::chrono::steady_clock::now() + kLongestBlock;
   while (stream_->rendering && std::chrono::steady_clock::now() < limit) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  if (stream_->format.api == "jack") stream_->await_own_closing();
 }
 
 const AudioFormat& RtAudioOutput::format() const noexcept {

@@ -143,6 +143,10 @@ void start(RtAudio& audio) {
 #endif
 }
 
+bool is_open(const RtAudio& audio) noexcept {
+  return audio.isStreamOpen();
+}
+
 void close(RtAudio& audio) noexcept {
   try {
     if (!audio.isStreamOpen()) return;  // RtAudio closes a JACK stream itself when the server goes

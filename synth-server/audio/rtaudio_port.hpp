@@ -39,6 +39,8 @@ struct Opening {
 /// Planar floats, realtime priority asked for. Throws DeviceError with RtAudio's words.
 void open(RtAudio& audio, Opening& opening);
 void start(RtAudio& audio);
+[[nodiscard]] bool is_open(const RtAudio& audio) noexcept;
+
 /// Stops without draining (RtAudio waits for ever for a dead JACK server to drain) and closes.
 void close(RtAudio& audio) noexcept;
 

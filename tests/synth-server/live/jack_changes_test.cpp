@@ -5,12 +5,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <memory>
 #include <thread>
 
 #include "protocol/status.hpp"
+#include "protocol/time_tag.hpp"
+#include "synth-server/audio/rtaudio_output.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
 #include "tests/synth-server/live/jack_capture.hpp"
@@ -22,6 +26,10 @@ using tests::rig_path;
 
 constexpr int kPeriod = 512;
 constexpr double kPatience = 30.0;  ///< [s]
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
 
 std::string server_name(const std::string& name) {
   return "splash-" + name + "-" + std::to_string(getpid());
@@ -60,7 +68,7 @@ TEST(JackChanges, OfThePeriodAreFollowed) {
   }
   expect_both_shoes(synth);
   synth.process().signal(SIGTERM);
-  EXPECT_EQ(synth.process().wait_for_end(), 0);
+  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("2 device losses"));
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("not played: 0 too late"));
 }
@@ -79,6 +87,48 @@ TEST(JackChanges, OfTheRateAreFollowed) {
   expect_both_shoes(synth);
   synth.process().signal(SIGTERM);
   EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+}
+
+/// A source that takes its time over a block.
+struct Slow final : BlockSource {
+  void render(const AudioBlock& block) noexcept override {
+    for (int c = 0; c < 2; ++c) std::fill_n(block.channels[c], block.frames, 0.0F);
+    if (entered.exchange(true)) return;
+    const double limit = protocol::monotonic_now() + kPatience;
+    while (!go && protocol::monotonic_now() < limit) {
+    }
+    left = true;
+  }
+  std::atomic<bool> entered{false};
+  std::atomic<bool> go{false};
+  std::atomic<bool> left{false};
+};
+
+bool comes_true(const std::atomic<bool>& flag) {
+  const double limit = protocol::monotonic_now() + kPatience;
+  while (!flag && protocol::monotonic_now() < limit) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return flag;
+}
+
+/// libjack cancels the thread that renders, wherever it is, and RtAudio closes the stream, whatever
+/// its owner does.
+TEST(JackChanges, ToNothingWhileABlockIsRenderedAreSurvived) {
+  const std::string name = server_name("midblock");
+  auto server = std::make_unique<JackServer>(name, 2, kPeriod);
+  Slow source;
+  {
+    RtAudioOutput output({"jack", "system", 2, 0, kPeriod});
+    output.start(source);
+    EXPECT_TRUE(comes_true(source.entered));
+    server->kill();
+    sleep(0.5);
+    EXPECT_FALSE(source.left);
+    source.go = true;
+    EXPECT_TRUE(comes_true(source.left));
+  }
+  server = std::make_unique<JackServer>(name, 2, kPeriod);  // one that ends well leaves no trace
 }
 
 TEST(JackPorts, AreNamedInTheChannelMap) {
