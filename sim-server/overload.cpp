@@ -91,10 +91,11 @@ std::string describe(const Overload& overload, double stretch) {
                     load, stretch);
       break;
     case Load::slow:
+      // Where steps may get longer still, the scene can ask for it.
       std::snprintf(text.data(), text.size(),
                     "a simulated second takes %.2f s: simulated time runs slower than the clock "
-                    "(fewer fluid.particles or a faster --device would help)",
-                    load);
+                    "(fewer fluid.particles%s or a faster --device would help)",
+                    load, stretch > 1.0 ? ", fluid.time_step_factor: 2" : "");
       break;
   }
   return text.data();

@@ -98,7 +98,10 @@ TEST(Overload, SaysWhatGivesWay) {
   EXPECT_THAT(describe(overload, 1.2), HasSubstr("1.20 times as long"));
   static_cast<void>(overload.note(10.0, 15.0));
   EXPECT_THAT(describe(overload, 1.2),
-              testing::AllOf(HasSubstr("slower than the clock"), HasSubstr("1.50 s")));
+              testing::AllOf(HasSubstr("slower than the clock"), HasSubstr("1.50 s"),
+                             HasSubstr("fluid.time_step_factor: 2")));
+  EXPECT_THAT(describe(overload, 1.0), testing::Not(HasSubstr("time_step_factor")))
+      << "it asked for that";
 }
 
 }  // namespace
