@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two frames of the detectors over fast water, bodies and bubbles, and a look at the walls' push as
-// gauges take it: every kernel of theirs, small enough for an OpenCL interpreter. Argument:
-// particles per vector (1, 8 or 16).
+// Two frames, or more, of the detectors over fast water, bodies and bubbles, and a look at the
+// walls' push as gauges take it: every kernel of theirs, small enough for an OpenCL interpreter.
+// Arguments: particles per vector (1, 8 or 16), and how many frames.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,7 +12,7 @@
 
 namespace {
 
-int two_frames(int lanes) {
+int two_frames(int lanes, std::uint32_t frames) {
   using namespace splash::sim;
   constexpr double kFrame = 0.005;  // [s]
   Device device(-1, false, lanes);
@@ -27,7 +27,7 @@ int two_frames(int lanes) {
   settings.cavity_colour = 0.0;
   Detector detector(*water.fluid, water.bodies->points(), settings, 1, true);
   std::size_t cavities = 0;
-  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+  for (std::uint32_t frame = 0; frame <= frames; ++frame) {
     water.step(1.0e-3, [&](Fluid&) { detector.enqueue(water.step_at(1.0e-3), kFrame); });
     device.queue().finish();
     cavities += detector.collect(water.time, kFrame, frame).cavities.size();
@@ -43,7 +43,8 @@ int two_frames(int lanes) {
 
 int main(int argc, char** argv) {
   try {
-    return two_frames(argc > 1 ? std::atoi(argv[1]) : 0);
+    return two_frames(argc > 1 ? std::atoi(argv[1]) : 0,
+                      argc > 2 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 2);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return EXIT_FAILURE;

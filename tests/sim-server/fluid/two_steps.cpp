@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two steps of a small fluid with walls, slope, piston and bodies, and two in which it may sleep:
-// every kernel once, small enough for an OpenCL interpreter. Arguments: particles per vector (1, 8
-// or 16), whether the water is divergence-free (1), and whether it moves the bodies (1).
+// Two steps, or more, of a small fluid with walls, slope, piston and bodies, and two in which it
+// may sleep: every kernel once, small enough for an OpenCL interpreter. Arguments: particles per
+// vector (1, 8 or 16), whether the water is divergence-free (1), whether it moves the bodies (1),
+// and how many steps.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,7 +12,7 @@
 
 namespace {
 
-int two_steps(int lanes, bool divergence_free, bool free) {
+int two_steps(int lanes, bool divergence_free, bool free, int steps) {
   using namespace splash::sim;
   Device device(-1, false, lanes);
   Water water = two_bodies();
@@ -29,9 +30,8 @@ int two_steps(int lanes, bool divergence_free, bool free) {
     }
     water.fluid->let_go(free_bodies(water.scene.bodies));
   }
-  water.fluid->begin_watch(4);
-  water.step(1.0e-3);
-  water.step(1.0e-3);
+  water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);
+  for (int k = 0; k < steps; ++k) water.step(1.0e-3);
   water.fluid->let_sleep({.speed = 0.05, .frames = 1});
   Step sleepy = water.step_at(1.0e-3);
   sleepy.opens_frame = true;
@@ -52,7 +52,7 @@ int two_steps(int lanes, bool divergence_free, bool free) {
 int main(int argc, char** argv) {
   try {
     return two_steps(argc > 1 ? std::atoi(argv[1]) : 0, argc > 2 && std::atoi(argv[2]) == 1,
-                     argc > 3 && std::atoi(argv[3]) == 1);
+                     argc > 3 && std::atoi(argv[3]) == 1, argc > 4 ? std::atoi(argv[4]) : 2);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return EXIT_FAILURE;
