@@ -56,6 +56,11 @@ void send_two(Daemon& daemon) {
 }
 
 TEST_F(Signals, TheSecondEndsAtOnce) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP()
+      << "ThreadSanitizer keeps signals back until later, and then drops the second, whose "
+         "handler the first one has taken away";
+#endif
   Simulator simulator_daemon(simulator());
   send_two(simulator_daemon);
   EXPECT_GE(simulator_daemon.process().wait_for_end(), 128);
