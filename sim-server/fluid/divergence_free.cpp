@@ -96,13 +96,13 @@ void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
 void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
   measure_response_.run(fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
                         fluid.grid().cell_start(), fluid.awake_cells(),
-                        fluid.particles().position.memory(), fluid.density().memory(),
-                        fluid.water_density().memory(), fluid.body_grid().cell_start(),
-                        fluid.boundary().position.memory(), fluid.boundary().velocity.memory(),
-                        fluid.boundary_volume().memory(), fluid.boundary().stride,
-                        fluid.body_steps().memory(), step.first_body, fluid.body_count(),
-                        static_cast<float>(step.piston), static_cast<float>(step.piston_speed),
-                        gradient_.memory(), response_.memory(), boundary_rate_.memory());
+                        fluid.particles().position.memory(), fluid.body_images().memory(),
+                        fluid.body_grid().cell_start(), fluid.boundary().position.memory(),
+                        fluid.boundary().velocity.memory(), fluid.boundary_volume().memory(),
+                        fluid.boundary().stride, fluid.body_steps().memory(), step.first_body,
+                        fluid.body_count(), static_cast<float>(step.piston),
+                        static_cast<float>(step.piston_speed), gradient_.memory(),
+                        response_.memory(), boundary_rate_.memory());
 }
 
 void DivergenceFree::answer_of_bodies(Fluid& fluid, const Step& step) {

@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 39 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 38 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 20 * sizeof(float));
 static_assert(sizeof(BodyShape) == 7 * sizeof(float));
 
@@ -64,6 +64,7 @@ void Fluid::load_particles(const std::vector<Vector3>& particles) {
   density_before_ = Buffer<float>(device_, stride + kReadAhead);
   water_density_before_ = Buffer<float>(device_, stride + kReadAhead);
   moving_ = Buffer<int>(device_, stride + kReadAhead);
+  body_images_ = Buffer<float>(device_, body_count_ > 0 ? 5 * stride + kReadAhead : 1);
 }
 
 void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
@@ -214,15 +215,16 @@ void Fluid::compute_density(const Step& step) {
                        sleep_.cells(), grid_.source(), density_before_.memory(),
                        water_density_before_.memory(), sorted_.position.memory(),
                        body_grid_.cell_start(), body_sorted_.position.memory(),
-                       body_volume_.memory(), body_sorted_.stride, body_steps_.memory(),
-                       step.first_body, body_count_, as_float(step.piston), density_.memory(),
+                       body_volume_.memory(), body_sorted_.stride, body_shapes_.memory(),
+                       body_steps_.memory(), step.first_body, body_count_, as_float(step.piston),
+                       body_images_.memory(), density_.memory(),
                        water_density_.memory(), pressure_term_.memory());
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
   compute_acceleration_.run(device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
                             sleep_.cells(), sorted_.position.memory(), velocity.memory(),
-                            pressure_term_.memory(), density_.memory(), water_density_.memory(),
+                            pressure_term_.memory(), body_images_.memory(),
                             body_grid_.cell_start(), body_sorted_.position.memory(),
                             body_sorted_.velocity.memory(), body_volume_.memory(),
                             body_sorted_.stride, body_steps_.memory(), step.first_body, body_count_,

@@ -136,6 +136,9 @@ class Fluid {
   [[nodiscard]] const cl::Buffer& awake_cells() const noexcept { return sleep_.cells(); }
   [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
   [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
+  /// What kernels/body_image.h keeps of each particle near a body: R, its gradient and the nearest
+  /// body, part after part; others have what an earlier step left.
+  [[nodiscard]] const Buffer<float>& body_images() const noexcept { return body_images_; }
   [[nodiscard]] const Buffer<float>& pressure_term() const noexcept { return pressure_term_; }
   [[nodiscard]] const Buffer<float>& acceleration() const noexcept { return acceleration_; }
   /// Of each particle: 0 if it slept through the last step.
@@ -174,6 +177,7 @@ class Fluid {
   Buffer<float> density_;
   Buffer<float> water_density_;  ///< without the bodies' part
   Buffer<float> pressure_term_;
+  Buffer<float> body_images_;
   Buffer<float> acceleration_;
   Buffer<float> density_before_;  ///< of the step before, in its order
   Buffer<float> water_density_before_;

@@ -57,8 +57,6 @@ typedef struct {
   float spacing;        // [m]
   float layer_weight;   // mass of a particle per rho0 and area spacing^2: weighs a layer of it [m]
   float least_density;  // of a particle in a body of water, not in spray or a film [kg/m3]
-  float contact_share;  // of the kernel's weight beyond a plane face half a spacing away, 0: bodies
-                        // have no image (kernels/body_image.h) [1]
   float speed_limit;    // no particle moves faster [m/s]
   int wall_count;
   int piston;           // index of the wall that moves along its normal, -1: none

@@ -51,7 +51,7 @@ void FreeBodies::reach(Fluid& fluid, const Step& step, const Buffer<float>& velo
       fluid.device().queue(), list_.size() * groups_, fluid.params_buffer().memory(),
       as_float(step.dt), count_, bodies_.memory(), fluid.body_steps().memory(), step.first_body,
       fluid.grid().cell_start(), fluid.particles().position.memory(), velocity.memory(),
-      fluid.density().memory(), fluid.water_density().memory(), fluid.pressure_term().memory(),
+      fluid.density().memory(), fluid.body_images().memory(), fluid.pressure_term().memory(),
       response.memory(), fluid.body_grid().cell_start(), points.position.memory(),
       points.velocity.memory(), fluid.boundary_volume().memory(), points.id.memory(),
       fluid.boundary_owner().memory(), points.stride, reach_.memory(), reached_.memory());

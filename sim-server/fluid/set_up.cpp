@@ -54,14 +54,6 @@ double lattice_sum(const Vector3& step, const Smoothing& smoothing) {
   return sum;
 }
 
-/// Sum of the planar marginals of all layers beyond a face half a spacing away [1/m].
-double half_space_sum(double spacing, const Smoothing& smoothing) {
-  double sum = 0.0;
-  const auto layers = static_cast<int>(std::lround(smoothing.support / spacing));
-  for (int k = 0; k < layers; ++k) sum += plane_marginal((k + 0.5) * spacing, smoothing);
-  return sum;
-}
-
 /// Cells over the tank and its headroom, with a margin cell on each side.
 void lay_grid(const Scene& scene, double support, FluidParams& params) {
   const Vector3 lower = scene.tank.lower;
@@ -219,9 +211,6 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.spacing = static_cast<float>(spacing);
   const double layer = 1.0 / (lattice_sum(step, smoothing) * spacing * spacing);
   p.layer_weight = static_cast<float>(layer);
-  if (smoothing.kind == SmoothingKind::wide) {
-    p.contact_share = static_cast<float>(layer * half_space_sum(spacing, smoothing));
-  }
   p.speed_limit = static_cast<float>(sound);
   p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;
   p.wave_speed = static_cast<float>(std::sqrt(length(scene.fluid.gravity) * water_depth(scene)));

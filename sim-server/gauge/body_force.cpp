@@ -10,9 +10,9 @@ BodyForce body_force(const WaterState& water, std::span<const BodyPoint> points,
                      const BodyState& state) {
   BodyForce total;
   PlacedBody(water, points, owner, state)
-      .each_push(water, [&](std::size_t, const PlacedPoint& point, const Vector3& force) {
+      .each_push(water, [&](std::size_t i, const PlacedPoint&, const Vector3& force) {
         total.force = total.force + force;
-        total.torque = total.torque + cross(point.place - state.position, force);
+        total.torque = total.torque + cross(water.position[i] - state.position, force);
       });
   return total;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/gauge/water_state.hpp"
 
-#include "sim-server/fluid/body_image.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -19,21 +18,31 @@ std::vector<Vector3> as_vectors(const std::vector<float>& parts, std::size_t cou
   return all;
 }
 
+void read_images(Fluid& fluid, WaterState& water) {
+  const std::size_t count = water.position.size();
+  water.image.assign(count, 1.0);
+  water.slope.assign(count, {0.0, 0.0, 0.0});
+  if (fluid.body_count() == 0) return;
+  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
+  const std::vector<float> parts = fluid.body_images().read(fluid.device(), 4 * stride);
+  for (std::size_t i = 0; i < count; ++i) {
+    water.image[i] = static_cast<double>(parts[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      water.slope[i][axis] = static_cast<double>(parts[(axis + 1) * stride + i]);
+    }
+  }
+}
+
 void read_pressures(Fluid& fluid, WaterState& water) {
   const std::size_t count = water.position.size();
   const std::vector<float> density = fluid.density().read(fluid.device(), count);
-  const std::vector<float> alone = fluid.water_density().read(fluid.device(), count);
   const std::vector<float> term = fluid.pressure_term().read(fluid.device(), count);
   water.density.assign(density.begin(), density.end());
   water.pressure.resize(count);
-  water.rise.resize(count);
-  const auto rest = static_cast<double>(fluid.params().rest_density);
-  const auto contact = static_cast<double>(fluid.params().contact_share);
   for (std::size_t i = 0; i < count; ++i) {
     water.pressure[i] = static_cast<double>(term[i]) * water.density[i] * water.density[i];
-    const double image = (water.density[i] - static_cast<double>(alone[i])) / rest;
-    water.rise[i] = image_rise(image, contact);
   }
+  read_images(fluid, water);
 }
 
 }  // namespace

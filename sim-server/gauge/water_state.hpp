@@ -9,14 +9,15 @@
 
 namespace splash::sim {
 
-/// Particles that all have the same mass. Density, pressure and rise are empty unless they were
+/// Particles that all have the same mass. Density, pressure and image are empty unless they were
 /// asked for.
 struct WaterState {
   std::vector<Vector3> position;   ///< [m]
   std::vector<Vector3> velocity;   ///< [m/s]
   std::vector<double> density;     ///< [kg/m3]
   std::vector<double> pressure;    ///< [Pa]
-  std::vector<double> rise;        ///< of the bodies' image with their share (body_image.hpp) [1]
+  std::vector<double> image;       ///< R of fluid/kernels/body_image.h; near bodies [1]
+  std::vector<Vector3> slope;      ///< grad R; near bodies [1/m]
   std::vector<Vector3> wall_push;  ///< what the walls do to each (wall_push.hpp) [m/s2]
 
   double mass = 0.0;     ///< of one particle [kg]
@@ -41,7 +42,7 @@ struct WaterState {
   [[nodiscard]] double potential_at(const Vector3& place) const;
 };
 
-/// Reads the fluid's state and waits for it; `pressures`: density, pressure and rise, too, which
+/// Reads the fluid's state and waits for it; `pressures`: density, pressure and image, too, which
 /// must be those of the state (Fluid::prepare makes them so).
 [[nodiscard]] WaterState read_water(Fluid& fluid, bool pressures);
 

@@ -4,16 +4,16 @@
 //         + sum_j m K_ij / rho0 (v_ij . x_ij) / (r^2 + eta^2) grad W_ij
 //         + g - Omega^2 (x_i - c)                             the scene's pull, along each axis
 // with K = 10 nu, and alpha c0 h more for pairs that approach (Monaghan 2005 sections 4 and 5).
-// Bodies and walls push with the particle's own pressure alone, -P_i grad rho_i: what the energy of
-// the particle's compression gives (Akinci et al. 2012 eq. 9). Mirroring the pressure as well
-// (2 P_i) keeps a little more distance, but is not the gradient of any energy: a pool at rest then
-// simmers at 33 mm/s where this form calms to 4. Walls do not rub.
+// Bodies (body_image.h) and walls (walls.h) push with the particle's own pressure alone,
+// -P_i grad rho_i: what the energy of its compression gives (Akinci et al. 2012 eq. 9). Mirroring
+// the pressure as well (2 P_i) keeps a little more distance, but is not the gradient of any energy:
+// a pool at rest then simmers at 33 mm/s where this form calms to 4. Walls do not rub.
 // Particles that sleep are not accelerated, and flagged as not moving.
 
 // What the pair forces need of the particles they act on.
 typedef struct {
   lanes u, v, w;  // [m/s]
-  lanes own;      // p / rho^2; towards bodies, times the rise of their image
+  lanes own;      // p / rho^2
 } Movers;
 
 typedef struct {
@@ -61,19 +61,28 @@ static Push push_by_fluid(constant FluidParams* p, const Group* g, const Movers*
   return sum;
 }
 
-static void push_by_bodies(constant FluidParams* p, const Group* g, const Movers* movers,
-                           global const int* body_start, global const float* body_position,
-                           global const float* body_velocity, global const float* body_volume,
-                           int stride, Push* sum) {
+// The share of the bodies, and how they rub on the movers.
+static BodyShare rub_by_bodies(constant FluidParams* p, const Group* g, const Movers* movers,
+                               global const int* body_start, global const float* body_position,
+                               global const float* body_velocity,
+                               global const float* body_volume, int stride, Push* rub) {
+  BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
   Near near;
   begin_search(&near);
   while (search(p, g, body_start, body_position, stride, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
-      push(p, g, movers, body_position, body_velocity, stride, j,
-           p->rest_density * body_volume[j], 0.0f, sum);
+      const Pair pair = pair_with(p, g, body_position, stride, j);
+      add_share(p, &pair, body_volume[j], &share);
+      if (!HAS_FRICTION) continue;
+      const lanes f = p->rest_density * body_volume[j] * pair.slope *
+                      friction(p, movers, &pair, body_velocity, stride, j);
+      rub->x -= f * pair.dx;
+      rub->y -= f * pair.dy;
+      rub->z -= f * pair.dz;
     }
   }
+  return share;
 }
 
 // What acts from afar: gravity and the central field.
@@ -88,8 +97,7 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
                                  global const int* awake,
                                  global const float* position, global const float* velocity,
                                  global const float* pressure_term,
-                                 global const float* density,
-                                 global const float* water_density,
+                                 global const float* images,
                                  global const int* body_start, global const float* body_position,
                                  global const float* body_velocity,
                                  global const float* body_volume, int body_stride,
@@ -109,21 +117,22 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
       continue;
     }
     move |= g.mine;
-    Movers movers = {LOAD(velocity, first), LOAD(velocity + n, first),
+    const Movers movers = {LOAD(velocity, first), LOAD(velocity + n, first),
                      LOAD(velocity + 2 * n, first), LOAD(pressure_term, first)};
     Push by = push_by_fluid(p, &g, &movers, cell_start, position, velocity, pressure_term);
+    lanes gx = 0.0f, gy = 0.0f, gz = 0.0f;
     if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
-      const lanes image = (LOAD(density, first) - LOAD(water_density, first)) / p->rest_density;
-      movers.own *= image_rise(p, image);
-      push_by_bodies(p, &g, &movers, body_start, body_position, body_velocity, body_volume,
-                     body_stride, &by);
+      const BodyShare share = rub_by_bodies(p, &g, &movers, body_start, body_position,
+                                            body_velocity, body_volume, body_stride, &by);
+      const BodyImage image = load_image(p, images, first);
+      image_gradient(p, &image, &share, &gx, &gy, &gz);
     }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);
-    const lanes own = LOAD(pressure_term, first) * p->rest_density;
+    const lanes own = movers.own * p->rest_density;
     const Push field = field_at(p, &g);
-    a.x = select(a.x, gradient * by.x - own * wall.gx + field.x, g.mine);
-    a.y = select(a.y, gradient * by.y - own * wall.gy + field.y, g.mine);
-    a.z = select(a.z, gradient * by.z - own * wall.gz + field.z, g.mine);
+    a.x = select(a.x, gradient * by.x - own * (wall.gx + gx) + field.x, g.mine);
+    a.y = select(a.y, gradient * by.y - own * (wall.gy + gy) + field.y, g.mine);
+    a.z = select(a.z, gradient * by.z - own * (wall.gz + gz) + field.z, g.mine);
     turn = g.next;
   }
   if (first >= last) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which particles a free body reaches, and what they do to each other (body_reach.h):
-//   g_i = rho0 f' sum_b V_b grad W_ib
+//   g_i = rho0 (R sum_b V_b grad W_ib + S grad R, if the body is the nearest)     body_image.h
 //   a_i = sum_b V_b K_ib (v_ib . x_ib) / (r^2 + eta^2) grad W_ib
 //   c_i = dt sum_b V_b K |grad W_ib| r / (r^2 + eta^2),  the most that rubbing can yield
 // the same terms as in acceleration.cl, of this body's points alone.
@@ -9,18 +9,23 @@ static void reach_of_group(constant FluidParams* p, const Group* g, global const
                            int first, global const int* body_start,
                            global const float* body_position, global const float* body_velocity,
                            global const float* body_volume, global const int* body_id,
-                           global const int* owner, int stride, int body, Reach* sum) {
+                           global const int* owner, int stride, int body, BodyImage image,
+                           Reach* sum) {
   const int n = p->capacity;
   const lanes u = LOAD(velocity, first), v = LOAD(velocity + n, first),
               w = LOAD(velocity + 2 * n, first);
   const float eta2 = 0.01f * p->length * p->length;
+  BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
+  lanes all = 0.0f;  // the share of all bodies
   Near near;
   begin_search(&near);
   while (search(p, g, body_start, body_position, stride, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
-      if (owner[body_id[j]] != body) continue;
       const Pair pair = pair_with(p, g, body_position, stride, j);
+      all += body_volume[j] * kernel_shape(pair.r2, p->inverse_support);
+      if (owner[body_id[j]] != body) continue;
+      add_share(p, &pair, body_volume[j], &share);
       const lanes closing = (u - body_velocity[j]) * pair.dx +
                             (v - body_velocity[stride + j]) * pair.dy +
                             (w - body_velocity[2 * stride + j]) * pair.dz;
@@ -28,15 +33,14 @@ static void reach_of_group(constant FluidParams* p, const Group* g, global const
       const lanes near2 = inverse(pair.r2 + eta2);
       const lanes rub =
           steep * near2 * (p->viscous * closing + p->artificial * fmin(closing, 0.0f));
-      sum->gx += steep * pair.dx;
-      sum->gy += steep * pair.dy;
-      sum->gz += steep * pair.dz;
       sum->ax += rub * pair.dx;
       sum->ay += rub * pair.dy;
       sum->az += rub * pair.dz;
       sum->rub += steep * near2 * (p->viscous + p->artificial) * pair.r2;
     }
   }
+  share.share = select((lanes)(0.0f), all, image.owner == (lanes)(body));
+  image_gradient(p, &image, &share, &sum->gx, &sum->gy, &sum->gz);
 }
 
 // b_i; particles without pressure, which pull nobody, do not yield to the state equation.
@@ -50,12 +54,11 @@ static lanes yield_of(constant FluidParams* p, float dt, global const float* pre
   return select((lanes)(0.0f), way * way, LOAD(pressure_term, first) > 0.0f);
 }
 
-static void finish_reach(constant FluidParams* p, float dt, lanes image, lanes yield, Reach* r) {
+static void finish_reach(constant FluidParams* p, float dt, lanes yield, Reach* r) {
   const float gradient = gradient_norm(p);
-  const lanes push = -gradient * p->rest_density * image_rise(p, image);
-  r->gx *= push;
-  r->gy *= push;
-  r->gz *= push;
+  r->gx *= p->rest_density;
+  r->gy *= p->rest_density;
+  r->gz *= p->rest_density;
   r->ax *= -gradient;
   r->ay *= -gradient;
   r->az *= -gradient;
@@ -70,7 +73,7 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
                          constant FreeBody* frees, global const BodyStep* bodies, int first_body,
                          global const int* cell_start, global const float* position,
                          global const float* velocity, global const float* density,
-                         global const float* water_density, global const float* pressure_term,
+                         global const float* images, global const float* pressure_term,
                          global const float* response, global const int* body_start,
                          global const float* body_position, global const float* body_velocity,
                          global const float* body_volume, global const int* body_id,
@@ -90,7 +93,7 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
     near = 1;
     Reach one = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     reach_of_group(p, &g, velocity, first, body_start, body_position, body_velocity, body_volume,
-                   body_id, owner, body_stride, frees[k].body, &one);
+                   body_id, owner, body_stride, frees[k].body, load_image(p, images, first), &one);
     all.gx = select(all.gx, one.gx, g.mine);
     all.gy = select(all.gy, one.gy, g.mine);
     all.gz = select(all.gz, one.gz, g.mine);
@@ -101,7 +104,6 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
   }
   reached[item] = near;
   if (!near) return;
-  const lanes image = (LOAD(density, first) - LOAD(water_density, first)) / p->rest_density;
-  finish_reach(p, dt, image, yield_of(p, dt, pressure_term, density, response, first), &all);
+  finish_reach(p, dt, yield_of(p, dt, pressure_term, density, response, first), &all);
   store_reach(p, reach, k, first, &all);
 }

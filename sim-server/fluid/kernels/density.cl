@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Density by summation over fluid, bodies (as the frozen fluid they displace, Akinci et al. 2012)
 // and walls; pressure from the weakly compressible state equation, never negative:
-//   rho_i = sum_j m W_ij + rho0 f(sum_b V_b W_ib) + rho0 (share of the kernel inside walls)
+//   rho_i = sum_j m W_ij + rho0 f_i + rho0 (share of the kernel inside walls)
+//   f_i   = R_i sum_b V_b W_ib                                                   body_image.h
 //   p_i   = max(0, c0^2 (rho_i - rho0))
 // The force needs p / rho^2 only, so that is what is stored.
 // The part without bodies is kept, too: it tells water from the film that a body carries along.
@@ -60,14 +61,25 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
                             global const float* water_density_before,
                             global const float* position, global const int* body_start,
                             global const float* body_position, global const float* body_volume,
-                            int body_stride, global const BodyStep* bodies, int first_body,
-                            int body_count, float piston, global float* density,
+                            int body_stride, constant BodyShape* shapes,
+                            global const BodyStep* bodies, int first_body, int body_count,
+                            float piston, global float* images, global float* density,
                             global float* water_density, global float* pressure_term) {
   const int first = group_of(p, get_global_id(0)) * LANES;
   const int last = min(first + LANES, p->count);
   lanes water = p->rest_density, rho = p->rest_density;
+  BodyImage images_here = no_image();
+  bool any_near = false;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
+    const bool near = bodies_near_box(bodies, first_body, body_count, g.lower, g.upper);
+    BodyImage image = no_image();
+    if (near) {
+      const BodyFace face = nearest_face(shapes, bodies, first_body, body_count, g.x, g.y, g.z);
+      image = image_before(p, &face);
+      choose_image(&images_here, &image, g.mine);
+      any_near = true;
+    }
     if (!awake_near(p, awake, &g, WAKES_DENSITY)) {
       water = select(water, kept(water_density_before, source, first, last), g.mine);
       rho = select(rho, kept(density_before, source, first, last), g.mine);
@@ -78,16 +90,17 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
     const lanes fluid = p->kernel_norm * p->mass * sum_fluid(p, &g, cell_start, position) +
                         p->rest_density * share;
     lanes all = fluid;
-    if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
-      const lanes body = p->kernel_norm * sum_bodies(p, &g, body_start, body_position,
-                                                     body_volume, body_stride);
-      all += p->rest_density * image_of(p, body);
+    if (near) {
+      const lanes share = p->kernel_norm * sum_bodies(p, &g, body_start, body_position,
+                                                      body_volume, body_stride);
+      all += p->rest_density * image.factor * share;
     }
     water = select(water, fluid, g.mine);
     rho = select(rho, all, g.mine);
     turn = g.next;
   }
   if (first >= last) return;
+  if (any_near) store_image(p, &images_here, first, images);
   const lanes pressure = fmax(p->sound_speed * p->sound_speed * (rho - p->rest_density), 0.0f);
   STORE(rho, density, first);
   STORE(water, water_density, first);

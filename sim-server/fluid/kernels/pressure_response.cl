@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a particle's density answers to motion and to its own pressure; the same for all iterations
 // of a step. With the gradient of its density by its own place,
-//   G_i = sum_j m grad W_ij + rho0 f' sum_b V_b grad W_ib + rho0 (gradient of the walls' share),
+//   G_i = sum_j m grad W_ij + rho0 grad f_i + rho0 (gradient of the walls' share),
 // density changes at the rate
 //   v_i . G_i - sum_j m v_j . grad W_ij + (part of moving bodies and piston),
 // and a pressure p_i / rho_i^2 = P_i, which pushes the particle by -P_i G_i and each neighbour by
@@ -9,14 +9,13 @@
 //   D_i = |G_i|^2 + sum_j |m grad W_ij|^2            Bender & Koschier 2017, eq. 9
 
 typedef struct {
-  lanes x, y, z;  // sum of m grad W or rho0 V grad W, divided by -4 sigma / H
+  lanes x, y, z;  // sum of m grad W, divided by -gradient_norm
   lanes squares;  // of each neighbour's, likewise
-  lanes carried;  // sum over moving neighbours of their speed along it
 } Response;
 
 static Response response_of_fluid(constant FluidParams* p, const Group* g,
                                   global const int* cell_start, global const float* position) {
-  Response sum = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+  Response sum = {0.0f, 0.0f, 0.0f, 0.0f};
   Near near;
   begin_search(&near);
   while (search(p, g, cell_start, position, p->capacity, &near)) {
@@ -35,31 +34,61 @@ static Response response_of_fluid(constant FluidParams* p, const Group* g,
   return sum;
 }
 
-static void add_response_of_bodies(constant FluidParams* p, const Group* g,
-                                   global const int* body_start,
-                                   global const float* body_position,
-                                   global const float* body_velocity,
-                                   global const float* body_volume, int stride, lanes rise,
-                                   Response* sum) {
+// grad f of the bodies, and the rate at which their motion adds to f.
+typedef struct {
+  lanes gx, gy, gz;  // [1/m]
+  lanes rate;        // [1/s]
+} BodyResponse;
+
+// What the nearest body's motion, where the particle is, does to R [1/s].
+static lanes nearing(const Group* g, global const BodyStep* bodies, int first_body, int body_count,
+                     const BodyImage* image) {
+  lanes rate = 0.0f;
+  for (int k = 0; k < body_count; ++k) {
+    const BodyStep b = bodies[first_body + k];
+    const lanes x = g->x - b.px, y = g->y - b.py, z = g->z - b.pz;
+    const lanes along = image->gx * (b.vx + b.wy * z - b.wz * y) +
+                        image->gy * (b.vy + b.wz * x - b.wx * z) +
+                        image->gz * (b.vz + b.wx * y - b.wy * x);
+    rate = select(rate, along, image->owner == (lanes)(k));
+  }
+  return rate;
+}
+
+// Where a body turns, a point on the line to the particle comes nearer as fast as the body's matter
+// does where the particle is: so its points' own speeds serve for R grad S, and the nearest body's
+// there for S grad R.
+static BodyResponse response_of_bodies(constant FluidParams* p, const Group* g,
+                                       global const int* body_start,
+                                       global const float* body_position,
+                                       global const float* body_velocity,
+                                       global const float* body_volume, int stride,
+                                       global const BodyStep* bodies, int first_body,
+                                       int body_count, BodyImage image) {
+  BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
+  lanes carried = 0.0f;
   Near near;
   begin_search(&near);
   while (search(p, g, body_start, body_position, stride, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
       const Pair pair = pair_with(p, g, body_position, stride, j);
-      const lanes slope = p->rest_density * body_volume[j] * rise * pair.slope;
-      sum->x += slope * pair.dx;
-      sum->y += slope * pair.dy;
-      sum->z += slope * pair.dz;
-      sum->carried += slope * (pair.dx * body_velocity[j] + pair.dy * body_velocity[stride + j] +
-                               pair.dz * body_velocity[2 * stride + j]);
+      add_share(p, &pair, body_volume[j], &share);
+      carried += body_volume[j] * pair.slope *
+                 (pair.dx * body_velocity[j] + pair.dy * body_velocity[stride + j] +
+                  pair.dz * body_velocity[2 * stride + j]);
     }
   }
+  BodyResponse r;
+  image_gradient(p, &image, &share, &r.gx, &r.gy, &r.gz);
+  r.rate = gradient_norm(p) * image.factor * carried -
+           p->kernel_norm * share.share * nearing(g, bodies, first_body, body_count, &image);
+  return r;
 }
 
 kernel void measure_response(constant FluidParams* p, global const int* cell_start,
                              global const int* awake, global const float* position,
-                             global const float* density, global const float* water_density,
+                             global const float* images,
                              global const int* body_start,
                              global const float* body_position,
                              global const float* body_velocity, global const float* body_volume,
@@ -78,21 +107,22 @@ kernel void measure_response(constant FluidParams* p, global const int* cell_sta
       turn = g.next;
       continue;
     }
-    Response sum = response_of_fluid(p, &g, cell_start, position);
+    const Response sum = response_of_fluid(p, &g, cell_start, position);
+    BodyResponse body = {0.0f, 0.0f, 0.0f, 0.0f};
     if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
-      const lanes image = (LOAD(density, first) - LOAD(water_density, first)) / p->rest_density;
-      add_response_of_bodies(p, &g, body_start, body_position, body_velocity, body_volume,
-                             body_stride, image_rise(p, image), &sum);
+      body = response_of_bodies(p, &g, body_start, body_position, body_velocity, body_volume,
+                                body_stride, bodies, first_body, body_count,
+                                load_image(p, images, first));
     }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);
-    const lanes x = scale * sum.x + p->rest_density * wall.gx;
-    const lanes y = scale * sum.y + p->rest_density * wall.gy;
-    const lanes z = scale * sum.z + p->rest_density * wall.gz;
+    const lanes x = scale * sum.x + p->rest_density * (wall.gx + body.gx);
+    const lanes y = scale * sum.y + p->rest_density * (wall.gy + body.gy);
+    const lanes z = scale * sum.z + p->rest_density * (wall.gz + body.gz);
     gx = select(gx, x, g.mine);
     gy = select(gy, y, g.mine);
     gz = select(gz, z, g.mine);
     d = select(d, x * x + y * y + z * z + scale * scale * sum.squares, g.mine);
-    rate = select(rate, p->rest_density * piston_speed * wall.swept - scale * sum.carried, g.mine);
+    rate = select(rate, p->rest_density * (piston_speed * wall.swept + body.rate), g.mine);
     turn = g.next;
   }
   if (first >= last) return;

@@ -6,6 +6,7 @@
 
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/fluid/body_image_twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -51,6 +52,19 @@ void push(const TwinResponse& r, const Neighbours& neighbours, const std::vector
   }
 }
 
+/// Of the matter of a body at a place; nothing without bodies [m/s].
+Vector3 body_velocity_at(const FluidState& s, std::size_t body, const Vector3& place) {
+  if (s.bodies.empty()) return {0.0, 0.0, 0.0};
+  const BodyStep& b = s.bodies[body];
+  const Vector3 centre = {static_cast<double>(b.px), static_cast<double>(b.py),
+                          static_cast<double>(b.pz)};
+  const Vector3 velocity = {static_cast<double>(b.vx), static_cast<double>(b.vy),
+                            static_cast<double>(b.vz)};
+  const Vector3 spin = {static_cast<double>(b.wx), static_cast<double>(b.wy),
+                        static_cast<double>(b.wz)};
+  return velocity + cross(spin, place - centre);
+}
+
 }  // namespace
 
 TwinResponse twin_response(const FluidState& s, double piston_speed) {
@@ -67,12 +81,15 @@ TwinResponse twin_response(const FluidState& s, double piston_speed) {
       g = g + n.gradient;
       r.response[i] += dot(n.gradient, n.gradient);
     }
+    const TwinImage image = twin_image(s, s.position[i]);
+    const Vector3 skin = body_velocity_at(s, image.owner, s.position[i]);
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
       const Vector3 x = s.position[i] - s.body_position[b];
-      const Vector3 of_point =
-          rest * s.image_rise[i] * s.body_volume[b] * kernel_gradient(length(x), kernel) * x;
-      g = g + of_point;
-      r.boundary_rate[i] -= dot(s.body_velocity[b], of_point);
+      const double volume = rest * s.body_volume[b];
+      const Vector3 along = volume * image.factor * kernel_gradient(length(x), kernel) * x;
+      const Vector3 nearing = volume * kernel_value(length(x), kernel) * image.gradient;
+      g = g + along + nearing;
+      r.boundary_rate[i] -= dot(s.body_velocity[b], along) + dot(skin, nearing);
     }
     r.boundary_rate[i] += rest * piston_speed * walls.swept;
     r.gradient[i] = g;

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "sim-server/fluid/body_image.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/fluid/body_image_twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -99,18 +99,16 @@ FluidState read_state(Fluid& fluid, double piston) {
   s.position = read_vectors(device, points.position, points.stride, count);
   s.velocity = read_vectors(device, points.velocity, points.stride, count);
   s.density = read_numbers(device, fluid.density(), count);
-  const std::vector<double> alone = read_numbers(device, fluid.water_density(), count);
-  for (std::size_t i = 0; i < count; ++i) {
-    s.image_rise.push_back(
-        image_rise((s.density[i] - alone[i]) / static_cast<double>(s.params.rest_density),
-                   static_cast<double>(s.params.contact_share)));
-  }
   s.pressure_term = read_numbers(device, fluid.pressure_term(), count);
   const auto body_points = static_cast<std::size_t>(fluid.boundary_count());
   const PointArrays& boundary = fluid.boundary();
   s.body_position = read_vectors(device, boundary.position, boundary.stride, body_points);
   s.body_velocity = read_vectors(device, boundary.velocity, boundary.stride, body_points);
   s.body_volume = read_numbers(device, fluid.boundary_volume(), body_points);
+  const auto bodies = static_cast<std::size_t>(fluid.body_count());
+  if (bodies == 0) return s;
+  s.shapes = fluid.body_shapes().read(device, bodies);
+  s.bodies = fluid.body_steps().read(device, bodies);
   return s;
 }
 
@@ -159,7 +157,7 @@ std::vector<double> twin_density(const FluidState& s) {
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
       share += s.body_volume[b] * kernel_value(length(s.position[i] - s.body_position[b]), kernel);
     }
-    density[i] += rest * image_of(share, static_cast<double>(s.params.contact_share));
+    density[i] += rest * share * twin_image(s, s.position[i]).factor;
     density[i] += rest * twin_walls(s.params, s.position[i], s.piston).share;
   }
   return density;
@@ -175,6 +173,7 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
   const FluidParams& p = s.params;
   const double mass = static_cast<double>(p.mass);
   const double rest = static_cast<double>(p.rest_density);
+  const Smoothing kernel = smoothing_of(p);
   std::vector<TwinAcceleration> result(s.position.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto add = [&](const Vector3& term) {
@@ -185,9 +184,13 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
     for (std::size_t j = 0; j < s.position.size(); ++j) {
       add(pair_push(s, i, s.position[j], s.velocity[j], mass, own, s.pressure_term[j]));
     }
+    const TwinImage image = twin_image(s, s.position[i]);
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
-      add(pair_push(s, i, s.body_position[b], s.body_velocity[b], rest * s.body_volume[b],
-                    s.image_rise[i] * own, 0.0));
+      const Vector3& from = s.body_position[b];
+      add(pair_push(s, i, from, s.body_velocity[b], rest * s.body_volume[b], image.factor * own,
+                    0.0));
+      add(-own * rest * s.body_volume[b] * kernel_value(length(s.position[i] - from), kernel) *
+          image.gradient);
     }
     const TwinWalls walls = twin_walls(p, s.position[i], s.piston);
     add(-s.pressure_term[i] * rest * walls.gradient);

@@ -17,11 +17,12 @@ struct FluidState {
   std::vector<Vector3> position;      ///< [m]
   std::vector<Vector3> velocity;      ///< [m/s]
   std::vector<double> density;        ///< [kg/m3]
-  std::vector<double> image_rise;     ///< of the bodies' image with their share [1]
   std::vector<double> pressure_term;  ///< p / rho^2
   std::vector<Vector3> body_position;
   std::vector<Vector3> body_velocity;
   std::vector<double> body_volume;  ///< [m3]
+  std::vector<BodyShape> shapes;
+  std::vector<BodyStep> bodies;  ///< of the first step
 };
 
 /// Call after prepare and before advance.

@@ -25,7 +25,8 @@ struct Pair {
 
   Pair() {
     water.density = {1005.0};
-    water.rise = {1.5};
+    water.image = {1.5};
+    water.slope = {{0.0, 0.0, 0.0}};
     water.pressure = {2000.0};
     points.resize(2);
     points[0].place = {0.0, 0.002, 0.0};

@@ -33,7 +33,8 @@ WaterState one_particle() {
   WaterState water = lattice_water({-0.002, -0.007, 0.001}, {0.008, 0.003, 0.011}, 0.01);
   water.density = {1005.0};
   water.pressure = {2000.0};
-  water.rise = {1.0};
+  water.image = {1.0};
+  water.slope = {{0.0, 0.0, 0.0}};
   water.wall_push = {{40.0, -30.0, 250.0}};
   return water;
 }
