@@ -38,9 +38,9 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
     motions.push_back(make_motion(body, tracker));
     live.push_back(dynamic_cast<LiveMotion*>(motions.back().get()));
   }
-  const Smoothing smoothing = scene_smoothing(scene);
-  return {sample_bodies(scene.bodies, particle_spacing(scene), smoothing), std::move(motions),
-          smoothing.support};
+  const double support = scene_support(scene);
+  return {sample_bodies(scene.bodies, particle_spacing(scene), support), std::move(motions),
+          support};
 }
 
 Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {

@@ -12,7 +12,7 @@ namespace splash::sim {
 namespace {
 
 /// Points with less than this part of an unbounded lattice's colour lie at the surface. A flat
-/// face leaves 0.87 of it to the narrow kernel, 0.81 to the wide one, two layers deep it is 1.
+/// face leaves 0.81 of it, two layers deep it is 1.
 constexpr double kSurfaceColour = 0.95;
 
 struct Lattice {
@@ -71,11 +71,11 @@ Vector3 carried_to_skin(const Shape& shape, const Lattice& lattice, const Vector
   return {place[0] / radius, place[1] / radius, place[2] / radius};
 }
 
-void mark_surface(std::vector<BodyPoint>& points, const Smoothing& smoothing) {
+void mark_surface(std::vector<BodyPoint>& points, double support) {
   for (BodyPoint& point : points) {
     point.colour = 0.0;
     for (const BodyPoint& other : points) {
-      point.colour += other.volume * kernel_value(distance(point.place, other.place), smoothing);
+      point.colour += other.volume * kernel_value(distance(point.place, other.place), support);
     }
     point.surface = point.colour < kSurfaceColour;
   }
@@ -117,8 +117,7 @@ double volume_of(const Shape& shape) {
   return box - shape.size[0] * shape.size[1] * shape.rocker * (1.0 - shape.flat) / 3.0;
 }
 
-std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing,
-                                    const Smoothing& smoothing) {
+std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing, double support) {
   const Lattice lattice = fit_lattice(shape.size, spacing);
   std::vector<BodyPoint> points;
   for (int kz = 0; kz < lattice.count[2]; ++kz) {
@@ -141,15 +140,15 @@ std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacin
   for (BodyPoint& point : points) {
     point.volume = volume_of(shape) / static_cast<double>(points.size());
   }
-  mark_surface(points, smoothing);
+  mark_surface(points, support);
   return points;
 }
 
 std::vector<BodyPoint> sample_bodies(const std::vector<BodySettings>& bodies, double spacing,
-                                     const Smoothing& smoothing) {
+                                     double support) {
   std::vector<BodyPoint> all;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const auto points = sample_shape(bodies[b].shape, static_cast<int>(b), spacing, smoothing);
+    const auto points = sample_shape(bodies[b].shape, static_cast<int>(b), spacing, support);
     all.insert(all.end(), points.begin(), points.end());
   }
   return all;

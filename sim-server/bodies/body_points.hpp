@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sim-server/fluid/boundary_point.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -20,14 +19,14 @@ struct BodyPoint : BoundaryPoint {
 };
 
 /// The points of one shape, none farther from its neighbour than `spacing` [m], with colour and
-/// surface marked for the kernel `smoothing`. A shape thinner than the spacing keeps
+/// surface marked for a kernel of that support [m]. A shape thinner than the spacing keeps
 /// one layer.
 [[nodiscard]] std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing,
-                                                  const Smoothing& smoothing);
+                                                  double support);
 
 /// The points of all bodies of a scene, body after body.
 [[nodiscard]] std::vector<BodyPoint> sample_bodies(const std::vector<BodySettings>& bodies,
-                                                   double spacing, const Smoothing& smoothing);
+                                                   double spacing, double support);
 
 /// Whether a place in body axes is inside the shape [m].
 [[nodiscard]] bool is_inside(const Shape& shape, const Vector3& place);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {
@@ -48,7 +49,8 @@ double cavity_radius(int bubbles, const DetectSettings& settings) {
 
 double bubble_volume(double colour, const FluidParams& params) {
   const auto unit = static_cast<double>(params.mass / params.rest_density);
-  return unit / (std::max(colour, 0.0) + unit * kernel_value(0.0, smoothing_of(params)));
+  return unit /
+         (std::max(colour, 0.0) + unit * kernel_value(0.0, static_cast<double>(params.support)));
 }
 
 std::vector<DetectedCavity> name_cavities(std::vector<PoolBubble>& pool,

@@ -20,11 +20,11 @@ std::size_t bubble_room(int particles) {
   return std::clamp<std::size_t>(static_cast<std::size_t>(particles) / 4, 1024, 65536);
 }
 
-cl::Program build(Device& device, int smoothing) {
+cl::Program build(Device& device) {
   std::vector<KernelSource> sources = fluid_sources();
   const std::vector<KernelSource> own = kernels::detect();
   sources.insert(sources.end(), own.begin(), own.end());
-  return build_program(device, sources, smoothing_defines(smoothing), false);
+  return build_program(device, sources, {}, false);
 }
 
 std::vector<BodyPoint> surface_of(const std::vector<BodyPoint>& points) {
@@ -49,7 +49,8 @@ std::vector<int> owners(const std::vector<BodyPoint>& points) {
 }
 
 SurfaceDistance distance_of(const FluidParams& p) {
-  return {static_cast<double>(p.spacing), smoothing_of(p), static_cast<double>(p.layer_weight)};
+  return {static_cast<double>(p.spacing), static_cast<double>(p.support),
+          static_cast<double>(p.layer_weight)};
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
       owner_(fluid.device(), owners(surface_points_)),
       touches_(fluid.device(), surface_points_.size()),
       touches_read_(surface_points_.size()),
-      program_(build(fluid.device(), fluid.params().smoothing)),
+      program_(build(fluid.device())),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
       cavities_(fluid, program_, settings, bubble_room(fluid.params().count), search_always),

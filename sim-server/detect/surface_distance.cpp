@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim-server/fluid/smoothing.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -12,12 +14,12 @@ constexpr std::size_t kEntries = 512;
 
 }  // namespace
 
-SurfaceDistance::SurfaceDistance(double spacing, const Smoothing& smoothing, double layer_weight)
+SurfaceDistance::SurfaceDistance(double spacing, double support, double layer_weight)
     : spacing_(spacing),
-      smoothing_(smoothing),
+      support_(support),
       layer_weight_(layer_weight),
       nearest_(-spacing / 2.0),
-      farthest_(smoothing.support - spacing / 2.0) {
+      farthest_(support - spacing / 2.0) {
   colours_.reserve(kEntries);
   for (std::size_t k = 0; k < kEntries; ++k) {
     const double part = static_cast<double>(k) / (kEntries - 1);
@@ -27,9 +29,9 @@ SurfaceDistance::SurfaceDistance(double spacing, const Smoothing& smoothing, dou
 
 double SurfaceDistance::colour_at(double d) const {
   double colour = 0.0;
-  const int layers = static_cast<int>(std::ceil((smoothing_.support - d) / spacing_)) + 1;
+  const int layers = static_cast<int>(std::ceil((support_ - d) / spacing_)) + 1;
   for (int layer = 0; layer < layers; ++layer) {
-    colour += layer_weight_ * plane_marginal(d + (layer + 0.5) * spacing_, smoothing_);
+    colour += layer_weight_ * plane_marginal(d + (layer + 0.5) * spacing_, support_);
   }
   return colour;
 }

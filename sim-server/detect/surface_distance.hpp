@@ -7,14 +7,12 @@
 
 #include <vector>
 
-#include "sim-server/fluid/smoothing.hpp"
-
 namespace splash::sim {
 
 class SurfaceDistance {
  public:
   /// `layer_weight`: colour of a layer per planar marginal [m], as in FluidParams.
-  SurfaceDistance(double spacing, const Smoothing& smoothing, double layer_weight);
+  SurfaceDistance(double spacing, double support, double layer_weight);
 
   /// Colour field at distance `d` outside the surface; negative: below it [m].
   [[nodiscard]] double colour_at(double d) const;
@@ -27,7 +25,7 @@ class SurfaceDistance {
 
  private:
   double spacing_;
-  Smoothing smoothing_;
+  double support_;
   double layer_weight_;
   double nearest_;
   double farthest_;

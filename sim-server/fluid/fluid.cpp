@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 38 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 37 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 20 * sizeof(float));
 static_assert(sizeof(BodyShape) == 7 * sizeof(float));
 
@@ -40,7 +40,7 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   load_boundary(boundary, shapes);
   build_kernels();
-  solver_ = make_pressure_solver(device_, params_, kernel_defines(params_, parts_), build.relaxed);
+  solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_), build.relaxed);
 }
 
 void Fluid::load_particles(const std::vector<Vector3>& particles) {
@@ -96,7 +96,7 @@ void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
 }
 
 void Fluid::build_kernels() {
-  const std::vector<std::string> defines = kernel_defines(params_, parts_);
+  const std::vector<std::string> defines = kernel_defines(parts_);
   const cl::Program program = build_program(device_, fluid_sources(), defines, build_.relaxed);
   const cl::Program guard = build_program(device_, survey_sources(), defines, false);
   const auto particles = static_cast<std::size_t>(params_.count);
@@ -211,24 +211,22 @@ std::size_t Fluid::groups() const {
 }
 
 void Fluid::compute_density(const Step& step) {
-  compute_density_.run(device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
-                       sleep_.cells(), grid_.source(), density_before_.memory(),
-                       water_density_before_.memory(), sorted_.position.memory(),
-                       body_grid_.cell_start(), body_sorted_.position.memory(),
-                       body_volume_.memory(), body_sorted_.stride, body_shapes_.memory(),
-                       body_steps_.memory(), step.first_body, body_count_, as_float(step.piston),
-                       body_images_.memory(), density_.memory(),
-                       water_density_.memory(), pressure_term_.memory());
+  compute_density_.run(
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
+      grid_.source(), density_before_.memory(), water_density_before_.memory(),
+      sorted_.position.memory(), body_grid_.cell_start(), body_sorted_.position.memory(),
+      body_volume_.memory(), body_sorted_.stride, body_shapes_.memory(), body_steps_.memory(),
+      step.first_body, body_count_, as_float(step.piston), body_images_.memory(), density_.memory(),
+      water_density_.memory(), pressure_term_.memory());
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
-  compute_acceleration_.run(device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(),
-                            sleep_.cells(), sorted_.position.memory(), velocity.memory(),
-                            pressure_term_.memory(), body_images_.memory(),
-                            body_grid_.cell_start(), body_sorted_.position.memory(),
-                            body_sorted_.velocity.memory(), body_volume_.memory(),
-                            body_sorted_.stride, body_steps_.memory(), step.first_body, body_count_,
-                            as_float(step.piston), acceleration_.memory(), moving_.memory());
+  compute_acceleration_.run(
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
+      sorted_.position.memory(), velocity.memory(), pressure_term_.memory(), body_images_.memory(),
+      body_grid_.cell_start(), body_sorted_.position.memory(), body_sorted_.velocity.memory(),
+      body_volume_.memory(), body_sorted_.stride, body_steps_.memory(), step.first_body,
+      body_count_, as_float(step.piston), acceleration_.memory(), moving_.memory());
 }
 
 void Fluid::integrate(const Step& step) {

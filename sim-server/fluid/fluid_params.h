@@ -8,10 +8,6 @@
 #define SPLASH_SLICES 4   // of each cell along x, by which points are sorted (kernels/grid.h)
 #define SPLASH_STRIPS 16  // of the fluid, from which work is dealt in turn (kernels/group.h)
 
-// The smoothing kernel (kernels/smoothing.h).
-#define SPLASH_NARROW 0
-#define SPLASH_WIDE 1
-
 // Where pressure comes from.
 #define SPLASH_WEAKLY_COMPRESSIBLE 0
 #define SPLASH_DIVERGENCE_FREE 1
@@ -62,7 +58,6 @@ typedef struct {
   int piston;           // index of the wall that moves along its normal, -1: none
   int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
                         // is the nearer, -1: none
-  int smoothing;        // SPLASH_NARROW or SPLASH_WIDE
   int solver;           // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_DIVERGENCE_FREE
   float wave_speed;     // sqrt(g H) of the deepest water [m/s]
   float tolerance;      // divergence-free: mean density error at which a solve is done [1]

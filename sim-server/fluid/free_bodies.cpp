@@ -3,7 +3,6 @@
 
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/kernel_sources.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {
@@ -33,8 +32,7 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       force_(device, 6 * bodies.size()),
       no_solve_(device, 1),
       force_read_(6 * bodies.size()) {
-  const cl::Program program =
-      build_program(device, free_body_sources(), smoothing_defines(params.smoothing), false);
+  const cl::Program program = build_program(device, free_body_sources(), {}, false);
   const std::size_t group = device.lanes() > 1 ? 4 : 64;
   reach_bodies_ = Kernel(program, "reach_bodies", group);
   weigh_water_ = Kernel(program, "weigh_water", group);

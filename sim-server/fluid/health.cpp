@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/fluid/time_step.hpp"
 
 namespace splash::sim {
@@ -99,7 +100,8 @@ HealthLimits health_limits(const FluidParams& p) {
   limits.lower[2] = p.walls[0].offset - slack;
   limits.upper[2] = as_float(ceiling(p));
   limits.speed = 0.98F * p.speed_limit;
-  limits.thinnest = 0.99F * static_cast<float>(kernel_value(0.0, smoothing_of(p))) * p.mass;
+  limits.thinnest =
+      0.99F * static_cast<float>(kernel_value(0.0, static_cast<double>(p.support))) * p.mass;
   limits.densest = 2.0F * p.rest_density;
   return limits;
 }

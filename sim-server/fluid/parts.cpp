@@ -14,8 +14,8 @@ KernelParts parts_needed(const FluidParams& params, int body_count) {
           params.viscous != 0.0F || params.artificial != 0.0F};
 }
 
-std::vector<std::string> kernel_defines(const FluidParams& params, const KernelParts& parts) {
-  std::vector<std::string> defines = smoothing_defines(params.smoothing);
+std::vector<std::string> kernel_defines(const KernelParts& parts) {
+  std::vector<std::string> defines;
   // Only what is left out is said (kernels/parts.h has the rest): whole programs are cached once.
   if (!parts.bodies) defines.emplace_back("HAS_BODIES=0");
   if (!parts.slope) defines.emplace_back("HAS_SLOPE=0");

@@ -22,8 +22,7 @@ struct KernelParts {
 
 [[nodiscard]] KernelParts parts_needed(const FluidParams& params, int body_count);
 
-/// What programs with these parts and the kernel of `params` are built with.
-[[nodiscard]] std::vector<std::string> kernel_defines(const FluidParams& params,
-                                                      const KernelParts& parts);
+/// What programs with these parts are built with.
+[[nodiscard]] std::vector<std::string> kernel_defines(const KernelParts& parts);
 
 }  // namespace splash::sim

@@ -39,15 +39,15 @@ double layer_distance(const std::vector<Vector3>& particles, std::size_t axis, d
 }
 
 /// Sum of W over an unbounded lattice [1/m3].
-double lattice_sum(const Vector3& step, const Smoothing& smoothing) {
+double lattice_sum(const Vector3& step, double support) {
   const auto reach = [&](std::size_t axis) {
-    return static_cast<int>(std::ceil(smoothing.support / step[axis]));
+    return static_cast<int>(std::ceil(support / step[axis]));
   };
   double sum = 0.0;
   for (int kx = -reach(0); kx <= reach(0); ++kx) {
     for (int ky = -reach(1); ky <= reach(1); ++ky) {
       for (int kz = -reach(2); kz <= reach(2); ++kz) {
-        sum += kernel_value(std::hypot(kx * step[0], ky * step[1], kz * step[2]), smoothing);
+        sum += kernel_value(std::hypot(kx * step[0], ky * step[1], kz * step[2]), support);
       }
     }
   }
@@ -97,8 +97,7 @@ double stratification(const Scene& scene) {
 double settling_loss(const Scene& scene, double spacing) {
   if (!falls_down(scene)) return 0.0;
   const double depth = water_depth(scene);
-  return stratification(scene) * depth / 2.0 +
-         traits_of(scene.fluid.smoothing).surface_loss * spacing / depth;
+  return stratification(scene) * depth / 2.0 + kSurfaceLoss * spacing / depth;
 }
 
 /// Height of the water's surface over x, y [m]; the floor's where there is none.
@@ -127,13 +126,8 @@ void set_pull(const FluidSettings& fluid, FluidParams& p) {
 
 }  // namespace
 
-Smoothing scene_smoothing(const Scene& scene) {
-  const SmoothingKind kind = scene.fluid.smoothing;
-  return {traits_of(kind).support_spacings * particle_spacing(scene), kind};
-}
-
-Smoothing smoothing_of(const FluidParams& params) {
-  return {static_cast<double>(params.support), static_cast<SmoothingKind>(params.smoothing)};
+double scene_support(const Scene& scene) {
+  return kSupportSpacings * particle_spacing(scene);
 }
 
 std::vector<WallPlane> tank_walls(const Scene& scene) {
@@ -181,9 +175,7 @@ std::vector<BodyShape> body_shapes(const std::vector<BodySettings>& bodies) {
 
 FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles) {
   const double spacing = particle_spacing(scene);
-  const Smoothing smoothing = scene_smoothing(scene);
-  const SmoothingTraits& traits = traits_of(smoothing.kind);
-  const double support = smoothing.support;
+  const double support = scene_support(scene);
   const double sound = scene_sound_speed(scene);
   FluidParams p = {};
   p.count = static_cast<int>(particles.size());
@@ -191,25 +183,24 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.support = static_cast<float>(support);
   p.inverse_support = static_cast<float>(1.0 / support);
   p.inverse_cell = p.inverse_support;
-  p.length = static_cast<float>(traits.length * support);
-  p.smoothing = static_cast<int>(smoothing.kind);
-  p.least_density = static_cast<float>(traits.least_density * scene.fluid.density);
-  p.kernel_norm = static_cast<float>(kernel_norm(smoothing));
+  p.length = static_cast<float>(kLengthOfSupport * support);
+  p.least_density = static_cast<float>(kLeastDensity * scene.fluid.density);
+  p.kernel_norm = static_cast<float>(kernel_norm(support));
   const Vector3 step = {layer_distance(particles, 0, spacing),
                         layer_distance(particles, 1, spacing),
                         layer_distance(particles, 2, spacing)};
   const double loss = settling_loss(scene, spacing);
-  p.mass = static_cast<float>((1.0 + loss) * scene.fluid.density / lattice_sum(step, smoothing));
+  p.mass = static_cast<float>((1.0 + loss) * scene.fluid.density / lattice_sum(step, support));
   p.rest_density = static_cast<float>(scene.fluid.density);
   p.sound_speed = static_cast<float>(sound);
   p.viscous = static_cast<float>(10.0 * scene.fluid.viscosity);
-  p.artificial = static_cast<float>(scene.fluid.artificial * sound * traits.length * support);
+  p.artificial = static_cast<float>(scene.fluid.artificial * sound * kLengthOfSupport * support);
   p.gravity_x = static_cast<float>(scene.fluid.gravity[0]);
   p.gravity_y = static_cast<float>(scene.fluid.gravity[1]);
   p.gravity_z = static_cast<float>(scene.fluid.gravity[2]);
   set_pull(scene.fluid, p);
   p.spacing = static_cast<float>(spacing);
-  const double layer = 1.0 / (lattice_sum(step, smoothing) * spacing * spacing);
+  const double layer = 1.0 / (lattice_sum(step, support) * spacing * spacing);
   p.layer_weight = static_cast<float>(layer);
   p.speed_limit = static_cast<float>(sound);
   p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;

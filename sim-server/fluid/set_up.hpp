@@ -5,15 +5,12 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid_params.h"
-#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
 
-/// The smoothing kernel of a scene, with its support.
-[[nodiscard]] Smoothing scene_smoothing(const Scene& scene);
-/// The same from the numbers of a run.
-[[nodiscard]] Smoothing smoothing_of(const FluidParams& params);
+/// Support of the smoothing kernel in a scene [m].
+[[nodiscard]] double scene_support(const Scene& scene);
 
 /// Walls: the floor first, then the sides (smallest x first: the piston), then the slope, then the
 /// gate.

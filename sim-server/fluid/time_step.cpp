@@ -13,8 +13,8 @@ constexpr double kWay = 0.3;
 constexpr double kLongest = 10.0e-3;  ///< [s]
 constexpr double kPush = 0.25;
 constexpr double kViscous = 0.125;
-/// However much longer a scene asks steps to be: beyond 0.135 (narrow) and 0.160 (wide) nothing is
-/// stable (step_limit_test.cpp).
+/// However much longer a scene asks steps to be: beyond 0.160 nothing is stable
+/// (step_limit_test.cpp).
 constexpr double kMostViscous = 0.13;
 /// Violent moments do not stretch a frame beyond this many steps: the push limit, which is about
 /// accuracy, gives way; the acoustic one, which is about stability, never does.
@@ -35,8 +35,7 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
     return std::min(factor * std::min(way, kLongest), viscous);
   }
   const double sound = static_cast<double>(params.sound_speed);
-  const double share = traits_of(static_cast<SmoothingKind>(params.smoothing)).acoustic;
-  const double acoustic = share * support / (sound + speed);
+  const double acoustic = kAcousticShare * support / (sound + speed);
   const double push = kPush * std::sqrt(h / std::max(acceleration, 1.0e-9));
   return std::min(factor * std::min(acoustic, std::max(push, kLeastShare * acoustic)), viscous);
 }

@@ -15,13 +15,13 @@ namespace {
 Vector3 push(const WaterState& water, std::size_t i, const PlacedPoint& point) {
   const Vector3 x = water.position[i] - point.place;
   const double r = length(x);
-  const double h = traits_of(water.smoothing).length * water.support;
+  const double h = kLengthOfSupport * water.support;
   const double closing = dot(water.velocity[i] - point.velocity, x);
   const double rub = (water.viscous * closing + water.artificial * std::min(closing, 0.0)) /
                      (water.rest_density * (r * r + 0.01 * h * h));
   const double own = water.pressure[i] / (water.density[i] * water.density[i]);
-  const Vector3 along = (water.image[i] * own - rub) * kernel_gradient(r, water.kernel()) * x;
-  const Vector3 nearing = own * kernel_value(r, water.kernel()) * water.slope[i];
+  const Vector3 along = (water.image[i] * own - rub) * kernel_gradient(r, water.support) * x;
+  const Vector3 nearing = own * kernel_value(r, water.support) * water.slope[i];
   return water.mass * water.rest_density * point.volume * (along + nearing);
 }
 

@@ -54,8 +54,7 @@ class Cells {
   std::vector<double> colour_;
 };
 
-void paint(Cells& cells, const Vector3& point, double volume, const Smoothing& smoothing) {
-  const double support = smoothing.support;
+void paint(Cells& cells, const Vector3& point, double volume, double support) {
   const auto [i0, i1] = cells.range(0, point[0], support);
   const auto [j0, j1] = cells.range(1, point[1], support);
   const auto [k0, k1] = cells.range(2, point[2], support);
@@ -63,7 +62,7 @@ void paint(Cells& cells, const Vector3& point, double volume, const Smoothing& s
     for (int j = j0; j < j1; ++j) {
       for (int i = i0; i < i1; ++i) {
         const double r = length(cells.middle(i, j, k) - point);
-        cells.colour()[cells.index(i, j, k)] += volume * kernel_value(r, smoothing);
+        cells.colour()[cells.index(i, j, k)] += volume * kernel_value(r, support);
       }
     }
   }
@@ -116,7 +115,7 @@ int drain(const Cells& cells, std::vector<char>& air, int i, int j, int k) {
 Cavity find_cavity(std::span<const Vector3> points, const WaterState& water, const Vector3& lower,
                    const Vector3& upper, const std::function<bool(const Vector3&)>& solid) {
   Cells cells(lower, upper, water.spacing);
-  for (const Vector3& point : points) paint(cells, point, water.volume(), water.kernel());
+  for (const Vector3& point : points) paint(cells, point, water.volume(), water.support);
   std::vector<char> air = air_of(cells, solid);
   Cavity cavity;
   const int top = cells.count(2) - 1;

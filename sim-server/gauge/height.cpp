@@ -29,7 +29,7 @@ Column gather(std::span<const Vector3> points, double support, double x, double 
 double colour(const Column& column, const WaterState& water, double x, double y, double z) {
   double sum = 0.0;
   for (const Vector3& p : column.points) {
-    sum += kernel_value(std::hypot(p[0] - x, p[1] - y, p[2] - z), water.kernel());
+    sum += kernel_value(std::hypot(p[0] - x, p[1] - y, p[2] - z), water.support);
   }
   return water.volume() * sum;
 }

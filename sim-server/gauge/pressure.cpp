@@ -23,7 +23,7 @@ double pressure_at(const WaterState& water, const Vector3& place) {
     const Vector3 from = place - water.position[j];
     const double r2 = dot(from, from);
     if (r2 >= water.support * water.support) continue;
-    const double w = kernel_value(std::sqrt(r2), water.kernel());
+    const double w = kernel_value(std::sqrt(r2), water.support);
     weight += w;
     sum +=
         w * (water.pressure[j] + water.rest_density * dot(water.field_at(water.position[j]), from));

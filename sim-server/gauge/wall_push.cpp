@@ -2,7 +2,6 @@
 #include "sim-server/gauge/wall_push.hpp"
 
 #include "sim-server/fluid/kernel_sources.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace kernels {
@@ -15,7 +14,7 @@ cl::Program build(Fluid& fluid) {
   std::vector<KernelSource> sources = shared_sources();
   const std::vector<KernelSource> own = kernels::gauge();
   sources.insert(sources.end(), own.begin(), own.end());
-  return build_program(fluid.device(), sources, smoothing_defines(fluid.params().smoothing), false);
+  return build_program(fluid.device(), sources, {}, false);
 }
 
 }  // namespace

@@ -76,7 +76,6 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   water.mass = static_cast<double>(p.mass);
   water.spacing = static_cast<double>(p.spacing);
   water.support = static_cast<double>(p.support);
-  water.smoothing = static_cast<SmoothingKind>(p.smoothing);
   water.rest_density = static_cast<double>(p.rest_density);
   water.sound_speed = static_cast<double>(p.sound_speed);
   water.viscous = static_cast<double>(p.viscous);

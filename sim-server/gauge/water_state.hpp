@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 
@@ -20,10 +19,9 @@ struct WaterState {
   std::vector<Vector3> slope;      ///< grad R; near bodies [1/m]
   std::vector<Vector3> wall_push;  ///< what the walls do to each (wall_push.hpp) [m/s2]
 
-  double mass = 0.0;     ///< of one particle [kg]
-  double spacing = 0.0;  ///< dp [m]
-  double support = 0.0;  ///< H of the kernel [m]
-  SmoothingKind smoothing = SmoothingKind::narrow;
+  double mass = 0.0;          ///< of one particle [kg]
+  double spacing = 0.0;       ///< dp [m]
+  double support = 0.0;       ///< H of the kernel [m]
   double rest_density = 0.0;  ///< rho0 [kg/m3]
   double sound_speed = 0.0;   ///< c0 [m/s]
   double viscous = 0.0;       ///< 10 nu [m2/s], as in fluid_params.h
@@ -35,7 +33,6 @@ struct WaterState {
 
   /// Volume a particle takes up at rest [m3].
   [[nodiscard]] double volume() const { return mass / rest_density; }
-  [[nodiscard]] Smoothing kernel() const { return {support, smoothing}; }
   /// By gravity and the central field [m/s2].
   [[nodiscard]] Vector3 field_at(const Vector3& place) const;
   /// What raises water against them to there [J/kg].

@@ -38,15 +38,6 @@ Fields<F> method_fields() {
         .choices = {"weakly_compressible", "divergence_free"},
         .source = "Monaghan 2005; Bender & Koschier 2017"},
        &F::solver_name},
-      {{.key = "smoothing",
-        .unit = "",
-        .meaning =
-            "Over how much water each particle averages: narrow, 2 spacings, 30 neighbours, "
-            "fast; wide, 2.5 spacings, 65 neighbours, more accurate (sim-server/fluid/README "
-            "compares both).",
-        .choices = {"narrow", "wide"},
-        .source = "Wendland 1995; sim-server/fluid/kernels/smoothing.h"},
-       &F::smoothing_name},
       {{.key = "kernels",
         .unit = "",
         .meaning = "vector: as suits the device; reference: one particle at a time, slow, for "

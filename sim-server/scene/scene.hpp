@@ -18,7 +18,6 @@ using Quaternion = std::array<double, 4>;  ///< x y z w, unit
 enum class PressureKind { weakly_compressible, divergence_free };
 
 /// Over how much water a particle's quantities are smoothed: sim-server/fluid/smoothing.hpp.
-enum class SmoothingKind { narrow, wide };
 
 /// vector: as suits the device; reference: one particle at a time.
 enum class KernelKind { vector, reference };
@@ -29,7 +28,6 @@ struct FluidSettings {
   int particles = 0;       ///< wanted number of particles; 0: from `spacing`
   double density = 998.0;  ///< at rest [kg/m3]
   PressureKind solver = PressureKind::weakly_compressible;
-  SmoothingKind smoothing = SmoothingKind::narrow;
   KernelKind kernels = KernelKind::vector;
   double tolerance = 0.001;     ///< divergence-free: mean density error that ends a solve [1]
   double sound_speed = 0.0;     ///< of the weakly compressible model [m/s]; 0: from the scene

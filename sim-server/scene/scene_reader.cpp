@@ -175,7 +175,6 @@ FluidSettings read_fluid(const ConfigMap& map) {
   FluidEntry entry;
   map.read(fluid_fields(), {}, entry);
   entry.solver = kSolvers.at(entry.solver_name);
-  entry.smoothing = entry.smoothing_name == "wide" ? SmoothingKind::wide : SmoothingKind::narrow;
   entry.kernels = entry.kernels_name == "reference" ? KernelKind::reference : KernelKind::vector;
   if (map.has("density_tolerance") && entry.solver != PressureKind::divergence_free) {
     throw map.error("density_tolerance", "has no meaning for the solver " + entry.solver_name);

@@ -17,7 +17,6 @@ using Fields = std::vector<protocol::Field<Struct>>;
 /// The fluid as its mapping spells it.
 struct FluidEntry : FluidSettings {
   std::string solver_name = "weakly_compressible";
-  std::string smoothing_name = "narrow";
   std::string kernels_name = "vector";
 };
 

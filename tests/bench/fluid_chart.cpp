@@ -13,8 +13,7 @@ namespace splash::bench {
 namespace {
 
 // Colours that people with colour blindness tell apart: Okabe and Ito 2008.
-constexpr const char* kNarrow[] = {"#0072b2", "#d55e00"};  // by solver
-constexpr const char* kWide[] = {"#56b4e9", "#e69f00"};
+constexpr const char* kColours[] = {"#0072b2", "#d55e00"};  // by solver
 
 /// Of the paper's section 6: 15,000 particles in the pool and on the beach, 7,000 in the basin.
 constexpr const char* kPaper = "$paper << EOD\n15000 152\n15000 147\n7000 240\nEOD\n";
@@ -33,11 +32,10 @@ unset key
 )gp";
 
 std::string style(const Quality& q) {
-  const bool wide = q.smoothing == sim::SmoothingKind::wide;
   const auto solver = static_cast<std::size_t>(q.solver == sim::PressureKind::divergence_free);
   const bool scalar = q.kernels == sim::KernelKind::reference;
   std::ostringstream text;
-  text << "linecolor rgb \"" << (wide ? kWide : kNarrow)[solver] << "\" linewidth 1.6 dashtype "
+  text << "linecolor rgb \"" << kColours[solver] << "\" linewidth 1.6 dashtype "
        << (scalar                     ? 3
            : q.time_step_factor < 1.0 ? 2
            : q.time_step_factor > 1.0 ? 4
@@ -170,7 +168,7 @@ double per_solve(const sim::SolveWork& work) {
 }
 
 void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
-  out << "case,figure,size_over_spacing,particles,solver,smoothing,time_step_factor,kernels,"
+  out << "case,figure,size_over_spacing,particles,solver,time_step_factor,kernels,"
          "simulated_s,steps,wall_s,processor_s,error_percent,mean_density_error,"
          "divergence_iterations,divergence_most,density_iterations,density_most,given_up\n";
   for (const SweepPoint& p : points) {
@@ -180,8 +178,7 @@ void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
         << ','
         << (q.solver == sim::PressureKind::divergence_free ? "divergence_free"
                                                            : "weakly_compressible")
-        << ',' << (q.smoothing == sim::SmoothingKind::wide ? "wide" : "narrow") << ','
-        << q.time_step_factor << ','
+        << ',' << q.time_step_factor << ','
         << (q.kernels == sim::KernelKind::reference ? "reference" : "vector") << ',' << r.simulated
         << ',' << r.steps << ',' << r.steps_alone.wall << ',' << r.steps_alone.processor << ','
         << p.error() << ',' << r.mean_density_error << ',';

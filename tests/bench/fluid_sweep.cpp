@@ -17,11 +17,9 @@ namespace {
 
 using sim::KernelKind;
 using sim::PressureKind;
-using sim::SmoothingKind;
 
 constexpr PressureKind kSolvers[] = {PressureKind::weakly_compressible,
                                      PressureKind::divergence_free};
-constexpr SmoothingKind kSmoothings[] = {SmoothingKind::narrow, SmoothingKind::wide};
 /// A frame has whole steps: a thousand a second would shorten those of the divergence-free solver.
 constexpr double kFrames = 200.0;
 constexpr double kHalf = 0.5;
@@ -70,7 +68,6 @@ double figure_of(const validation::Outcome& outcome, const std::string& name) {
 validation::Setting setting_of(const Quality& quality, double spacing) {
   validation::Setting setting;
   setting.spacing = spacing;
-  setting.smoothing = quality.smoothing;
   setting.solver = quality.solver;
   setting.time_step_factor = quality.time_step_factor;
   setting.detects = false;
@@ -86,7 +83,6 @@ validation::Setting setting_of(const Quality& quality, double spacing) {
 std::string Quality::name() const {
   std::string text =
       solver == PressureKind::divergence_free ? "divergence-free" : "weakly compressible";
-  text += smoothing == SmoothingKind::wide ? ", wide" : ", narrow";
   if (time_step_factor != 1.0) {
     char factor[32];
     std::snprintf(factor, sizeof factor, ", dt x %g", time_step_factor);
@@ -123,9 +119,7 @@ const std::vector<SweepCase>& sweep_cases() {
 
 std::vector<Quality> quick_qualities() {
   std::vector<Quality> list;
-  for (const PressureKind solver : kSolvers) {
-    for (const SmoothingKind smoothing : kSmoothings) list.push_back({solver, smoothing});
-  }
+  for (const PressureKind solver : kSolvers) list.push_back({solver});
   list.push_back({.time_step_factor = kHalf});
   list.push_back({.kernels = KernelKind::reference});
   return list;
@@ -134,12 +128,8 @@ std::vector<Quality> quick_qualities() {
 std::vector<Quality> all_qualities() {
   std::vector<Quality> list;
   for (const PressureKind solver : kSolvers) {
-    for (const SmoothingKind smoothing : kSmoothings) {
-      for (const double factor : {1.0, kHalf, kLonger}) {
-        list.push_back({solver, smoothing, factor});
-      }
-      list.push_back({solver, smoothing, 1.0, KernelKind::reference});
-    }
+    for (const double factor : {1.0, kHalf, kLonger}) list.push_back({solver, factor});
+    list.push_back({solver, 1.0, KernelKind::reference});
   }
   return list;
 }

@@ -12,7 +12,6 @@ namespace splash::bench {
 /// A way to compute the water: what a scene's `fluid` table chooses.
 struct Quality {
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
-  sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
   double time_step_factor = 1.0;  ///< of the safe time step [1]
   sim::KernelKind kernels = sim::KernelKind::vector;
 
@@ -46,11 +45,9 @@ struct SweepPlan {
 };
 
 [[nodiscard]] const std::vector<SweepCase>& sweep_cases();
-/// The four of solver and smoothing, and of the default one half the time step and the reference
-/// kernels.
+/// Both solvers, and of the default one half the time step and the reference kernels.
 [[nodiscard]] std::vector<Quality> quick_qualities();
-/// Solver x smoothing x time-step factor 0.5, 1 and 1.25, and each solver and smoothing with the
-/// reference kernels.
+/// Solver x time-step factor 0.5, 1 and 1.25, and each solver with the reference kernels.
 [[nodiscard]] std::vector<Quality> all_qualities();
 
 /// Runs the plan with progress on the terminal; `done` is called with all points so far after each.

@@ -169,16 +169,16 @@ void density_of(const Particles& p, const Group& group, std::vector<float>& dens
   const float* z = y + p.stride;
   Vector sum = {};
   const Vector none = {};
+  const float shrink = p.params.inverse_support * p.params.inverse_support;
   for (int k = 0; k < group.near_count; ++k) {
     const int j = group.near[static_cast<std::size_t>(k)];
     const Vector dx = group.x - x[j];
     const Vector dy = group.y - y[j];
     const Vector dz = group.z - z[j];
     const Vector r2 = dx * dx + dy * dy + dz * dz;
-    const Vector r = r2 * inverse_root(r2 + 1e-12F);
-    const Vector u = larger(1.0F - r * p.params.inverse_support, none);
-    const Vector u2 = u * u;
-    sum += u2 * u2 * (5.0F - 4.0F * u);
+    const Vector t = larger(1.0F - r2 * shrink, none);
+    const Vector t2 = t * t;
+    sum += t2 * t2 * t * (1.1F + t * (-1.8F + t * 1.7F));
   }
   store(group, p.params.kernel_norm * p.params.mass * sum, density.data());
 }
@@ -189,6 +189,7 @@ void acceleration_of(const Particles& p, const Group& group, std::vector<float>&
   const float* x = p.position.data();
   const float* u = p.velocity.data();
   const float eta2 = 0.01F * s.length * s.length;
+  const float shrink = s.inverse_support * s.inverse_support;
   const float viscous = s.viscous / s.rest_density;
   const float artificial = s.artificial / s.rest_density;
   const Vector own_u = load(u + group.first);
@@ -205,18 +206,18 @@ void acceleration_of(const Particles& p, const Group& group, std::vector<float>&
     const Vector dy = group.y - x[n + j];
     const Vector dz = group.z - x[2 * n + j];
     const Vector r2 = dx * dx + dy * dy + dz * dz;
-    const Vector r = r2 * inverse_root(r2 + 1e-12F);
-    const Vector q = larger(1.0F - r * s.inverse_support, none);
+    const Vector t = larger(1.0F - r2 * shrink, none);
+    const Vector t2 = t * t;
     const Vector closing =
         (own_u - u[j]) * dx + (own_v - u[n + j]) * dy + (own_w - u[2 * n + j]) * dz;
     const Vector towards = closing < 0.0F ? closing : none;
     const Vector rub = (viscous * closing + artificial * towards) * inverse(r2 + eta2);
-    const Vector f = q * q * q * (own + p.pressure[j] - rub);
+    const Vector f = t2 * t2 * (5.5F + t * (-10.8F + t * 11.9F)) * (own + p.pressure[j] - rub);
     ax += f * dx;
     ay += f * dy;
     az += f * dz;
   }
-  const float gradient = 20.0F * s.kernel_norm * s.inverse_support * s.inverse_support * s.mass;
+  const float gradient = 2.0F * s.kernel_norm * s.inverse_support * s.inverse_support * s.mass;
   store(group, gradient * ax, acceleration.data());
   store(group, gradient * ay, acceleration.data() + n);
   store(group, gradient * az, acceleration.data() + 2 * n);

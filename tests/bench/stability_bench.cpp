@@ -29,7 +29,6 @@ struct Options {
   int places = 100;
   Endurance endurance;
   bool divergence_free = false;
-  bool wide = false;
   int device = -1;
 };
 
@@ -144,7 +143,6 @@ void add_endurance(CLI::App& app, Options& options) {
                  "The endurance run ends after these; the next one goes on from there")
       ->check(CLI::Range(0.0, 1.0e5));
   app.add_flag("--divergence-free", options.divergence_free, "The endurance run's solver");
-  app.add_flag("--wide", options.wide, "The endurance run's smoothing");
 }
 
 }  // namespace
@@ -170,7 +168,6 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
   CLI11_PARSE(app, argc, argv);
   if (options.divergence_free) options.endurance.solver = PressureKind::divergence_free;
-  if (options.wide) options.endurance.smoothing = sim::SmoothingKind::wide;
   try {
     return bench(options);
   } catch (const std::exception& error) {

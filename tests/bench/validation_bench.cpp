@@ -54,7 +54,6 @@ void print(const std::string& what, const Result& result) {
 /// What is not the default.
 std::string described(const Setting& setting) {
   std::string text;
-  if (setting.smoothing == sim::SmoothingKind::wide) text += "; smoothing: wide";
   if (setting.solver == sim::PressureKind::divergence_free) text += "; solver: divergence_free";
   return text;
 }
@@ -100,13 +99,9 @@ int main(int argc, char** argv) {
   app.add_option("--resolutions", options.resolutions, "Only so many, coarse ones first")
       ->check(CLI::Range(1, 100));
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
-  const std::map<std::string, sim::SmoothingKind> smoothings = {
-      {"narrow", sim::SmoothingKind::narrow}, {"wide", sim::SmoothingKind::wide}};
   const std::map<std::string, sim::PressureKind> solvers = {
       {"weakly_compressible", sim::PressureKind::weakly_compressible},
       {"divergence_free", sim::PressureKind::divergence_free}};
-  app.add_option("--smoothing", options.setting.smoothing, "Instead of the default: narrow or wide")
-      ->transform(CLI::CheckedTransformer(smoothings));
   app.add_option("--solver", options.setting.solver,
                  "Instead of the default: weakly_compressible or divergence_free")
       ->transform(CLI::CheckedTransformer(solvers));

@@ -43,8 +43,7 @@ std::filesystem::path scenes_folder() {
 
 std::string variant_of(const Endurance& wanted) {
   const bool weak = wanted.solver == sim::PressureKind::weakly_compressible;
-  const bool wide = wanted.smoothing == sim::SmoothingKind::wide;
-  return std::string(weak ? "weakly" : "divergence_free") + (wide ? "-wide" : "-narrow") + "-" +
+  return std::string(weak ? "weakly" : "divergence_free") + "-" +
          std::to_string(static_cast<int>(100.0 * wanted.coarser + 0.5));
 }
 
@@ -171,7 +170,6 @@ sim::Scene built_in_scene(const std::string& name, const Endurance& wanted) {
   scene.fluid.spacing = wanted.coarser * sim::particle_spacing(scene);
   scene.fluid.particles = 0;
   scene.fluid.solver = wanted.solver;
-  scene.fluid.smoothing = wanted.smoothing;
   scene.skip.idle = false;  // or no step would be computed while all sleeps
   for (sim::BodySettings& body : scene.bodies) {
     const sim::MotionKind kind = body.motion.kind;

@@ -19,7 +19,6 @@ struct Endurance {
   double coarser = 1.0;             ///< spacings are this many times the scene's [1]
   double minutes = 0.0;             ///< ends after so long, to be gone on with; 0: never [min]
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
-  sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
 };
 
 /// Names of the built-in scenes.

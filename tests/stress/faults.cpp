@@ -70,18 +70,12 @@ Outcome observe(sim::Simulation& simulation, const Injection& injection, int ste
 
 std::vector<Water> all_waters() {
   using sim::PressureKind;
-  using sim::SmoothingKind;
-  return {{PressureKind::weakly_compressible, SmoothingKind::narrow},
-          {PressureKind::weakly_compressible, SmoothingKind::wide},
-          {PressureKind::divergence_free, SmoothingKind::narrow},
-          {PressureKind::divergence_free, SmoothingKind::wide}};
+  return {{PressureKind::weakly_compressible}, {PressureKind::divergence_free}};
 }
 
 std::string name_of(const Water& water) {
   const bool weak = water.solver == sim::PressureKind::weakly_compressible;
-  const bool wide = water.smoothing == sim::SmoothingKind::wide;
-  return std::string(weak ? "weakly_compressible" : "divergence_free") +
-         (wide ? "_wide" : "_narrow");
+  return weak ? "weakly_compressible" : "divergence_free";
 }
 
 sim::Scene still_scene(const Water& water, double factor) {
@@ -89,7 +83,6 @@ sim::Scene still_scene(const Water& water, double factor) {
   scene.name = "still";
   scene.fluid.spacing = 0.03;
   scene.fluid.solver = water.solver;
-  scene.fluid.smoothing = water.smoothing;
   scene.fluid.time_step_factor = factor;
   scene.tank.lower = {0.0, 0.0, 0.0};
   scene.tank.upper = {0.24, 0.24, 0.5};

@@ -13,9 +13,8 @@ namespace splash::stress {
 /// How the water is solved.
 struct Water {
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
-  sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
 };
-/// Both solvers with both kernels.
+/// Both solvers.
 [[nodiscard]] std::vector<Water> all_waters();
 /// In letters and underlines, short.
 [[nodiscard]] std::string name_of(const Water& water);

@@ -50,7 +50,6 @@ Run run_scene(sim::Device& device, const std::string& name, const Setting& setti
   Run run;
   run.scene = scene_named(name);
   run.scene.fluid.spacing = setting.spacing;
-  run.scene.fluid.smoothing = setting.smoothing;
   run.scene.fluid.solver = setting.solver;
   run.scene.fluid.time_step_factor *= setting.time_step_factor;
   if (setting.skip) run.scene.skip = *setting.skip;

@@ -16,7 +16,6 @@ namespace splash::validation {
 /// What a case is run with.
 struct Setting {
   double spacing = 0.0;  ///< of particles [m]
-  sim::SmoothingKind smoothing = sim::SmoothingKind::narrow;
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
   double time_step_factor = 1.0;                         ///< of the safe time step [1]
   std::optional<sim::SkipSettings> skip = std::nullopt;  ///< instead of the scene's

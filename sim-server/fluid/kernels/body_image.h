@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What a body does to the density of a particle beside it. As behind a wall (walls.h), the matter
-// behind a body's face is the particle's mirror image: it comes nearer as the particle does, so that
-// the particle's own pressure alone balances that of the fluid around it, and the push is the
+// behind a body's face is the particle's mirror image: it comes nearer as the particle does, so
+// that the particle's own pressure alone balances that of the fluid around it, and the push is the
 // gradient of an energy. A body's points know their share S of the kernel, which has its edges,
 // corners and curves in it, but not the mirror. So the image is
 //   f_i = S_i R(d_i),   S_i = sum_b V_b W_ib,   R(d) = mirror(d) / fixed(d)
-// with d the distance from the nearest face (body_face.h), and mirror and fixed what image and fixed
-// layers weigh behind a plane wall at that distance: over a wide face f is a wall's, and a half, a
-// quarter or an eighth of it where the body fills so much. It pushes with
+// with d the distance from the nearest face (body_face.h), and mirror and fixed what image and
+// fixed layers weigh behind a plane wall at that distance: over a wide face f is a wall's, and a
+// half, a quarter or an eighth of it where the body fills so much. It pushes with
 //   grad f = R grad S + S R'(d) n
 // and so does the particle push that body, as both are the same when both move along.
-// With the narrow kernel R = 1, with which its events were tested; pressure on bodies then reads
-// twice too high.
 
 // R and its gradient [1], [1/m] as density.cl leaves them, and which body is the nearest.
 typedef struct {
@@ -27,7 +25,6 @@ static BodyImage no_image(void) {
 
 static BodyImage image_before(constant FluidParams* p, const BodyFace* face) {
   BodyImage image = no_image();
-#if SMOOTHING == SPLASH_WIDE
   lanes mirror_fall, fixed_fall;
   const lanes mirror = behind_wall(p, face->distance, true, &mirror_fall);
   const lanes fixed = fmax(behind_wall(p, face->distance, false, &fixed_fall), TINY);
@@ -38,7 +35,6 @@ static BodyImage image_before(constant FluidParams* p, const BodyFace* face) {
   image.gy = rise * face->ny;
   image.gz = rise * face->nz;
   image.owner = face->owner;
-#endif
   return image;
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The smoothing kernel: W(r), its slope, and what a plane of it weighs. SMOOTHING says which.
+// The smoothing kernel: W(r), its slope, and what a plane of it weighs.
 //   grad W(x) = -gradient_norm slope(r) x
 
 #define TINY 1e-12f
 
-#if SMOOTHING == SPLASH_WIDE
 // Over 2.5 spacings: an even polynomial; with t = 1 - q^2, q = r / H,
 //   W(r)      = sigma t^5 (a + b t + c t^2)  inside the support,   sigma = 5775 / (512 pi H^3)
 //   grad W(x) = -2 sigma / H^2 t^4 (5 a + 6 b t + 7 c t^2) x
@@ -12,7 +11,7 @@
 // No root, and half the operations of the quartic B-spline M5 (Schoenberg 1946; Price 2012), whose
 // Fourier transform a = 1.1, b = -1.8 and c = 1.7 repeat: next to nothing from the wave number 5.5
 // per spacing on, where packed particles have their structure, so that a sum over neighbours says
-// the same on every packing (README.md, "Two smoothing kernels").
+// the same on every packing (README.md, "The smoothing kernel").
 
 #define CENTRE_SHAPE 1.0f              // W(0) / sigma
 #define PLANE_PEAK 1.56433105f         // weight of the plane through the centre [1/H]
@@ -50,45 +49,6 @@ static lanes plane_marginal(lanes z, float inverse_support) {
   return 0.5f * PLANE_NORM * inverse_support * t2 * t2 * t2 *
          (11.0f / 60.0f + t * (-9.0f / 35.0f + t * (17.0f / 80.0f)));
 }
-
-#else
-// Over 2 spacings: Wendland C2 in three dimensions (Wendland 1995; Dehnen & Aly 2012),
-//   W(r) = sigma (1 - q)^4 (1 + 4 q),   q = r / H,   sigma = 21 / (2 pi H^3)
-// Polynomials of q alone, and half of the neighbours: cheap.
-
-#define CENTRE_SHAPE 1.0f
-#define PLANE_PEAK 1.5f
-#define PLANE_NORM 21.0f
-#define WALL_LAYERS 2
-#define SLOPE_UNIT p->support
-
-static lanes one_minus_q(lanes r2, float inverse_support) {
-  return fmax(1.0f - r2 * inverse_root(r2 + TINY) * inverse_support, 0.0f);
-}
-
-static lanes kernel_shape(lanes r2, float inverse_support) {
-  const lanes u = one_minus_q(r2, inverse_support);
-  const lanes u2 = u * u;
-  return u2 * u2 * (5.0f - 4.0f * u);
-}
-
-// (1 - q)^3
-static lanes kernel_slope(lanes r2, float inverse_support) {
-  const lanes u = one_minus_q(r2, inverse_support);
-  return u * u * u;
-}
-
-static float gradient_norm(constant FluidParams* p) {
-  return 20.0f * p->kernel_norm * p->inverse_support * p->inverse_support;
-}
-
-static lanes plane_marginal(lanes z, float inverse_support) {
-  const lanes u = fmin(fabs(z) * inverse_support, 1.0f);
-  const lanes u2 = u * u;
-  return PLANE_NORM * inverse_support *
-         (1.0f / 14.0f + u2 * (-0.5f + u2 * (2.5f + u * (-4.0f + u * (2.5f - u * (4.0f / 7.0f))))));
-}
-#endif
 
 // -d/dz of it, which is 2 pi z W(z) [1/m2].
 static lanes plane_marginal_fall(lanes z, float inverse_support) {

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Lanes, SpawnBubbles, kLaneCounts, lanes_name);
 class Memory : public ::testing::Test {
  protected:
   static constexpr Vector3 kBelow = {0.5, 0.5, kBlockBottom - 0.005};
-  static constexpr Vector3 kSideways = {0.595, 0.5, 0.495};  // a little below the middle
+  static constexpr Vector3 kSideways = {0.59, 0.5, 0.475};  // below the middle
   static constexpr Vector3 kAbove = {0.5, 0.5, kBlockTop + 0.005};
   static constexpr Vector3 kNowhere = {0.2, 0.2, 0.2};
   static constexpr Vector3 kFast = {1.0, 0.0, -2.0};

@@ -133,7 +133,7 @@ TEST(CavityRadius, SurvivesBoundsThatMeet) {
 TEST(CavityVolume, IsThatOfTheSpaceTheBubblesFill) {
   FluidParams params = {};
   const double spacing = 0.02;
-  const double support = 2.0 * spacing;
+  const double support = kSupportSpacings * spacing;
   params.support = static_cast<float>(support);
   params.mass = static_cast<float>(1000.0 * spacing * spacing * spacing);
   params.rest_density = 1000.0F;

@@ -10,9 +10,6 @@
 namespace splash::sim {
 namespace {
 
-/// Of the density at rest: less is spray or a film, no body of water (kernels/body_touch.cl).
-constexpr float kLeastDensity = 0.82F;
-
 double volume_of_particle(const FluidParams& p) {
   return static_cast<double>(p.mass) / static_cast<double>(p.rest_density);
 }
@@ -32,7 +29,7 @@ TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_de
   for (std::size_t j = 0; j < state.position.size(); ++j) {
     const Vector3 away = place - state.position[j];
     if (dot(away, away) >= support * support) continue;
-    if (water_density[j] < kLeastDensity * state.params.rest_density) {
+    if (water_density[j] < static_cast<float>(kLeastDensity) * state.params.rest_density) {
       ++touch.passed_over;
       continue;
     }
@@ -52,10 +49,11 @@ TwinSum twin_upward(const FluidState& state, const std::vector<Vector3>& bubbles
                     const Vector3& place) {
   const double support = static_cast<double>(state.params.support);
   const double volume = volume_of_particle(state.params);
+  const double peak = plane_marginal(0.0, support);
   TwinSum sum;
   const auto add = [&](double term) {
-    sum.value += term * support / 1.5;
-    sum.scale += std::abs(term) * support / 1.5;
+    sum.value += term / peak;
+    sum.scale += std::abs(term) / peak;
   };
   const auto add_point = [&](const Vector3& other, double weight) {
     const Vector3 away = place - other;

@@ -8,10 +8,11 @@
 namespace splash::sim {
 
 SurfaceDistance surface_distance() {
-  // Layer weight of a cubic lattice with support 2 spacings: its colour is 1 in the depth.
+  // Layer weight of a cubic lattice: its colour is 1 in the depth.
+  const double support = kSupportSpacings * kSpacing;
   double sum = 0.0;
-  for (int k = -2; k <= 2; ++k) sum += plane_marginal(k * kSpacing, 2.0 * kSpacing);
-  return {kSpacing, 2.0 * kSpacing, 1.0 / sum};
+  for (int k = -2; k <= 2; ++k) sum += plane_marginal(k * kSpacing, support);
+  return {kSpacing, support, 1.0 / sum};
 }
 
 void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {

@@ -15,7 +15,7 @@ namespace splash::sim {
 namespace {
 
 constexpr double kSpacing = 0.0238;
-constexpr double kSupport = 2.0 * kSpacing;
+constexpr double kSupport = kSupportSpacings * kSpacing;
 
 /// Volume of a particle such that an unbounded cubic lattice has colour 1 [m3].
 double particle_volume() {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 
@@ -45,21 +46,22 @@ Nearest nearest(const FluidState& s, const Vector3& place) {
                             static_cast<double>(step.pz)};
     const Quaternion turned = {static_cast<double>(step.qx), static_cast<double>(step.qy),
                                static_cast<double>(step.qz), static_cast<double>(step.qw)};
-    const double d = outline_distance(shape_of(s.shapes[b]), rotate(inverse(turned), place - centre));
+    const double d =
+        outline_distance(shape_of(s.shapes[b]), rotate(inverse(turned), place - centre));
     if (d < found.distance) found = {d, b};
   }
   return found;
 }
 
 double factor_at(const FluidParams& params, double distance) {
-  const Smoothing kernel = smoothing_of(params);
+  const double support = static_cast<double>(params.support);
   const double spacing = static_cast<double>(params.spacing);
   const double d = std::max(distance, 0.0);
   double mirror = 0.0;
   double fixed = 0.0;
-  for (double behind = 0.0; behind < 0.999 * kernel.support; behind += spacing) {
-    mirror += plane_marginal(2.0 * d + behind, kernel);
-    fixed += plane_marginal(d + 0.5 * spacing + behind, kernel);
+  for (double behind = 0.0; behind < 0.999 * support; behind += spacing) {
+    mirror += plane_marginal(2.0 * d + behind, support);
+    fixed += plane_marginal(d + 0.5 * spacing + behind, support);
   }
   return fixed > 0.0 ? mirror / fixed : 0.0;
 }
@@ -68,7 +70,7 @@ double factor_at(const FluidParams& params, double distance) {
 
 TwinImage twin_image(const FluidState& s, const Vector3& place) {
   TwinImage image;
-  if (s.shapes.empty() || s.params.smoothing != SPLASH_WIDE) return image;
+  if (s.shapes.empty()) return image;
   const Nearest here = nearest(s, place);
   image.owner = here.owner;
   image.factor = factor_at(s.params, here.distance);

@@ -9,12 +9,12 @@ namespace splash::sim {
 
 /// R, its gradient, and which body is the nearest.
 struct TwinImage {
-  double factor = 1.0;                ///< [1]
+  double factor = 1.0;                 ///< [1]
   Vector3 gradient = {0.0, 0.0, 0.0};  ///< [1/m]
   std::size_t owner = 0;
 };
 
-/// Without bodies, or with the narrow kernel: 1 everywhere.
+/// Without bodies: 1 everywhere.
 [[nodiscard]] TwinImage twin_image(const FluidState& state, const Vector3& place);
 
 }  // namespace splash::sim

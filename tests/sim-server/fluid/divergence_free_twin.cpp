@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/body_image_twin.hpp"
 
@@ -21,15 +22,14 @@ struct Neighbour {
 using Neighbours = std::vector<std::vector<Neighbour>>;
 
 Neighbours find_neighbours(const FluidState& s) {
-  const Smoothing kernel = smoothing_of(s.params);
-  const double support = kernel.support;
+  const double support = static_cast<double>(s.params.support);
   const double mass = static_cast<double>(s.params.mass);
   Neighbours all(s.position.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < all.size(); ++j) {
       const Vector3 x = s.position[i] - s.position[j];
       if (dot(x, x) >= support * support) continue;
-      all[i].push_back({j, mass * kernel_gradient(length(x), kernel) * x});
+      all[i].push_back({j, mass * kernel_gradient(length(x), support) * x});
     }
   }
   return all;
@@ -68,7 +68,7 @@ Vector3 body_velocity_at(const FluidState& s, std::size_t body, const Vector3& p
 }  // namespace
 
 TwinResponse twin_response(const FluidState& s, double piston_speed) {
-  const Smoothing kernel = smoothing_of(s.params);
+  const double support = static_cast<double>(s.params.support);
   const double rest = static_cast<double>(s.params.rest_density);
   const Neighbours neighbours = find_neighbours(s);
   const std::size_t count = s.position.size();
@@ -86,8 +86,8 @@ TwinResponse twin_response(const FluidState& s, double piston_speed) {
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
       const Vector3 x = s.position[i] - s.body_position[b];
       const double volume = rest * s.body_volume[b];
-      const Vector3 along = volume * image.factor * kernel_gradient(length(x), kernel) * x;
-      const Vector3 nearing = volume * kernel_value(length(x), kernel) * image.gradient;
+      const Vector3 along = volume * image.factor * kernel_gradient(length(x), support) * x;
+      const Vector3 nearing = volume * kernel_value(length(x), support) * image.gradient;
       g = g + along + nearing;
       r.boundary_rate[i] -= dot(s.body_velocity[b], along) + dot(skin, nearing);
     }
@@ -102,10 +102,9 @@ TwinSolve twin_solve(const FluidState& s, const TwinResponse& r, const std::vect
                      double dt, int iterations, TwinSolve from) {
   const Neighbours neighbours = find_neighbours(s);
   const std::size_t count = s.position.size();
-  const Smoothing kernel = smoothing_of(s.params);
-  const double support = kernel.support;
-  const double strongest = (s.params.smoothing == SPLASH_WIDE ? 2.0 : 20.0) * kernel_norm(kernel) /
-                           support * static_cast<double>(s.params.mass);
+  const double support = static_cast<double>(s.params.support);
+  const double strongest =
+      2.0 * kernel_norm(support) / support * static_cast<double>(s.params.mass);
   const double least = 1.0e-4 * strongest * strongest;
   TwinSolve solve = std::move(from);
   std::vector<double> jacobi = solve.pressure;

@@ -30,14 +30,14 @@ void FreeFloat::add(const Shape& shape, double density, const BodyState& start) 
 void FreeFloat::start(Device& device) {
   const auto particles = initial_particles(scene);
   const FluidParams params = make_params(scene, particles);
-  const Smoothing smoothing = scene_smoothing(scene);
+  const double support = scene_support(scene);
   std::vector<std::unique_ptr<Motion>> motions;
   for (const BodySettings& body : scene.bodies) {
     motions.push_back(std::make_unique<FreeMotion>(
         BodyState{body.rest.position, body.rest.rotation, body.motion.velocity, body.motion.spin}));
   }
-  bodies = std::make_unique<Bodies>(sample_bodies(scene.bodies, scene.fluid.spacing, smoothing),
-                                    std::move(motions), smoothing.support);
+  bodies = std::make_unique<Bodies>(sample_bodies(scene.bodies, scene.fluid.spacing, support),
+                                    std::move(motions), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
   fluid = std::make_unique<Fluid>(device, params, particles, boundary, body_shapes(scene.bodies));
   fluid->let_go(free_bodies(scene.bodies));

@@ -7,33 +7,23 @@
 #include <ostream>
 #include <string>
 
-#include "sim-server/scene/scene.hpp"
-
 namespace splash::sim {
 
 struct Build {
   int lanes = 1;
   bool relaxed = false;
-  SmoothingKind smoothing = SmoothingKind::narrow;
 };
 
 /// Else GoogleTest prints the bytes, padding and all, into the tests' names.
 inline void PrintTo(const Build& build, std::ostream* out) {
-  *out << build.lanes << (build.relaxed ? " relaxed" : "")
-       << (build.smoothing == SmoothingKind::wide ? " wide" : "");
+  *out << build.lanes << (build.relaxed ? " relaxed" : "");
 }
 
 inline const auto kBuilds =
     ::testing::Values(Build{1, false}, Build{8, false}, Build{16, false}, Build{16, true});
 
-/// And with the other smoothing kernel.
-inline const auto kTwinBuilds =
-    ::testing::Values(Build{1, false}, Build{8, false}, Build{16, false}, Build{16, true},
-                      Build{1, false, SmoothingKind::wide}, Build{16, true, SmoothingKind::wide});
-
 inline std::string build_name(const ::testing::TestParamInfo<Build>& info) {
-  return std::to_string(info.param.lanes) + "_lanes" + (info.param.relaxed ? "_relaxed" : "") +
-         (info.param.smoothing == SmoothingKind::wide ? "_wide" : "");
+  return std::to_string(info.param.lanes) + "_lanes" + (info.param.relaxed ? "_relaxed" : "");
 }
 
 }  // namespace splash::sim

@@ -38,7 +38,7 @@ std::vector<Vector3> random_places(std::size_t count, const Vector3& lower, cons
 
 void Water::start(Device& device, const KernelBuild& build) {
   params = make_params(scene, particles);
-  const double support = scene_smoothing(scene).support;
+  const double support = scene_support(scene);
   std::vector<std::unique_ptr<Motion>> moved;
   for (const auto& motion : motions) moved.push_back(std::make_unique<FormulaMotion>(motion));
   bodies = std::make_unique<Bodies>(sample_bodies(scene.bodies, scene.fluid.spacing, support),

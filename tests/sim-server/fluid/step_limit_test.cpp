@@ -41,39 +41,39 @@ std::vector<Vector3> lattice(const std::vector<Vector3>& basis, double reach) {
 }
 
 /// c0 |s(k)| [1/s].
-double frequency(const std::vector<Vector3>& places, const Smoothing& smoothing, const Vector3& k) {
+double frequency(const std::vector<Vector3>& places, double support, const Vector3& k) {
   Vector3 s = {};
   for (const Vector3& x : places) {
     const double wave = std::sin(k[0] * x[0] + k[1] * x[1] + k[2] * x[2]);
-    const double slope = kernel_gradient(std::hypot(x[0], x[1], x[2]), smoothing);
+    const double slope = kernel_gradient(std::hypot(x[0], x[1], x[2]), support);
     for (std::size_t a = 0; a < 3; ++a) s[a] += slope * x[a] * wave;
   }
   return kSound * kSpacing * kSpacing * kSpacing * std::hypot(s[0], s[1], s[2]);
 }
 
 /// The trace of G / K for the shortest waves, 1 - cos = 2: no gamma is larger [1/m2].
-double friction(const std::vector<Vector3>& places, const Smoothing& smoothing, double length) {
+double friction(const std::vector<Vector3>& places, double support, double length) {
   double sum = 0.0;
   for (const Vector3& x : places) {
     const double r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-    sum -= 2.0 * kernel_gradient(std::sqrt(r2), smoothing) * r2 / (r2 + 0.01 * length * length);
+    sum -= 2.0 * kernel_gradient(std::sqrt(r2), support) * r2 / (r2 + 0.01 * length * length);
   }
   return kSpacing * kSpacing * kSpacing * sum / 3.0;  // alike along the three axes
 }
 
 /// The highest frequency of all waves, by climbing from many places [1/s].
-double highest(const std::vector<Vector3>& places, const Smoothing& smoothing) {
+double highest(const std::vector<Vector3>& places, double support) {
   constexpr int kStarts = 7;
   double best = 0.0;
   for (int start = 0; start < kStarts * kStarts * kStarts; ++start) {
     const auto at = [&](int part) { return 6.5 / kSpacing * (part % kStarts) / (kStarts - 1.0); };
     Vector3 k = {at(start), at(start / kStarts), at(start / kStarts / kStarts)};
-    double here = frequency(places, smoothing, k);
+    double here = frequency(places, support, k);
     for (double step = 0.5 / kSpacing; step > 1.0e-3 / kSpacing; step /= 2.0) {
       for (std::size_t a = 0; a < 6; ++a) {
         Vector3 next = k;
         next[a / 2] += a % 2 == 0 ? step : -step;
-        const double there = frequency(places, smoothing, next);
+        const double there = frequency(places, support, next);
         if (!(there > here)) continue;
         here = there;
         k = next;
@@ -89,16 +89,15 @@ struct Limits {
   double rubbing = 0.0;       ///< with the default viscosities
 };
 
-Limits limits_of(SmoothingKind kind, const std::vector<Vector3>& basis) {
-  const SmoothingTraits& traits = traits_of(kind);
-  const Smoothing smoothing(traits.support_spacings * kSpacing, kind);
-  const std::vector<Vector3> places = lattice(basis, smoothing.support);
-  const double omega = highest(places, smoothing);
+Limits limits_of(const std::vector<Vector3>& basis) {
+  const double support = kSupportSpacings * kSpacing;
+  const std::vector<Vector3> places = lattice(basis, support);
+  const double omega = highest(places, support);
   const FluidSettings fluid;
-  const double length = traits.length * smoothing.support;
+  const double length = kLengthOfSupport * support;
   const double rub = 10.0 * fluid.viscosity + fluid.artificial * kSound * length;
-  const double gamma = rub * friction(places, smoothing, length);
-  const double unit = smoothing.support / kSound;
+  const double gamma = rub * friction(places, support, length);
+  const double unit = support / kSound;
   return {2.0 / omega / unit,
           (std::sqrt(gamma * gamma + 4.0 * omega * omega) - gamma) / (omega * omega) / unit};
 }
@@ -108,22 +107,19 @@ const std::vector<std::vector<Vector3>> kLattices = {
     {{0, 0, 0}, {0.5, 0.5, 0.5}},
     {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}};
 
-class StepLimit : public testing::TestWithParam<SmoothingKind> {};
-
-TEST_P(StepLimit, OfTheoryIsAboveTheLongestStepAndFarBelowTwiceTheDefault) {
-  const double share = traits_of(GetParam()).acoustic;
+TEST(StepLimit, OfTheoryIsAboveTheLongestStepAndFarBelowTwiceTheDefault) {
   const double most = longest_step_factor(PressureKind::weakly_compressible);
   for (const auto& basis : kLattices) {
-    const Limits limits = limits_of(GetParam(), basis);
+    const Limits limits = limits_of(basis);
     std::printf("%zu per cell: %.3f H/c0 without friction, %.3f with it; used: %.3f\n",
-                basis.size(), limits.frictionless, limits.rubbing, share);
-    EXPECT_LE(most * share, limits.rubbing);
-    EXPECT_GT(2.0 * share, 1.5 * limits.frictionless);
+                basis.size(), limits.frictionless, limits.rubbing, kAcousticShare);
+    EXPECT_LE(most * kAcousticShare, limits.rubbing);
+    EXPECT_GT(2.0 * kAcousticShare, 1.5 * limits.frictionless);
   }
 }
 
 /// The largest eigenvalue of G / K for the wave k, by the power method from a skew start [1/m2].
-double damping(const std::vector<Vector3>& places, const Smoothing& smoothing, double length,
+double damping(const std::vector<Vector3>& places, double support, double length,
                const Vector3& k) {
   Vector3 way = {0.8, 0.5, 0.33};
   double largest = 0.0;
@@ -134,7 +130,7 @@ double damping(const std::vector<Vector3>& places, const Smoothing& smoothing, d
       const double along = x[0] * way[0] + x[1] * way[1] + x[2] * way[2];
       const double wave = 1.0 - std::cos(k[0] * x[0] + k[1] * x[1] + k[2] * x[2]);
       const double weight =
-          -kernel_gradient(std::sqrt(r2), smoothing) * wave * along / (r2 + 0.01 * length * length);
+          -kernel_gradient(std::sqrt(r2), support) * wave * along / (r2 + 0.01 * length * length);
       for (std::size_t a = 0; a < 3; ++a) next[a] += weight * x[a];
     }
     const double size = std::hypot(next[0], next[1], next[2]);
@@ -146,42 +142,35 @@ double damping(const std::vector<Vector3>& places, const Smoothing& smoothing, d
 
 /// What nu dt / h^2 may be at most: viscosity alone, explicit in time, is stable while 10 nu g dt <
 /// 2, g the largest damping.
-double viscous_limit(SmoothingKind kind, const std::vector<Vector3>& basis) {
-  const SmoothingTraits& traits = traits_of(kind);
-  const Smoothing smoothing(traits.support_spacings * kSpacing, kind);
-  const double length = traits.length * smoothing.support;
-  const std::vector<Vector3> places = lattice(basis, smoothing.support);
+double viscous_limit(const std::vector<Vector3>& basis) {
+  const double support = kSupportSpacings * kSpacing;
+  const double length = kLengthOfSupport * support;
+  const std::vector<Vector3> places = lattice(basis, support);
   constexpr int kParts = 9;
   double most = 0.0;
   for (int part = 1; part < kParts * kParts * kParts; ++part) {
     const auto at = [](int i) { return 6.5 / kSpacing * (i % kParts) / (kParts - 1.0); };
-    most = std::max(most, damping(places, smoothing, length,
+    most = std::max(most, damping(places, support, length,
                                   {at(part), at(part / kParts), at(part / kParts / kParts)}));
   }
   return 0.2 / (most * length * length);
 }
 
 // The longest step that a scene may ask for stays below it (time_step.cpp).
-TEST_P(StepLimit, OfViscosityIsAboveTheLongestStep) {
+TEST(StepLimit, OfViscosityIsAboveTheLongestStep) {
   for (const auto& basis : kLattices) {
     FluidParams p = {};
     p.solver = SPLASH_DIVERGENCE_FREE;
-    p.spacing = p.length = static_cast<float>(kSpacing);  // either kernel: h is one spacing
+    p.spacing = p.length = static_cast<float>(kSpacing);  // h is one spacing
     p.viscous = 1.0F;                                     // 10 nu
     const double most = longest_step_factor(PressureKind::divergence_free);
     const double used = largest_time_step(p, 0.0, 0.0, most) * 0.1 / (kSpacing * kSpacing);
-    const double limit = viscous_limit(GetParam(), basis);
+    const double limit = viscous_limit(basis);
     std::printf("%zu per cell: %.3f h^2/nu; used: %.3f\n", basis.size(), limit, used);
     EXPECT_LT(used, limit);
     EXPECT_GT(used, 0.75 * limit);
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Kinds, StepLimit,
-                         testing::Values(SmoothingKind::narrow, SmoothingKind::wide),
-                         [](const auto& kind) {
-                           return kind.param == SmoothingKind::wide ? "wide" : "narrow";
-                         });
 
 }  // namespace
 }  // namespace splash::sim

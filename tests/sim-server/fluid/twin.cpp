@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/body_image_twin.hpp"
 
@@ -54,16 +55,16 @@ std::vector<int> open_walls(const FluidParams& params, const Vector3& place, dou
 /// mirror, as z grows by 2 d.
 std::pair<double, double> layers_behind(const FluidParams& params, int k, double d) {
   const bool mirrors = params.slope < 0 || (k != 0 && k != params.slope);
-  const Smoothing kernel = smoothing_of(params);
+  const double support = static_cast<double>(params.support);
   const double spacing = static_cast<double>(params.spacing);
   const double weight = static_cast<double>(params.layer_weight);
   double share = 0.0;
   double fall = 0.0;
-  for (double behind = 0.0; behind < 0.999 * kernel.support; behind += spacing) {
+  for (double behind = 0.0; behind < 0.999 * support; behind += spacing) {
     const double z =
         mirrors ? 2.0 * std::max(d, 0.0) + behind : std::max(d, 0.0) + spacing / 2.0 + behind;
-    share += weight * plane_marginal(z, kernel);
-    fall += (mirrors ? 2.0 : 1.0) * weight * 2.0 * std::numbers::pi * z * kernel_value(z, kernel);
+    share += weight * plane_marginal(z, support);
+    fall += (mirrors ? 2.0 : 1.0) * weight * 2.0 * std::numbers::pi * z * kernel_value(z, support);
   }
   return {share, fall};
 }
@@ -73,8 +74,7 @@ std::pair<double, double> layers_behind(const FluidParams& params, int k, double
 Vector3 pair_push(const FluidState& s, std::size_t i, const Vector3& from, const Vector3& velocity,
                   double weight, double own, double theirs) {
   const FluidParams& p = s.params;
-  const Smoothing kernel = smoothing_of(p);
-  const double support = kernel.support;
+  const double support = static_cast<double>(p.support);
   const Vector3 x = s.position[i] - from;
   if (dot(x, x) >= support * support) return {0.0, 0.0, 0.0};
   const double r = length(x);
@@ -83,7 +83,7 @@ Vector3 pair_push(const FluidState& s, std::size_t i, const Vector3& from, const
   double k = static_cast<double>(p.viscous);
   if (closing < 0.0) k += static_cast<double>(p.artificial);
   const double rub = k / static_cast<double>(p.rest_density) * closing / (r * r + 0.01 * h * h);
-  return -weight * (own + theirs - rub) * kernel_gradient(r, kernel) * x;
+  return -weight * (own + theirs - rub) * kernel_gradient(r, support) * x;
 }
 
 }  // namespace
@@ -143,19 +143,18 @@ TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double pis
 }
 
 std::vector<double> twin_density(const FluidState& s) {
-  const Smoothing kernel = smoothing_of(s.params);
-  const double support = kernel.support;
+  const double support = static_cast<double>(s.params.support);
   const double mass = static_cast<double>(s.params.mass);
   const double rest = static_cast<double>(s.params.rest_density);
   std::vector<double> density(s.position.size(), 0.0);
   for (std::size_t i = 0; i < density.size(); ++i) {
     for (const Vector3& other : s.position) {
       const Vector3 x = s.position[i] - other;
-      if (dot(x, x) < support * support) density[i] += mass * kernel_value(length(x), kernel);
+      if (dot(x, x) < support * support) density[i] += mass * kernel_value(length(x), support);
     }
     double share = 0.0;
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
-      share += s.body_volume[b] * kernel_value(length(s.position[i] - s.body_position[b]), kernel);
+      share += s.body_volume[b] * kernel_value(length(s.position[i] - s.body_position[b]), support);
     }
     density[i] += rest * share * twin_image(s, s.position[i]).factor;
     density[i] += rest * twin_walls(s.params, s.position[i], s.piston).share;
@@ -173,7 +172,7 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
   const FluidParams& p = s.params;
   const double mass = static_cast<double>(p.mass);
   const double rest = static_cast<double>(p.rest_density);
-  const Smoothing kernel = smoothing_of(p);
+  const double support = static_cast<double>(p.support);
   std::vector<TwinAcceleration> result(s.position.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto add = [&](const Vector3& term) {
@@ -189,7 +188,7 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
       const Vector3& from = s.body_position[b];
       add(pair_push(s, i, from, s.body_velocity[b], rest * s.body_volume[b], image.factor * own,
                     0.0));
-      add(-own * rest * s.body_volume[b] * kernel_value(length(s.position[i] - from), kernel) *
+      add(-own * rest * s.body_volume[b] * kernel_value(length(s.position[i] - from), support) *
           image.gradient);
     }
     const TwinWalls walls = twin_walls(p, s.position[i], s.piston);

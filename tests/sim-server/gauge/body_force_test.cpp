@@ -62,7 +62,7 @@ TEST(BodyForce, GrowsWhereTheBodyRunsIntoTheWater) {
   pair.state.velocity = {0.5, 0.0, 0.0};
   const double still = body_force(Pair().water, pair.points, 0, pair.state).force[0];
   const double r = 0.012;
-  const double h = pair.water.support / 2.0;
+  const double h = kLengthOfSupport * pair.water.support;
   const double rub = 0.02 * -0.5 * r / (1000.0 * (r * r + 0.01 * h * h));
   const double more = pair.water.mass * 1000.0 * 3.0e-7 * -rub * slope(r, pair.water.support);
   const double found = body_force(pair.water, pair.points, 0, pair.state).force[0];

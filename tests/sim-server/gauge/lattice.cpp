@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/sim-server/gauge/lattice.hpp"
+#include "sim-server/fluid/smoothing.hpp"
 
 #include <cmath>
 
@@ -9,7 +10,7 @@ WaterState lattice_water(const Vector3& lower, const Vector3& upper, double spac
                          const std::function<bool(const Vector3&)>& inside) {
   WaterState water;
   water.spacing = spacing;
-  water.support = 2.0 * spacing;
+  water.support = kSupportSpacings * spacing;
   water.rest_density = 1000.0;
   water.mass = 1000.0 * spacing * spacing * spacing;
   water.sound_speed = 20.0;

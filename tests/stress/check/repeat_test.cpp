@@ -21,7 +21,6 @@ sim::Scene splashing(const Water& water, int seed) {
   sim::Scene scene =
       with(basin(kCoarse), {moved(ball({}), {{0.0, {0.2, 0.2, 0.4}}, {0.2, {0.2, 0.2, 0.1}}})});
   scene.fluid.solver = water.solver;
-  scene.fluid.smoothing = water.smoothing;
   scene.seed = seed;
   scene.detect.bubble_speed = 0.2;
   return scene;
