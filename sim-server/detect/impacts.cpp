@@ -21,7 +21,7 @@ constexpr double kLyingOn = 0.3;
 constexpr double kTouching = 0.1;
 
 /// Farther from the surface than this, the colour is too faint to tell how far [spacings].
-constexpr double kSpacingsSeen = 1.4;
+constexpr double kSpacingsSeen = 1.2;
 
 /// Part that must have left the water [1] of the points that met it, and of all: threads and drops
 /// may hang on the rest.

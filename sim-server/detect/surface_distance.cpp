@@ -18,8 +18,9 @@ SurfaceDistance::SurfaceDistance(double spacing, double support, double layer_we
     : spacing_(spacing),
       support_(support),
       layer_weight_(layer_weight),
-      nearest_(-spacing / 2.0),
-      farthest_(support - spacing / 2.0) {
+      depth_(kSurfaceLoss * spacing),
+      nearest_(-spacing / 2.0 - depth_),
+      farthest_(support - spacing / 2.0 - depth_) {
   colours_.reserve(kEntries);
   for (std::size_t k = 0; k < kEntries; ++k) {
     const double part = static_cast<double>(k) / (kEntries - 1);
@@ -31,7 +32,7 @@ double SurfaceDistance::colour_at(double d) const {
   double colour = 0.0;
   const int layers = static_cast<int>(std::ceil((support_ - d) / spacing_)) + 1;
   for (int layer = 0; layer < layers; ++layer) {
-    colour += layer_weight_ * plane_marginal(d + (layer + 0.5) * spacing_, support_);
+    colour += layer_weight_ * plane_marginal(d + depth_ + (layer + 0.5) * spacing_, support_);
   }
   return colour;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How far the water's surface is, from how much of it is seen. Water at rest lies in layers one
-// spacing apart, the first half a spacing below its surface; at distance D above the surface the
-// colour field is the sum of the layers' planar marginals. That sum falls with D, so it can be
-// turned round.
+// spacing apart, the first half a spacing and what the surface packs more densely (kSurfaceLoss)
+// below it; at distance D above the surface the colour field is the sum of the layers' planar
+// marginals. That sum falls with D, so it can be turned round.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ class SurfaceDistance {
 
   /// Colour field at distance `d` outside the surface; negative: below it [m].
   [[nodiscard]] double colour_at(double d) const;
-  /// Distance for a colour [m]; at most the largest that is seen at all, at least -spacing / 2
+  /// Distance for a colour [m]; at most the largest that is seen at all, at least -0.72 spacings
   /// (below, the colour tells distances apart no more).
   [[nodiscard]] double distance_for(double colour) const;
   /// Beyond this distance no water is seen [m].
@@ -27,6 +27,7 @@ class SurfaceDistance {
   double spacing_;
   double support_;
   double layer_weight_;
+  double depth_;  ///< of a lattice's surface below the water's [m]
   double nearest_;
   double farthest_;
   std::vector<double> colours_;  ///< from nearest_ to farthest_, evenly spaced, falling

@@ -33,25 +33,9 @@ double layer_distance(const std::vector<Vector3>& particles, std::size_t axis, d
   std::sort(places.begin(), places.end());
   for (std::size_t i = 1; i < places.size(); ++i) {
     const double gap = places[i] - places[i - 1];
-    if (gap > 0.5 * spacing) return gap;
+    if (gap > 0.5 * spacing) return gap < 1.5 * spacing ? gap : spacing;
   }
   return spacing;
-}
-
-/// Sum of W over an unbounded lattice [1/m3].
-double lattice_sum(const Vector3& step, double support) {
-  const auto reach = [&](std::size_t axis) {
-    return static_cast<int>(std::ceil(support / step[axis]));
-  };
-  double sum = 0.0;
-  for (int kx = -reach(0); kx <= reach(0); ++kx) {
-    for (int ky = -reach(1); ky <= reach(1); ++ky) {
-      for (int kz = -reach(2); kz <= reach(2); ++kz) {
-        sum += kernel_value(std::hypot(kx * step[0], ky * step[1], kz * step[2]), support);
-      }
-    }
-  }
-  return sum;
 }
 
 /// Cells over the tank and its headroom, with a margin cell on each side.
@@ -93,11 +77,9 @@ double stratification(const Scene& scene) {
   return -scene.fluid.gravity[2] / (sound * sound);
 }
 
-/// Part of its height that the deepest column loses when it settles; nothing without gravity.
-double settling_loss(const Scene& scene, double spacing) {
-  if (!falls_down(scene)) return 0.0;
-  const double depth = water_depth(scene);
-  return stratification(scene) * depth / 2.0 + kSurfaceLoss * spacing / depth;
+/// Part of its height that the deepest column loses by its own weight; nothing without gravity.
+double compression(const Scene& scene) {
+  return falls_down(scene) ? stratification(scene) * water_depth(scene) / 2.0 : 0.0;
 }
 
 /// Height of the water's surface over x, y [m]; the floor's where there is none.
@@ -189,8 +171,8 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   const Vector3 step = {layer_distance(particles, 0, spacing),
                         layer_distance(particles, 1, spacing),
                         layer_distance(particles, 2, spacing)};
-  const double loss = settling_loss(scene, spacing);
-  p.mass = static_cast<float>((1.0 + loss) * scene.fluid.density / lattice_sum(step, support));
+  const double volume = step[0] * step[1] * step[2];
+  p.mass = static_cast<float>((1.0 + compression(scene)) * scene.fluid.density * volume);
   p.rest_density = static_cast<float>(scene.fluid.density);
   p.sound_speed = static_cast<float>(sound);
   p.viscous = static_cast<float>(10.0 * scene.fluid.viscosity);
@@ -200,8 +182,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.gravity_z = static_cast<float>(scene.fluid.gravity[2]);
   set_pull(scene.fluid, p);
   p.spacing = static_cast<float>(spacing);
-  const double layer = 1.0 / (lattice_sum(step, support) * spacing * spacing);
-  p.layer_weight = static_cast<float>(layer);
+  p.layer_weight = static_cast<float>(volume / (spacing * spacing));
   p.speed_limit = static_cast<float>(sound);
   p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;
   p.wave_speed = static_cast<float>(std::sqrt(length(scene.fluid.gravity) * water_depth(scene)));

@@ -21,8 +21,8 @@ namespace splash::sim {
 
 /// `particles`: their places in the initial lattice [m]. The mass of a particle is such that a
 /// block of the lattice has the density at rest, and more by what the deepest column loses in
-/// height when it settles: its mean compression, g H / (2 c0^2), and the packing of its surface. So
-/// the water stands at the wanted level.
+/// height when it settles, its mean compression g H / (2 c0^2): the water stands at the wanted
+/// level, and its outermost particles kSurfaceLoss lower than on the lattice (smoothing.hpp).
 [[nodiscard]] FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles);
 
 /// The particles as they stand under their own weight: density grows with depth as the state

@@ -9,9 +9,10 @@ namespace splash::sim {
 constexpr double kSupportSpacings = 2.5;
 /// Smoothing length h over support [1].
 constexpr double kLengthOfSupport = 0.4;
-/// Settled water stands lower than its volume says by this many spacings, whatever its depth: the
-/// outermost layer has nothing above it and packs more densely. 0.21 in 0.2 m and 0.23 in 0.3 m of
-/// water, measured with a spline of the same support.
+/// The outermost particles of settled water lie deeper below its surface, which its volume says, by
+/// this many spacings than half a spacing, whatever the water's depth: they have nothing above them
+/// and pack more densely. 0.21 in 0.2 m and 0.23 in 0.3 m of water, measured with a spline of the
+/// same support.
 constexpr double kSurfaceLoss = 0.22;
 /// Largest time step, in H / (c0 + v): still water and dam breaks stay calm up to 0.72 and grow
 /// rough from 0.81 on [1].

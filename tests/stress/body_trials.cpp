@@ -16,7 +16,7 @@ using sim::Simulation;
 using sim::Vector3;
 
 Trial rest(const std::string& name, std::vector<BodySettings> bodies) {
-  return {.group = 1, .name = name, .seconds = 2.0, .still = true, .scene = [bodies](double s) {
+  return {.group = 1, .name = name, .seconds = 4.0, .still = true, .scene = [bodies](double s) {
             return with(basin(s), bodies);
           }};
 }

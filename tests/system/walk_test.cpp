@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -19,7 +20,10 @@ namespace {
 
 const std::filesystem::path kSource = SPLASH_SOURCE_DIR;
 constexpr double kTwoFrames = 2.0 / 60.0;  ///< of the tracker [s]
-constexpr double kEnd = 2.5;               ///< of the recording [s]
+/// Of the water's surface: as in the plunge, a tenth of a spacing. A foot that glides in at a tenth
+/// of a metre per second takes 13 ms over it [m].
+constexpr double kRoughness = 0.1 * 0.0158;
+constexpr double kEnd = 2.5;  ///< of the recording [s]
 
 struct Contact {
   std::string foot;
@@ -55,7 +59,10 @@ TEST(Walk, EachFootContactOfTheForcePlatesIsOneImpact) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const std::string& body = scene.bodies[static_cast<std::size_t>(impacts[i].body)].name;
     EXPECT_EQ(body, "foot_" + contacts[i].foot);
-    EXPECT_NEAR(impacts[i].time, contacts[i].seconds, kTwoFrames);
+    EXPECT_NEAR(impacts[i].time, contacts[i].seconds,
+                kTwoFrames + kRoughness / impacts[i].approach);
+    std::printf("%s foot at %.4f s: %+.1f ms\n", contacts[i].foot.c_str(), contacts[i].seconds,
+                1e3 * (impacts[i].time - contacts[i].seconds));
     RecordProperty("error_ms_" + std::to_string(i),
                    std::to_string(1e3 * (impacts[i].time - contacts[i].seconds)));
   }

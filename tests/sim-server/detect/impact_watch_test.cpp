@@ -58,8 +58,8 @@ TEST_P(Plunge, IsAnnouncedAhead) {
   ASSERT_EQ(all.size(), 1U);
   const DetectSettings settings;
   EXPECT_LE(all[0].impact.time, all[0].at + settings.impact_lookahead);
-  // As soon as the water is seen (1.4 spacings) or within the look-ahead, whichever is later.
-  const double seen = (1.4 * kSpacing) / speed;
+  // As soon as the water is seen (1.2 spacings) or within the look-ahead, whichever is later.
+  const double seen = (1.2 * kSpacing) / speed;
   const double ahead = std::min(settings.impact_lookahead, seen);
   EXPECT_GT(all[0].impact.time, all[0].at + ahead - kFrame - 1.0e-5);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -14,8 +14,8 @@
 namespace splash::sim {
 namespace {
 
-/// Under the disc, off its rim [m].
-constexpr double kGaugeRadius = 0.085;
+/// Around the tank's middle, where the bodies go in: twice the plunging disc's [m].
+constexpr double kConeRadius = 0.2;
 
 template <class T>
 void append(std::vector<T>& all, const std::vector<T>& more) {
@@ -40,35 +40,24 @@ std::string changed(std::string text, const std::string& from, const std::string
   return text.replace(at, from.size(), to);
 }
 
-double water_level(Simulation& simulation, double radius) {
+double water_level(Simulation& simulation, double floor) {
   Fluid& fluid = simulation.fluid();
-  const double spacing = static_cast<double>(fluid.params().spacing);
+  const FluidParams& p = fluid.params();
   const Snapshot snapshot = fluid.snapshot();
-  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
-  std::map<std::pair<int, int>, double> highest;
+  const auto stride = static_cast<std::size_t>(p.capacity);
+  double weights = 0.0;
   for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
-    const double x = static_cast<double>(snapshot.position[i]);
-    const double y = static_cast<double>(snapshot.position[stride + i]);
-    const double z = static_cast<double>(snapshot.position[2 * stride + i]);
-    if (std::hypot(x, y) > radius) continue;
-    const std::pair<int, int> square = {static_cast<int>(std::floor(x / spacing)),
-                                        static_cast<int>(std::floor(y / spacing))};
-    double& top = highest.try_emplace(square, z).first->second;
-    top = std::max(top, z);
+    const double r = std::hypot(static_cast<double>(snapshot.position[i]),
+                                static_cast<double>(snapshot.position[stride + i]));
+    weights += std::max(1.0 - r / kConeRadius, 0.0);
   }
-  // A square that no particle of the top layer happens to be in shows the layer below.
-  std::vector<double> tops;
-  for (const auto& [square, top] : highest) tops.push_back(top);
-  std::nth_element(tops.begin(), tops.begin() + std::ssize(tops) / 2, tops.end());
-  const double middle = tops[tops.size() / 2];
-  double sum = 0.0;
-  int count = 0;
-  for (const double top : tops) {
-    if (std::abs(top - middle) > spacing / 2.0) continue;
-    sum += top;
-    ++count;
-  }
-  return sum / count + spacing / 2.0;
+  const double cone = std::numbers::pi * kConeRadius * kConeRadius / 3.0;
+  const double volume = static_cast<double>(p.mass / p.rest_density);
+  const double height = weights * volume / cone;
+  // Less what its own weight compresses it by.
+  const double sound = static_cast<double>(p.sound_speed);
+  return floor + height +
+         static_cast<double>(p.gravity_z) * height * height / (2.0 * sound * sound);
 }
 
 SceneRun run_scene(const std::string& text, double seconds) {
@@ -89,7 +78,7 @@ SceneRun run_scene(const std::string& text, double seconds) {
     const bool over = !run.found.impacts.empty() &&
                       frame.seconds > run.found.impacts.front().time + 2.0 * run.frame;
     if (!scene.bodies.empty() && !over) {
-      run.gauges.push_back({frame.seconds, water_level(simulation, kGaugeRadius),
+      run.gauges.push_back({frame.seconds, water_level(simulation, scene.tank.lower[2]),
                             simulation.bodies().state(0, frame.seconds).position[2]});
     }
   }

@@ -31,10 +31,9 @@ struct SceneRun {
 };
 [[nodiscard]] SceneRun run_scene(const std::string& text, double seconds);
 
-/// Height of the water's surface [m]: where the particles' own volumes end. Over each square of one
-/// spacing around the tank's middle the highest particle is the top layer; the water goes on for
-/// half a layer above it, and layers of the settled water are as far apart as its volume asks: one
-/// spacing. Independent of any colour field.
-[[nodiscard]] double water_level(Simulation& simulation, double half_width);
+/// Height of the water's surface [m]: what the volume of all particles around the tank's middle
+/// fills, weighted by a cone so that hardly any stands on an edge. Independent of any colour field,
+/// and of how the surface is packed.
+[[nodiscard]] double water_level(Simulation& simulation, double floor);
 
 }  // namespace splash::sim

@@ -34,14 +34,15 @@ SurfaceDistance make() {
   return {kSpacing, kSupport, particle_volume() / (kSpacing * kSpacing)};
 }
 
-/// Colour at height `d` over the surface of a perfect lattice, half a spacing above its top layer,
-/// at `x`, `y` from a particle.
+/// Colour at height `d` over the surface of a perfect lattice whose top layer is as deep as that of
+/// settled water, at `x`, `y` from a particle.
 double lattice_colour(double x, double y, double d) {
   double colour = 0.0;
   for (int k = 0; k < 4; ++k) {
     for (int i = -3; i <= 4; ++i) {
       for (int j = -3; j <= 4; ++j) {
-        const double r = std::hypot(x - i * kSpacing, y - j * kSpacing, d + (k + 0.5) * kSpacing);
+        const double depth = d + (k + 0.5 + kSurfaceLoss) * kSpacing;
+        const double r = std::hypot(x - i * kSpacing, y - j * kSpacing, depth);
         colour += particle_volume() * kernel_value(r, kSupport);
       }
     }
@@ -83,17 +84,16 @@ TEST(SurfaceDistance, KeepsItsBounds) {
   const SurfaceDistance distance = make();
   EXPECT_EQ(distance.distance_for(0.0), distance.farthest());
   EXPECT_EQ(distance.distance_for(-1.0), distance.farthest());
-  EXPECT_EQ(distance.distance_for(2.0), -0.5 * kSpacing);
-  EXPECT_DOUBLE_EQ(distance.farthest(), 1.5 * kSpacing);
+  EXPECT_DOUBLE_EQ(distance.distance_for(2.0), -(0.5 + kSurfaceLoss) * kSpacing);
+  EXPECT_DOUBLE_EQ(distance.farthest(), (2.0 - kSurfaceLoss) * kSpacing);
   EXPECT_NEAR(distance.colour_at(distance.farthest()), 0.0, 1.0e-12);
 }
 
-// At the surface of half a space of water, half of the support is full but for the lattice's
-// coarseness; one support deep, all of it;
-// between the particles a little less than at them.
+// At the surface of half a lattice, half of the support is full but for its coarseness; one support
+// deep, all of it.
 TEST(SurfaceDistance, KnowsFullAndHalf) {
-  EXPECT_NEAR(make().colour_at(0.0), 0.5, 0.05);
-  EXPECT_NEAR(make().colour_at(-2.5 * kSpacing), 0.975, 0.03);
+  EXPECT_NEAR(make().colour_at(-kSurfaceLoss * kSpacing), 0.5, 0.05);
+  EXPECT_NEAR(make().colour_at(-3.0 * kSpacing), 1.0, 0.03);
 }
 
 // What bodies go by: the mean over points anywhere above the lattice.
