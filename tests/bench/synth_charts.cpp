@@ -89,9 +89,10 @@ void write_engine_chart(const SynthFigures& figures, const std::filesystem::path
       << std::filesystem::path(script).replace_extension("png").string()
       << "'\nset grid\n"
          "set multiplot layout 1,3\nset logscale x 2\nset ylabel 'of one core [%]'\n"
-         "set key top left\nset logscale y\n"
+         "set key bottom right\nset logscale y\nset xtics 1,4\n"
          "set xlabel 'voices (mono)'\nplot '$voices_f' with linespoints title 'fast', '$voices_e' "
          "with linespoints title 'exact'\nunset logscale y\nset yrange [0:*]\n"
+         "set xtics autofreq\n"
          "set xlabel 'channels (16384 voices)'\nplot '$channels_f' with linespoints title 'fast', "
          "'$channels_e' with linespoints title 'exact'\n"
          "set xlabel 'block [frames] (16384 voices, mono)'\nplot '$block_f' with linespoints title "
