@@ -35,6 +35,19 @@ std::vector<std::string> jack_ports(const std::string& device) {
 }  // namespace
 #endif
 
+bool jack_knows([[maybe_unused]] const std::string& name) {
+#ifdef SPLASH_HAS_JACK
+  const std::unique_ptr<jack_client_t, CloseClient> client(
+      jack_client_open("synth-server-asks", JackNoStartServer, nullptr));
+  const std::unique_ptr<const char*, FreePorts> ports(
+      client == nullptr ? nullptr
+                        : jack_get_ports(client.get(), ("^" + name + ":").c_str(), nullptr, 0));
+  return ports != nullptr;
+#else
+  return false;
+#endif
+}
+
 std::vector<std::string> port_names([[maybe_unused]] const std::string& api,
                                     [[maybe_unused]] const std::string& device,
                                     [[maybe_unused]] int channels) {

@@ -12,4 +12,7 @@ namespace splash::synth {
 [[nodiscard]] std::vector<std::string> port_names(const std::string& api, const std::string& device,
                                                   int channels);
 
+/// Whether a JACK server is there that has ports of a client of this name.
+[[nodiscard]] bool jack_knows(const std::string& name);
+
 }  // namespace splash::synth

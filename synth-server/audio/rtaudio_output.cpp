@@ -19,9 +19,11 @@ namespace {
 /// stop() waits this long for a block that is being rendered.
 constexpr auto kLongestBlock = std::chrono::milliseconds(500);
 /// It gives RtAudio so long to close a JACK stream whose server died ...
-constexpr auto kOwnClosing = std::chrono::milliseconds(1000);
+constexpr auto kOwnClosing = std::chrono::milliseconds(5000);
 /// ... and then so long to leave the object that did it.
 constexpr auto kLeaving = std::chrono::milliseconds(50);
+/// After so long without a block the server is asked whether it still knows us.
+constexpr auto kSomeBlocks = std::chrono::milliseconds(200);
 constexpr int kNotSeen = -1;
 
 struct Found {
@@ -101,13 +103,17 @@ struct RtAudioOutput::Stream {
   }
 
   /// When its server dies, RtAudio closes a JACK stream in a thread of its own, which must not find
-  /// the object gone. Waits until it is done, or the device shows that it lives.
-  void await_own_closing() const noexcept {
-    const auto limit = std::chrono::steady_clock::now() + kOwnClosing;
+  /// the object gone. Waits until it is done, unless the device or its server lives.
+  void await_own_closing() const {
+    const auto start = std::chrono::steady_clock::now();
     const std::uint64_t seen = frames;
-    while (frames == seen && std::chrono::steady_clock::now() < limit) {
+    bool asked = false;
+    while (frames == seen && std::chrono::steady_clock::now() < start + kOwnClosing) {
       if (!rtaudio_port::is_open(*audio)) return std::this_thread::sleep_for(kLeaving);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (asked || std::chrono::steady_clock::now() < start + kSomeBlocks) continue;
+      asked = true;
+      if (jack_knows(rtaudio_port::kClientName)) return;
     }
   }
 

@@ -122,7 +122,7 @@ void open(RtAudio& audio, Opening& opening) {
   RtAudio::StreamOptions options;
   options.flags = RTAUDIO_NONINTERLEAVED | RTAUDIO_SCHEDULE_REALTIME;
   options.priority = kPriority;
-  options.streamName = "synth-server";
+  options.streamName = kClientName;
 #ifdef SPLASH_RTAUDIO_6
   check(audio.openStream(&output, nullptr, RTAUDIO_FLOAT32, opening.sample_rate, &opening.block,
                          opening.callback, opening.context, &options),

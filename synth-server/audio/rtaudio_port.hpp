@@ -39,6 +39,9 @@ struct Opening {
 /// Planar floats, realtime priority asked for. Throws DeviceError with RtAudio's words.
 void open(RtAudio& audio, Opening& opening);
 void start(RtAudio& audio);
+/// What JACK and PulseAudio call us.
+inline constexpr const char* kClientName = "synth-server";
+
 [[nodiscard]] bool is_open(const RtAudio& audio) noexcept;
 
 /// Stops without draining (RtAudio waits for ever for a dead JACK server to drain) and closes.

@@ -157,7 +157,8 @@ TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
   tests::Synth synth(arguments());
   sleep(0.5);
   server->kill();
-  ASSERT_TRUE(synth.process().wait_for_text("has stopped asking for sound", 20.0));
+  ASSERT_TRUE(synth.process().wait_for_text("has stopped asking for sound", 20.0))
+      << synth.process().output();
   ASSERT_TRUE(synth.process().running());
   EXPECT_EQ(synth.ask({"/sync", {1}}, "/synced").address, "/synced") << "it still answers";
   server = std::make_unique<JackServer>(name, kChannels, kPeriod);
