@@ -31,17 +31,6 @@ Vector larger(Vector a, Vector b) {
   return a > b ? a : b;
 }
 
-Vector inverse_root(Vector a) {
-#ifdef __AVX512F__
-  const Vector estimate = Vector(_mm512_rsqrt14_ps(__m512(a)));
-  return estimate * (1.5F - 0.5F * a * estimate * estimate);
-#else
-  Vector root;
-  for (int lane = 0; lane < kLanes; ++lane) root[lane] = 1.0F / __builtin_sqrtf(a[lane]);
-  return root;
-#endif
-}
-
 Vector inverse(Vector a) {
 #ifdef __AVX512F__
   const Vector estimate = Vector(_mm512_rcp14_ps(__m512(a)));
