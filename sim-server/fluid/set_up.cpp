@@ -33,6 +33,7 @@ double layer_distance(const std::vector<Vector3>& particles, std::size_t axis, d
   std::sort(places.begin(), places.end());
   for (std::size_t i = 1; i < places.size(); ++i) {
     const double gap = places[i] - places[i - 1];
+    // A wider gap is none between layers, but between drops or blocks.
     if (gap > 0.5 * spacing) return gap < 1.5 * spacing ? gap : spacing;
   }
   return spacing;

@@ -75,7 +75,7 @@ Injection move_by(const std::string& name, float way) {
 }
 
 /// Puts the particle onto the one that is nearest to it: the shortest of all ways to coincide. The
-/// wide kernel's water has pairs in the corners that lie together anyway: they are passed over.
+/// water has pairs in the corners that lie together anyway: they are passed over.
 void move_to_neighbour(Fluid& fluid, int place) {
   const std::vector<float> x = fluid.snapshot().position;
   const auto count = static_cast<std::size_t>(fluid.params().count);

@@ -4,7 +4,7 @@
 typedef struct {
   lanes dx, dy, dz;  // from the neighbour to the particle [m]
   lanes r2;          // their distance squared [m2]
-  lanes slope;       // grad W = -4 sigma / H slope x
+  lanes slope;       // grad W = -gradient_norm slope x
 } Pair;
 
 static Pair pair_with(constant FluidParams* p, const Group* g, global const float* position,

@@ -13,7 +13,7 @@
 // 3.3 when it is shaken by 0.2 spacings, 4 at random places.
 #define RELAXATION 0.3f
 
-// Sum of m v_j . grad W_ij, divided by -4 sigma / H.
+// Sum of m v_j . grad W_ij, divided by -gradient_norm.
 static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
                               global const int* cell_start, global const float* position,
                               global const float* velocity) {

@@ -15,7 +15,7 @@ namespace {
 
 /// Relative to the sum of the magnitudes of the terms; measured at most 5e-6.
 constexpr double kBound = 2.0e-5;
-/// At the rim of the support 1 - q is a small difference: its absolute error stays.
+/// At the rim of the support 1 - q^2 is a small difference: its absolute error stays.
 constexpr double kRim = 1.0e-6;
 constexpr double kFrame = 0.004;
 

@@ -12,7 +12,7 @@ namespace splash::sim {
 namespace {
 
 /// Of colour and gradient, relative to the sum of the magnitudes of their terms; measured at most
-/// 5e-6. At the rim of the support 1 - q is a small difference: its absolute error stays.
+/// 5e-6. At the rim of the support 1 - q^2 is a small difference: its absolute error stays.
 constexpr double kBound = 2.0e-5;
 constexpr double kRim = 1.0e-8;
 
