@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/shape.hpp"
@@ -49,7 +48,7 @@ Vector3 carried_to_face(const Shape& shape, const Lattice& lattice, const Vector
     if (layer[axis] == lattice.count[axis] - 1) skin[axis] = shape.size[axis] / 2.0;
     if (layer[axis] == 0) skin[axis] = -shape.size[axis] / 2.0;
   }
-  if (layer[2] == 0) skin[2] += sole_rise(shape, skin[0]);
+  if (layer[2] == 0) skin[2] += rocker_rise(shape, skin[0]);
   return skin;
 }
 
@@ -83,40 +82,6 @@ void mark_surface(std::vector<BodyPoint>& points, double support) {
 
 }  // namespace
 
-double sole_rise(const Shape& shape, double x) {
-  return rocker_rise(shape, x);
-}
-
-bool is_inside(const Shape& shape, const Vector3& place) {
-  const double rx = shape.size[0] / 2.0;
-  const double ry = shape.size[1] / 2.0;
-  const double rz = shape.size[2] / 2.0;
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return std::hypot(place[0] / rx, place[1] / ry, place[2] / rz) <= 1.0;
-    case ShapeKind::cylinder:
-      return std::hypot(place[0] / rx, place[1] / ry) <= 1.0 && std::abs(place[2]) <= rz;
-    case ShapeKind::box:
-      break;
-  }
-  return std::abs(place[0]) <= rx && std::abs(place[1]) <= ry && place[2] <= rz &&
-         place[2] >= -rz + sole_rise(shape, place[0]);
-}
-
-double volume_of(const Shape& shape) {
-  const double box = shape.size[0] * shape.size[1] * shape.size[2];
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return box * std::numbers::pi / 6.0;
-    case ShapeKind::cylinder:
-      return box * std::numbers::pi / 4.0;
-    case ShapeKind::box:
-      break;
-  }
-  // The parabola of the sole takes a third of the rocker on average where it curves.
-  return box - shape.size[0] * shape.size[1] * shape.rocker * (1.0 - shape.flat) / 3.0;
-}
-
 std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing, double support) {
   const Lattice lattice = fit_lattice(shape.size, spacing);
   std::vector<BodyPoint> points;
@@ -127,7 +92,7 @@ std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacin
         point.place = {along(lattice, 0, kx, shape.size[0]), along(lattice, 1, ky, shape.size[1]),
                        along(lattice, 2, kz, shape.size[2])};
         // A curved sole squeezes the layers instead of cutting them off.
-        const double rise = sole_rise(shape, point.place[0]);
+        const double rise = rocker_rise(shape, point.place[0]);
         const double height = point.place[2] + shape.size[2] / 2.0;
         point.place[2] += rise * (1.0 - height / shape.size[2]);
         if (shape.kind != ShapeKind::box && !is_inside(shape, point.place)) continue;

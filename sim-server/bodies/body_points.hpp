@@ -28,13 +28,4 @@ struct BodyPoint : BoundaryPoint {
 [[nodiscard]] std::vector<BodyPoint> sample_bodies(const std::vector<BodySettings>& bodies,
                                                    double spacing, double support);
 
-/// Whether a place in body axes is inside the shape [m].
-[[nodiscard]] bool is_inside(const Shape& shape, const Vector3& place);
-
-/// Height of a box's lower face above its flat middle at x, for soles that curve up [m].
-[[nodiscard]] double sole_rise(const Shape& shape, double x);
-
-/// Volume of the shape [m3].
-[[nodiscard]] double volume_of(const Shape& shape);
-
 }  // namespace splash::sim

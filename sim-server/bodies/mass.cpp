@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/bodies/mass.hpp"
 
-#include "sim-server/bodies/body_points.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 
 double mass_of(const BodySettings& body) {
   if (body.motion.mass > 0.0) return body.motion.mass;
   return body.motion.density * volume_of(body.shape);
-}
-
-Vector3 inertia_of(const Shape& shape, double mass) {
-  const auto [a, b, c] = shape.size;
-  switch (shape.kind) {
-    case ShapeKind::sphere: {
-      const double round = mass * a * a / 10.0;
-      return {round, round, round};
-    }
-    case ShapeKind::cylinder: {
-      const double across = mass * (0.75 * a * a + c * c) / 12.0;
-      return {across, across, mass * a * a / 8.0};
-    }
-    case ShapeKind::box:
-      break;
-  }
-  return {mass * (b * b + c * c) / 12.0, mass * (a * a + c * c) / 12.0,
-          mass * (a * a + b * b) / 12.0};
 }
 
 std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies) {

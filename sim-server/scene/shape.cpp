@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace splash::sim {
 
@@ -42,6 +43,54 @@ double distance_to(const Shape& shape, const Vector3& point) {
       break;
   }
   return box_distance(half, point);
+}
+
+bool is_inside(const Shape& shape, const Vector3& place) {
+  const double rx = shape.size[0] / 2.0;
+  const double ry = shape.size[1] / 2.0;
+  const double rz = shape.size[2] / 2.0;
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return std::hypot(place[0] / rx, place[1] / ry, place[2] / rz) <= 1.0;
+    case ShapeKind::cylinder:
+      return std::hypot(place[0] / rx, place[1] / ry) <= 1.0 && std::abs(place[2]) <= rz;
+    case ShapeKind::box:
+      break;
+  }
+  return std::abs(place[0]) <= rx && std::abs(place[1]) <= ry && place[2] <= rz &&
+         place[2] >= -rz + rocker_rise(shape, place[0]);
+}
+
+double volume_of(const Shape& shape) {
+  const double box = shape.size[0] * shape.size[1] * shape.size[2];
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return box * std::numbers::pi / 6.0;
+    case ShapeKind::cylinder:
+      return box * std::numbers::pi / 4.0;
+    case ShapeKind::box:
+      break;
+  }
+  // The parabola of the sole takes a third of the rocker on average where it curves.
+  return box - shape.size[0] * shape.size[1] * shape.rocker * (1.0 - shape.flat) / 3.0;
+}
+
+Vector3 inertia_of(const Shape& shape, double mass) {
+  const auto [a, b, c] = shape.size;
+  switch (shape.kind) {
+    case ShapeKind::sphere: {
+      const double round = mass * a * a / 10.0;
+      return {round, round, round};
+    }
+    case ShapeKind::cylinder: {
+      const double across = mass * (0.75 * a * a + c * c) / 12.0;
+      return {across, across, mass * a * a / 8.0};
+    }
+    case ShapeKind::box:
+      break;
+  }
+  return {mass * (b * b + c * c) / 12.0, mass * (a * a + c * c) / 12.0,
+          mass * (a * a + b * b) / 12.0};
 }
 
 }  // namespace splash::sim

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The geometry of bodies: distances from them, and the curved sole of a foot.
+// The geometry of bodies: what of them depends on their shape, but for how they are sampled
+// (bodies/body_points.hpp) and what kernels know of them (fluid/kernels/outline.h).
 #pragma once
 
 #include "sim-server/scene/scene.hpp"
@@ -13,5 +14,16 @@ namespace splash::sim {
 /// Distance from a body's surface [m], negative inside. `point` in the body's frame. A rocker
 /// counts as if it were filled.
 [[nodiscard]] double distance_to(const Shape& shape, const Vector3& point);
+
+/// Whether a place in body axes is inside the shape, a rocker left out [m].
+[[nodiscard]] bool is_inside(const Shape& shape, const Vector3& place);
+
+/// Volume of the shape, without a rocker's [m3].
+[[nodiscard]] double volume_of(const Shape& shape);
+
+/// Moments of inertia of a homogeneous body of `mass` [kg] about its own axes through its centre
+/// [kg m2]: box m (b^2 + c^2) / 12, sphere m d^2 / 10, cylinder m d^2 / 8 along and
+/// m (3/4 d^2 + l^2) / 12 across its axis. A box's curved sole is not looked at.
+[[nodiscard]] Vector3 inertia_of(const Shape& shape, double mass);
 
 }  // namespace splash::sim

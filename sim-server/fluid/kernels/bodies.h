@@ -8,6 +8,10 @@ static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
   return s + qw * t + cross(axis, t);
 }
 
+// To a body's own axes, and back to the world's.
+static float3 into_body(BodyStep b, float3 v) { return rotate_by(v, -b.qx, -b.qy, -b.qz, b.qw); }
+static float3 out_of_body(BodyStep b, float3 v) { return rotate_by(v, b.qx, b.qy, b.qz, b.qw); }
+
 // Whether any body is within reach: most particles are spared the search.
 static bool bodies_near_box(global const BodyStep* bodies, int first, int count, float3 lower,
                             float3 upper) {

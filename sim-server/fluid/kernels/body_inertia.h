@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A free body's inertia in the world: R diag(ix, iy, iz) R^T.
 
-static float3 into_body(BodyStep b, float3 v) { return rotate_by(v, -b.qx, -b.qy, -b.qz, b.qw); }
-static float3 out_of_body(BodyStep b, float3 v) { return rotate_by(v, b.qx, b.qy, b.qz, b.qw); }
-
 // Angular momentum of a spin.
 static float3 inertia_times(FreeBody f, BodyStep b, float3 spin) {
   return out_of_body(b, (float3)(f.ix, f.iy, f.iz) * into_body(b, spin));

@@ -38,18 +38,6 @@ static void move_on(FreeBody f, float dt, BodyStep* b) {
   b->pz += dt * b->vz;
 }
 
-// How far the outline reaches from its centre along each axis of the world [m].
-static float3 reach_along_axes(BodyShape s, BodyStep b) {
-  if (s.kind == SPLASH_SPHERE) return (float3)(s.half_x);
-  const float3 z = out_of_body(b, (float3)(0.0f, 0.0f, 1.0f));
-  if (s.kind == SPLASH_CYLINDER) {
-    return s.half_z * fabs(z) + s.half_x * sqrt(fmax(1.0f - z * z, 0.0f));
-  }
-  const float3 x = out_of_body(b, (float3)(1.0f, 0.0f, 0.0f));
-  const float3 y = out_of_body(b, (float3)(0.0f, 1.0f, 0.0f));
-  return s.half_x * fabs(x) + s.half_y * fabs(y) + s.half_z * fabs(z);
-}
-
 // The box around a body, grown by the support, and the speed of its fastest point at most.
 static void note_reach(BodyShape s, float support, BodyStep* b) {
   const float3 extent = reach_along_axes(s, *b), grown = extent + support;

@@ -10,42 +10,6 @@
 #define MOST_PROBES 32      // along a particle's way in a step, one each KEPT_DEPTH
 #define ENTRY_HALVINGS 14   // of the way between two probes: to 1e-4 of it
 
-// Height of a curved sole above the underside of its flat middle (see rocker_rise).
-static float sole_rise(BodyShape s, float x) {
-  const float curved = fmax(fmin(fabs(x) / s.half_x, 1.0f) - s.flat, 0.0f) / (1.0f - s.flat);
-  return s.rocker * curved * curved;
-}
-
-// Depth below the nearest face, zero or less outside [m]; `out`: that face's outward normal.
-static float depth_inside(BodyShape s, float3 at, float3* out) {
-  if (s.kind == SPLASH_SPHERE) {
-    const float r = length(at);
-    *out = r > 0.0f ? at / r : (float3)(0.0f, 0.0f, 1.0f);
-    return s.half_x - r;
-  }
-  const float top = s.half_z - at.z;
-  const float under = at.z + s.half_z - (s.kind == SPLASH_BOX ? sole_rise(s, at.x) : 0.0f);
-  float depth = fmin(top, under);
-  *out = (float3)(0.0f, 0.0f, top < under ? 1.0f : -1.0f);
-  if (s.kind == SPLASH_CYLINDER) {
-    const float r = length(at.xy);
-    if (s.half_x - r < depth) {
-      depth = s.half_x - r;
-      *out = r > 0.0f ? (float3)(at.xy / r, 0.0f) : (float3)(1.0f, 0.0f, 0.0f);
-    }
-    return depth;
-  }
-  if (s.half_x - fabs(at.x) < depth) {
-    depth = s.half_x - fabs(at.x);
-    *out = (float3)(at.x < 0.0f ? -1.0f : 1.0f, 0.0f, 0.0f);
-  }
-  if (s.half_y - fabs(at.y) < depth) {
-    depth = s.half_y - fabs(at.y);
-    *out = (float3)(0.0f, at.y < 0.0f ? -1.0f : 1.0f, 0.0f);
-  }
-  return depth;
-}
-
 // Where what goes from `start` by `way`, in the body's axes, is first deeper than `kept`, and the
 // outward normal there: where it was, if the body has come over it. False: it never is.
 static bool entry_of(BodyShape s, float kept, float3 start, float3 way, float3* at, float3* out) {

@@ -6,7 +6,6 @@
 
 #define CONTACTS 24          // 8 points on 3 walls
 #define CONTACT_SWEEPS 16
-#define CONTACT_POINTS 8
 #define REBOUND_SPEED 0.1f   // what comes slower does not rebound [m/s]
 
 typedef struct {
@@ -17,31 +16,6 @@ typedef struct {
   float pushed;   // so far [N s]
   float3 rubbed;  // [N s]
 } Contact;
-
-// Levers of the points that a wall with this normal can meet; their number.
-static int contact_points(BodyShape s, BodyStep b, float3 normal, float3* lever) {
-  if (s.kind == SPLASH_SPHERE) {
-    lever[0] = -s.half_x * normal;
-    return 1;
-  }
-  if (s.kind == SPLASH_BOX) {
-    for (int k = 0; k < 8; ++k) {
-      lever[k] = out_of_body(b, (float3)(k & 1 ? s.half_x : -s.half_x, k & 2 ? s.half_y : -s.half_y,
-                                         k & 4 ? s.half_z : -s.half_z));
-    }
-    return 8;
-  }
-  // A cylinder: on either rim the point nearest to the wall and three at right angles.
-  const float3 own = into_body(b, normal);
-  const float across = length(own.xy);
-  const float2 down = across > 1.0e-4f ? -own.xy / across : (float2)(1.0f, 0.0f);
-  for (int k = 0; k < 8; ++k) {
-    const float2 side = k & 1 ? (float2)(-down.y, down.x) : down;
-    const float2 at = (k & 2 ? -s.half_x : s.half_x) * side;
-    lever[k] = out_of_body(b, (float3)(at, k & 4 ? s.half_z : -s.half_z));
-  }
-  return 8;
-}
 
 static float above_wall(constant FluidParams* p, int k, float piston, BodyStep b, float3 lever) {
   const float moved = k == p->piston ? piston : 0.0f;

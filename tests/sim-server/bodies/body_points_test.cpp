@@ -107,14 +107,14 @@ TEST(BodyPoints, ThinShapesKeepOneLayer) {
 
 TEST(BodyPoints, FollowARockerSole) {
   const Shape foot = {ShapeKind::box, {0.26, 0.1, 0.08}, 0.03, 0.4};
-  EXPECT_EQ(sole_rise(foot, 0.0), 0.0);
-  EXPECT_EQ(sole_rise(foot, 0.05), 0.0);  // within the flat 40 %
-  EXPECT_NEAR(sole_rise(foot, 0.13), 0.03, 1.0e-12);
-  EXPECT_NEAR(sole_rise(foot, -0.13), 0.03, 1.0e-12);
-  EXPECT_NEAR(sole_rise(foot, 0.091), 0.03 / 4, 1.0e-12);  // half way along the curve
-  double area = 0.0;                                       // of the side, by the midpoint rule
+  EXPECT_EQ(rocker_rise(foot, 0.0), 0.0);
+  EXPECT_EQ(rocker_rise(foot, 0.05), 0.0);  // within the flat 40 %
+  EXPECT_NEAR(rocker_rise(foot, 0.13), 0.03, 1.0e-12);
+  EXPECT_NEAR(rocker_rise(foot, -0.13), 0.03, 1.0e-12);
+  EXPECT_NEAR(rocker_rise(foot, 0.091), 0.03 / 4, 1.0e-12);  // half way along the curve
+  double area = 0.0;                                         // of the side, by the midpoint rule
   for (int k = 0; k < 10000; ++k) {
-    area += (0.08 - sole_rise(foot, 0.26 * ((k + 0.5) / 10000 - 0.5))) * 0.26 / 10000;
+    area += (0.08 - rocker_rise(foot, 0.26 * ((k + 0.5) / 10000 - 0.5))) * 0.26 / 10000;
   }
   EXPECT_NEAR(volume_of(foot), 0.1 * area, 1.0e-8);
 
@@ -124,7 +124,7 @@ TEST(BodyPoints, FollowARockerSole) {
   // The lowest layer's skin is the sole, out to its ends.
   for (std::size_t i = 0; i < 13U * 5U; ++i) {
     const Vector3& x = points[i].skin;
-    EXPECT_NEAR(x[2], -0.04 + sole_rise(foot, x[0]), 1.0e-12);
+    EXPECT_NEAR(x[2], -0.04 + rocker_rise(foot, x[0]), 1.0e-12);
   }
   EXPECT_NEAR(points[0].skin[0], -0.13, 1.0e-12);
   EXPECT_NEAR(points[12].skin[0], 0.13, 1.0e-12);

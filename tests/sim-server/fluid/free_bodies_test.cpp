@@ -7,6 +7,7 @@
 
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
 #include "tests/sim-server/fluid/free_float.hpp"
 #include "tests/sim-server/fluid/lane_settings.hpp"
 

@@ -7,6 +7,7 @@
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 

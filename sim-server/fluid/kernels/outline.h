@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// The outlines of bodies in closed form. Whatever depends on a body's shape is here: how far its
+// surface is and in which direction (many places at once, or one that is inside), how far it
+// reaches, and with which points it meets a wall. Places and normals in the body's own axes.
+
+#define CONTACT_POINTS 8
+
+// Where an outline is nearest.
+typedef struct {
+  lanes distance;    // [m], negative inside
+  lanes nx, ny, nz;  // its gradient: away from the body
+  lanes owner;       // number of the body
+} BodyFace;
+
+// What is left of up to three faces at right angles to each other: `q` are the distances from them
+// [m], `part` becomes how much of each one's normal is in the normal there.
+static lanes from_corner(const lanes q[3], lanes part[3]) {
+  const lanes none = 0.0f, one = 1.0f;
+  lanes out2 = 0.0f;
+  for (int k = 0; k < 3; ++k) out2 += fmax(q[k], none) * fmax(q[k], none);
+  const lanes inverse_out = inverse_root(fmax(out2, 1.0e-20f));
+  const lanes deepest = fmax(q[0], fmax(q[1], q[2]));
+  lanes taken = 0.0f;
+  for (int k = 0; k < 3; ++k) {
+    const lanes nearest = select(none, one - taken, q[k] >= deepest);
+    taken += nearest;
+    part[k] = select(nearest, fmax(q[k], none) * inverse_out, out2 > none);
+  }
+  return select(deepest, out2 * inverse_out, out2 > none);
+}
+
+static BodyFace face_of_round(BodyShape s, lanes x, lanes y, lanes z) {
+  const lanes above = s.kind == SPLASH_SPHERE ? z : (lanes)(0.0f);
+  const lanes r2 = x * x + y * y + above * above;
+  const lanes inverse_r = inverse_root(fmax(r2, 1.0e-20f));
+  lanes q[3] = {r2 * inverse_r - s.half_x, fabs(z) - s.half_z, -FAR_AWAY};
+  if (s.kind == SPLASH_SPHERE) q[1] = -FAR_AWAY;
+  lanes part[3];
+  BodyFace face;
+  face.distance = from_corner(q, part);
+  face.nx = part[0] * x * inverse_r;
+  face.ny = part[0] * y * inverse_r;
+  face.nz = part[0] * above * inverse_r + part[1] * copysign((lanes)(1.0f), z);
+  return face;
+}
+
+// The underside of a box may curve up at both ends (sole_rise); there its distance is
+// the height, of which the slope is known.
+static BodyFace face_of_box(BodyShape s, lanes x, lanes y, lanes z) {
+  const lanes one = 1.0f;
+  const float bend = s.flat < 1.0f ? 1.0f / (1.0f - s.flat) : 0.0f;
+  const lanes curved = fmax(fmin(fabs(x) / s.half_x, 1.0f) - s.flat, 0.0f) * bend;
+  const lanes steep = select((lanes)(0.0f), 2.0f * s.rocker * curved * bend / s.half_x,
+                             fabs(x) < s.half_x);
+  const lanes under = s.rocker * curved * curved - s.half_z - z;
+  const lanes over = z - s.half_z;
+  const lanes q[3] = {fabs(x) - s.half_x, fabs(y) - s.half_y, fmax(under, over)};
+  lanes part[3];
+  BodyFace face;
+  face.distance = from_corner(q, part);
+  face.nx = (part[0] + select(part[2] * steep, (lanes)(0.0f), over > under)) * copysign(one, x);
+  face.ny = part[1] * copysign(one, y);
+  face.nz = part[2] * select(-one, one, over > under);
+  return face;
+}
+
+static BodyFace face_of(BodyShape s, lanes x, lanes y, lanes z) {
+  return s.kind == SPLASH_BOX ? face_of_box(s, x, y, z) : face_of_round(s, x, y, z);
+}
+
+// Height of a curved sole above the underside of its flat middle (see rocker_rise).
+static float sole_rise(BodyShape s, float x) {
+  const float curved = fmax(fmin(fabs(x) / s.half_x, 1.0f) - s.flat, 0.0f) / (1.0f - s.flat);
+  return s.rocker * curved * curved;
+}
+
+// Depth below the nearest face, zero or less outside [m]; `out`: that face's outward normal.
+static float depth_inside(BodyShape s, float3 at, float3* out) {
+  if (s.kind == SPLASH_SPHERE) {
+    const float r = length(at);
+    *out = r > 0.0f ? at / r : (float3)(0.0f, 0.0f, 1.0f);
+    return s.half_x - r;
+  }
+  const float top = s.half_z - at.z;
+  const float under = at.z + s.half_z - (s.kind == SPLASH_BOX ? sole_rise(s, at.x) : 0.0f);
+  float depth = fmin(top, under);
+  *out = (float3)(0.0f, 0.0f, top < under ? 1.0f : -1.0f);
+  if (s.kind == SPLASH_CYLINDER) {
+    const float r = length(at.xy);
+    if (s.half_x - r < depth) {
+      depth = s.half_x - r;
+      *out = r > 0.0f ? (float3)(at.xy / r, 0.0f) : (float3)(1.0f, 0.0f, 0.0f);
+    }
+    return depth;
+  }
+  if (s.half_x - fabs(at.x) < depth) {
+    depth = s.half_x - fabs(at.x);
+    *out = (float3)(at.x < 0.0f ? -1.0f : 1.0f, 0.0f, 0.0f);
+  }
+  if (s.half_y - fabs(at.y) < depth) {
+    depth = s.half_y - fabs(at.y);
+    *out = (float3)(0.0f, at.y < 0.0f ? -1.0f : 1.0f, 0.0f);
+  }
+  return depth;
+}
+
+// How far the outline reaches from its centre along each axis of the world [m].
+static float3 reach_along_axes(BodyShape s, BodyStep b) {
+  if (s.kind == SPLASH_SPHERE) return (float3)(s.half_x);
+  const float3 z = out_of_body(b, (float3)(0.0f, 0.0f, 1.0f));
+  if (s.kind == SPLASH_CYLINDER) {
+    return s.half_z * fabs(z) + s.half_x * sqrt(fmax(1.0f - z * z, 0.0f));
+  }
+  const float3 x = out_of_body(b, (float3)(1.0f, 0.0f, 0.0f));
+  const float3 y = out_of_body(b, (float3)(0.0f, 1.0f, 0.0f));
+  return s.half_x * fabs(x) + s.half_y * fabs(y) + s.half_z * fabs(z);
+}
+
+// Levers, in the world, of the points that a wall with this normal can meet; their number.
+static int contact_points(BodyShape s, BodyStep b, float3 normal, float3* lever) {
+  if (s.kind == SPLASH_SPHERE) {
+    lever[0] = -s.half_x * normal;
+    return 1;
+  }
+  if (s.kind == SPLASH_BOX) {
+    for (int k = 0; k < 8; ++k) {
+      lever[k] = out_of_body(b, (float3)(k & 1 ? s.half_x : -s.half_x, k & 2 ? s.half_y : -s.half_y,
+                                         k & 4 ? s.half_z : -s.half_z));
+    }
+    return 8;
+  }
+  // A cylinder: on either rim the point nearest to the wall and three at right angles.
+  const float3 own = into_body(b, normal);
+  const float across = length(own.xy);
+  const float2 down = across > 1.0e-4f ? -own.xy / across : (float2)(1.0f, 0.0f);
+  for (int k = 0; k < 8; ++k) {
+    const float2 side = k & 1 ? (float2)(-down.y, down.x) : down;
+    const float2 at = (k & 2 ? -s.half_x : s.half_x) * side;
+    lever[k] = out_of_body(b, (float3)(at, k & 4 ? s.half_z : -s.half_z));
+  }
+  return 8;
+}
