@@ -97,8 +97,8 @@ typedef struct {
   float mass;         // [kg]
   float ix, iy, iz;   // moments of inertia [kg m2]
   float size;         // lever by which spins are made speeds: all unknowns of one unit [m]
-  float restitution;  // of its speed, after a knock against a wall [1]
-  float friction;     // on walls, Coulomb [1]
+  float restitution;  // of its speed, after a knock against a wall or another body [1]
+  float friction;     // on those, Coulomb [1]
 } FreeBody;
 
 // Fields of what a particle and a free body in its reach do to each other (kernels/body_reach.h).
@@ -107,6 +107,10 @@ typedef struct {
 // an inertia of 21.
 #define SPLASH_PUSH_PARTS 64
 #define SPLASH_PUSH_ENTRIES 27
+// Room for each free body's contacts with walls and other bodies, and for one of them
+// (kernels/contact.h).
+#define SPLASH_CONTACTS 96
+#define SPLASH_CONTACT_FLOATS 32
 
 #ifdef __cplusplus
 }  // namespace splash::sim

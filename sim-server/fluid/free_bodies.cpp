@@ -28,6 +28,8 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       reached_(device, bodies.size() * groups_),
       parts_(device, bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES),
       answer_(device, 6 * bodies.size()),
+      contacts_(device, bodies.size() * SPLASH_CONTACTS * SPLASH_CONTACT_FLOATS),
+      kept_pushes_(device, 2 * (bodies.size() * SPLASH_CONTACTS + 1)),
       felt_(device, 6 * bodies.size()),
       force_(device, 6 * bodies.size()),
       no_solve_(device, 1),
@@ -103,7 +105,7 @@ void FreeBodies::move(Fluid& fluid, const Step& step) {
          {.pressure = &fluid.pressure_term(), .rubbing = 1.0, .velocity = &particles.velocity});
   move_bodies_.run(queue, 1, params, as_float(step.dt), piston, speed, count_, bodies_.memory(),
                    shapes, step.first_body, fluid.body_count(), fluid.body_steps().memory(),
-                   felt_.memory(), force_.memory());
+                   contacts_.memory(), kept_pushes_.memory(), felt_.memory(), force_.memory());
   next_ = static_cast<std::size_t>(step.first_body) + static_cast<std::size_t>(fluid.body_count());
 }
 

@@ -69,6 +69,8 @@ class FreeBodies {
   Buffer<int> reached_;
   Buffer<float> parts_;
   Buffer<float> answer_;
+  Buffer<float> contacts_;
+  Buffer<float> kept_pushes_;
   Buffer<float> felt_;
   Buffer<float> force_;
   Buffer<SolveState> no_solve_;

@@ -127,7 +127,7 @@ struct MotionSettings {
   double mass = 0.0;                   ///< free [kg]; 0: from `density`
   Vector3 velocity = {0.0, 0.0, 0.0};  ///< free: when time begins [m/s]
   Vector3 spin = {0.0, 0.0, 0.0};      ///< free: when time begins, in the world [rad/s]
-  double restitution = 0.2;            ///< free: of its speed after a knock against a wall [1]
+  double restitution = 0.2;            ///< free: of its speed after a knock [1]
   double friction = 0.4;               ///< free: Coulomb's, on walls [1]
 };
 

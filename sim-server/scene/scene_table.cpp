@@ -248,13 +248,15 @@ Fields<MotionEntry> free_fields() {
        &M::spin},
       {{.key = "restitution",
         .unit = "1",
-        .meaning = "free: part of its speed with which it rebounds from a wall.",
+        .meaning = "free: part of its speed with which it rebounds from a wall or another "
+                   "body; of two free ones the larger counts.",
         .min = 0,
         .max = 1},
        &M::restitution},
       {{.key = "friction",
         .unit = "1",
-        .meaning = "free: Coulomb's coefficient on walls.",
+        .meaning = "free: Coulomb's coefficient on walls and other bodies; of two free ones the "
+                   "geometric mean counts.",
         .min = 0,
         .max = 10},
        &M::friction},

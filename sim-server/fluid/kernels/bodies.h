@@ -12,6 +12,21 @@ static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
 static float3 into_body(BodyStep b, float3 v) { return rotate_by(v, -b.qx, -b.qy, -b.qz, b.qw); }
 static float3 out_of_body(BodyStep b, float3 v) { return rotate_by(v, b.qx, b.qy, b.qz, b.qw); }
 
+// The rotation by a vector of any length, then `b`'s.
+static void turn_body(float3 turn, BodyStep* b) {
+  const float angle = length(turn);
+  const float part = angle > 1.0e-3f ? sin(0.5f * angle) / angle : 0.5f - angle * angle / 48.0f;
+  const float4 a = (float4)(part * turn, cos(0.5f * angle));
+  const float4 q = (float4)(b->qx, b->qy, b->qz, b->qw);
+  float4 r = (float4)(a.w * q.xyz + q.w * a.xyz + cross(a.xyz, q.xyz),
+                      a.w * q.w - dot(a.xyz, q.xyz));
+  r /= length(r);
+  b->qx = r.x;
+  b->qy = r.y;
+  b->qz = r.z;
+  b->qw = r.w;
+}
+
 // Whether any body is within reach: most particles are spared the search.
 static bool bodies_near_box(global const BodyStep* bodies, int first, int count, float3 lower,
                             float3 upper) {

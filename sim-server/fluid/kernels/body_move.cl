@@ -5,21 +5,6 @@
 // (explicit midpoint: a body that nothing touches keeps its angular momentum to rounding).
 // The result is where the body is in the next step.
 
-// The rotation by a vector of any length, then `b`'s.
-static void turn_body(float3 turn, BodyStep* b) {
-  const float angle = length(turn);
-  const float part = angle > 1.0e-3f ? sin(0.5f * angle) / angle : 0.5f - angle * angle / 48.0f;
-  const float4 a = (float4)(part * turn, cos(0.5f * angle));
-  const float4 q = (float4)(b->qx, b->qy, b->qz, b->qw);
-  float4 r = (float4)(a.w * q.xyz + q.w * a.xyz + cross(a.xyz, q.xyz),
-                      a.w * q.w - dot(a.xyz, q.xyz));
-  r /= length(r);
-  b->qx = r.x;
-  b->qy = r.y;
-  b->qz = r.z;
-  b->qw = r.w;
-}
-
 static void set_spin(float3 spin, BodyStep* b) {
   b->wx = spin.x;
   b->wy = spin.y;
@@ -51,21 +36,45 @@ static void note_reach(BodyShape s, float support, BodyStep* b) {
              length(extent) * length((float3)(b->wx, b->wy, b->wz));
 }
 
+// What touches what, and the speeds after that. Walls last: they give way to nobody.
+static void collide(Contacts* all, constant FluidParams* p, constant BodyShape* shapes,
+                    int free_count, int body_count, float dt, float piston, float piston_speed) {
+  const int room = all->room;
+  all->room = room - free_count * WALL_CONTACTS;
+  meet_bodies(all, shapes, free_count, body_count, dt);
+  all->room = room;
+  for (int k = 0; k < free_count; ++k) {
+    meet_walls(all, p, shapes[all->frees[k].body], k, dt, piston, piston_speed);
+  }
+  solve_contacts(all);
+}
+
 // One work-item does it all: bodies are few. `force`: of the water on each in this step, and its
-// torque about the centre [N], [N m], from what it `felt`, which begins anew.
+// torque about the centre [N], [N m], from what it `felt`, which begins anew. `contacts`: room for
+// SPLASH_CONTACTS of each free body; `kept`: for one more than these, none at first.
 kernel void move_bodies(constant FluidParams* p, float dt, float piston, float piston_speed,
                         int free_count, constant FreeBody* frees, constant BodyShape* shapes,
                         int first_body, int body_count, global BodyStep* bodies,
-                        global float* felt, global float* force) {
+                        global Contact* contacts, global KeptPush* kept, global float* felt,
+                        global float* force) {
   if (get_global_id(0) > 0) return;
+  Contacts all = {frees, bodies + first_body, contacts, kept, 0, SPLASH_CONTACTS * free_count};
+  collide(&all, p, shapes, free_count, body_count, dt, piston, piston_speed);
   for (int k = 0; k < free_count; ++k) {
-    const FreeBody f = frees[k];
-    BodyStep b = bodies[first_body + f.body];
-    meet_walls(p, shapes[f.body], f, dt, piston, piston_speed, &b);
-    move_on(f, dt, &b);
-    leave_walls(p, shapes[f.body], piston, &b);
-    note_reach(shapes[f.body], p->support, &b);
-    bodies[first_body + body_count + f.body] = b;
+    BodyStep b = *step_of(&all, k);
+    move_on(frees[k], dt, &b);
+    note_reach(shapes[frees[k].body], p->support, &b);
+    all.bodies[body_count + frees[k].body] = b;
+  }
+  for (int turn = 0; turn < PUT_APART; ++turn) {
+    leave_bodies(&all, shapes, free_count, body_count, dt);
+  }
+  for (int k = 0; k < free_count; ++k) {
+    const int body = frees[k].body;
+    BodyStep b = all.bodies[body_count + body];
+    leave_walls(p, shapes[body], piston, &b);
+    note_reach(shapes[body], p->support, &b);
+    all.bodies[body_count + body] = b;
     for (int e = 6 * k; e < 6 * k + 6; ++e) {
       force[e] = felt[e] / dt;
       felt[e] = 0.0f;

@@ -28,6 +28,11 @@ void FreeFloat::add(const Shape& shape, double density, const BodyState& start) 
   scene.bodies.push_back(body);
 }
 
+void FreeFloat::add_led(const Shape& shape, const BodyState& start) {
+  add(shape, 1.0, start);
+  scene.bodies.back().motion.kind = MotionKind::script;
+}
+
 void FreeFloat::start(Device& device) {
   const auto particles = initial_particles(scene);
   const FluidParams params = make_params(scene, particles);
@@ -56,6 +61,13 @@ void FreeFloat::run(double seconds) {
     static_cast<void>(fluid->survey());
     const std::vector<FreeBodyEnd> ends = fluid->free_bodies()->ends();
     for (std::size_t k = 0; k < ends.size(); ++k) steps[k] = ends[k].step;
+    for (std::size_t k = ends.size(); k < steps.size(); ++k) {
+      BodyStep& led = steps[k];
+      const auto way = static_cast<float>(dt) * led.vx;
+      led.px += way;
+      led.lower_x += way;
+      led.upper_x += way;
+    }
     time += dt;
   }
 }

@@ -27,6 +27,8 @@ struct FreeFloat {
   double time = 0.0;  ///< [s]
 
   void add(const Shape& shape, double density, const BodyState& start);
+  /// One that goes its way, straight on, whatever it meets; after all free ones.
+  void add_led(const Shape& shape, const BodyState& start);
   /// Builds it and lets the bodies go.
   void start(Device& device);
   /// For `seconds`, in steps of dt.
