@@ -10,12 +10,13 @@ namespace {
 
 constexpr double kDepth = 0.3;  // of the scene [m]
 constexpr double kLate = 5.0;   // from here on it has to be calm [s]
-constexpr int kPlaces = 5;
 
-Column mean_of(const Series& gauges, const std::string& name, const std::string& quantity) {
+/// Mean over `places` gauges, numbered from 0.
+Column mean_of(const Series& gauges, const std::string& name, int places,
+               const std::string& quantity) {
   Column mean(gauges.size(), 0.0);
-  for (int i = 0; i < kPlaces; ++i) {
-    mean = combine(1.0, mean, 1.0 / kPlaces, gauges[name + std::to_string(i) + quantity]);
+  for (int i = 0; i < places; ++i) {
+    mean = combine(1.0, mean, 1.0 / places, gauges[name + std::to_string(i) + quantity]);
   }
   return mean;
 }
@@ -26,8 +27,9 @@ Outcome evaluate(const std::vector<Run>& runs) {
   const Column& time = g["time"];
   const double end = time.back();
   const double weight = run.scene.fluid.density * 9.81;
-  const Column level = mean_of(g, "level", "_height");
-  const double floor = mean_between(time, mean_of(g, "floor", "_pressure"), kLate, end);
+  const Column level = mean_of(g, "level", 5, "_height");
+  const double floor = mean_between(time, mean_of(g, "floor", 25, "_pressure"), kLate, end);
+  const double edge = mean_between(time, mean_of(g, "edge", 2, "_pressure"), kLate, end);
   double square = 0.0;
   Curve profile = {"", {}, {}};
   for (int i = 0; i < 6; ++i) {
@@ -43,6 +45,8 @@ Outcome evaluate(const std::vector<Run>& runs) {
   const double fastest = largest_between(time, g["all_fastest"], kLate, end);
   const double rms = largest_between(time, g["all_rms"], kLate, end);
   return {{{"floor pressure, error", 100.0 * (floor / (weight * kDepth) - 1.0), "%", -1.0, 1.0},
+           {"pressure in a corner and an edge of it, error",
+            100.0 * (edge / (weight * kDepth) - 1.0), "%"},
            {"profile, rms of rho g H", 100.0 * std::sqrt(square), "%", 0.0, 2.0},
            {"level, error", (start - kDepth) / run.scene.fluid.spacing, "dp"},
            {"level, drift", (last - start) / run.scene.fluid.spacing, "dp", -0.25, 0.25},
