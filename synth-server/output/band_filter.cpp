@@ -18,6 +18,7 @@ BandFilter::BandFilter(const Band& band, double sample_rate) {
   sections_[0] = high_pass(band.low, kFirstQ, sample_rate);
   sections_[1] = high_pass(band.low, kSecondQ, sample_rate);
   if (band.high >= 0.45 * sample_rate) return;
+  low_pass_ = true;
   sections_[2] = low_pass(band.high, kFirstQ, sample_rate);
   sections_[3] = low_pass(band.high, kSecondQ, sample_rate);
 }

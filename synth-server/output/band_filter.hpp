@@ -17,8 +17,8 @@ class BandFilter {
   BandFilter(const Band& band, double sample_rate);
 
   [[nodiscard]] double process(double in) noexcept {
-    for (Biquad& section : sections_) in = section.process(in);
-    return in;
+    in = sections_[1].process(sections_[0].process(in));
+    return low_pass_ ? sections_[3].process(sections_[2].process(in)) : in;
   }
 
   void reset() noexcept {
@@ -28,7 +28,8 @@ class BandFilter {
   [[nodiscard]] bool at_rest(double limit) const noexcept;
 
  private:
-  std::array<Biquad, 4> sections_{};
+  std::array<Biquad, 4> sections_{};  ///< two of the high-pass, two of the low-pass
+  bool low_pass_ = false;
 };
 
 }  // namespace splash::synth
