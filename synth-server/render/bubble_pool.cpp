@@ -10,17 +10,16 @@
 
 #include "synth-server/render/pack_feeds.hpp"
 #include "synth-server/render/seating.hpp"
-#include "synth-server/render/voice_span.hpp"
+#include "synth-server/render/sitters.hpp"
 
 namespace splash::synth {
 namespace {
 
-constexpr auto kLanes = static_cast<std::size_t>(kPackVoices);
 constexpr int kPiece = 32;  ///< samples: rows of the packs that are mixed together stay near
 
 /// From one channel's sums to the next: not a multiple of a page, or what is read of one channel
 /// would be taken for what was just written of another.
-constexpr std::size_t kSumStride = kRows + 17 * kLanes;
+constexpr std::size_t kSumStride = kRows + 17 * kPackLanes;
 
 /// Fading voices keep their places for 5 ms: room for all that can be stolen in that time. Each
 /// group may have packs that are half empty.
@@ -29,7 +28,7 @@ std::size_t packs_for(const PoolSettings& s) {
   const auto cells = static_cast<std::size_t>(kVoiceFade * s.sample_rate / kCell) + 2;
   const std::size_t places = voices + std::min(voices, kMostStarts * cells);
   const std::size_t ragged = std::min(places, static_cast<std::size_t>(s.groups));
-  return places / kLanes + places / (2 * kLanes) + ragged + 1;
+  return places / kPackLanes + places / (2 * kPackLanes) + ragged + 1;
 }
 
 template <class Pack>
@@ -41,21 +40,6 @@ PackKernels<Pack> kernels_for(InstructionSet set) noexcept {
   }
 }
 
-/// What the kernels need not know of the voices of a pack.
-struct Sitters {
-  static constexpr std::uint32_t kFull = 0xffffU;
-  std::uint32_t taken = 0;                   ///< a bit per lane
-  std::uint32_t leaving = 0;                 ///< of these, those that were told to make room
-  std::int64_t calm_from = 0;                ///< all have started by then
-  std::int64_t calm_to = VoiceSpan::kNever;  ///< none ends or fades before
-  std::array<VoiceSpan, kLanes> spans;
-
-  void note(const VoiceSpan& span) noexcept {
-    calm_from = std::max(calm_from, span.start);
-    calm_to = std::min({calm_to, span.end, span.fade});
-  }
-};
-
 template <class Pack>
 class Pool final : public BubblePool {
  public:
@@ -64,7 +48,7 @@ class Pool final : public BubblePool {
   /// Of many channels each piece costs a call of the kernel per channel: as long as rows of single
   /// precision stay near.
   static constexpr int kManyPiece = sizeof(Real) == sizeof(float) ? kCell : kPiece;
-  static constexpr std::size_t kPieceRows = kManyPiece * kLanes;
+  static constexpr std::size_t kPieceRows = kManyPiece * kPackLanes;
 
   explicit Pool(const PoolSettings& s)
       : kernels_(kernels_for<Pack>(s.instructions)),
@@ -76,7 +60,7 @@ class Pool final : public BubblePool {
         feeds_(packs_.size(), s.max_routes, s.channels),
         seating_(packs_.size(), s.groups),
         sums_(static_cast<std::size_t>(s.channels) * kSumStride),
-        ranking_(packs_.size() * kLanes, s.sample_rate),
+        ranking_(packs_.size() * kPackLanes, s.sample_rate),
         piece_(s.channels > 1 ? kManyPiece : kPiece) {}
 
   Started start(const BubbleTone& tone, const VoiceLife& life, std::span<const Route> routes,
@@ -97,7 +81,7 @@ class Pool final : public BubblePool {
     sitters_[pack].note(span);
     if (sitters_[pack].taken == Sitters::kFull) seating_.note_full(found);
     feeds_.add(found, lane, routes);
-    const auto place = static_cast<std::uint32_t>(pack * kLanes + lane);
+    const auto place = static_cast<std::uint32_t>(pack * kPackLanes + lane);
     ranking_.enter(place, life, sample, std::min(span.end, span.fade));
     ++size_;
     ++lasting_;
@@ -169,12 +153,23 @@ class Pool final : public BubblePool {
           shape(sitters, cell + from, to - from, rows);
         }
       }
-      feeds_.for_each_joined([&](std::size_t channel, const PackMix<Real>& together) {
-        kernels_.mix(together, from, to, &sums_[channel * kSumStride]);
-      });
+      mix_joined(from, to);
       from = to;
     }
     feeds_.part();
+  }
+
+  /// Samples [from, to) of the cell, whose rows are there, to the channels that they go to.
+  void mix_joined(int from, int to) noexcept {
+    using Packs = PackMix<Real>;
+    const auto sums = [&](std::size_t channel) { return &sums_[channel * kSumStride]; };
+    feeds_.for_each_joined(
+        [&](std::size_t channel, const Packs& packs) {
+          kernels_.mix(packs, from, to, sums(channel));
+        },
+        [&](std::size_t channel, const Packs& packs, std::size_t other, const Packs& its) {
+          kernels_.mix_two(packs, its, from, to, sums(channel), sums(other));
+        });
   }
 
   Start make_room(double log_amplitude, std::int64_t sample) noexcept {
@@ -188,9 +183,9 @@ class Pool final : public BubblePool {
   }
 
   void fade_out(std::uint32_t place, std::int64_t sample) noexcept {
-    Sitters& sitters = sitters_[place / kLanes];
-    VoiceSpan& span = sitters.spans[place % kLanes];
-    const std::uint32_t bit = 1U << place % kLanes;
+    Sitters& sitters = sitters_[place / kPackLanes];
+    VoiceSpan& span = sitters.spans[place % kPackLanes];
+    const std::uint32_t bit = 1U << place % kPackLanes;
     if ((sitters.leaving & bit) == 0) --lasting_;
     sitters.leaving |= bit;
     span.fade_out(sample, fade_length_);

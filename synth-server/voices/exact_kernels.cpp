@@ -6,7 +6,8 @@ namespace splash::synth {
 
 /// Made here as exact_kernels_portable, exact_kernels_avx2 and exact_kernels_avx512.
 PackKernels<ExactPack> SPLASH_KERNELS() noexcept {
-  return {begin, turn_lanes<ExactPack::Real>, mix<ExactPack::Real>, collect<ExactPack::Real>};
+  using Real = ExactPack::Real;
+  return {begin, turn_lanes<Real>, mix<Real>, mix_two<Real>, collect<Real>};
 }
 
 }  // namespace splash::synth

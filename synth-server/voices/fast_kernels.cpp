@@ -6,7 +6,8 @@ namespace splash::synth {
 
 /// Made here as fast_kernels_portable, fast_kernels_avx2 and fast_kernels_avx512.
 PackKernels<FastPack> SPLASH_KERNELS() noexcept {
-  return {begin, turn_lanes<FastPack::Real>, mix<FastPack::Real>, collect<FastPack::Real>};
+  using Real = FastPack::Real;
+  return {begin, turn_lanes<Real>, mix<Real>, mix_two<Real>, collect<Real>};
 }
 
 }  // namespace splash::synth

@@ -43,6 +43,9 @@ struct PackKernels {
   /// Adds these samples of up to kMixedPacks packs to one channel, whose sums are kRows values,
   /// some lanes apart.
   void (*mix)(const PackMix<Real>& packs, int from, int to, Real* sums);
+  /// The same to two channels that the same packs go to: their rows are fetched once for both.
+  void (*mix_two)(const PackMix<Real>& packs, const PackMix<Real>& other, int from, int to,
+                  Real* sums, Real* other_sums);
   /// Adds up the lanes of one channel, always in the same order, and clears them.
   void (*collect)(Real* sums, int from, int to, double* out);
 

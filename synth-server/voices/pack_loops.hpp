@@ -141,56 +141,87 @@ void turn_lanes(TurningLanes<Real>& lanes, int from, int to, Real* rows) {
 template <class Real>
 inline constexpr int kSumLanes = sizeof(Real) == sizeof(double) ? 8 : Lanes<Real>::kCount;
 
+/// Gains that are kept in registers, as vectors: of the 16 or 32 that there are.
+inline constexpr int kGainVectors = kVectorBytes == 64 ? 16 : 8;
+
+/// What kChannels channels get of the same packs, and their sums.
+template <class Real, int kChannels>
+struct Mixing {
+  const PackMix<Real>* packs[kChannels];
+  Real* sums[kChannels];
+};
+
 /// Some of the packs: their gains fit into the registers.
-template <class Real, int kPacks>
-[[gnu::always_inline]] inline void mix_some(const PackMix<Real>& packs, int first, int from, int to,
-                                            Real* sums) {
+template <class Real, int kPacks, int kChannels>
+[[gnu::always_inline]] inline void mix_some(const Mixing<Real, kChannels>& mixing, int first,
+                                            int from, int to) {
   using V = Vector<Real>;
   constexpr int kParts = kPackVoices / kSumLanes<Real>;
   for (int lane = 0; lane < kSumLanes<Real>; lane += Lanes<Real>::kCount) {
-    V gains[kPacks][kParts];
+    V gains[kChannels][kPacks][kParts];
     const Real* rows[kPacks];
     for (int k = 0; k < kPacks; ++k) {
-      rows[k] = packs.rows[first + k];
-      for (int part = 0; part < kParts; ++part) {
-        const Real* const from_lane = packs.feeds[first + k]->gains + lane;
-        gains[k][part] = *reinterpret_cast<const V*>(&from_lane[part * kSumLanes<Real>]);
+      rows[k] = mixing.packs[0]->rows[first + k];
+      for (int c = 0; c < kChannels; ++c) {
+        const Real* const from_lane = mixing.packs[c]->feeds[first + k]->gains + lane;
+        for (int part = 0; part < kParts; ++part) {
+          gains[c][k][part] = *reinterpret_cast<const V*>(&from_lane[part * kSumLanes<Real>]);
+        }
       }
     }
     for (int n = from; n < to; ++n) {
-      V& sum = *reinterpret_cast<V*>(&sums[n * kSumLanes<Real> + lane]);
-      V added = sum;
+      V added[kChannels];
+      for (int c = 0; c < kChannels; ++c) {
+        added[c] = *reinterpret_cast<V*>(&mixing.sums[c][n * kSumLanes<Real> + lane]);
+      }
       for (int k = 0; k < kPacks; ++k) {
         for (int part = 0; part < kParts; ++part) {
           const int at = (n - from) * kPackVoices + part * kSumLanes<Real> + lane;
-          added += gains[k][part] * *reinterpret_cast<const V*>(&rows[k][at]);
+          // Volatile: once for all channels, where compilers would fetch it for each.
+          const V row = *reinterpret_cast<const volatile V*>(&rows[k][at]);
+          for (int c = 0; c < kChannels; ++c) added[c] += gains[c][k][part] * row;
         }
       }
-      sum = added;
+      for (int c = 0; c < kChannels; ++c) {
+        *reinterpret_cast<V*>(&mixing.sums[c][n * kSumLanes<Real> + lane]) = added[c];
+      }
     }
   }
 }
 
 /// The last of the packs, kMost at most: all at once.
-template <class Real, int kMost>
-[[gnu::always_inline]] inline void mix_rest(const PackMix<Real>& packs, int first, int from, int to,
-                                            Real* sums) {
-  if (packs.count - first == kMost) {
-    mix_some<Real, kMost>(packs, first, from, to, sums);
+template <class Real, int kMost, int kChannels>
+[[gnu::always_inline]] inline void mix_rest(const Mixing<Real, kChannels>& mixing, int first,
+                                            int from, int to) {
+  if (mixing.packs[0]->count - first == kMost) {
+    mix_some<Real, kMost>(mixing, first, from, to);
   } else if constexpr (kMost > 1) {
-    mix_rest<Real, kMost - 1>(packs, first, from, to, sums);
+    mix_rest<Real, kMost - 1>(mixing, first, from, to);
   }
 }
 
 /// As many at once as registers hold, then what is left: sums are fetched and put back seldom.
+template <class Real, int kChannels>
+[[gnu::always_inline]] inline void mix_all(const Mixing<Real, kChannels>& mixing, int from,
+                                           int to) {
+  constexpr int kFitting = kGainVectors * kSumLanes<Real> / (kChannels * kPackVoices);
+  constexpr int kAtOnce = kFitting < kMixedPacks ? kFitting : kMixedPacks;
+  int first = 0;
+  for (; first + kAtOnce <= mixing.packs[0]->count; first += kAtOnce) {
+    mix_some<Real, kAtOnce>(mixing, first, from, to);
+  }
+  if constexpr (kAtOnce > 1) mix_rest<Real, kAtOnce - 1>(mixing, first, from, to);
+}
+
 template <class Real>
 void mix(const PackMix<Real>& packs, int from, int to, Real* sums) {
-  constexpr int kAtOnce = 8 * kSumLanes<Real> / kPackVoices;
-  int first = 0;
-  for (; first + kAtOnce <= packs.count; first += kAtOnce) {
-    mix_some<Real, kAtOnce>(packs, first, from, to, sums);
-  }
-  if constexpr (kAtOnce > 1) mix_rest<Real, kAtOnce - 1>(packs, first, from, to, sums);
+  mix_all<Real, 1>({{&packs}, {sums}}, from, to);
+}
+
+template <class Real>
+void mix_two(const PackMix<Real>& packs, const PackMix<Real>& other, int from, int to, Real* sums,
+             Real* other_sums) {
+  mix_all<Real, 2>({{&packs, &other}, {sums, other_sums}}, from, to);
 }
 
 /// low: a0 b0 a1 b1 ..., high: the same of the upper halves.
