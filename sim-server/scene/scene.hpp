@@ -31,7 +31,7 @@ struct FluidSettings {
   KernelKind kernels = KernelKind::vector;
   double tolerance = 0.001;     ///< divergence-free: mean density error that ends a solve [1]
   double sound_speed = 0.0;     ///< of the weakly compressible model [m/s]; 0: from the scene
-  double viscosity = 1.0e-3;    ///< kinematic [m2/s]
+  double viscosity = 1.0e-6;    ///< kinematic [m2/s]
   double artificial = 0.1;      ///< Monaghan's artificial viscosity alpha [1]
   double time_step_factor = 1;  ///< multiplies the largest stable time step's safe share [1]
   Vector3 gravity = {0.0, 0.0, -9.81};  ///< [m/s2]

@@ -130,7 +130,10 @@ TEST(FreeBody, ThatIsNowhereIsAFault) {
 TEST(FreeBody, ComesToRestAndThenCostsNothing) {
   Device device;
   Simulation simulation(device, pond("0.2", "density: 499"), {});
-  while (simulation.seconds() < 12.0) static_cast<void>(simulation.advance());
+  // Water's own viscosity calms a pond late: here after 16 s.
+  while (simulation.seconds() < 30.0 && simulation.totals().skipped.idle == 0U) {
+    static_cast<void>(simulation.advance());
+  }
   EXPECT_GT(simulation.totals().skipped.idle, 0U);
 }
 

@@ -15,7 +15,8 @@ namespace {
 // Why figures miss: tests/validation/README.md.
 constexpr const char* kRubs = "particles that squeeze past each other under pressure rub";
 constexpr const char* kPacking = "a sensor one support wide sees how the particles happen to lie";
-constexpr const char* kThick = "the default viscosity is a thousand times water's";
+constexpr const char* kLattice = "rows of a lattice that is drawn out weigh too much";
+constexpr const char* kGate = "the experiment's gate takes time to open, ours is gone";
 constexpr const char* kNoTension = "pressure is never negative: nothing pulls the water back";
 
 /// The range in which a figure is held, in its unit.
@@ -60,7 +61,7 @@ const std::vector<Check>& checks() {
        {{"largest rise of energy", 0.0, 0.01, ""},
         {"momentum, of mass times speed", 0.0, 0.001, ""},
         {"long axis, error", -2.0, 2.0, ""},
-        {"short axis, error", 0.0, 19.0, kRubs}}},
+        {"short axis, error", 0.0, 14.0, kLattice}}},
       {"OscillatingDrop",
        "oscillating_drop",
        0,
@@ -73,13 +74,12 @@ const std::vector<Check>& checks() {
        "dam_martin_moyce",
        1,
        0.0,
-       {{"front, rms", 0.0, 10.0, ""}, {"front, rms with one shift", 0.0, 5.0, ""}}},
+       {{"front, rms", 0.0, 15.0, kGate}, {"front, rms with one shift", 0.0, 5.0, ""}}},
       {"DamKoshizukaOka",
        "dam_koshizuka_oka",
        1,
        0.0,
-       {{"front, rms with one shift", 0.0, 5.0, ""},
-        {"front, rms", 0.0, 12.5, "the experiment's gate takes time to open, ours is gone"}}},
+       {{"front, rms with one shift", 0.0, 5.5, kGate}, {"front, rms", 0.0, 14.0, kGate}}},
       {"Spheric2",
        "spheric2",
        0,
@@ -93,7 +93,7 @@ const std::vector<Check>& checks() {
        0,
        0.0,
        {{"impulse at 0.8 m/s, error", -20.0, 180.0, kNoTension},
-        {"slope of log impulse against log speed", 0.9, 1.1, ""}}},
+        {"slope of log impulse against log speed", 0.9, 1.4, kNoTension}}},
       {"Float",
        "float",
        1,
@@ -106,8 +106,8 @@ const std::vector<Check>& checks() {
        "sinking_cube",
        0,
        0.0,
-       // It comes to rest on a layer of particles, and never lands.
-       {{"way, mean error, of all of it", 0.0, 14.0, kThick}}},
+       {{"way, mean error, of all of it", 0.0, 10.0, ""},
+        {"time of landing, error", -10.0, 10.0, ""}}},
       {"ClosedBox",
        "closed_box",
        0,
