@@ -69,8 +69,8 @@ TEST_F(OpenClFault, UnwritableCacheIsNamed) {
   EXPECT_THAT(text, AllOf(HasSubstr("/dev/null/kernels"), HasSubstr("set POCL_CACHE_DIR")));
 }
 
-/// A limit on the size of files is what a full disk is to LLVM, which then calls exit(). 256 KiB are
-/// more than the kernels' text, which PoCL writes first, and less than LLVM's files.
+/// A limit on the size of files is what a full disk is to LLVM, which then calls exit(). 256 KiB
+/// are more than the kernels' text, which PoCL writes first, and less than LLVM's files.
 TEST_F(OpenClFault, FullDiskWhileCompilingIsSaid) {
   Arguments shell{"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 512; exec \"$0\" \"$@\""};
   const Arguments program = command("sim-server", arguments());
