@@ -15,10 +15,10 @@ namespace {
 
 using namespace splash::sim;
 
-constexpr double kSettled = 4.0;   ///< until then all but the stirrer's corner sleeps [s]
+constexpr double kSettled = 8.0;   ///< until then all but the stirrer's corner sleeps [s]
 constexpr double kMeasured = 4.0;  ///< whole turns of the stirrer [s]
 constexpr double kTurn = 2.0;      ///< the paddle goes there and back [s]
-constexpr double kWay = 0.02;      ///< that far [m]
+constexpr double kWay = 0.01;      ///< that far [m]
 
 /// A paddle that goes to and fro in the corner, slowly.
 Scene stirred(int particles) {
