@@ -72,9 +72,12 @@ struct RtAudioOutput::Stream {
   }
 
   /// Always 0: any other answer makes RtAudio start a thread from within the callback. When its
-  /// server dies, libjack cancels the thread wherever it is: not in the middle of our block.
-  static int called(void* output, void* /*input*/, unsigned int frames, double /*stream_time*/,
-                    RtAudioStreamStatus status, void* context) {
+  /// server dies, libjack cancels the thread wherever it is: not in the middle of our block. Where
+  /// it still can, here, C++ must have nothing to clean up, or a cancellation between two calls
+  /// ends the program: so nothing is inlined, and ThreadSanitizer, which cleans up, left out.
+  [[gnu::no_sanitize_thread]] static int called(void* output, void* /*input*/, unsigned int frames,
+                                                double /*stream_time*/, RtAudioStreamStatus status,
+                                                void* context) {
     int before = PTHREAD_CANCEL_ENABLE;
     pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before);
     static_cast<Stream*>(context)->fill(static_cast<float*>(output), frames, status);
@@ -82,7 +85,8 @@ struct RtAudioOutput::Stream {
     return 0;
   }
 
-  void fill(float* output, unsigned int count, RtAudioStreamStatus status) noexcept {
+  [[gnu::noinline]] void fill(float* output, unsigned int count,
+                              RtAudioStreamStatus status) noexcept {
     const double time = protocol::monotonic_now();
     if (policy == kNotSeen) note_scheduling();
     rendering = true;
