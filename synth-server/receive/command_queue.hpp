@@ -29,6 +29,9 @@ struct Command {
 /// Ten blocks of 20 ms at the 40 000 events per second that fill a datagram per frame; one producer
 /// (the receiver), one consumer (the audio callback).
 inline constexpr std::size_t kCommandCapacity = 8192;
+/// Of these, places that events leave for all other commands: a flood that nothing takes away, as
+/// when the device hangs, must not swallow a /mute.
+inline constexpr std::size_t kKeptPlaces = 256;
 using CommandQueue =
     boost::lockfree::spsc_queue<Command, boost::lockfree::capacity<kCommandCapacity>>;
 

@@ -115,13 +115,14 @@ void Intake::play(const protocol::Event& event, const Timing& timing) {
   const double offset = offset_seconds(event);
   const Command command{Command::Kind::play,        event,          timing.moment + offset,
                         timing.by_arrival + offset, timing.at_once, offset};
-  ++(queue_.push(command) ? counters_.events : counters_.queue_full);
+  const bool taken = queue_.write_available() > kKeptPlaces && queue_.push(command);
+  ++(taken ? counters_.events : counters_.queue_full);
 }
 
 void Intake::push(Command::Kind kind) {
   Command command;
   command.kind = kind;
-  // A full queue means that nothing has been rendered for a while: there is nothing to silence.
+  // Full in spite of kKeptPlaces: nothing was rendered for long, nothing is there to silence.
   (void)queue_.push(command);
 }
 

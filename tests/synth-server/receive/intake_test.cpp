@@ -146,6 +146,19 @@ TEST_F(IntakeTest, SilencesWhenTheSenderIsGoneAndResumes) {
   EXPECT_EQ(intake_.counters().departures, 1U);
 }
 
+TEST_F(IntakeTest, AFloodThatNobodyTakesLeavesRoomForSilence) {
+  send(protocol::encode(tag(now_), {frame(1, 0), bubble(0)}));
+  for (std::size_t id = 1; id < 2 * kCommandCapacity; ++id) {
+    send(protocol::encode({bubble(static_cast<int>(id))}));
+  }
+  EXPECT_GT(intake_.counters().queue_full, kCommandCapacity - kKeptPlaces);
+  now_ += 10.0;
+  intake_.tick(now_);
+  const auto seen = commands();
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.back().kind, Command::Kind::silence) << "the last sender is gone";
+}
+
 TEST_F(IntakeTest, UnframedSendersAreNotWatched) {
   send(protocol::encode(bubble(1)));
   now_ += 10.0;
