@@ -28,9 +28,11 @@ using tests::rig_path;
 constexpr int kChannels = 36;
 /// The dummy driver has no interrupt, only sleep: a long period makes it steady [frames].
 constexpr int kPeriod = 1024;
+/// On a busy machine one this long is seldom late.
+constexpr int kLongPeriod = 8192;
 constexpr double kOpening = 2.2;  ///< the engine opens slowly at its start [s]
 constexpr double kTake = 2.5;     ///< [s]
-constexpr int kMostTakes = 15;
+constexpr int kMostTakes = 8;
 
 void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -97,14 +99,21 @@ float loudest_of(const std::vector<std::vector<float>>& channels) {
   return loudest;
 }
 
-TEST(LiveJack, PlaysEachChannelAsTheOfflineRendering) {
-  const JackServer server(server_name("channels"), kChannels, kPeriod);
+/// The first take in which no samples are missing; empty without any.
+std::vector<std::vector<float>> whole_take(int period) {
+  const JackServer server(server_name("channels"), kChannels, period);
   tests::Synth synth(arguments());
   EXPECT_THAT(synth.process().output(),
               testing::HasSubstr("output: jack device 'system', 36 channels at 48000 Hz"));
   sleep(kOpening);
   std::vector<std::vector<float>> live;
   for (int i = 0; i < kMostTakes && live.empty(); ++i) live = take(synth);
+  return live;
+}
+
+TEST(LiveJack, PlaysEachChannelAsTheOfflineRendering) {
+  std::vector<std::vector<float>> live = whole_take(kPeriod);
+  if (live.empty()) live = whole_take(kLongPeriod);
   ASSERT_FALSE(live.empty()) << "each take had xruns: the machine is too busy to record";
 
   const auto offline = rendered_offline();
@@ -169,7 +178,8 @@ TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
   EXPECT_GT(heard, 0.01F);
   synth.process().signal(SIGTERM);
   EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
-  EXPECT_THAT(synth.process().output(), testing::HasSubstr("1 device losses"));
+  // A machine that stands still for half a second is another loss.
+  EXPECT_THAT(synth.process().output(), testing::ContainsRegex(", [1-9][0-9]* device losses"));
 }
 
 }  // namespace
