@@ -19,21 +19,23 @@ using tests::rig_path;
 constexpr std::size_t kHeard = 9600;  ///< 0.2 s
 constexpr double kPatience = 40.0;    ///< [s]
 constexpr int kTries = 40;
+constexpr float kTone = 0.09F;     ///< the tone's amplitude [full scale]
+constexpr float kAround = 0.005F;  ///< what is heard of it may differ by so much
 
 tests::Arguments tone(const std::string& rig, const std::string& api, const std::string& channel) {
   return tests::command("synth-server",
                         {"--rig", rig_path(rig), "--api", api, "--test-tone", channel});
 }
 
-/// Plays the tone again and again until the sink hears it: it lasts a second, and Pulse may be
-/// slow.
+/// Plays the tone again and again until the sink hears all of its level: it lasts a second, begins
+/// and ends softly, and Pulse may be slow.
 std::vector<std::vector<float>> heard(const PulseServer& pulse, const tests::Arguments& command,
                                       std::string& output) {
   std::vector<std::vector<float>> channels;
   float loudest = 0.0F;
-  for (int k = 0; k < kTries && loudest < 0.05F; ++k) {
+  for (int k = 0; k < kTries && loudest < kTone - kAround; ++k) {
     tests::ChildProcess program(command);
-    for (int look = 0; look < 4 && loudest < 0.05F && program.running(); ++look) {
+    for (int look = 0; look < 4 && loudest < kTone - kAround && program.running(); ++look) {
       channels = pulse.listen(kHeard);
       loudest = 0.0F;
       for (const auto& channel : channels) loudest = std::max(loudest, peak(channel));
@@ -50,7 +52,7 @@ TEST(Pulse, PlaysEachToneOnItsChannel) {
   const auto channels = heard(pulse, tone("shoes.yaml", "pulse", "3"), output);
   EXPECT_THAT(output, testing::HasSubstr("output: pulse device 'Null Output', 4 channels"));
   ASSERT_EQ(channels.size(), 4U);
-  EXPECT_NEAR(peak(channels[2]), 0.09F, 0.005F) << output;
+  EXPECT_NEAR(peak(channels[2]), kTone, kAround) << output;
   for (const std::size_t c : {0U, 1U, 3U}) EXPECT_LT(peak(channels[c]), 1e-4F) << c;
 }
 
@@ -63,7 +65,7 @@ TEST(Alsa, PlaysThroughItsDefaultDevice) {
                   testing::HasSubstr("output: alsa device 'default', 2 channels"),
                   testing::HasSubstr("output: alsa device 'Default ALSA Device', 2 channels")));
   ASSERT_EQ(channels.size(), 2U);
-  EXPECT_NEAR(peak(channels[0]), 0.09F, 0.005F) << output;
+  EXPECT_NEAR(peak(channels[0]), kTone, kAround) << output;
   EXPECT_LT(peak(channels[1]), 1e-3F);
 }
 
