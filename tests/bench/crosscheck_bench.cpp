@@ -2,6 +2,7 @@
 // The three engines on the same logs: what of the difference to synth-server's own rendering falls
 // into which band, for scsynth (non-real-time) and for Pd (offline). Prints a table; with a
 // folder's name, also writes crosscheck.csv and the chart crosscheck.png.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -141,10 +142,15 @@ void draw(const std::vector<Comparison>& all, const std::filesystem::path& folde
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::filesystem::path folder;
+  CLI::App app("Renders logs with synth-server, scsynth and Pd and compares them.",
+               "bench-crosscheck");
+  app.add_option("folder", folder, "Where tables and charts go");
+  CLI11_PARSE(app, argc, argv);
   try {
     const auto all = compare_all();
     print(all);
-    if (argc > 1) draw(all, argv[1]);
+    if (!folder.empty()) draw(all, folder);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "bench-crosscheck: " << error.what() << '\n';
