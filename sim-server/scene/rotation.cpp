@@ -5,26 +5,6 @@
 
 namespace splash::sim {
 
-Vector3 operator+(const Vector3& a, const Vector3& b) noexcept {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-Vector3 operator-(const Vector3& a, const Vector3& b) noexcept {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vector3 operator*(double factor, const Vector3& a) noexcept {
-  return {factor * a[0], factor * a[1], factor * a[2]};
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) noexcept {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector3& a, const Vector3& b) noexcept {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double length(const Vector3& a) noexcept {
   return std::hypot(a[0], a[1], a[2]);
 }

@@ -6,11 +6,26 @@
 
 namespace splash::sim {
 
-[[nodiscard]] Vector3 operator+(const Vector3& a, const Vector3& b) noexcept;
-[[nodiscard]] Vector3 operator-(const Vector3& a, const Vector3& b) noexcept;
-[[nodiscard]] Vector3 operator*(double factor, const Vector3& a) noexcept;
-[[nodiscard]] Vector3 cross(const Vector3& a, const Vector3& b) noexcept;
-[[nodiscard]] double dot(const Vector3& a, const Vector3& b) noexcept;
+[[nodiscard]] inline Vector3 operator+(const Vector3& a, const Vector3& b) noexcept {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+[[nodiscard]] inline Vector3 operator-(const Vector3& a, const Vector3& b) noexcept {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+[[nodiscard]] inline Vector3 operator*(double factor, const Vector3& a) noexcept {
+  return {factor * a[0], factor * a[1], factor * a[2]};
+}
+
+[[nodiscard]] inline Vector3 cross(const Vector3& a, const Vector3& b) noexcept {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+[[nodiscard]] inline double dot(const Vector3& a, const Vector3& b) noexcept {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 [[nodiscard]] double length(const Vector3& a) noexcept;
 
 /// First `b`, then `a`.
