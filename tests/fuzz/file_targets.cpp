@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that people write or are sent: event logs, scenes, rigs.
+// Files that people write or are sent: event logs, scenes, rigs, meshes.
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -7,6 +7,11 @@
 
 #include "protocol/config.hpp"
 #include "protocol/event_log.hpp"
+#include "sim-server/scene/mesh/mesh_distance.hpp"
+#include "sim-server/scene/mesh/mesh_file.hpp"
+#include "sim-server/scene/mesh/mesh_mass.hpp"
+#include "sim-server/scene/mesh/soundness.hpp"
+#include "sim-server/scene/mesh/stl_format.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "synth-server/output/rig_reader.hpp"
@@ -82,6 +87,26 @@ bool try_scene(Bytes input) {
     promise(positive(sim::particle_spacing(scene)), "a spacing that is none");
     promise(positive(sim::water_volume(scene)), "a volume of water that is none");
     promise(positive(sim::scene_sound_speed(scene)), "a speed of sound that is none");
+  });
+}
+
+bool try_mesh(Bytes input) {
+  const std::string bytes = text_of(input);
+  const bool stl = sim::is_binary_stl(bytes) || bytes.starts_with("solid");
+  const std::string file = stl ? "fuzzed.stl" : "fuzzed.obj";
+  return reads(file, [&] {
+    const sim::TriangleMesh mesh = sim::parse_mesh(bytes, file, 0.1);
+    sim::check_soundness(mesh);
+    const sim::MeshMass mass = sim::mesh_mass(mesh);
+    promise(positive(mass.volume), "a volume that is none");
+    for (std::size_t k = 0; k < 3; ++k) {
+      promise(std::isfinite(mass.centre[k]), "a centre that is nowhere");
+      promise(positive(mass.inertia[k]), "a moment of inertia that is none");
+    }
+    const sim::MeshDistance distance(mesh);
+    for (const sim::Vector3& place : mesh.vertices) {
+      promise(std::abs(distance.nearest(place).distance) < 1.0e-6, "a vertex off its surface");
+    }
   });
 }
 

@@ -134,7 +134,7 @@ std::string name_of(const testing::TestParamInfo<std::string>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Readers, Fuzz,
-                         testing::Values("gate", "packet", "intake", "log", "scene", "rig"),
+                         testing::Values("gate", "packet", "intake", "log", "scene", "rig", "mesh"),
                          name_of);
 
 }  // namespace

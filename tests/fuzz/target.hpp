@@ -35,6 +35,7 @@ bool try_intake(Bytes input);  ///< datagrams in a row through the synth's whole
 bool try_log(Bytes input);     ///< event logs
 bool try_scene(Bytes input);   ///< scene files
 bool try_rig(Bytes input);     ///< rig files
+bool try_mesh(Bytes input);    ///< triangle meshes, of either format
 
 struct Target {
   std::string name;

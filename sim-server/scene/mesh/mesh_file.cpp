@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/mesh/mesh_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+
+#include "sim-server/scene/mesh/mesh_text.hpp"
+#include "sim-server/scene/mesh/obj_format.hpp"
+#include "sim-server/scene/mesh/stl_format.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 16U << 20U;  // bytes
+
+std::string ending_of(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+TriangleMesh parse(const std::string& bytes, const std::string& file, double scale) {
+  const std::string ending = ending_of(file);
+  if (ending == ".stl" && is_binary_stl(bytes)) return parse_binary_stl(bytes, file, scale);
+  if (ending == ".obj") return parse_obj(MeshText(bytes, file, scale));
+  if (ending != ".stl") {
+    throw protocol::ConfigError({.file = file}, "a mesh's file ends in .obj or .stl");
+  }
+  if (!bytes.starts_with("solid")) {
+    throw protocol::ConfigError(
+        {.file = file},
+        "is no STL file: it neither begins with 'solid' nor is it as long as a binary one's count "
+        "of triangles says; it may have been cut off");
+  }
+  return parse_stl(MeshText(bytes, file, scale));
+}
+
+}  // namespace
+
+TriangleMesh parse_mesh(const std::string& bytes, const std::string& file, double scale) {
+  TriangleMesh mesh = parse(bytes, file, scale);
+  mesh.file = file;
+  if (mesh.triangles.empty()) {
+    throw protocol::ConfigError({.file = file}, "has no triangles");
+  }
+  join_equal_vertices(mesh);
+  return mesh;
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path, double scale) {
+  const protocol::Place place{.file = path.string()};
+  std::error_code failure;
+  const std::uintmax_t size = std::filesystem::file_size(path, failure);
+  if (failure) throw protocol::ConfigError(place, "cannot be read: " + failure.message());
+  if (size > kLargestFile) throw protocol::ConfigError(place, "is larger than 16 MB");
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) throw protocol::ConfigError(place, "cannot be read");
+  return parse_mesh(bytes, path.string(), scale);
+}
+
+}  // namespace splash::sim
