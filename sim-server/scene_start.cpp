@@ -48,7 +48,7 @@ Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
   const std::vector<Vector3> particles = particles_around(scene, bodies);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
   return {device,   make_params(sounding, particles), settled(sounding, particles),
-          boundary, body_shapes(scene.bodies),        {false, !scene.skip.kernels}};
+          boundary, body_outlines(scene.bodies),      {false, !scene.skip.kernels}};
 }
 
 double start_flow(Fluid& fluid, const Scene& scene) {

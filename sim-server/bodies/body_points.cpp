@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/scene/mesh/mesh_solid.hpp"
+#include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
@@ -34,6 +36,12 @@ double along(const Lattice& lattice, std::size_t axis, int k, double size) {
   return (k + 0.5) * lattice.step[axis] - size / 2.0;
 }
 
+/// Of the box around a shape, in its own axes [m].
+Vector3 middle_of(const Shape& shape) {
+  if (shape.kind != ShapeKind::mesh) return {0.0, 0.0, 0.0};
+  return 0.5 * (shape.mesh->lower + shape.mesh->upper);
+}
+
 double distance(const Vector3& a, const Vector3& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
@@ -58,6 +66,7 @@ Vector3 carried_to_skin(const Shape& shape, const Lattice& lattice, const Vector
   const double ry = shape.size[1] / 2.0;
   const double rz = shape.size[2] / 2.0;
   const double across = std::hypot(place[0] / rx, place[1] / ry);
+  if (shape.kind == ShapeKind::mesh) return shape.mesh->distance.nearest(place).place;
   if (shape.kind == ShapeKind::box) return carried_to_face(shape, lattice, place, layer);
   if (shape.kind == ShapeKind::cylinder) {
     const bool at_rim = (1.0 - across) * rx < lattice.step[0];
@@ -80,10 +89,47 @@ void mark_surface(std::vector<BodyPoint>& points, double support) {
   }
 }
 
+/// Carries the nearest point of the surface to each of these places, to the farthest of several.
+void carry_to(const std::vector<Vector3>& places, double spacing, std::vector<BodyPoint>& points) {
+  std::vector<double> carried(points.size(), 0.0);
+  for (const Vector3& place : places) {
+    double least = 2.0 * spacing;
+    std::size_t nearest = points.size();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!points[i].surface) continue;
+      const double off = distance(points[i].place, place);
+      if (off >= least) continue;
+      least = off;
+      nearest = i;
+    }
+    if (nearest == points.size() || least < carried[nearest]) continue;
+    carried[nearest] = least;
+    points[nearest].skin = place;
+  }
+}
+
+/// Edges and tips of a mesh meet the water first, and lie between the lattice's points; tips, first
+/// of all.
+void carry_to_ridges(const Shape& shape, double spacing, std::vector<BodyPoint>& points) {
+  carry_to(shape.mesh->ridges.edges, spacing, points);
+  carry_to(shape.mesh->ridges.tips, spacing, points);
+}
+
+/// A mesh between whose faces no point of the lattice lies has one where it is thickest.
+void add_deepest(const Shape& shape, int owner, std::vector<BodyPoint>& points) {
+  if (!points.empty() || shape.kind != ShapeKind::mesh) return;
+  BodyPoint point;
+  point.place = shape.mesh->deepest;
+  point.skin = shape.mesh->distance.nearest(point.place).place;
+  point.owner = owner;
+  points.push_back(point);
+}
+
 }  // namespace
 
 std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing, double support) {
   const Lattice lattice = fit_lattice(shape.size, spacing);
+  const Vector3 middle = middle_of(shape);
   std::vector<BodyPoint> points;
   for (int kz = 0; kz < lattice.count[2]; ++kz) {
     for (int ky = 0; ky < lattice.count[1]; ++ky) {
@@ -91,6 +137,7 @@ std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacin
         BodyPoint point;
         point.place = {along(lattice, 0, kx, shape.size[0]), along(lattice, 1, ky, shape.size[1]),
                        along(lattice, 2, kz, shape.size[2])};
+        if (shape.kind == ShapeKind::mesh) point.place = point.place + middle;
         // A curved sole squeezes the layers instead of cutting them off.
         const double rise = rocker_rise(shape, point.place[0]);
         const double height = point.place[2] + shape.size[2] / 2.0;
@@ -102,10 +149,12 @@ std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacin
       }
     }
   }
+  add_deepest(shape, owner, points);
   for (BodyPoint& point : points) {
     point.volume = volume_of(shape) / static_cast<double>(points.size());
   }
   mark_surface(points, support);
+  if (shape.kind == ShapeKind::mesh) carry_to_ridges(shape, spacing, points);
   return points;
 }
 

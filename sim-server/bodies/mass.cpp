@@ -18,11 +18,14 @@ std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies) {
     if (!is_free(body)) continue;
     const double mass = mass_of(body);
     const Vector3 inertia = inertia_of(body.shape, mass);
+    const Quaternion axes = principal_axes(body.shape);
     all.push_back({static_cast<int>(b), static_cast<float>(mass), static_cast<float>(inertia[0]),
                    static_cast<float>(inertia[1]), static_cast<float>(inertia[2]),
                    static_cast<float>(length(body.shape.size) / 2.0),
                    static_cast<float>(body.motion.restitution),
-                   static_cast<float>(body.motion.friction)});
+                   static_cast<float>(body.motion.friction), static_cast<float>(axes[0]),
+                   static_cast<float>(axes[1]), static_cast<float>(axes[2]),
+                   static_cast<float>(axes[3])});
   }
   return all;
 }

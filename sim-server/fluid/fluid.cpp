@@ -14,7 +14,7 @@ namespace {
 
 static_assert(sizeof(FluidParams) == 37 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 20 * sizeof(float));
-static_assert(sizeof(BodyShape) == 7 * sizeof(float));
+static_assert(sizeof(BodyShape) == 17 * sizeof(float));
 
 static_assert(sizeof(SurveyPart) == 56);
 
@@ -28,17 +28,17 @@ float as_float(double value) {
 }  // namespace
 
 Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
-             const std::vector<BoundaryPoint>& boundary, const std::vector<BodyShape>& shapes,
+             const std::vector<BoundaryPoint>& boundary, const Outlines& outlines,
              const KernelBuild& build)
     : device_(device),
       params_(params),
       build_(build),
-      parts_(build.whole ? KernelParts{} : parts_needed(params, static_cast<int>(shapes.size()))),
-      body_count_(static_cast<int>(shapes.size())) {
+      parts_(build.whole ? KernelParts{} : parts_needed(params, outlines.shapes)),
+      body_count_(static_cast<int>(outlines.shapes.size())) {
   load_particles(particles);
   params_.capacity = sorted_.stride;
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
-  load_boundary(boundary, shapes);
+  load_boundary(boundary, outlines);
   build_kernels();
   solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_), build.relaxed);
 }
@@ -67,8 +67,7 @@ void Fluid::load_particles(const std::vector<Vector3>& particles) {
   body_images_ = Buffer<float>(device_, body_count_ > 0 ? 5 * stride + kReadAhead : 1);
 }
 
-void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
-                          const std::vector<BodyShape>& shapes) {
+void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines) {
   boundary_count_ = static_cast<int>(boundary.size());
   body_points_ = PointArrays(device_, boundary.size());
   body_sorted_ = PointArrays(device_, boundary.size());
@@ -92,7 +91,8 @@ void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary,
   body_sample_volume_ = Buffer<float>(device_, volume);
   body_points_.id.write(device_, ids);
   body_volume_ = Buffer<float>(device_, stride + kReadAhead);
-  body_shapes_ = Buffer<BodyShape>(device_, shapes);
+  body_shapes_ = Buffer<BodyShape>(device_, outlines.shapes);
+  meshes_ = Buffer<float>(device_, outlines.meshes);
 }
 
 void Fluid::build_kernels() {
@@ -130,7 +130,7 @@ void Fluid::let_go(const std::vector<FreeBody>& bodies) {
   std::vector<BodyShape> shapes = body_shapes_.read(device_, static_cast<std::size_t>(body_count_));
   for (const FreeBody& body : bodies) shapes[static_cast<std::size_t>(body.body)].free = 1;
   body_shapes_.write(device_, shapes);
-  free_ = std::make_unique<FreeBodies>(device_, params_, bodies);
+  free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies);
 }
 
 void Fluid::prepare(const Step& step) {
@@ -148,7 +148,7 @@ void Fluid::advance(const Step& step) {
   if (watched_) {
     health_.look(device_,
                  {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
-                  body_shapes_, body_steps_, body_count_},
+                  body_shapes_, meshes_, body_steps_, body_count_},
                  step);
   }
 }
@@ -215,9 +215,9 @@ void Fluid::compute_density(const Step& step) {
       device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
       grid_.source(), density_before_.memory(), water_density_before_.memory(),
       sorted_.position.memory(), body_grid_.cell_start(), body_sorted_.position.memory(),
-      body_volume_.memory(), body_sorted_.stride, body_shapes_.memory(), body_steps_.memory(),
-      step.first_body, body_count_, as_float(step.piston), body_images_.memory(), density_.memory(),
-      water_density_.memory(), pressure_term_.memory());
+      body_volume_.memory(), body_sorted_.stride, body_shapes_.memory(), meshes_.memory(),
+      body_steps_.memory(), step.first_body, body_count_, as_float(step.piston),
+      body_images_.memory(), density_.memory(), water_density_.memory(), pressure_term_.memory());
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
@@ -232,8 +232,9 @@ void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity
 void Fluid::integrate(const Step& step) {
   integrate_.run(device_.queue(), groups(), params_buffer_.memory(), as_float(step.dt),
                  as_float(step.piston), as_float(step.piston_speed), body_shapes_.memory(),
-                 body_steps_.memory(), step.first_body, body_count_, acceleration_.memory(),
-                 sorted_.position.memory(), sorted_.velocity.memory(), moving_.memory());
+                 meshes_.memory(), body_steps_.memory(), step.first_body, body_count_,
+                 acceleration_.memory(), sorted_.position.memory(), sorted_.velocity.memory(),
+                 moving_.memory());
 }
 
 void Fluid::still() {

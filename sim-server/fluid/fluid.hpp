@@ -12,6 +12,7 @@
 #include "sim-server/fluid/free_bodies.hpp"
 #include "sim-server/fluid/health.hpp"
 #include "sim-server/fluid/neighbour_grid.hpp"
+#include "sim-server/fluid/outlines.hpp"
 #include "sim-server/fluid/parts.hpp"
 #include "sim-server/fluid/pressure_solver.hpp"
 #include "sim-server/fluid/sleep.hpp"
@@ -66,11 +67,11 @@ struct Snapshot {
 /// for it.
 class Fluid {
  public:
-  /// `particles`: initial places [m]; `boundary`: points of the rigid bodies, `shapes`: their
-  /// outlines, which nothing is caught in.
+  /// `particles`: initial places [m]; `boundary`: points of the rigid bodies, `outlines`: theirs,
+  /// which nothing is caught in.
   /// `build`: how its kernels are built.
   Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
-        const std::vector<BoundaryPoint>& boundary, const std::vector<BodyShape>& shapes,
+        const std::vector<BoundaryPoint>& boundary, const Outlines& outlines,
         const KernelBuild& build = {});
 
   /// Bodies of all steps of the coming frame, step after step.
@@ -149,14 +150,15 @@ class Fluid {
   [[nodiscard]] const Buffer<float>& boundary_volume() const noexcept { return body_volume_; }
   [[nodiscard]] const Buffer<BodyStep>& body_steps() const noexcept { return body_steps_; }
   [[nodiscard]] const Buffer<BodyShape>& body_shapes() const noexcept { return body_shapes_; }
+  /// Numbers of those that are meshes.
+  [[nodiscard]] const Buffer<float>& meshes() const noexcept { return meshes_; }
   [[nodiscard]] const Buffer<int>& boundary_owner() const noexcept { return body_owner_; }
   [[nodiscard]] int boundary_count() const noexcept { return boundary_count_; }
   [[nodiscard]] int body_count() const noexcept { return body_count_; }
 
  private:
   void load_particles(const std::vector<Vector3>& particles);
-  void load_boundary(const std::vector<BoundaryPoint>& boundary,
-                     const std::vector<BodyShape>& shapes);
+  void load_boundary(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines);
   void build_kernels();
   void place_bodies(const Step& step);
   void wake_and_sleep(const Step& step);
@@ -191,6 +193,7 @@ class Fluid {
   Buffer<int> body_owner_;
   Buffer<float> body_sample_volume_;
   Buffer<BodyShape> body_shapes_;
+  Buffer<float> meshes_;
   Buffer<BodyStep> body_steps_;
   std::vector<BodyStep> uploaded_steps_;  ///< kept until the queue has read them
   PointArrays body_points_;

@@ -81,17 +81,25 @@ typedef struct {
 #define SPLASH_BOX 0
 #define SPLASH_SPHERE 1
 #define SPLASH_CYLINDER 2
+#define SPLASH_MESH 3
 
 // The outline of a body in its own axes.
 typedef struct {
-  int kind;                      // SPLASH_BOX, SPLASH_SPHERE or SPLASH_CYLINDER (along z)
-  float half_x, half_y, half_z;  // [m]
+  int kind;                      // SPLASH_BOX, SPLASH_SPHERE, SPLASH_CYLINDER (along z) or _MESH
+  float half_x, half_y, half_z;  // how far it reaches from its origin, either way [m]
   float rocker;                  // the sole of a box curves up at both x ends by this [m]
   float flat;                    // share of its length, in the middle, that does not curve [1]
   int free;                      // 1: the water moves it (kernels/body_*.cl), 0: it goes its way
+  // Of a mesh only: its distance on a grid and its vertices, among the numbers of all meshes.
+  int field;                     // where its distances begin, x fastest [m]
+  int nodes_x, nodes_y, nodes_z;
+  float lower_x, lower_y, lower_z;  // first node [m]
+  float cell;                    // between nodes [m]
+  int vertices;                  // where they begin, x y z of each [m]
+  int vertex_count;
 } BodyShape;
 
-// A body that the water moves. Its centre is that of its mass, its own axes are principal ones.
+// A body that the water moves. Its centre is that of its mass.
 typedef struct {
   int body;           // number among all bodies
   float mass;         // [kg]
@@ -99,6 +107,7 @@ typedef struct {
   float size;         // lever by which spins are made speeds: all unknowns of one unit [m]
   float restitution;  // of its speed, after a knock against a wall or another body [1]
   float friction;     // on those, Coulomb [1]
+  float ax, ay, az, aw;  // its own axes to the principal ones, of which the moments are
 } FreeBody;
 
 // Fields of what a particle and a free body in its reach do to each other (kernels/body_reach.h).

@@ -7,7 +7,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FreeBody) == 8 * sizeof(float));
+static_assert(sizeof(FreeBody) == 12 * sizeof(float));
 
 float as_float(double value) {
   return static_cast<float>(value);
@@ -16,7 +16,7 @@ float as_float(double value) {
 }  // namespace
 
 FreeBodies::FreeBodies(Device& device, const FluidParams& params,
-                       const std::vector<FreeBody>& bodies)
+                       const std::vector<std::string>& defines, const std::vector<FreeBody>& bodies)
     : list_(bodies),
       count_(static_cast<int>(bodies.size())),
       groups_(
@@ -34,7 +34,7 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       force_(device, 6 * bodies.size()),
       no_solve_(device, 1),
       force_read_(6 * bodies.size()) {
-  const cl::Program program = build_program(device, free_body_sources(), {}, false);
+  const cl::Program program = build_program(device, free_body_sources(), defines, false);
   const std::size_t group = device.lanes() > 1 ? 4 : 64;
   reach_bodies_ = Kernel(program, "reach_bodies", group);
   weigh_water_ = Kernel(program, "weigh_water", group);
@@ -93,18 +93,19 @@ void FreeBodies::move(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
   const cl::Buffer& shapes = fluid.body_shapes().memory();
+  const cl::Buffer& meshes = fluid.meshes().memory();
   const PointArrays& particles = fluid.particles();
   const auto piston = as_float(step.piston);
   const auto speed = as_float(step.piston_speed);
   keep_out_of_free_.run(queue, groups_, params, as_float(step.dt), piston, speed, count_,
-                        bodies_.memory(), shapes, fluid.body_steps().memory(), step.first_body,
-                        fluid.particles_before().position.memory(), fluid.grid().source(),
-                        particles.position.memory(), particles.velocity.memory(), reach_.memory(),
-                        reached_.memory());
+                        bodies_.memory(), shapes, meshes, fluid.body_steps().memory(),
+                        step.first_body, fluid.particles_before().position.memory(),
+                        fluid.grid().source(), particles.position.memory(),
+                        particles.velocity.memory(), reach_.memory(), reached_.memory());
   answer(fluid, step,
          {.pressure = &fluid.pressure_term(), .rubbing = 1.0, .velocity = &particles.velocity});
   move_bodies_.run(queue, 1, params, as_float(step.dt), piston, speed, count_, bodies_.memory(),
-                   shapes, step.first_body, fluid.body_count(), fluid.body_steps().memory(),
+                   shapes, meshes, step.first_body, fluid.body_count(), fluid.body_steps().memory(),
                    contacts_.memory(), kept_pushes_.memory(), felt_.memory(), force_.memory());
   next_ = static_cast<std::size_t>(step.first_body) + static_cast<std::size_t>(fluid.body_count());
 }

@@ -4,6 +4,7 @@
 // known on the device alone until the frame ends.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
@@ -26,8 +27,9 @@ struct FreeBodyEnd {
 
 class FreeBodies {
  public:
-  /// `bodies`: at least one.
-  FreeBodies(Device& device, const FluidParams& params, const std::vector<FreeBody>& bodies);
+  /// `defines`: that its kernels are built with (parts.hpp); `bodies`: at least one.
+  FreeBodies(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+             const std::vector<FreeBody>& bodies);
 
   /// Finds who is in reach of the bodies, and what they do to each other at these velocities;
   /// `response`: of densities to pressures (kernels/pressure_response.cl), the density otherwise.

@@ -133,7 +133,8 @@ void Health::look(Device& device, const Patient& patient, const Step& step) {
              patient.acceleration.memory(), patient.density.memory(), patient.now.id.memory(),
              patient.before.position.memory(), patient.before.velocity.memory(),
              patient.before.id.memory(), patient.source, patient.shapes.memory(),
-             patient.bodies.memory(), step.first_body, patient.body_count, slot, records_.memory());
+             patient.meshes.memory(), patient.bodies.memory(), step.first_body, patient.body_count,
+             slot, records_.memory());
 }
 
 void Health::enqueue_read(Device& device) {

@@ -86,6 +86,7 @@ struct Patient {
   const Buffer<float>& density;
   const cl::Buffer& source;  ///< where each particle was among those before
   const Buffer<BodyShape>& shapes;
+  const Buffer<float>& meshes;
   const Buffer<BodyStep>& bodies;
   int body_count = 0;
 };

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/fluid/parts.hpp"
 
+#include <algorithm>
+
 #include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 
 int KernelParts::left_out() const noexcept {
-  return 4 - (int{bodies} + int{slope} + int{piston} + int{friction});
+  return 5 - (int{bodies} + int{slope} + int{piston} + int{friction} + int{mesh});
 }
 
-KernelParts parts_needed(const FluidParams& params, int body_count) {
-  return {body_count > 0, params.slope >= 0, params.piston >= 0,
-          params.viscous != 0.0F || params.artificial != 0.0F};
+KernelParts parts_needed(const FluidParams& params, const std::vector<BodyShape>& shapes) {
+  return {!shapes.empty(), params.slope >= 0, params.piston >= 0,
+          params.viscous != 0.0F || params.artificial != 0.0F,
+          std::any_of(shapes.begin(), shapes.end(),
+                      [](const BodyShape& shape) { return shape.kind == SPLASH_MESH; })};
 }
 
 std::vector<std::string> kernel_defines(const KernelParts& parts) {
@@ -21,6 +25,7 @@ std::vector<std::string> kernel_defines(const KernelParts& parts) {
   if (!parts.slope) defines.emplace_back("HAS_SLOPE=0");
   if (!parts.piston) defines.emplace_back("HAS_PISTON=0");
   if (!parts.friction) defines.emplace_back("HAS_FRICTION=0");
+  if (!parts.mesh) defines.emplace_back("HAS_MESH=0");
   return defines;
 }
 

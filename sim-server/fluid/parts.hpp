@@ -15,12 +15,14 @@ struct KernelParts {
   bool slope = true;
   bool piston = true;
   bool friction = true;  ///< either viscosity
+  bool mesh = true;      ///< a body that is one
 
   /// How many a program is built without.
   [[nodiscard]] int left_out() const noexcept;
 };
 
-[[nodiscard]] KernelParts parts_needed(const FluidParams& params, int body_count);
+[[nodiscard]] KernelParts parts_needed(const FluidParams& params,
+                                       const std::vector<BodyShape>& shapes);
 
 /// What programs with these parts are built with.
 [[nodiscard]] std::vector<std::string> kernel_defines(const KernelParts& parts);

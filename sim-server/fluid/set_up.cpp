@@ -142,20 +142,6 @@ std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles)
   return particles;
 }
 
-std::vector<BodyShape> body_shapes(const std::vector<BodySettings>& bodies) {
-  static_assert(SPLASH_BOX == static_cast<int>(ShapeKind::box) &&
-                SPLASH_SPHERE == static_cast<int>(ShapeKind::sphere) &&
-                SPLASH_CYLINDER == static_cast<int>(ShapeKind::cylinder));
-  std::vector<BodyShape> shapes;
-  for (const BodySettings& body : bodies) {
-    const Shape& s = body.shape;
-    shapes.push_back({static_cast<int>(s.kind), static_cast<float>(s.size[0] / 2.0),
-                      static_cast<float>(s.size[1] / 2.0), static_cast<float>(s.size[2] / 2.0),
-                      static_cast<float>(s.rocker), static_cast<float>(s.flat), 0});
-  }
-  return shapes;
-}
-
 FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles) {
   const double spacing = particle_spacing(scene);
   const double support = scene_support(scene);

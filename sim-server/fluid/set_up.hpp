@@ -16,9 +16,6 @@ namespace splash::sim {
 /// gate.
 [[nodiscard]] std::vector<WallPlane> tank_walls(const Scene& scene);
 
-/// Outlines of bodies, for the device.
-[[nodiscard]] std::vector<BodyShape> body_shapes(const std::vector<BodySettings>& bodies);
-
 /// `particles`: their places in the initial lattice [m]. The mass of a particle is such that a
 /// block of the lattice has the density at rest, and more by what the deepest column loses in
 /// height when it settles, its mean compression g H / (2 c0^2): the water stands at the wanted

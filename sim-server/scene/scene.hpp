@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -90,15 +91,18 @@ struct Flow {
   double speed = 0.1;                  ///< vortex: the largest [m/s]
 };
 
-enum class ShapeKind { box, sphere, cylinder };
+enum class ShapeKind { box, sphere, cylinder, mesh };
+
+struct MeshSolid;
 
 struct Shape {
   ShapeKind kind = ShapeKind::box;
   Vector3 size = {0.1, 0.1, 0.1};  ///< box: edges; sphere: diameters (equal); cylinder: diameter,
-                                   ///< diameter, length along z [m]
+                                   ///< diameter, length along z; mesh: of the box around it [m]
   double rocker = 0.0;             ///< box only: the sole curves up at both x ends by this [m]
   double flat = 0.0;               ///< box only: this share of the sole's length, in the middle,
                                    ///< does not curve [1]
+  std::shared_ptr<const MeshSolid> mesh = nullptr;  ///< mesh only: scene/mesh/mesh_solid.hpp
 };
 
 struct Keyframe {

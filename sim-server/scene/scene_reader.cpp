@@ -4,11 +4,18 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "protocol/config.hpp"
 #include "sim-server/scene/gauge_reader.hpp"
+#include "sim-server/scene/mesh/mesh_file.hpp"
+#include "sim-server/scene/mesh/mesh_solid.hpp"
+#include "sim-server/scene/mesh/soundness.hpp"
+#include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
+#include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/water_reader.hpp"
 
 namespace splash::sim {
@@ -22,6 +29,35 @@ void normalise(const ConfigMap& map, Quaternion& q) {
   const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
   if (length < 1.0e-3) throw map.error("rotation", "is no rotation: its length is zero");
   for (double& part : q) part /= length;
+}
+
+/// A file's path, made absolute by the scene's folder.
+std::filesystem::path find_file(const ConfigMap& map, const std::string& key,
+                                const std::string& name) {
+  if (name.empty()) return {};
+  std::filesystem::path path = map.folder() / name;
+  if (!std::filesystem::is_regular_file(path)) {
+    throw map.error(key, "there is no file " + path.string() +
+                             " (a relative name begins in the scene's folder)");
+  }
+  return path;
+}
+
+/// A free body turns about its centre of mass: that becomes its origin, and it rests where the
+/// file's own origin was meant to.
+Shape read_mesh_shape(const ConfigMap& map, double spacing, BodySettings& body) {
+  MeshEntry entry;
+  map.read(mesh_fields(), {}, entry);
+  const auto path = find_file(map, "mesh", entry.file_name);
+  if (path.empty()) throw map.error("mesh", "must not be empty");
+  TriangleMesh surface = read_mesh(path, entry.scale);
+  if (is_free(body)) {
+    check_soundness(surface);
+    const Vector3 centre = mesh_mass(surface).centre;
+    move_mesh(surface, -1.0 * centre);
+    body.rest.position = body.rest.position + rotate(body.rest.rotation, centre);
+  }
+  return mesh_shape(make_solid(std::move(surface), spacing));
 }
 
 Shape read_shape(const ConfigMap& map) {
@@ -71,17 +107,6 @@ void check_markers(const ConfigMap& map, const MotionEntry& entry) {
   if (names.size() < entry.markers.size()) throw map.error("markers", "names a marker twice");
 }
 
-/// The recording's path, made absolute by the scene's folder.
-std::filesystem::path find_file(const ConfigMap& map, const std::string& name) {
-  if (name.empty()) return {};
-  std::filesystem::path path = map.folder() / name;
-  if (!std::filesystem::is_regular_file(path)) {
-    throw map.error("file", "there is no file " + path.string() +
-                                " (a relative name begins in the scene's folder)");
-  }
-  return path;
-}
-
 MotionSettings read_motion(const ConfigMap& map) {
   static const std::map<std::string, MotionKind> kKinds = {
       {"fixed", MotionKind::fixed}, {"script", MotionKind::script}, {"csv", MotionKind::csv},
@@ -103,7 +128,7 @@ MotionSettings read_motion(const ConfigMap& map) {
     throw map.error("gap_limit", "has no meaning where a gap is held; gap: bridge needs it");
   }
   if (entry.kind == MotionKind::free) check_free(map, entry);
-  entry.file = find_file(map, entry.file_name);
+  entry.file = find_file(map, "file", entry.file_name);
   return entry;
 }
 
@@ -121,13 +146,19 @@ void read_rest(const ConfigMap& map, BodySettings& body) {
   if (!body.motion.keyframes.empty()) body.rest = body.motion.keyframes.front();
 }
 
-BodySettings read_body(const ConfigMap& map) {
+BodySettings read_body(const ConfigMap& map, double spacing) {
   BodySettings body;
   map.read(body_fields(), {"shape", "rest", "motion"}, body);
   if (body.name.empty()) throw map.error("name", "must not be empty");
-  body.shape = read_shape(map.child("shape"));
+  const ConfigMap shape = map.child("shape");
+  const bool is_mesh = shape.has("mesh");
+  if (!is_mesh) body.shape = read_shape(shape);
   if (const auto motion = map.optional_child("motion")) body.motion = read_motion(*motion);
   read_rest(map, body);
+  if (is_mesh) body.shape = read_mesh_shape(shape, spacing, body);
+  if (is_mesh && body.motion.sole) {
+    throw map.child("motion").error("sole", "only a box has a sole, not a mesh");
+  }
   if (body.motion.kind == MotionKind::free && body.shape.rocker > 0.0) {
     throw map.child("shape").error("rocker", "a free body cannot have a curved sole");
   }
@@ -138,7 +169,7 @@ void read_bodies(const ConfigMap& map, Scene& scene) {
   std::set<std::string> names;
   int free = 0;
   for (const ConfigMap& entry : map.list("bodies")) {
-    scene.bodies.push_back(read_body(entry));
+    scene.bodies.push_back(read_body(entry, particle_spacing(scene)));
     if (is_free(scene.bodies.back()) && ++free > kFreeBodiesMax) {
       throw entry.error("motion", "more than " + std::to_string(kFreeBodiesMax) +
                                       " bodies are free: each of them costs every step");

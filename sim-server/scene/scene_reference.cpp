@@ -87,6 +87,7 @@ std::string scene_reference() {
          section("### `flow` (optional): how the water moves when time begins", flow_fields()) +
          section("### `bodies`: a list", body_fields()) +
          section("### `shape` of a body", shape_fields()) +
+         section("### or, in its place, a mesh", mesh_fields()) +
          section("### `rest` of a body (kinds `fixed`, `osc` and `free`)", rest_fields()) +
          section("### `motion` of a body (optional)", motion_fields()) +
          section("### `keyframes` of a scripted motion: a list", keyframe_fields()) +

@@ -114,12 +114,31 @@ const Fields<ShapeEntry>& shape_fields() {
   return kFields;
 }
 
+const Fields<MeshEntry>& mesh_fields() {
+  static const Fields<MeshEntry> kFields = {
+      {{.key = "mesh",
+        .unit = "",
+        .meaning = "Triangles that enclose a solid, .obj or .stl, relative to the scene file. "
+                   "Position and axes of the body are the file's; a free one turns about its "
+                   "centre of mass, and that is what gauges tell of it.",
+        .required = true},
+       &MeshEntry::file_name},
+      {{.key = "scale",
+        .unit = "m",
+        .meaning = "One unit of the file: 0.001 where that is a millimetre.",
+        .min = 1.0e-6,
+        .max = 1000},
+       &MeshEntry::scale},
+  };
+  return kFields;
+}
+
 namespace {
 
 protocol::Field<Keyframe> position_field(bool required) {
   return {{.key = "position",
            .unit = "m",
-           .meaning = "Of the body's centre.",
+           .meaning = "Of the body's centre; of a mesh's origin.",
            .min = -100,
            .max = 100,
            .required = required},

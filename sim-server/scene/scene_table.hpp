@@ -25,6 +25,12 @@ struct ShapeEntry : Shape {
   std::string kind_name = "box";
 };
 
+/// A mesh as its mapping spells it: the file relative to the scene.
+struct MeshEntry {
+  std::string file_name;
+  double scale = 1.0;  ///< [m per unit of the file]
+};
+
 /// A motion as its mapping spells it: the kind is still a word, the file relative to the scene.
 struct MotionEntry : MotionSettings {
   std::string kind_name = "fixed";
@@ -59,6 +65,7 @@ struct GaugeEntry : GaugeSettings {
 [[nodiscard]] const Fields<FlowEntry>& flow_fields();
 [[nodiscard]] const Fields<BodySettings>& body_fields();
 [[nodiscard]] const Fields<ShapeEntry>& shape_fields();
+[[nodiscard]] const Fields<MeshEntry>& mesh_fields();
 [[nodiscard]] const Fields<Keyframe>& rest_fields();
 [[nodiscard]] const Fields<Keyframe>& keyframe_fields();
 [[nodiscard]] const Fields<MotionEntry>& motion_fields();

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "sim-server/scene/mesh/mesh_solid.hpp"
 
 namespace splash::sim {
 
@@ -39,6 +42,8 @@ double distance_to(const Shape& shape, const Vector3& point) {
       return std::hypot(point[0], point[1], point[2]) - half[0];
     case ShapeKind::cylinder:
       return cylinder_distance(half[0], half[2], point);
+    case ShapeKind::mesh:
+      return shape.mesh->field().at(point);
     case ShapeKind::box:
       break;
   }
@@ -54,6 +59,8 @@ bool is_inside(const Shape& shape, const Vector3& place) {
       return std::hypot(place[0] / rx, place[1] / ry, place[2] / rz) <= 1.0;
     case ShapeKind::cylinder:
       return std::hypot(place[0] / rx, place[1] / ry) <= 1.0 && std::abs(place[2]) <= rz;
+    case ShapeKind::mesh:
+      return shape.mesh->field().at(place) <= 0.0;
     case ShapeKind::box:
       break;
   }
@@ -68,6 +75,8 @@ double volume_of(const Shape& shape) {
       return box * std::numbers::pi / 6.0;
     case ShapeKind::cylinder:
       return box * std::numbers::pi / 4.0;
+    case ShapeKind::mesh:
+      return shape.mesh->mass.volume;
     case ShapeKind::box:
       break;
   }
@@ -86,11 +95,39 @@ Vector3 inertia_of(const Shape& shape, double mass) {
       const double across = mass * (0.75 * a * a + c * c) / 12.0;
       return {across, across, mass * a * a / 8.0};
     }
+    case ShapeKind::mesh: {
+      const Vector3& part = shape.mesh->mass.inertia;
+      return {mass * part[0], mass * part[1], mass * part[2]};
+    }
     case ShapeKind::box:
       break;
   }
   return {mass * (b * b + c * c) / 12.0, mass * (a * a + c * c) / 12.0,
           mass * (a * a + b * b) / 12.0};
+}
+
+Quaternion principal_axes(const Shape& shape) {
+  return shape.kind == ShapeKind::mesh ? shape.mesh->mass.axes : Quaternion{0.0, 0.0, 0.0, 1.0};
+}
+
+Vector3 farthest_of(const Shape& shape) {
+  if (shape.kind != ShapeKind::mesh)
+    return {shape.size[0] / 2.0, shape.size[1] / 2.0, shape.size[2] / 2.0};
+  Vector3 reach = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    reach[axis] = std::max(-shape.mesh->lower[axis], shape.mesh->upper[axis]);
+  }
+  return reach;
+}
+
+Shape mesh_shape(std::shared_ptr<const MeshSolid> solid) {
+  Shape shape;
+  shape.kind = ShapeKind::mesh;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    shape.size[axis] = solid->upper[axis] - solid->lower[axis];
+  }
+  shape.mesh = std::move(solid);
+  return shape;
 }
 
 }  // namespace splash::sim

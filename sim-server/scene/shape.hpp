@@ -12,7 +12,7 @@ namespace splash::sim {
 [[nodiscard]] double rocker_rise(const Shape& shape, double x);
 
 /// Distance from a body's surface [m], negative inside. `point` in the body's frame. A rocker
-/// counts as if it were filled.
+/// counts as if it were filled; a mesh's is that of its field (scene/mesh/distance_field.hpp).
 [[nodiscard]] double distance_to(const Shape& shape, const Vector3& point);
 
 /// Whether a place in body axes is inside the shape, a rocker left out [m].
@@ -23,7 +23,17 @@ namespace splash::sim {
 
 /// Moments of inertia of a homogeneous body of `mass` [kg] about its own axes through its centre
 /// [kg m2]: box m (b^2 + c^2) / 12, sphere m d^2 / 10, cylinder m d^2 / 8 along and
-/// m (3/4 d^2 + l^2) / 12 across its axis. A box's curved sole is not looked at.
+/// m (3/4 d^2 + l^2) / 12 across its axis. A box's curved sole is not looked at. A mesh's are about
+/// its principal axes, and its centre of mass has to be its origin.
 [[nodiscard]] Vector3 inertia_of(const Shape& shape, double mass);
+
+/// Turns a body's own axes to those about which its moments of inertia are told.
+[[nodiscard]] Quaternion principal_axes(const Shape& shape);
+
+/// How far it reaches from its origin along its own axes, either way [m].
+[[nodiscard]] Vector3 farthest_of(const Shape& shape);
+
+/// The shape of a mesh.
+[[nodiscard]] Shape mesh_shape(std::shared_ptr<const MeshSolid> solid);
 
 }  // namespace splash::sim

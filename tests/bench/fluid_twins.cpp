@@ -80,8 +80,8 @@ struct MainKernels {
     set(density, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
         f.grid().source(), rho.memory(), water.memory(), f.particles().position.memory(),
         f.body_grid().cell_start(), f.boundary().position.memory(), none.memory(), 0,
-        f.body_shapes().memory(), nobody.memory(), 0, 0, 0.0F, f.body_images().memory(),
-        rho.memory(), water.memory(), term.memory());
+        f.body_shapes().memory(), f.meshes().memory(), nobody.memory(), 0, 0, 0.0F,
+        f.body_images().memory(), rho.memory(), water.memory(), term.memory());
     set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
         f.particles().position.memory(), f.particles().velocity.memory(),
         f.pressure_term().memory(), f.body_images().memory(), f.body_grid().cell_start(),

@@ -45,3 +45,12 @@ static bool near_bodies(global const BodyStep* bodies, int first, int count, flo
                         float z) {
   return bodies_near_box(bodies, first, count, (float3)(x, y, z), (float3)(x, y, z));
 }
+
+#define CONTACT_POINTS 8  // with which a body meets one wall, at most
+
+// Where an outline is nearest.
+typedef struct {
+  lanes distance;    // [m], negative inside
+  lanes nx, ny, nz;  // its gradient: away from the body
+  lanes owner;       // number of the body
+} BodyFace;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Free bodies against each other, and against those that go their way (contact.h): wherever two
+// Free bodies against each other, and against those that go their way (contact.h), but for meshes,
+// which go through all bodies and all bodies through them: wherever two
 // outlines would be in each other after the step (outline_gap.h).
 
 #define FIRST_EDGE 64  // number of the first edge among a body's features
@@ -63,6 +64,7 @@ static bool pair_up(constant FreeBody* frees, int free_count, constant BodyShape
                     BodyStep step, BodyStep step_other, int k, int j, Pairing* m) {
   const int two = free_number(frees, free_count, j);
   if (j == frees[k].body || (two != NO_BODY && two < k)) return false;
+  if (is_mesh(shapes[frees[k].body]) || is_mesh(shapes[j])) return false;
   m->shape = shapes[frees[k].body];
   m->shape_other = shapes[j];
   m->step = step;

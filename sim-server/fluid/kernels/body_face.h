@@ -11,14 +11,15 @@ static void turn_lanes(lanes* x, lanes* y, lanes* z, float qx, float qy, float q
 }
 
 // Of all bodies at one step.
-static BodyFace nearest_face(constant BodyShape* shapes, global const BodyStep* bodies,
-                             int first_body, int body_count, lanes x, lanes y, lanes z) {
+static BodyFace nearest_face(constant BodyShape* shapes, global const float* meshes,
+                             global const BodyStep* bodies, int first_body, int body_count,
+                             lanes x, lanes y, lanes z) {
   BodyFace nearest = {FAR_AWAY, 0.0f, 0.0f, 0.0f, 0.0f};
   for (int k = 0; k < body_count; ++k) {
     const BodyStep b = bodies[first_body + k];
     lanes ax = x - b.px, ay = y - b.py, az = z - b.pz;
     turn_lanes(&ax, &ay, &az, -b.qx, -b.qy, -b.qz, b.qw);
-    BodyFace face = face_of(shapes[k], ax, ay, az);
+    BodyFace face = face_of(shapes[k], meshes, ax, ay, az);
     turn_lanes(&face.nx, &face.ny, &face.nz, b.qx, b.qy, b.qz, b.qw);
     const lane_flags nearer = face.distance < nearest.distance;
     nearest.distance = select(nearest.distance, face.distance, nearer);

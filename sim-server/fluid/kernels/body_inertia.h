@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A free body's inertia in the world: R diag(ix, iy, iz) R^T.
+// A free body's inertia in the world: R diag(ix, iy, iz) R^T, R from its principal axes, which are
+// its own but for a mesh's.
+
+static float3 into_principal(FreeBody f, BodyStep b, float3 v) {
+  const float3 own = into_body(b, v);
+  return HAS_MESH ? rotate_by(own, -f.ax, -f.ay, -f.az, f.aw) : own;
+}
+
+static float3 out_of_principal(FreeBody f, BodyStep b, float3 v) {
+  return out_of_body(b, HAS_MESH ? rotate_by(v, f.ax, f.ay, f.az, f.aw) : v);
+}
 
 // Angular momentum of a spin.
 static float3 inertia_times(FreeBody f, BodyStep b, float3 spin) {
-  return out_of_body(b, (float3)(f.ix, f.iy, f.iz) * into_body(b, spin));
+  return out_of_principal(f, b, (float3)(f.ix, f.iy, f.iz) * into_principal(f, b, spin));
 }
 
 // Spin of an angular momentum.
 static float3 inertia_solve(FreeBody f, BodyStep b, float3 momentum) {
-  return out_of_body(b, into_body(b, momentum) / (float3)(f.ix, f.iy, f.iz));
+  return out_of_principal(f, b, into_principal(f, b, momentum) / (float3)(f.ix, f.iy, f.iz));
 }

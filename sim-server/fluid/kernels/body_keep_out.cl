@@ -10,8 +10,8 @@ typedef struct {
   float before[3][LANES], place[3][LANES], speed[3][LANES];
 } Crowd;
 
-static bool leave_free_body(constant FluidParams* p, BodyShape shape, BodyStep b, int here,
-                            Crowd* crowd, Reach* r) {
+static bool leave_free_body(constant FluidParams* p, BodyShape shape, global const float* meshes,
+                            BodyStep b, int here, Crowd* crowd, Reach* r) {
   float out_of[3][LANES], stop[LANES];
   bool any = false;
   for (int lane = 0; lane < LANES; ++lane) {
@@ -21,7 +21,8 @@ static bool leave_free_body(constant FluidParams* p, BodyShape shape, BodyStep b
     float3 moving = (float3)(crowd->speed[0][lane], crowd->speed[1][lane], crowd->speed[2][lane]);
     float3 out = (float3)(0.0f, 0.0f, 0.0f);
     float stopped = 0.0f;
-    const bool caught = lane < here && leave_body(p, shape, b, from, &at, &moving, &out, &stopped);
+    const bool caught =
+        lane < here && leave_body(p, shape, meshes, b, from, &at, &moving, &out, &stopped);
     any |= caught;
     stop[lane] = caught ? stopped : 0.0f;
     const float3 normal = stop[lane] > 0.0f ? out : (float3)(0.0f, 0.0f, 0.0f);
@@ -79,10 +80,10 @@ static void store_crowd(constant FluidParams* p, float piston, float piston_spee
 // One work-item for each group of particles, after they have moved.
 kernel void keep_out_of_free(constant FluidParams* p, float dt, float piston, float piston_speed,
                              int free_count, constant FreeBody* frees, constant BodyShape* shapes,
-                             global const BodyStep* bodies, int first_body,
-                             global const float* position_before, global const int* source,
-                             global float* position, global float* velocity, global float* reach,
-                             global int* reached) {
+                             global const float* meshes, global const BodyStep* bodies,
+                             int first_body, global const float* position_before,
+                             global const int* source, global float* position,
+                             global float* velocity, global float* reach, global int* reached) {
   const int groups = group_count(p);
   const int group = get_global_id(0);
   if (group >= groups) return;
@@ -106,7 +107,9 @@ kernel void keep_out_of_free(constant FluidParams* p, float dt, float piston, fl
     if (!bodies_near_box(bodies, first_body + body, 1, lower, upper)) continue;
     if (!moved) load_crowd(p, position, velocity, position_before, source, i, &crowd);
     Reach r;
-    if (!leave_free_body(p, shapes[body], bodies[first_body + body], here, &crowd, &r)) continue;
+    if (!leave_free_body(p, shapes[body], meshes, bodies[first_body + body], here, &crowd, &r)) {
+      continue;
+    }
     moved = true;
     reached[k * groups + group] = 1;
     store_reach(p, reach, k, i, &r);

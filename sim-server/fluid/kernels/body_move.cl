@@ -38,13 +38,14 @@ static void note_reach(BodyShape s, float support, BodyStep* b) {
 
 // What touches what, and the speeds after that. Walls last: they give way to nobody.
 static void collide(Contacts* all, constant FluidParams* p, constant BodyShape* shapes,
-                    int free_count, int body_count, float dt, float piston, float piston_speed) {
+                    global const float* meshes, int free_count, int body_count, float dt,
+                    float piston, float piston_speed) {
   const int room = all->room;
   all->room = room - free_count * WALL_CONTACTS;
   meet_bodies(all, shapes, free_count, body_count, dt);
   all->room = room;
   for (int k = 0; k < free_count; ++k) {
-    meet_walls(all, p, shapes[all->frees[k].body], k, dt, piston, piston_speed);
+    meet_walls(all, p, shapes[all->frees[k].body], meshes, k, dt, piston, piston_speed);
   }
   solve_contacts(all);
 }
@@ -54,12 +55,12 @@ static void collide(Contacts* all, constant FluidParams* p, constant BodyShape* 
 // SPLASH_CONTACTS of each free body; `kept`: for one more than these, none at first.
 kernel void move_bodies(constant FluidParams* p, float dt, float piston, float piston_speed,
                         int free_count, constant FreeBody* frees, constant BodyShape* shapes,
-                        int first_body, int body_count, global BodyStep* bodies,
-                        global Contact* contacts, global KeptPush* kept, global float* felt,
-                        global float* force) {
+                        global const float* meshes, int first_body, int body_count,
+                        global BodyStep* bodies, global Contact* contacts, global KeptPush* kept,
+                        global float* felt, global float* force) {
   if (get_global_id(0) > 0) return;
   Contacts all = {frees, bodies + first_body, contacts, kept, 0, SPLASH_CONTACTS * free_count};
-  collide(&all, p, shapes, free_count, body_count, dt, piston, piston_speed);
+  collide(&all, p, shapes, meshes, free_count, body_count, dt, piston, piston_speed);
   for (int k = 0; k < free_count; ++k) {
     BodyStep b = *step_of(&all, k);
     move_on(frees[k], dt, &b);
@@ -72,7 +73,7 @@ kernel void move_bodies(constant FluidParams* p, float dt, float piston, float p
   for (int k = 0; k < free_count; ++k) {
     const int body = frees[k].body;
     BodyStep b = all.bodies[body_count + body];
-    leave_walls(p, shapes[body], piston, &b);
+    leave_walls(p, shapes[body], meshes, piston, &b);
     note_reach(shapes[body], p->support, &b);
     all.bodies[body_count + body] = b;
     for (int e = 6 * k; e < 6 * k + 6; ++e) {

@@ -58,10 +58,10 @@ static lanes kept(global const float* before, global const int* source, int firs
 kernel void compute_density(constant FluidParams* p, global const int* cell_start,
                             global const int* awake, global const int* source,
                             global const float* density_before,
-                            global const float* water_density_before,
-                            global const float* position, global const int* body_start,
-                            global const float* body_position, global const float* body_volume,
-                            int body_stride, constant BodyShape* shapes,
+                            global const float* water_density_before, global const float* position,
+                            global const int* body_start, global const float* body_position,
+                            global const float* body_volume, int body_stride,
+                            constant BodyShape* shapes, global const float* meshes,
                             global const BodyStep* bodies, int first_body, int body_count,
                             float piston, global float* images, global float* density,
                             global float* water_density, global float* pressure_term) {
@@ -75,7 +75,8 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
     const bool near = bodies_near_box(bodies, first_body, body_count, g.lower, g.upper);
     BodyImage image = no_image();
     if (near) {
-      const BodyFace face = nearest_face(shapes, bodies, first_body, body_count, g.x, g.y, g.z);
+      const BodyFace face =
+          nearest_face(shapes, meshes, bodies, first_body, body_count, g.x, g.y, g.z);
       image = image_before(p, &face);
       choose_image(&images_here, &image, g.mine);
       any_near = true;

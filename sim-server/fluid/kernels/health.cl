@@ -122,8 +122,8 @@ static lane_flags but_for_bodies(lane_flags far, global const BodyStep* bodies, 
 
 // The lanes of `stray` that neither a wall nor a body put where they are.
 static lane_flags but_for_solids(lane_flags stray, constant FluidParams* p, float dt, float piston,
-                                 constant BodyShape* shapes, global const BodyStep* bodies,
-                                 int first_body, int body_count,
+                                 constant BodyShape* shapes, global const float* meshes,
+                                 global const BodyStep* bodies, int first_body, int body_count,
                                  global const float* position_before,
                                  global const float* velocity_before, global const int* source,
                                  global const float* position, global const float* velocity,
@@ -136,7 +136,7 @@ static lane_flags but_for_solids(lane_flags stray, constant FluidParams* p, floa
     const Leap l = leap_of(p, position_before, velocity_before, source[i + lane], position,
                            velocity, acceleration, i + lane);
     if (stopped_by_wall(p, &l, dt, piston) ||
-        put_by_body(p, shapes, bodies, first_body, body_count, &l, piston)) {
+        put_by_body(p, shapes, meshes, bodies, first_body, body_count, &l, piston)) {
       flag[lane] = 0;
     }
   }
@@ -149,9 +149,9 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
                          int parts, float dt, float piston, global const float* position,
                          global const float* velocity, global const float* acceleration,
                          global const float* density, global const int* id,
-                         global const float* position_before,
-                         global const float* velocity_before, global const int* id_before,
-                         global const int* source, constant BodyShape* shapes,
+                         global const float* position_before, global const float* velocity_before,
+                         global const int* id_before, global const int* source,
+                         constant BodyShape* shapes, global const float* meshes,
                          global const BodyStep* bodies, int first_body, int body_count, int slot,
                          global HealthRecord* records) {
   const int part = get_global_id(0);
@@ -183,9 +183,9 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
     for (int check = 0; check < HEALTH_CHECKS; ++check) any |= bad[check];
     if (!any_lane(any)) continue;
     bad[HEALTH_STRAY] =
-        but_for_solids(bad[HEALTH_STRAY], p, dt, piston, shapes, bodies, first_body, body_count,
-                       position_before, velocity_before, source, position, velocity, acceleration,
-                       i);
+        but_for_solids(bad[HEALTH_STRAY], p, dt, piston, shapes, meshes, bodies, first_body,
+                       body_count, position_before, velocity_before, source, position, velocity,
+                       acceleration, i);
     for (int check = HEALTH_SPEED; check < HEALTH_CHECKS; ++check) {
       bad[check] = but_for_bodies(bad[check], bodies, first_body, body_count, position, n, i);
     }

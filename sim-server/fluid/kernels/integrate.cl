@@ -4,8 +4,9 @@
 // they are, and keep their speed for when they wake.
 
 kernel void integrate(constant FluidParams* p, float dt, float piston, float piston_speed,
-                      constant BodyShape* shapes, global const BodyStep* bodies, int first_body,
-                      int body_count, global const float* acceleration, global float* position,
+                      constant BodyShape* shapes, global const float* meshes,
+                      global const BodyStep* bodies, int first_body, int body_count,
+                      global const float* acceleration, global float* position,
                       global float* velocity, global const int* moving) {
   const int i = group_of(p, get_global_id(0)) * LANES;
   if (i >= p->count) return;
@@ -23,7 +24,8 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
   lanes x = a + dt * u;
   lanes y = b + dt * v;
   lanes z = c + dt * w;
-  keep_lanes_out(p, shapes, bodies, first_body, body_count, a, b, c, &x, &y, &z, &u, &v, &w);
+  keep_lanes_out(p, shapes, meshes, bodies, first_body, body_count, a, b, c, &x, &y, &z, &u, &v,
+                 &w);
 
   keep_in_tank(p, piston, piston_speed, &x, &y, &z, &u, &v, &w);
   STORE(select(a, x, move), position, i);

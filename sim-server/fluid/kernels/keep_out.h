@@ -12,46 +12,55 @@
 
 // Where what goes from `start` by `way`, in the body's axes, is first deeper than `kept`, and the
 // outward normal there: where it was, if the body has come over it. False: it never is.
-static bool entry_of(BodyShape s, float kept, float3 start, float3 way, float3* at, float3* out) {
-  const float was = depth_inside(s, start, out);
+static bool entry_of(BodyShape s, global const float* meshes, float kept, float3 start, float3 way,
+                     float3* at, float3* out) {
+  const float was = depth_inside(s, meshes, start, out);
   *at = start + (was - kept) * *out;
   if (was > kept) return true;
   const int probes = clamp(convert_int_sat(length(way) / kept) + 1, 1, MOST_PROBES);
   int k = 1;
-  while (k <= probes && !(depth_inside(s, start + (float)k / probes * way, out) > kept)) ++k;
+  while (k <= probes &&
+         !(depth_inside(s, meshes, start + (float)k / probes * way, out) > kept)) {
+    ++k;
+  }
   if (k > probes) return false;
   float outside = (float)(k - 1) / probes, inside = (float)k / probes;
   for (int halving = 0; halving < ENTRY_HALVINGS; ++halving) {
     const float middle = 0.5f * (outside + inside);
-    if (depth_inside(s, start + middle * way, out) > kept) {
+    if (depth_inside(s, meshes, start + middle * way, out) > kept) {
       inside = middle;
     } else {
       outside = middle;
     }
   }
   *at = start + inside * way;
-  *at += (depth_inside(s, *at, out) - kept) * *out;
+  *at += (depth_inside(s, meshes, *at, out) - kept) * *out;
   return true;
 }
 
 // Puts a particle that is too deep in body `b`, or came through it, back, and ends its motion into
 // the body. `from`: where it was when the step began, `out`: the way it went, `stopped`: by how
 // much its speed along that changed [m/s]. False: it is not so deep.
-static bool leave_body(constant FluidParams* p, BodyShape shape, BodyStep b, float3 from,
-                       float3* x, float3* v, float3* out, float* stopped) {
+static bool leave_body(constant FluidParams* p, BodyShape shape, global const float* meshes,
+                       BodyStep b, float3 from, float3* x, float3* v, float3* out, float* stopped) {
   const float kept = KEPT_DEPTH * p->spacing;
   const float3 centre = (float3)(b.px, b.py, b.pz), arm = *x - centre;
   const float3 end = rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw);
   const float3 start = rotate_by(from - centre, -b.qx, -b.qy, -b.qz, b.qw);
-  float excess = depth_inside(shape, end, out) - kept;
+  float excess = depth_inside(shape, meshes, end, out) - kept;
   if (!(excess + length(end - start) > 0.0f)) return false;
   float3 entry, side;
-  if (!entry_of(shape, kept, start, end - start, &entry, &side)) return false;
+  if (!entry_of(shape, meshes, kept, start, end - start, &entry, &side)) return false;
   const float turn = dot(side, *out);
   if (!(excess > 0.0f) && !(turn < 0.0f)) return false;
   if (!(turn > 0.0f)) {
     *x = centre + rotate_by(entry, b.qx, b.qy, b.qz, b.qw);
     *out = side;
+    excess = 0.0f;
+  }
+  if (is_mesh(shape)) {
+    const float3 at = settled_in_mesh(shape, meshes, kept, excess > 0.0f ? end : entry, out);
+    *x = centre + rotate_by(at, b.qx, b.qy, b.qz, b.qw);
     excess = 0.0f;
   }
   *out = rotate_by(*out, b.qx, b.qy, b.qz, b.qw);
@@ -64,22 +73,22 @@ static bool leave_body(constant FluidParams* p, BodyShape shape, BodyStep b, flo
 
 // Bodies that the water moves have their own stage (body_keep_out.cl): they are pushed back.
 static void keep_out(constant FluidParams* p, constant BodyShape* shapes,
-                     global const BodyStep* bodies, int first_body, int body_count, float3 from,
-                     float3* x, float3* v) {
+                     global const float* meshes, global const BodyStep* bodies, int first_body,
+                     int body_count, float3 from, float3* x, float3* v) {
   for (int k = 0; k < body_count; ++k) {
     if (shapes[k].free) continue;
     float3 out;
     float stopped;
-    leave_body(p, shapes[k], bodies[first_body + k], from, x, v, &out, &stopped);
+    leave_body(p, shapes[k], meshes, bodies[first_body + k], from, x, v, &out, &stopped);
   }
 }
 
 // Keeps every lane's particle out; most vectors have none near a body. `a`, `b`, `c`: where they
 // were when the step began.
 static void keep_lanes_out(constant FluidParams* p, constant BodyShape* shapes,
-                           global const BodyStep* bodies, int first_body, int body_count, lanes a,
-                           lanes b, lanes c, lanes* x, lanes* y, lanes* z, lanes* u, lanes* v,
-                           lanes* w) {
+                           global const float* meshes, global const BodyStep* bodies,
+                           int first_body, int body_count, lanes a, lanes b, lanes c, lanes* x,
+                           lanes* y, lanes* z, lanes* u, lanes* v, lanes* w) {
   const float3 lower = (float3)(least(fmin(*x, a)), least(fmin(*y, b)), least(fmin(*z, c)));
   const float3 upper = (float3)(most(fmax(*x, a)), most(fmax(*y, b)), most(fmax(*z, c)));
   if (!bodies_near_box(bodies, first_body, body_count, lower, upper)) return;
@@ -97,7 +106,7 @@ static void keep_lanes_out(constant FluidParams* p, constant BodyShape* shapes,
     const float3 from = (float3)(before[0][lane], before[1][lane], before[2][lane]);
     float3 at = (float3)(place[0][lane], place[1][lane], place[2][lane]);
     float3 moving = (float3)(speed[0][lane], speed[1][lane], speed[2][lane]);
-    keep_out(p, shapes, bodies, first_body, body_count, from, &at, &moving);
+    keep_out(p, shapes, meshes, bodies, first_body, body_count, from, &at, &moving);
     place[0][lane] = at.x;
     place[1][lane] = at.y;
     place[2][lane] = at.z;

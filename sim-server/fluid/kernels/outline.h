@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The outlines of bodies in closed form. Whatever depends on a body's shape is here: how far its
-// surface is and in which direction (many places at once, or one that is inside), how far it
-// reaches, and with which points it meets a wall. Places and normals in the body's own axes.
-
-#define CONTACT_POINTS 8
-
-// Where an outline is nearest.
-typedef struct {
-  lanes distance;    // [m], negative inside
-  lanes nx, ny, nz;  // its gradient: away from the body
-  lanes owner;       // number of the body
-} BodyFace;
+// The outlines of bodies, in closed form but for meshes (outline_mesh.h). Whatever depends on a
+// body's shape is here: how far its surface is and in which direction (many places at once, or one
+// that is inside), how far it reaches, and with which points it meets a wall. Places and normals in
+// the body's own axes; `meshes`: the numbers of all meshes.
 
 // What is left of up to three faces at right angles to each other: `q` are the distances from them
 // [m], `part` becomes how much of each one's normal is in the normal there.
@@ -44,8 +36,8 @@ static BodyFace face_of_round(BodyShape s, lanes x, lanes y, lanes z) {
   return face;
 }
 
-// The underside of a box may curve up at both ends (sole_rise); there its distance is
-// the height, of which the slope is known.
+// The underside of a box may curve up at both ends (sole_rise); there its distance is the height,
+// of which the slope is known.
 static BodyFace face_of_box(BodyShape s, lanes x, lanes y, lanes z) {
   const lanes one = 1.0f;
   const float bend = s.flat < 1.0f ? 1.0f / (1.0f - s.flat) : 0.0f;
@@ -64,7 +56,8 @@ static BodyFace face_of_box(BodyShape s, lanes x, lanes y, lanes z) {
   return face;
 }
 
-static BodyFace face_of(BodyShape s, lanes x, lanes y, lanes z) {
+static BodyFace face_of(BodyShape s, global const float* meshes, lanes x, lanes y, lanes z) {
+  if (is_mesh(s)) return face_of_mesh(s, meshes, x, y, z);
   return s.kind == SPLASH_BOX ? face_of_box(s, x, y, z) : face_of_round(s, x, y, z);
 }
 
@@ -75,7 +68,8 @@ static float sole_rise(BodyShape s, float x) {
 }
 
 // Depth below the nearest face, zero or less outside [m]; `out`: that face's outward normal.
-static float depth_inside(BodyShape s, float3 at, float3* out) {
+static float depth_inside(BodyShape s, global const float* meshes, float3 at, float3* out) {
+  if (is_mesh(s)) return depth_in_mesh(s, meshes, at, out);
   if (s.kind == SPLASH_SPHERE) {
     const float r = length(at);
     *out = r > 0.0f ? at / r : (float3)(0.0f, 0.0f, 1.0f);
@@ -117,7 +111,9 @@ static float3 reach_along_axes(BodyShape s, BodyStep b) {
 }
 
 // Levers, in the world, of the points that a wall with this normal can meet; their number.
-static int contact_points(BodyShape s, BodyStep b, float3 normal, float3* lever) {
+static int contact_points(BodyShape s, global const float* meshes, BodyStep b, float3 normal,
+                          float3* lever) {
+  if (is_mesh(s)) return mesh_contact_points(s, meshes, b, normal, lever);
   if (s.kind == SPLASH_SPHERE) {
     lever[0] = -s.half_x * normal;
     return 1;

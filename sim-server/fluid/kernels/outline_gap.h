@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How far two outlines are apart, or in each other. They are convex, so the distance from one is a
-// convex function of place: along an edge of the other it has one least value, found by golden
-// section, and what can touch first are corners, edges and axes:
+// How far two outlines are apart, or in each other: not of meshes. They are convex, so the distance
+// from one is a convex function of place: along an edge of the other it has one least value, found
+// by golden section, and what can touch first are corners, edges and axes:
 //   of a sphere its centre and of a cylinder's round side its axis, both less the radius;
 //   of a box corners and edges; of a cylinder its rims.
 // These are rounded a little: a sharp corner that touches a face at its edge, as in a stack, would
@@ -16,7 +16,7 @@
 // Distance of a place in the world from an outline [m], and its normal there.
 static float outline_distance(BodyShape s, BodyStep b, float3 at, float3* normal) {
   const float3 own = into_body(b, at - place_of(b));
-  const BodyFace face = face_of(s, (lanes)(own.x), (lanes)(own.y), (lanes)(own.z));
+  const BodyFace face = face_of(s, 0, (lanes)(own.x), (lanes)(own.y), (lanes)(own.z));
   *normal = out_of_body(b, (float3)(first_lane(face.nx), first_lane(face.ny),
                                     first_lane(face.nz)));
   return first_lane(face.distance);

@@ -11,6 +11,9 @@
 #ifndef HAS_PISTON
 #define HAS_PISTON 1
 #endif
+#ifndef HAS_MESH
+#define HAS_MESH 1
+#endif
 #ifndef HAS_FRICTION
 #define HAS_FRICTION 1
 #endif

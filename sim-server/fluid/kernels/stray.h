@@ -62,13 +62,14 @@ static bool stopped_by_wall(constant FluidParams* p, const Leap* l, float dt, fl
 // A body that appears in the water, cuts through it or pinches it puts what was there to its skin,
 // however far that is, or against a wall behind that.
 static bool put_by_body(constant FluidParams* p, constant BodyShape* shapes,
-                        global const BodyStep* bodies, int first_body, int body_count,
-                        const Leap* l, float piston) {
+                        global const float* meshes, global const BodyStep* bodies, int first_body,
+                        int body_count, const Leap* l, float piston) {
   for (int k = 0; k < body_count; ++k) {
     const BodyStep b = bodies[first_body + k];
     const float3 arm = l->to - (float3)(b.px, b.py, b.pz);
     float3 out;
-    const float depth = depth_inside(shapes[k], rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw), &out);
+    const float depth =
+        depth_inside(shapes[k], meshes, rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw), &out);
     if (fabs(depth - KEPT_DEPTH * p->spacing) <= 1.0e-3f * p->spacing + l->rounding) return true;
   }
   return near_bodies(bodies, first_body, body_count, l->to.x, l->to.y, l->to.z) &&

@@ -14,15 +14,28 @@ static float3 wall_normal(constant FluidParams* p, int k) {
   return (float3)(p->walls[k].nx, p->walls[k].ny, p->walls[k].nz);
 }
 
-static void meet_walls(Contacts* all, constant FluidParams* p, BodyShape shape, int free_body,
-                       float dt, float piston, float piston_speed) {
+// A mesh's vertices are many: they are asked only where a wall is within its reach in the step.
+static bool may_meet(constant FluidParams* p, int k, BodyShape shape, BodyStep b, float dt,
+                     float piston) {
+  if (!is_mesh(shape)) return true;
+  const float3 none = (float3)(0.0f, 0.0f, 0.0f);
+  const float reach = length((float3)(shape.half_x, shape.half_y, shape.half_z));
+  const float way = dt * (length(speed_at(b, none)) + p->speed_limit +
+                          reach * length((float3)(b.wx, b.wy, b.wz)));
+  return above_wall(p, k, piston, b, none) < reach + way;
+}
+
+static void meet_walls(Contacts* all, constant FluidParams* p, BodyShape shape,
+                       global const float* meshes, int free_body, float dt, float piston,
+                       float piston_speed) {
   const BodyStep b = *step_of(all, free_body);
   const int room = all->room;
   all->room = min(room, all->count + WALL_CONTACTS);
   float3 lever[CONTACT_POINTS];
   for (int k = 0; k < p->wall_count; ++k) {
+    if (!may_meet(p, k, shape, b, dt, piston)) continue;
     const float3 normal = wall_normal(p, k);
-    const int points = contact_points(shape, b, normal, lever);
+    const int points = contact_points(shape, meshes, b, normal, lever);
     for (int i = 0; i < points; ++i) {
       Contact c;
       c.body = free_body;
@@ -38,11 +51,13 @@ static void meet_walls(Contacts* all, constant FluidParams* p, BodyShape shape, 
 }
 
 // What turned into a wall, or was there, is put back: no motion comes of it.
-static void leave_walls(constant FluidParams* p, BodyShape shape, float piston, BodyStep* b) {
+static void leave_walls(constant FluidParams* p, BodyShape shape, global const float* meshes,
+                        float piston, BodyStep* b) {
   float3 lever[CONTACT_POINTS];
   for (int k = 0; k < p->wall_count; ++k) {
+    if (!may_meet(p, k, shape, *b, 0.0f, piston)) continue;
     const float3 normal = wall_normal(p, k);
-    const int points = contact_points(shape, *b, normal, lever);
+    const int points = contact_points(shape, meshes, *b, normal, lever);
     float deepest = 0.0f;
     for (int i = 0; i < points; ++i) {
       deepest = fmin(deepest, above_wall(p, k, piston, *b, lever[i]));

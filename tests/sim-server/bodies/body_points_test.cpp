@@ -8,8 +8,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "tests/sim-server/scene/mesh_forms.hpp"
 
 namespace splash::sim {
 namespace {
@@ -154,6 +156,61 @@ TEST(BodyPoints, OfAllBodiesComeBodyAfterBody) {
   const auto points = sample_bodies({a, b}, kSpacing, kSupport);
   ASSERT_EQ(points.size(), 8U + 3U);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i].owner, i < 8 ? 0 : 1);
+}
+
+TEST(BodyPoints, OfAMeshedBoxAreThoseOfTheBox) {
+  const Shape box{ShapeKind::box, {0.12, 0.08, 0.1}, 0.0, 0.0};
+  const auto points = sample_shape(box, 0, kSpacing, kSupport);
+  const Shape mesh = mesh_shape(make_solid(box_mesh(box.size), kSpacing));
+  const auto meshed = sample_shape(mesh, 0, kSpacing, kSupport);
+  ASSERT_EQ(meshed.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_LT(length(meshed[i].place - points[i].place), 1.0e-12);
+    EXPECT_NEAR(meshed[i].volume, points[i].volume, 1.0e-15);
+    EXPECT_EQ(meshed[i].surface, points[i].surface);
+    if (!points[i].surface) continue;
+    EXPECT_NEAR(distance_to(box, meshed[i].skin), 0.0, 1.0e-9);
+    // Corners are where they are; on an edge a point may be half a layer beside.
+    const bool corner = std::abs(distance_to(box, points[i].place)) < kSpacing &&
+                        length(points[i].skin - points[i].place) > 0.8 * kSpacing;
+    EXPECT_LT(length(meshed[i].skin - points[i].skin), corner ? 1.0e-9 : 0.8 * kSpacing);
+  }
+}
+
+TEST(BodyPoints, OfAMeshBesideItsOriginLieInIt) {
+  const Vector3 away = {0.3, -0.2, 0.1};
+  const Quaternion turn = from_turn({0.4, -0.7, 0.2});
+  const TriangleMesh askew = placed(box_mesh({0.12, 0.08, 0.1}), turn, away);
+  const Shape mesh = mesh_shape(make_solid(askew, kSpacing));
+  const auto points = sample_shape(mesh, 0, kSpacing, kSupport);
+  EXPECT_NEAR(total_volume(points), 0.12 * 0.08 * 0.1, 1.0e-12);
+  double lattice = 1.0;  // whole layers, a spacing thick at most, fill the box around it
+  for (const double edge : mesh.size) lattice *= edge / std::ceil(edge / kSpacing);
+  EXPECT_NEAR(points[0].volume / lattice, 1.0, 0.15) << "as many as fill it";
+  for (const BodyPoint& point : points) {
+    EXPECT_LT(distance_to(mesh, point.place), 0.0);
+    EXPECT_NEAR(mesh.mesh->distance.nearest(point.skin).distance, 0.0, 1.0e-12);
+  }
+  // Every corner is some point's skin: whichever goes in first is seen.
+  for (const Vector3& vertex : askew.vertices) {
+    EXPECT_TRUE(std::any_of(points.begin(), points.end(), [&](const BodyPoint& point) {
+      return point.surface && length(point.skin - vertex) < 1.0e-9;
+    }));
+  }
+}
+
+TEST(BodyPoints, OfAMeshThatFallsBetweenThemIsOneInItsMiddle) {
+  // Two pyramids base to base: all of the lattice of its box lies outside.
+  TriangleMesh mesh;
+  mesh.vertices = {{0.0, 0.0, 0.02}, {0.0, 0.0, -0.02}, {0.02, 0.0, 0.0},
+                   {0.0, 0.02, 0.0}, {-0.02, 0.0, 0.0}, {0.0, -0.02, 0.0}};
+  mesh.triangles = {{0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 2},
+                    {1, 3, 2}, {1, 4, 3}, {1, 5, 4}, {1, 2, 5}};
+  mesh.lines.assign(8, 1);
+  mesh.file = "formula";
+  const auto points = sample_shape(mesh_shape(make_solid(mesh, 0.0205)), 0, 0.0205, 0.05);
+  ASSERT_FALSE(points.empty());
+  EXPECT_NEAR(total_volume(points), 4.0 / 3.0 * 0.02 * 0.02 * 0.02, 1.0e-12);
 }
 
 }  // namespace

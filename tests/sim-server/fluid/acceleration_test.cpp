@@ -48,9 +48,8 @@ TEST_P(Acceleration, OfAllTogetherIsGravity) {
   water.start(device, {.relaxed = GetParam().relaxed});
   FluidParams open = water.params;
   open.wall_count = 0;
-  water.fluid =
-      std::make_unique<Fluid>(device, open, water.particles, std::vector<BoundaryPoint>{},
-                              std::vector<BodyShape>{}, KernelBuild{.relaxed = GetParam().relaxed});
+  water.fluid = std::make_unique<Fluid>(device, open, water.particles, std::vector<BoundaryPoint>{},
+                                        Outlines{}, KernelBuild{.relaxed = GetParam().relaxed});
   water.stir(1.0, 8);
   water.step(1.0e-4);
   Vector3 sum = {0.0, 0.0, 0.0};

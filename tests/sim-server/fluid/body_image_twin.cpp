@@ -46,8 +46,9 @@ Nearest nearest(const FluidState& s, const Vector3& place) {
                             static_cast<double>(step.pz)};
     const Quaternion turned = {static_cast<double>(step.qx), static_cast<double>(step.qy),
                                static_cast<double>(step.qz), static_cast<double>(step.qw)};
-    const double d =
-        outline_distance(shape_of(s.shapes[b]), rotate(inverse(turned), place - centre));
+    const Vector3 own = rotate(inverse(turned), place - centre);
+    const double d = s.shapes[b].kind == SPLASH_MESH ? s.fields[b].at(own)
+                                                     : outline_distance(shape_of(s.shapes[b]), own);
     if (d < found.distance) found = {d, b};
   }
   return found;

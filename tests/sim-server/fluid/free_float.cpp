@@ -45,7 +45,7 @@ void FreeFloat::start(Device& device) {
   bodies = std::make_unique<Bodies>(sample_bodies(scene.bodies, scene.fluid.spacing, support),
                                     std::move(motions), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
-  fluid = std::make_unique<Fluid>(device, params, particles, boundary, body_shapes(scene.bodies));
+  fluid = std::make_unique<Fluid>(device, params, particles, boundary, body_outlines(scene.bodies));
   fluid->let_go(free_bodies(scene.bodies));
   steps = bodies->at(0.0);
   dt = largest_time_step(params, 3.0, 9.81, 1.0);
@@ -89,15 +89,16 @@ Balance FreeFloat::balance() {
     const BodyState s = state(b);
     const double m = mass_of(scene.bodies[b]);
     const Vector3 inertia = inertia_of(scene.bodies[b].shape, m);
-    Vector3 spin = rotate(inverse(s.rotation), s.spin);
+    const Quaternion axes = compose(s.rotation, principal_axes(scene.bodies[b].shape));
+    Vector3 spin = rotate(inverse(axes), s.spin);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       sum.energy +=
           0.5 * (inertia[axis] * spin[axis] * spin[axis] + m * s.velocity[axis] * s.velocity[axis]);
       spin[axis] *= inertia[axis];
     }
     add(m, s.position, s.velocity, sum.bodies);
-    sum.spin = sum.spin + rotate(s.rotation, spin);
-    sum.turning = sum.turning + rotate(s.rotation, spin);
+    sum.spin = sum.spin + rotate(axes, spin);
+    sum.turning = sum.turning + rotate(axes, spin);
   }
   return sum;
 }

@@ -73,18 +73,22 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Parts,
 TEST(KernelParts, AreWhatTheSceneHas) {
   FluidParams params = {};
   params.slope = params.piston = -1;
-  EXPECT_EQ(parts_needed(params, 0).left_out(), 4);
-  EXPECT_TRUE(parts_needed(params, 1).bodies);
+  const std::vector<BodyShape> none;
+  std::vector<BodyShape> one(1);
+  EXPECT_EQ(parts_needed(params, none).left_out(), 5);
+  EXPECT_TRUE(parts_needed(params, one).bodies);
   params.slope = 5;
-  EXPECT_TRUE(parts_needed(params, 0).slope);
+  EXPECT_TRUE(parts_needed(params, none).slope);
   params.piston = 1;
-  EXPECT_TRUE(parts_needed(params, 0).piston);
+  EXPECT_TRUE(parts_needed(params, none).piston);
   params.artificial = 0.1F;
-  EXPECT_TRUE(parts_needed(params, 0).friction);
+  EXPECT_TRUE(parts_needed(params, none).friction);
   params.artificial = 0.0F;
   params.viscous = 0.01F;
-  EXPECT_TRUE(parts_needed(params, 0).friction);
-  EXPECT_EQ(parts_needed(params, 1).left_out(), 0);
+  EXPECT_TRUE(parts_needed(params, none).friction);
+  EXPECT_EQ(parts_needed(params, one).left_out(), 1);
+  one[0].kind = SPLASH_MESH;
+  EXPECT_EQ(parts_needed(params, one).left_out(), 0);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST_P(EitherSolver, FreeFallKeepsMomentum) {
   FluidParams open = water.params;
   open.wall_count = 0;
   water.fluid = std::make_unique<Fluid>(device, open, water.particles, std::vector<BoundaryPoint>{},
-                                        std::vector<BodyShape>{});
+                                        Outlines{});
   // Divergence-free water parts what overlaps at once: no faster than the speed limit.
   const double dt = GetParam() == PressureKind::divergence_free ? 2.0e-3 : 1.0e-4;
   for (int k = 0; k < 200; ++k) water.step(dt);

@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
+#include "tests/sim-server/scene/mesh_forms.hpp"
 
 namespace splash::sim {
 namespace {
@@ -117,10 +120,20 @@ Water two_bodies() {
   return water;
 }
 
+Water two_meshes() {
+  Water water = two_bodies();
+  water.name = "two meshes";
+  const TriangleMesh box = box_mesh({0.13, 0.07, 0.06});
+  water.scene.bodies[0].shape =
+      mesh_shape(make_solid(placed(box, from_turn({0.5, 0.3, -0.2}), {0.02, 0.0, 0.01}), kSpacing));
+  water.scene.bodies[1].shape = mesh_shape(make_solid(sphere_mesh(0.05, 2), kSpacing));
+  return water;
+}
+
 std::vector<Water> situations() {
   std::vector<Water> all;
-  for (auto make_one :
-       {lattice, crowd, spray, spray_curtain, lone_particles, beach, strays, two_bodies}) {
+  for (auto make_one : {lattice, crowd, spray, spray_curtain, lone_particles, beach, strays,
+                        two_bodies, two_meshes}) {
     all.push_back(make_one());
   }
   return all;

@@ -16,5 +16,7 @@ namespace splash::sim {
 
 /// Two turned, moving bodies in shallow water.
 [[nodiscard]] Water two_bodies();
+/// The same of meshes, one of them askew and beside its own origin.
+[[nodiscard]] Water two_meshes();
 
 }  // namespace splash::sim

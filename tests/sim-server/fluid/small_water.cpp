@@ -45,7 +45,7 @@ void Water::start(Device& device, const KernelBuild& build) {
                                     std::move(moved), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
   fluid = std::make_unique<Fluid>(device, params, settle ? settled(scene, particles) : particles,
-                                  boundary, body_shapes(scene.bodies), build);
+                                  boundary, body_outlines(scene.bodies), build);
   time = 0.0;
 }
 

@@ -86,6 +86,19 @@ Vector3 pair_push(const FluidState& s, std::size_t i, const Vector3& from, const
   return -weight * (own + theirs - rub) * kernel_gradient(r, support) * x;
 }
 
+/// A mesh's distances, out of the device's numbers.
+DistanceField field_of(const BodyShape& shape, const std::vector<float>& meshes) {
+  DistanceField field;
+  if (shape.kind != SPLASH_MESH) return field;
+  field.lower = {static_cast<double>(shape.lower_x), static_cast<double>(shape.lower_y),
+                 static_cast<double>(shape.lower_z)};
+  field.cell = static_cast<double>(shape.cell);
+  field.nodes = {shape.nodes_x, shape.nodes_y, shape.nodes_z};
+  const auto first = meshes.begin() + shape.field;
+  field.values.assign(first, first + std::ptrdiff_t{shape.nodes_x} * shape.nodes_y * shape.nodes_z);
+  return field;
+}
+
 }  // namespace
 
 FluidState read_state(Fluid& fluid, double piston) {
@@ -109,6 +122,8 @@ FluidState read_state(Fluid& fluid, double piston) {
   if (bodies == 0) return s;
   s.shapes = fluid.body_shapes().read(device, bodies);
   s.bodies = fluid.body_steps().read(device, bodies);
+  const std::vector<float> meshes = fluid.meshes().read(device, fluid.meshes().size());
+  for (const BodyShape& shape : s.shapes) s.fields.push_back(field_of(shape, meshes));
   return s;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/scene/mesh/distance_field.hpp"
 
 namespace splash::sim {
 
@@ -22,7 +23,8 @@ struct FluidState {
   std::vector<Vector3> body_velocity;
   std::vector<double> body_volume;  ///< [m3]
   std::vector<BodyShape> shapes;
-  std::vector<BodyStep> bodies;  ///< of the first step
+  std::vector<DistanceField> fields;  ///< of the bodies that are meshes, empty of others
+  std::vector<BodyStep> bodies;       ///< of the first step
 };
 
 /// Call after prepare and before advance.

@@ -9,10 +9,13 @@
 #include "sim-server/device/device.hpp"
 #include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/gauge/gauges.hpp"
+#include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/shape.hpp"
 #include "sim-server/simulation.hpp"
 #include "tests/sim-server/gauge/lattice.hpp"
+#include "tests/sim-server/scene/mesh_forms.hpp"
 
 namespace splash::sim {
 namespace {
@@ -98,9 +101,12 @@ gauges:
   probes: [{name: box, kind: body, body: box}, {name: all, kind: energy}]
 )";
 
-TEST(BodyForce, OfWaterAtRestIsTheWeightOfWhatTheBodyDisplaces) {
+/// Of water at rest on the sunk box in another shape, in the weight of what that displaces.
+Vector3 buoyancy(const Shape& shape, const Quaternion& turn) {
   Device device;
-  const Scene scene = parse_scene(kSunkBox, "sunk.yaml");
+  Scene scene = parse_scene(kSunkBox, "sunk.yaml");
+  scene.bodies[0].shape = shape;
+  scene.bodies[0].rest.rotation = turn;
   Simulation simulation(device, scene, {});
   Gauges gauges(scene);
   constexpr int kFrames = 40;
@@ -110,12 +116,38 @@ TEST(BodyForce, OfWaterAtRestIsTheWeightOfWhatTheBodyDisplaces) {
     const auto row = gauges.read(simulation.seconds(), simulation.fluid(), simulation.bodies());
     for (std::size_t i = 0; i < 3; ++i) mean[i] += row[14 + i] / kFrames;
   }
-  ASSERT_EQ(gauges.columns()[14], "box_fx");
-  const double weight = 998.0 * 9.81 * 0.12 * 0.12 * 0.12;
-  std::printf("buoyancy %.3f of the displaced weight\n", mean[2] / weight);
-  EXPECT_NEAR(mean[2] / weight, 1.0, 0.1);
-  EXPECT_NEAR(mean[0] / weight, 0.0, 0.05);
-  EXPECT_NEAR(mean[1] / weight, 0.0, 0.05);
+  EXPECT_EQ(gauges.columns()[14], "box_fx");
+  const double weight = 998.0 * 9.81 * volume_of(shape);
+  std::printf("buoyancy %.3f of the displaced weight, across %.3f, %.3f\n", mean[2] / weight,
+              mean[0] / weight, mean[1] / weight);
+  return (1.0 / weight) * mean;
+}
+
+void expect_weight_of_water(const Shape& shape, const Quaternion& turn) {
+  const Vector3 force = buoyancy(shape, turn);
+  EXPECT_NEAR(force[2], 1.0, 0.1);
+  EXPECT_NEAR(force[0], 0.0, 0.05);
+  EXPECT_NEAR(force[1], 0.0, 0.05);
+}
+
+constexpr Quaternion kUpright = {0.0, 0.0, 0.0, 1.0};
+constexpr Vector3 kCube = {0.12, 0.12, 0.12};
+
+TEST(BodyForce, OfWaterAtRestIsTheWeightOfWhatTheBodyDisplaces) {
+  expect_weight_of_water({ShapeKind::box, kCube, 0.0, 0.0}, kUpright);
+}
+
+TEST(BodyForce, OfWaterAtRestIsTheWeightOfWhatAMeshDisplaces) {
+  expect_weight_of_water(mesh_shape(make_solid(box_mesh(kCube), 0.02)), kUpright);
+  expect_weight_of_water(mesh_shape(make_solid(sphere_mesh(0.075, 3), 0.02)), kUpright);
+  expect_weight_of_water({ShapeKind::sphere, {0.15, 0.15, 0.15}, 0.0, 0.0}, kUpright);
+}
+
+// The box stands as before, but its file has it askew: its points lie on no faces.
+TEST(BodyForce, IsNoWorseWhereAMeshIsAskewInItsFile) {
+  const Quaternion turn = from_turn({0.4, -0.7, 0.2});
+  const TriangleMesh mesh = placed(box_mesh(kCube), turn, {0.0, 0.0, 0.0});
+  expect_weight_of_water(mesh_shape(make_solid(mesh, 0.02)), inverse(turn));
 }
 
 }  // namespace

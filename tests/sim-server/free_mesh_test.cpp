@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// A free mesh in the whole simulation: it floats as deep as it has to, and stays upright.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "sim-server/scene/mesh/mesh_solid.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/shape.hpp"
+#include "sim-server/simulation.hpp"
+#include "tests/sim-server/scene/mesh_forms.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kSpacing = 0.02;
+constexpr double kTank = 0.4;   ///< edge [m]
+constexpr double kLevel = 0.2;  ///< of the water without the body [m]
+constexpr double kDensity = 499.0;
+
+/// A slab afloat, as a box; then in another shape.
+Scene slab() {
+  return parse_scene(R"(
+fluid: {spacing: 0.02}
+tank: {lower: [0.0, 0.0, 0.0], upper: [0.4, 0.4, 0.5]}
+water:
+  - {lower: [0.0, 0.0, 0.0], upper: [0.4, 0.4, 0.2]}
+bodies:
+  - name: slab
+    shape: {size: [0.2, 0.16, 0.1]}
+    rest: {position: [0.2, 0.2, 0.2]}
+    motion: {kind: free, density: 499}
+)",
+                     "slab.yaml");
+}
+
+/// By how much deeper it lies than it should, over the last second [m].
+double excess_draught(const Shape& shape, const Quaternion& turn) {
+  Device device;
+  Scene scene = slab();
+  scene.bodies[0].shape = shape;
+  scene.bodies[0].rest.rotation = turn;
+  Simulation simulation(device, scene, {});
+  double height = 0.0;
+  int count = 0;
+  while (simulation.seconds() < 4.0) {
+    const FrameResult frame = simulation.advance();
+    EXPECT_FALSE(frame.mishap) << describe(*frame.mishap);
+    if (simulation.seconds() < 3.0) continue;
+    height += simulation.bodies().state(0, simulation.seconds()).position[2];
+    ++count;
+  }
+  const BodyState end = simulation.bodies().state(0, simulation.seconds());
+  const Quaternion tilted = compose(end.rotation, inverse(turn));
+  EXPECT_GT(rotate(tilted, {0.0, 0.0, 1.0})[2], 0.995) << "upright";
+  // What it displaced at rest has been cut from the water, half of it: the level stands.
+  const double wet = 0.5 * 0.1 * kDensity / 499.0;
+  const double raised = kLevel + 0.2 * 0.16 * (wet - 0.05) / (kTank * kTank);
+  return raised - (height / count - 0.05 + wet);
+}
+
+TEST(FreeMesh, FloatsAsDeepAsTheBoxOfItsForm) {
+  const Vector3 size = {0.2, 0.16, 0.1};
+  const Quaternion upright = {0.0, 0.0, 0.0, 1.0};
+  const Quaternion turn = from_turn({0.4, -0.7, 0.2});
+  const double box = excess_draught({ShapeKind::box, size, 0.0, 0.0}, upright);
+  const double mesh = excess_draught(mesh_shape(make_solid(box_mesh(size), kSpacing)), upright);
+  const TriangleMesh askew = placed(box_mesh(size), turn, {0.0, 0.0, 0.0});
+  const double other = excess_draught(mesh_shape(make_solid(askew, kSpacing)), inverse(turn));
+  std::printf("too deep, in spacings: box %.3f, mesh %.3f, mesh askew in its file %.3f\n",
+              box / kSpacing, mesh / kSpacing, other / kSpacing);
+  EXPECT_LT(std::abs(box), 0.5 * kSpacing);
+  EXPECT_LT(std::abs(mesh), 0.5 * kSpacing);
+  EXPECT_LT(std::abs(other), 0.5 * kSpacing);
+}
+
+}  // namespace
+}  // namespace splash::sim
