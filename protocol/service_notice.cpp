@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -55,6 +56,10 @@ ServiceNotice::ServiceNotice() : address_(take_variable("NOTIFY_SOCKET")) {
 
 ServiceNotice::~ServiceNotice() {
   if (socket_ >= 0) close(socket_);
+}
+
+void ServiceNotice::starting(double seconds) {
+  send("EXTEND_TIMEOUT_USEC=" + std::to_string(std::llround(1e6 * seconds)));
 }
 
 void ServiceNotice::ready(const std::string& status) {

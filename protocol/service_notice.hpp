@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tells systemd how the program is, in the datagrams of sd_notify(3): ready, alive, stopping. They
-// are a line of text each, so no library is needed to say them.
+// Tells systemd how the program is, in the datagrams of sd_notify(3): starting, ready, alive,
+// stopping. They are a line of text each, so no library is needed to say them.
 #pragma once
 
 #include <string>
@@ -17,6 +17,10 @@ class ServiceNotice {
   ServiceNotice(const ServiceNotice&) = delete;
   ServiceNotice& operator=(const ServiceNotice&) = delete;
 
+  /// Not ready yet, and it is no hang: whoever waits is to go on waiting for at least `seconds`
+  /// from now, however soon he would have given up. Nothing of a start may take longer between two
+  /// calls.
+  void starting(double seconds);
   /// The program does its work from now on; `status` is what systemctl shows.
   void ready(const std::string& status);
   /// Whether the next sign of life is due: four in the watchdog's period. To be asked by the loop

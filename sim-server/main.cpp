@@ -92,14 +92,20 @@ void say_hello(const Simulation& simulation, const Server& server, double second
   std::fflush(stdout);
 }
 
-/// Much water takes minutes to come to rest: nobody is to wonder what is going on.
-Progress telling_how_it_settles() {
-  constexpr double kPeriod = 3.0;  // [s]
-  return [start = 0.0, last = 0.0](double share) mutable {
+/// Much water takes minutes to come to rest: nobody is to wonder what is going on, and no service
+/// manager to give up.
+Progress telling_how_it_settles(protocol::ServiceNotice& service) {
+  constexpr double kPeriod = 3.0;     // [s]
+  constexpr double kPatience = 60.0;  // between two words, some steps of four million particles [s]
+  return [&service, start = 0.0, last = 0.0](double share) mutable {
     const double now = protocol::monotonic_now();
-    if (share <= 0.0) start = last = now;
+    if (share <= 0.0) {
+      start = last = now;
+      service.starting(kPatience);
+    }
     if (now - last < kPeriod) return;
     last = now;
+    service.starting(kPatience);
     std::printf(
         "the water comes to rest before it begins: %.0f %%, %.0f s to go (fewer "
         "fluid.particles or a faster --device would help)\n",
@@ -136,7 +142,7 @@ void run(const Options& options) {
   std::printf("device  %s\n", describe(device.facts()).c_str());
   std::printf("compiling kernels (the first start on a machine takes some seconds)\n");
   std::fflush(stdout);
-  Simulation simulation(device, scene, options.tracker, telling_how_it_settles());
+  Simulation simulation(device, scene, options.tracker, telling_how_it_settles(service));
   last_words.built();
   seal.renew();
   Server server(options, simulation, device.facts().name);
