@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 37 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 38 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(BodyStep) == 20 * sizeof(float));
 static_assert(sizeof(BodyShape) == 17 * sizeof(float));
 

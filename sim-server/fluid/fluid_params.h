@@ -61,6 +61,7 @@ typedef struct {
   int solver;           // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_DIVERGENCE_FREE
   float wave_speed;     // sqrt(g H) of the deepest water [m/s]
   float tolerance;      // divergence-free: mean density error at which a solve is done [1]
+  float way;            // divergence-free: as far as anything goes in a step [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 
@@ -174,6 +175,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;
   p.wave_speed = static_cast<float>(std::sqrt(length(scene.fluid.gravity) * water_depth(scene)));
   p.tolerance = static_cast<float>(scene.fluid.tolerance);
+  p.way = static_cast<float>(kWay * step_factor(scene.fluid));
   const auto walls = tank_walls(scene);
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);

@@ -9,7 +9,6 @@
 namespace splash::sim {
 namespace {
 
-constexpr double kWay = 0.3;
 constexpr double kLongest = 10.0e-3;  ///< [s]
 constexpr double kPush = 0.25;
 constexpr double kViscous = 0.125;

@@ -7,6 +7,9 @@
 
 namespace splash::sim {
 
+/// As far as the divergence-free solver lets anything go in a step [spacings].
+inline constexpr double kWay = 0.3;
+
 /// Largest step that is used [s]. Of the weakly compressible solver:
 ///   acoustic  dt <= C H / (c0 + v)        C of the smoothing kernel, below where still water
 ///                                          grows rough (smoothing.cpp)

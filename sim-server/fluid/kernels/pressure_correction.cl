@@ -2,12 +2,18 @@
 // First half of an iteration: what the velocities would do to densities within the step, and by how
 // much each particle's pressure has to change:
 //   error_i = offset_i + dt Drho_i/Dt                      [kg/m3]
-//   Q_i     = max(P_i + omega error_i / (dt^2 D_i), 0)     relaxed Jacobi, never negative
-//   P_i     = max(Q_i + beta (Q_i - last Q_i), 0)          Nesterov's momentum
+//   Q_i     = within(P_i + omega error_i / (dt^2 D_i))      relaxed Jacobi
+//   P_i     = within(Q_i + beta (Q_i - last Q_i))          Nesterov's momentum
 // with offset rho_i - rho0 where densities are to be at rest after the step, and 0 where motion is
 // to stop compressing (Bender & Koschier 2017, sections 3.3 and 3.4). A particle with a sparse
 // neighbourhood does not compress by coming closer: its offset is very low. Particles that sleep
 // keep their pressures.
+// Pressures stay within 0 and what the step was made for. It lets nothing go farther than s
+// spacings (FluidParams::way), so that the fastest has u = s dx / dt; the most that it may need is
+// the push that stops it within a step over a spacing, p = rho0 u dx / dt, P = s (dx/dt)^2 / rho0.
+// That is u^2 / s in terms of its speed, 7 times its stagnation pressure (3 at twice the default
+// step), and as u is sqrt(g H) at least, never less than what the deepest water weighs. A particle
+// that two solids pinch is freed by no pressure, and without the bound got all there is.
 
 // The inverse of the largest eigenvalue of the system scaled by its diagonal: 2.7 on the lattice,
 // 3.3 when it is shaken by 0.2 spacings, 4 at random places.
@@ -71,11 +77,13 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   const lanes d = fmax(LOAD(response, first), 1.0e-4f * least * least);
   const lanes step = RELAXATION / (dt * dt) * error / d;
   const lanes now = LOAD(pressure, first);
-  const lanes better = fmax(now + step, 0.0f);
+  const lanes none = 0.0f, one = 1.0f;
+  const float grid_speed = p->spacing / dt;
+  const lanes most = p->way * grid_speed * grid_speed / p->rest_density;
+  const lanes better = clamp(now + step, none, most);
   const lanes before = k > 0 ? LOAD(jacobi, first) : now;
   STORE(better, jacobi, first);
-  const lanes next = fmax(better + beta * (better - before), 0.0f);
-  const lanes none = 0.0f, one = 1.0f;
+  const lanes next = clamp(better + beta * (better - before), none, most);
   STORE(select(none, next - now, moves), change, first);
   const lanes found = fabs(better - now) * d * (dt * dt / RELAXATION);
   error_part[2 * (first / LANES)] = total(select(none, found, moves));

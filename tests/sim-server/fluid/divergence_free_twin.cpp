@@ -107,6 +107,9 @@ TwinSolve twin_solve(const FluidState& s, const TwinResponse& r, const std::vect
       2.0 * kernel_norm(support) / support * static_cast<double>(s.params.mass);
   const double least = 1.0e-4 * strongest * strongest;
   TwinSolve solve = std::move(from);
+  const double speed = static_cast<double>(s.params.spacing) / dt;
+  const double most = static_cast<double>(s.params.way) * speed * speed /
+                      static_cast<double>(s.params.rest_density);
   std::vector<double> jacobi = solve.pressure;
   std::vector<double> change(count);
   double t = 1.0;
@@ -119,10 +122,10 @@ TwinSolve twin_solve(const FluidState& s, const TwinResponse& r, const std::vect
     for (std::size_t i = 0; i < count; ++i) {
       const double error = offset[i] + dt * density_rate(r, neighbours[i], solve.velocity, i);
       const double per_error = kRelaxation / (dt * dt * std::max(r.response[i], least));
-      const double better = std::max(solve.pressure[i] + per_error * error, 0.0);
+      const double better = std::clamp(solve.pressure[i] + per_error * error, 0.0, most);
       solve.error += std::abs(better - solve.pressure[i]) / per_error;
       const double with_momentum = better + beta * (better - jacobi[i]);
-      change[i] = std::max(with_momentum, 0.0) - solve.pressure[i];
+      change[i] = std::clamp(with_momentum, 0.0, most) - solve.pressure[i];
       jacobi[i] = better;
     }
     solve.error /= static_cast<double>(count) * static_cast<double>(s.params.rest_density);

@@ -95,6 +95,17 @@ INSTANTIATE_TEST_SUITE_P(
         testing::Values(PressureKind::weakly_compressible, PressureKind::divergence_free)),
     words);
 
+// No pressure frees a particle that a body presses onto the floor: it gets what a step can take and
+// not more.
+TEST(Trials, PinchedWaterIsNotShotOut) {
+  sim::Device device;
+  for (const char* name : {"let go under water, density 1000", "dropped from 10 m, density 10"}) {
+    const Verdict verdict =
+        run_trial(device, named(name), {PressureKind::divergence_free, 0.035, 2.0});
+    EXPECT_THAT(verdict.broken, IsEmpty()) << name << ' ' << verdict.mishap;
+  }
+}
+
 // What an overloaded machine does to steps is still stable.
 class Stretched : public testing::TestWithParam<PressureKind> {};
 
