@@ -169,7 +169,9 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   if (mover > kThrows * static_cast<double>(fluid_.params().sound_speed)) {
     thrown_until_ = seconds_ + kFlight;
   }
-  fluid_.health().expect_speed(seconds_ < thrown_until_);
+  // Upwards nothing ends a fall: the tank is open.
+  const bool falls_out = scene_.fluid.gravity[2] > 0.0;
+  fluid_.health().expect_speed(falls_out || seconds_ < thrown_until_);
   enqueue(plan, needs, since);
   wrong_ = diagnosis(plan.size());
   if (wrong_) return std::nullopt;

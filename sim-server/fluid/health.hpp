@@ -109,8 +109,8 @@ class Health {
   void accept();
   /// The next state is another one, put there on purpose.
   void forget() noexcept { last_.reset(); }
-  /// Something moves so fast that the water it throws may reach the speed limit: that is no fault
-  /// then, the limit holds it.
+  /// Something moves so fast that the water it throws may reach the speed limit, or water falls
+  /// without end: that is no fault then, the limit holds it.
   void expect_speed(bool fast) noexcept { fast_ = fast; }
   /// For tests: only these faults are looked for.
   void set_checks(FaultSet checks) noexcept { checks_ = checks; }

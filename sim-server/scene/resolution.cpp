@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim-server/scene/rotation.hpp"
+
 namespace splash::sim {
 
 namespace {
@@ -74,19 +76,47 @@ double water_depth(const Scene& scene) {
   return top - scene.tank.lower[2];
 }
 
+double fastest_fall(const Scene& scene) {
+  const Vector3& g = scene.fluid.gravity;
+  // Down to the tank's floor, or to a side: what the potential can give, whatever is in between.
+  const auto gained = [&](const Vector3& from) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool open = i == 2 && g[i] > 0.0;
+      const double way = (g[i] < 0.0 ? scene.tank.lower[i] : scene.tank.upper[i]) - from[i];
+      if (!open) most += 2.0 * std::max(g[i] * way, 0.0);
+    }
+    return most;
+  };
+  double fastest2 = 0.0;
+  for (const BodySettings& body : scene.bodies) {
+    if (!is_free(body)) continue;
+    const double start = length(body.motion.velocity);
+    fastest2 = std::max(fastest2, start * start + gained(body.rest.position));
+  }
+  for (const WaterBlock& block : scene.water) {
+    // Only water that nothing holds falls as a whole: what stands on the floor flows off.
+    if (block.lower[2] <= floor_height(scene, block.lower[0])) continue;
+    fastest2 = std::max(fastest2, gained(block.lower));
+  }
+  return std::sqrt(fastest2);
+}
+
 double scene_sound_speed(const Scene& scene, double fastest_body) {
   if (scene.fluid.sound_speed > 0.0) return scene.fluid.sound_speed;
   // Monaghan 1994: density stays within (v/c)^2 of rest, so c should be ten times the fastest
   // speed. Eight times that of the fastest wave the depth allows (1.6 % at the floor) is what two
   // CPU cores carry in real time; the floor covers bodies of up to 1.3 m/s, whatever the depth.
-  // Faster ones move at a Mach number of 0.3 at most, where stagnation compresses by 5 %: below
-  // that a flow counts as incompressible (Anderson, Fundamentals of Aerodynamics).
+  // Faster ones, and what falls faster, move at a Mach number of 0.3 at most, where stagnation
+  // compresses by 5 %: below that a flow counts as incompressible (Anderson, Fundamentals of
+  // Aerodynamics).
   constexpr double kRatio = 8.0;
   constexpr double kLeast = 13.0;
   constexpr double kMach = 0.3;
+  const double fastest = std::max(fastest_body, fastest_fall(scene));
   const auto& g = scene.fluid.gravity;
   const double wave = std::sqrt(std::hypot(g[0], g[1], g[2]) * water_depth(scene));
-  return std::max(sound_share(scene.fluid) * std::max(kRatio * wave, kLeast), fastest_body / kMach);
+  return std::max(sound_share(scene.fluid) * std::max(kRatio * wave, kLeast), fastest / kMach);
 }
 
 double longest_step_factor(PressureKind solver) noexcept {

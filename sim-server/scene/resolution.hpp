@@ -17,7 +17,12 @@ inline constexpr int kParticlesMax = 4'000'000;
 [[nodiscard]] double particle_spacing(const Scene& scene);
 /// Deepest water at rest [m].
 [[nodiscard]] double water_depth(const Scene& scene);
-/// As given, or from the depth, times sound_share, and the speed of the fastest body [m/s].
+/// What free bodies, and water that hangs in the air, get at most by falling through the tank, with
+/// the speed that they begin with: sqrt(v^2 + 2 g drop) [m/s]. Nothing is said of what falls
+/// upwards out of the tank, which is open there.
+[[nodiscard]] double fastest_fall(const Scene& scene);
+/// As given, or from the depth, times sound_share, and the speed of the fastest body,
+/// `fastest_body` or one that falls [m/s].
 [[nodiscard]] double scene_sound_speed(const Scene& scene, double fastest_body = 0.0);
 /// The most by which steps may exceed the default at one speed of sound, by what still water stands
 /// (sim-server/fluid/README, "How long a step may be") [1].

@@ -65,6 +65,28 @@ TEST(Resolution, SpacingFollowsFromTheNumberOfParticles) {
   EXPECT_DOUBLE_EQ(particle_spacing(scene), 0.07);
 }
 
+TEST(Resolution, SoundIsFastEnoughForWhatFalls) {
+  Scene scene = beach();
+  scene.slope.present = false;
+  scene.water = {{{0.0, 0.0, 0.1}, {1.0, 1.0, 0.3}}};
+  BodySettings body;
+  body.rest.position = {0.0, 0.5, 5.1};
+  scene.bodies = {body};
+  EXPECT_EQ(fastest_fall(scene), 0.0) << "neither falls";
+  scene.bodies[0].motion.kind = MotionKind::free;
+  EXPECT_NEAR(fastest_fall(scene), std::sqrt(2.0 * 9.81 * 5.0), 1e-9);
+  EXPECT_NEAR(scene_sound_speed(scene), std::sqrt(2.0 * 9.81 * 5.0) / 0.3, 1e-9);
+  scene.bodies[0].motion.velocity = {3.0, 0.0, 4.0};
+  EXPECT_NEAR(fastest_fall(scene), std::sqrt(2.0 * 9.81 * 5.0 + 25.0), 1e-9);
+  scene.bodies.clear();
+  scene.water.push_back({{0.0, 0.0, 2.1}, {1.0, 1.0, 2.3}});
+  EXPECT_NEAR(fastest_fall(scene), std::sqrt(2.0 * 9.81 * 2.0), 1e-9);
+  scene.fluid.gravity = {0.0, 0.0, 9.81};
+  EXPECT_EQ(fastest_fall(scene), 0.0) << "it leaves the tank, nobody knows how fast";
+  scene.fluid.gravity = {-2.0, 0.0, 0.0};
+  EXPECT_NEAR(fastest_fall(scene), 2.0, 1e-9) << "to the left side";
+}
+
 TEST(Resolution, SoundIsEightTimesTheWaveSpeedButNeverTooSlow) {
   Scene scene = beach();
   EXPECT_DOUBLE_EQ(water_depth(scene), 0.4 - 0.1);

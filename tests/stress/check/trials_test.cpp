@@ -89,10 +89,11 @@ TEST_P(Longer, StepsPass) {
 
 INSTANTIATE_TEST_SUITE_P(
     Both, Longer,
-    testing::Combine(
-        testing::Values("rest, half in", "dam break", "plunge at 5.00 m/s", "pressed to the floor",
-                        "let go under water, density 0.001", "a box tumbles in, density 1000"),
-        testing::Values(PressureKind::weakly_compressible, PressureKind::divergence_free)),
+    testing::Combine(testing::Values("rest, half in", "dam break", "plunge at 5.00 m/s",
+                                     "pressed to the floor", "let go under water, density 0.001",
+                                     "a box tumbles in, density 1000", "gravity upwards"),
+                     testing::Values(PressureKind::weakly_compressible,
+                                     PressureKind::divergence_free)),
     words);
 
 // No pressure frees a particle that a body presses onto the floor: it gets what a step can take and
