@@ -12,9 +12,11 @@ namespace splash::sim {
 /// Is told now and then which part of a long task is done [1].
 using Progress = std::function<void(double share)>;
 
-/// Runs `fluid` for `seconds` in steps of `dt` with its bodies at rest where `bodies` says: first
-/// freely, so that the lattice finds a better packing, then stopping all motion again and again, so
-/// that the column ceases to breathe. `piston`: offset of the wave maker [m].
+/// Runs `fluid` in steps of `dt` [s] with its bodies at rest where `bodies` says: for `seconds`
+/// first freely, so that the lattice finds a better packing, then stopping all motion again and
+/// again, so that the column ceases to breathe. Then it is left alone, and stopped once more, until
+/// nothing gets faster than a twentieth of its longest wave within half a second; four times
+/// `seconds` in all at most. `piston`: offset of the wave maker [m].
 void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
             double dt, const Progress& tell = {});
 
