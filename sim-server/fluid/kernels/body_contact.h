@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Free bodies against each other, and against those that go their way (contact.h), but for meshes,
-// which go through all bodies and all bodies through them: wherever two
-// outlines would be in each other after the step (outline_gap.h).
+// Free bodies against each other, and against those that go their way (contact.h): wherever two
+// outlines would be in each other after the step (outline_gap.h). Not meshes: they go through all
+// bodies, and all bodies through them.
 
 #define FIRST_EDGE 64  // number of the first edge among a body's features
-#define PUT_APART 4   // times that overlaps are ended, pair after pair
-#define LEFT_IN 0.1f  // overlap that is left, so that what lies stays in touch [rounding]
+#define PUT_APART 4    // times that overlaps are ended, pair after pair
+#define LEFT_IN 0.1f   // overlap that is left, so that what lies stays in touch [rounding]
 
 static bool boxes_meet(const Pairing* m) {
   const BodyStep a = m->step, b = m->step_other;

@@ -5,7 +5,8 @@
 // one body gets, the other gives, at the same place: momentum and angular momentum stay.
 // What would pass the other within the step is stopped so that it just reaches it.
 // A place in touch in the step before begins with the push that it had: so what is piled up is
-// found in a few sweeps.
+// found in a few sweeps. Where the water was taken back, that push is of a step that did not come
+// to be: a worse guess, no wrong answer.
 
 #define REBOUND_SPEED 0.1f  // what comes slower does not rebound [m/s]
 #define CONTACT_SWEEPS 16
