@@ -15,7 +15,9 @@
 namespace splash::synth {
 namespace {
 
-constexpr int kPiece = 32;  ///< samples: rows of the packs that are mixed together stay near
+/// Samples that one channel alone gets at once: what was turned is still near when it is mixed. Of
+/// many channels each piece would cost a call of the kernel per channel.
+constexpr int kPiece = 32;
 
 /// From one channel's sums to the next: not a multiple of a page, or what is read of one channel
 /// would be taken for what was just written of another.
@@ -45,10 +47,7 @@ class Pool final : public BubblePool {
  public:
   using Real = typename Pack::Real;
   static constexpr bool kAfresh = std::is_same_v<Pack, FastPack>;  ///< each cell starts afresh
-  /// Of many channels each piece costs a call of the kernel per channel: as long as rows of single
-  /// precision stay near.
-  static constexpr int kManyPiece = sizeof(Real) == sizeof(float) ? kCell : kPiece;
-  static constexpr std::size_t kPieceRows = kManyPiece * kPackLanes;
+  static constexpr auto kCellRows = static_cast<std::size_t>(kRows);
 
   explicit Pool(const PoolSettings& s)
       : kernels_(kernels_for<Pack>(s.instructions)),
@@ -61,7 +60,7 @@ class Pool final : public BubblePool {
         seating_(packs_.size(), s.groups),
         sums_(static_cast<std::size_t>(s.channels) * kSumStride),
         ranking_(packs_.size() * kPackLanes, s.sample_rate),
-        piece_(s.channels > 1 ? kManyPiece : kPiece) {}
+        piece_(s.channels > 1 ? kCell : kPiece) {}
 
   Started start(const BubbleTone& tone, const VoiceLife& life, std::span<const Route> routes,
                 int group, std::int64_t sample) noexcept override {
@@ -92,7 +91,7 @@ class Pool final : public BubblePool {
     const auto begin = static_cast<int>(from % kCell);
     const auto end = begin + static_cast<int>(to - from);
     const std::span<const int> packs = seating_.packs();
-    for (std::size_t first = 0; first < packs.size(); first += kMixedPacks) {
+    for (std::size_t first = 0; first < packs.size(); first += kMixedPacks<Real>) {
       mix_some(packs.subspan(first), from - begin, begin, end);
     }
     mixed_ = end % kCell;
@@ -127,21 +126,21 @@ class Pool final : public BubblePool {
 
  private:
   /// The first kMixedPacks of these packs: samples [begin, end) of the cell that starts at `cell`.
-  /// Piece by piece, so that their rows and the sums of their channels stay next to the processor.
+  /// One channel alone piece by piece.
   void mix_some(std::span<const int> packs, std::int64_t cell, int begin, int end) noexcept {
-    const std::size_t count = std::min<std::size_t>(kMixedPacks, packs.size());
+    const std::size_t count = std::min<std::size_t>(kMixedPacks<Real>, packs.size());
     // What is only needed within this call need not go to memory with the packs.
     const bool passing = kAfresh && begin == 0 && end == kCell;
     for (std::size_t k = 0; k < count; ++k) {
       const auto p = static_cast<std::size_t>(packs[k]);
       lanes_[k] = passing ? &passing_[k] : &packs_[p];
       if (begin == 0) kernels_.begin(packs_[p], *lanes_[k]);
-      feeds_.join(p, &rows_[k * kPieceRows]);
+      feeds_.join(p, &rows_[k * kCellRows]);
     }
     for (int from = begin; from < end;) {
       const int to = std::min(end, from + piece_);
       for (std::size_t k = 0; k < count; ++k) {
-        Real* const rows = &rows_[k * kPieceRows];
+        Real* const rows = &rows_[k * kCellRows];
         // Nothing is waited for while voices turn: time to fetch what is needed next.
         if (from == begin) feeds_.fetch_gains(static_cast<std::size_t>(packs[k]));
         if (from == begin && k + count < packs.size()) {
@@ -275,9 +274,9 @@ class Pool final : public BubblePool {
   int piece_;                ///< samples that are mixed at once
   int mixed_ = 0;            ///< samples of this cell that are mixed
   // Of the packs that are being mixed:
-  std::array<TurningLanes<Real>*, kMixedPacks> lanes_{};
-  std::array<TurningLanes<Real>, kMixedPacks> passing_{};
-  alignas(64) std::array<Real, kMixedPacks * kPieceRows> rows_{};
+  std::array<TurningLanes<Real>*, kMixedPacks<Real>> lanes_{};
+  std::array<TurningLanes<Real>, kMixedPacks<Real>> passing_{};
+  alignas(64) std::array<Real, kMixedPacks<Real> * kCellRows> rows_{};
 };
 
 }  // namespace

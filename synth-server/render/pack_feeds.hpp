@@ -102,7 +102,7 @@ class PackFeeds {
     std::size_t single = kNobody;  // waits for another that all go to
     for (const std::int32_t next : joined_channels_) {
       const auto channel = static_cast<std::size_t>(next);
-      if (packs_of(channel).count < kMixedPacks) {
+      if (packs_of(channel).count < kMixedPacks<Real>) {
         mix(channel, packs_of(channel));
       } else if (single == kNobody) {
         single = channel;

@@ -23,12 +23,15 @@ struct alignas(64) PackFeed {
 inline constexpr int kRows = kCell * kPackVoices;
 
 /// Packs that go to one channel together: its sums are fetched and put back once for all of them.
-inline constexpr int kMixedPacks = 8;
+/// As many as have 32 KiB of rows in a cell, which stay in the first cache while all channels
+/// fetch them.
+template <class Real>
+inline constexpr int kMixedPacks = sizeof(Real) == sizeof(double) ? 4 : 8;
 template <class Real>
 struct PackMix {
   int count = 0;
-  const Real* rows[kMixedPacks] = {};
-  const PackFeed<Real>* feeds[kMixedPacks] = {};
+  const Real* rows[kMixedPacks<Real>] = {};
+  const PackFeed<Real>* feeds[kMixedPacks<Real>] = {};
 };
 
 template <class Pack>

@@ -169,6 +169,8 @@ template <class Real, int kPacks, int kChannels>
         }
       }
     }
+    // Unrolled: counting is an eighth of SSE2's operations here.
+#pragma GCC unroll 4
     for (int n = from; n < to; ++n) {
       V added[kChannels];
       for (int c = 0; c < kChannels; ++c) {
@@ -205,7 +207,7 @@ template <class Real, int kChannels>
 [[gnu::always_inline]] inline void mix_all(const Mixing<Real, kChannels>& mixing, int from,
                                            int to) {
   constexpr int kFitting = kGainVectors * kSumLanes<Real> / (kChannels * kPackVoices);
-  constexpr int kAtOnce = kFitting < kMixedPacks ? kFitting : kMixedPacks;
+  constexpr int kAtOnce = kFitting < kMixedPacks<Real> ? kFitting : kMixedPacks<Real>;
   int first = 0;
   for (; first + kAtOnce <= mixing.packs[0]->count; first += kAtOnce) {
     mix_some<Real, kAtOnce>(mixing, first, from, to);

@@ -185,7 +185,7 @@ class Product final : public Sixteen {
   void mix(double* channel) override {
     packs_.rows[packs_.count] = rows_.data();
     packs_.feeds[packs_.count] = &feed_;
-    if (++packs_.count == synth::kMixedPacks) {
+    if (++packs_.count == synth::kMixedPacks<Real>) {
       kernels_.mix(packs_, 0, kCell, sums_.data());
       packs_.count = 0;
     }

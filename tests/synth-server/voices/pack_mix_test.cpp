@@ -51,8 +51,8 @@ struct Drawn {
     return sum;
   }
 
-  alignas(64) std::array<std::array<Real, kRows>, kMixedPacks> rows;
-  std::array<std::array<PackFeed<Real>, kMixedPacks>, 2> feeds;
+  alignas(64) std::array<std::array<Real, kRows>, kMixedPacks<Real>> rows;
+  std::array<std::array<PackFeed<Real>, kMixedPacks<Real>>, 2> feeds;
 };
 
 template <class Real>
@@ -66,7 +66,7 @@ template <class Pack>
 void expect_sums(const PackKernels<Pack>& kernels, double bound) {
   using Real = typename Pack::Real;
   const auto drawn = std::make_unique<Drawn<Real>>(3);
-  for (int count = 1; count <= kMixedPacks; ++count) {
+  for (int count = 1; count <= kMixedPacks<Real>; ++count) {
     for (const auto& [from, to] : {std::pair{0, kCell}, std::pair{3, 40}, std::pair{61, 64}}) {
       Sums<Real> one;
       Sums<Real> other;
