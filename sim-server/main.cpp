@@ -22,6 +22,7 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/server.hpp"
+#include "sim-server/unsettled.hpp"
 
 namespace {
 
@@ -79,12 +80,18 @@ void say_price(const Simulation& simulation) {
       share, 1.0 / (share * share));
 }
 
-void say_hello(const Simulation& simulation, const Server& server, double seconds_to_build) {
+void say_what_flows(Simulation& simulation) {
+  const std::string notice = unsettled_water(simulation);
+  if (!notice.empty()) std::printf("water   %s\n", notice.c_str());
+}
+
+void say_hello(Simulation& simulation, const Server& server, double seconds_to_build) {
   const Scene& scene = simulation.scene();
   std::printf("scene   %s: %d particles %.1f mm apart, %zu bodies, sound speed %.1f m/s\n",
               scene.name.c_str(), simulation.particles(), 1e3 * particle_spacing(scene),
               scene.bodies.size(), static_cast<double>(simulation.sound_speed()));
   say_price(simulation);
+  say_what_flows(simulation);
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
               seconds_to_build > 1.0 ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/flow.hpp"
@@ -14,13 +15,26 @@
 namespace splash::sim {
 namespace {
 
-std::vector<Vector3> particles_around(const Scene& scene, const Bodies& bodies) {
+std::vector<Keyframe> poses_at_start(const Bodies& bodies) {
   std::vector<Keyframe> poses;
   for (std::size_t b = 0; b < bodies.count(); ++b) {
     const BodyState state = bodies.state(b, 0.0);
     poses.push_back({0.0, state.position, state.rotation});
   }
-  return initial_particles(scene, poses);
+  return poses;
+}
+
+/// What comes to rest is held, whatever holds it.
+std::vector<Holding> wanted_holding(const Scene& scene, std::span<const Keyframe> poses,
+                                    const std::vector<Vector3>& particles) {
+  if (scene.fluid.settle == SettleKind::always) {
+    return std::vector<Holding>(particles.size(), Holding::held);
+  }
+  std::vector<Holding> all = how_held(scene, poses, particles);
+  if (scene.fluid.settle == SettleKind::never) {
+    std::replace(all.begin(), all.end(), Holding::held, Holding::flows);
+  }
+  return all;
 }
 
 /// With a speed of sound that suits its depth and its bodies, unless it names one.
@@ -43,11 +57,14 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
           support};
 }
 
-Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies) {
+Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
+                 std::vector<Holding>& holding) {
   const Scene sounding = with_sound(scene, bodies);
-  const std::vector<Vector3> particles = particles_around(scene, bodies);
+  const std::vector<Keyframe> poses = poses_at_start(bodies);
+  const std::vector<Vector3> particles = initial_particles(scene, poses);
+  holding = wanted_holding(scene, poses, particles);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
-  return {device,   make_params(sounding, particles), settled(sounding, particles),
+  return {device,   make_params(sounding, particles), settled(sounding, particles, holding),
           boundary, body_outlines(scene.bodies),      {false, !scene.skip.kernels}};
 }
 

@@ -8,6 +8,7 @@
 
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/scene/holding.hpp"
 #include "sim-server/scene/scene.hpp"
 #include "sim-server/tracking/live_motion.hpp"
 
@@ -19,9 +20,12 @@ namespace splash::sim {
 [[nodiscard]] Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
                                  std::vector<LiveMotion*>& live);
 
-/// The scene's water, settled, with no particle in a body. Builds all kernels; throws
-/// protocol::ConfigError for what the scene says wrong, std::runtime_error for the device.
-[[nodiscard]] Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies);
+/// The scene's water under its own weight, with no particle in a body. `holding` gets one entry a
+/// particle, by its id: which of them are to come to rest and which begin where they are, as the
+/// scene wants it (fluid.settle). Builds all kernels; throws protocol::ConfigError for what the
+/// scene says wrong, std::runtime_error for the device.
+[[nodiscard]] Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
+                               std::vector<Holding>& holding);
 
 /// Gives every particle the velocity of the scene's flow; the fastest of them [m/s].
 double start_flow(Fluid& fluid, const Scene& scene);

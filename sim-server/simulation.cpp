@@ -22,8 +22,15 @@ constexpr double kThrows = 1.0 / 8.0;
 constexpr double kFlight = 1.0;
 
 /// The lattice is no stable packing: the water finds a better one in the first second, and would
-/// be heard doing so. It is given this long before time begins [s].
+/// be heard doing so. What something holds is given this long before time begins [s].
 constexpr double kSettleSeconds = 1.0;
+
+std::vector<bool> not_held(const std::vector<Holding>& holding) {
+  std::vector<bool> flags(holding.size());
+  std::transform(holding.begin(), holding.end(), flags.begin(),
+                 [](Holding how) { return how != Holding::held; });
+  return flags;
+}
 
 SleepRule sleep_rule(const Scene& scene) {
   return {scene.skip.sleep_speed,
@@ -36,7 +43,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
                        const Progress& tell)
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
-      fluid_(make_fluid(device, scene_, bodies_)),
+      fluid_(make_fluid(device, scene_, bodies_, holding_)),
       detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed, !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   settle_in(tell);
@@ -57,12 +64,13 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
 
 void Simulation::settle_in(const Progress& tell) {
   const Snapshot lattice = fluid_.snapshot();
+  Mould mould(fluid_, not_held(holding_));
   const PistonState piston = piston_at(scene_.wave_maker, 0.0);
   double dt = largest_time_step(fluid_.params(), bodies_.fastest(0.0),
                                 std::abs(scene_.fluid.gravity[2]), step_factor(scene_.fluid));
   std::optional<Diagnosis> wrong;
   for (int k = 0; k <= Recovery::kTries; ++k) {
-    settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, dt, tell);
+    settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, dt, tell, &mould);
     const Step step = {dt, piston.offset, 0.0, 0};
     fluid_.begin_watch(1);
     fluid_.prepare(step);
@@ -70,6 +78,7 @@ void Simulation::settle_in(const Progress& tell) {
     static_cast<void>(fluid_.survey());
     fluid_.end_watch();
     wrong = fluid_.health().diagnosis();
+    mould.put_back();
     fluid_.still();
     if (!wrong) return;
     fluid_.restore(lattice);

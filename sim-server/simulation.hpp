@@ -16,6 +16,7 @@
 #include "sim-server/mishap.hpp"
 #include "sim-server/needs.hpp"
 #include "sim-server/recovery.hpp"
+#include "sim-server/scene/holding.hpp"
 #include "sim-server/tracking/live_motion.hpp"
 
 namespace splash::sim {
@@ -76,6 +77,8 @@ class Simulation {
   [[nodiscard]] int particles() const noexcept { return fluid_.params().count; }
   [[nodiscard]] const Bodies& bodies() const noexcept { return bodies_; }
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
+  /// Of each particle, by its id: what came to rest before time began, and what did not.
+  [[nodiscard]] const std::vector<Holding>& holding() const noexcept { return holding_; }
   [[nodiscard]] Fluid& fluid() noexcept { return fluid_; }
   [[nodiscard]] double time_step() const noexcept { return largest_step_; }
   [[nodiscard]] float sound_speed() const noexcept {
@@ -111,6 +114,7 @@ class Simulation {
   Scene scene_;
   std::vector<LiveMotion*> live_;
   Bodies bodies_;
+  std::vector<Holding> holding_;
   Fluid fluid_;
   Detector detector_;
   Needs needs_;

@@ -84,16 +84,26 @@ double compression(const Scene& scene) {
   return falls_down(scene) ? stratification(scene) * water_depth(scene) / 2.0 : 0.0;
 }
 
-/// Height of the water's surface over x, y [m]; the floor's where there is none.
-double surface_height(const Scene& scene, const Vector3& place) {
-  double height = floor_height(scene, place[0]);
+/// To where a particle of a standing column comes by the weight of what is above it.
+double sunk(const Scene& scene, const Vector3& x) {
+  const WaterColumn column = water_column(scene, x);
+  const double z = x[2] - column.bottom;
+  const double above = column.top - x[2];
+  return x[2] - stratification(scene) * std::max(z, 0.0) * std::max(above, 0.0) / 2.0;
+}
+
+/// To where a particle of hanging water comes when the block is as dense as at rest: its mass is
+/// larger by the compression, so each edge of the block grows by a third of that.
+Vector3 spread(const Scene& scene, const Vector3& x) {
   for (const WaterBlock& block : scene.water) {
-    if (place[0] >= block.lower[0] && place[0] <= block.upper[0] && place[1] >= block.lower[1] &&
-        place[1] <= block.upper[1]) {
-      height = std::max(height, block.upper[2]);
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      inside = inside && x[i] >= block.lower[i] && x[i] <= block.upper[i];
     }
+    const Vector3 middle = 0.5 * (block.lower + block.upper);
+    if (inside) return x + compression(scene) / 3.0 * (x - middle);
   }
-  return height;
+  return x;
 }
 
 void set_pull(const FluidSettings& fluid, FluidParams& p) {
@@ -132,13 +142,14 @@ std::vector<WallPlane> tank_walls(const Scene& scene) {
   return walls;
 }
 
-std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles) {
-  const double growth = stratification(scene);
-  for (Vector3& x : particles) {
-    const double floor = floor_height(scene, x[0]);
-    const double z = x[2] - floor;
-    const double above = surface_height(scene, x) - x[2];
-    x[2] -= growth * std::max(z, 0.0) * std::max(above, 0.0) / 2.0;
+std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
+                             const std::vector<Holding>& holding) {
+  if (stratification(scene) == 0.0) return particles;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    Vector3& x = particles[i];
+    const bool hangs = i < holding.size() && holding[i] == Holding::hangs;
+    if (hangs) x = spread(scene, x);
+    if (!hangs) x[2] = sunk(scene, x);
   }
   return particles;
 }

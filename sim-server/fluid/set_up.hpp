@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid_params.h"
+#include "sim-server/scene/holding.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -25,8 +26,12 @@ namespace splash::sim {
 /// The particles as they stand under their own weight: density grows with depth as the state
 /// equation asks, rho = rho0 (1 + g (H - z) / c0^2), so nothing falls in the first steps and the
 /// surface stays where the scene wants it. To first order z becomes z - g z (H - z) / (2 c0^2),
-/// with z from the floor. Needs gravity along -z; any other leaves the lattice as it is.
-[[nodiscard]] std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles);
+/// with z from the floor, or from the bottom of a column that stands higher. What hangs, as
+/// `holding` says of each particle (all are held without it), weighs on nothing: it is spread
+/// about the middle of its block until it has the density at rest. Needs gravity along -z; any
+/// other leaves the lattice as it is.
+[[nodiscard]] std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
+                                           const std::vector<Holding>& holding = {});
 
 /// How far the piston stands in front of its rest place, and how fast it moves [m], [m/s].
 struct PistonState {

@@ -27,8 +27,8 @@ constexpr int kTold = 8;  ///< steps between two words on how far it is
 /// A step after the other, of a fluid that is to come to rest.
 class Settling {
  public:
-  Settling(Fluid& fluid, const Step& step, int most, const Progress& tell)
-      : fluid_(fluid), step_(step), most_(most), tell_(tell) {}
+  Settling(Fluid& fluid, const Step& step, int most, const Progress& tell, Mould* mould)
+      : fluid_(fluid), step_(step), most_(most), tell_(tell), mould_(mould) {}
 
   void advance() {
     if (tell_ && done_ % kTold == 0) {
@@ -37,6 +37,7 @@ class Settling {
     }
     fluid_.prepare(step_);
     fluid_.advance(step_);
+    if (mould_ != nullptr) mould_->put_back();
     ++done_;
   }
 
@@ -58,24 +59,26 @@ class Settling {
   Step step_;
   int most_;
   const Progress& tell_;
+  Mould* mould_;
   int done_ = 0;
 };
 
 }  // namespace
 
 void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
-            double dt, const Progress& tell) {
+            double dt, const Progress& tell, Mould* mould) {
   std::vector<BodyStep> still = bodies;
   for (BodyStep& body : still) {
     body.vx = body.vy = body.vz = 0.0F;
     body.wx = body.wy = body.wz = body.speed = 0.0F;
   }
   fluid.set_bodies(still);
+  if (mould != nullptr && mould->has_all()) return;
   const int steps = static_cast<int>(seconds / dt);
   const int most = static_cast<int>(kMost * seconds / dt);
   const int between = std::max(1, static_cast<int>(kBetweenStops / dt));
   const int watched = std::max(1, static_cast<int>(kWatch / dt));
-  Settling water(fluid, {dt, piston, 0.0, 0}, most, tell);
+  Settling water(fluid, {dt, piston, 0.0, 0}, most, tell, mould);
   for (int k = 0; k < steps; ++k) {
     water.advance();
     if (k > kLoose * steps && k % between == 0) fluid.still();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/mould.hpp"
 
 namespace splash::sim {
 
@@ -16,8 +17,9 @@ using Progress = std::function<void(double share)>;
 /// first freely, so that the lattice finds a better packing, then stopping all motion again and
 /// again, so that the column ceases to breathe. Then it is left alone, and stopped once more, until
 /// nothing gets faster than a twentieth of its longest wave within half a second; four times
-/// `seconds` in all at most. `piston`: offset of the wave maker [m].
+/// `seconds` in all at most. `piston`: offset of the wave maker [m]. What is in the `mould` stays
+/// as it is; if that is all, nothing is done.
 void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
-            double dt, const Progress& tell = {});
+            double dt, const Progress& tell = {}, Mould* mould = nullptr);
 
 }  // namespace splash::sim

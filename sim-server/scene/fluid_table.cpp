@@ -44,6 +44,14 @@ Fields<F> method_fields() {
                    "comparison.",
         .choices = {"vector", "reference"}},
        &F::kernels_name},
+      {{.key = "settle",
+        .unit = "",
+        .meaning = "What comes to rest before time begins. auto: water that stands level in the "
+                   "tank, on bodies or behind the gate; what nothing holds, as a drop in the air, "
+                   "begins where and as this file says. always: all water, which then has flowed "
+                   "off or fallen when time begins. never: none, so that a pool simmers at first.",
+        .choices = {"auto", "always", "never"}},
+       &F::settle_name},
       {{.key = "density_tolerance",
         .unit = "1",
         .meaning = "divergence_free: mean compression at which a solve ends.",

@@ -69,18 +69,6 @@ Counts lattice(const Vector3& edge, double spacing) {
   return best;
 }
 
-/// Whether a place of the block's box is inside its form.
-bool is_filled(const WaterBlock& block, const Vector3& place) {
-  if (block.form == WaterForm::box) return true;
-  Vector3 share = {};  // from the middle, in half edges
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double half = 0.5 * (block.upper[i] - block.lower[i]);
-    share[i] = (place[i] - block.lower[i]) / half - 1.0;
-  }
-  if (block.form == WaterForm::cylinder) share[1] = 0.0;
-  return std::hypot(share[0], share[1], share[2]) <= 1.0;
-}
-
 /// Appends one block. On the slope each column of particles begins half a layer above it, so that
 /// none is too close to the floor and the water's volume is kept within half a layer.
 void fill(const Scene& scene, const WaterBlock& block, double spacing, std::vector<Vector3>& out) {
@@ -104,6 +92,26 @@ void fill(const Scene& scene, const WaterBlock& block, double spacing, std::vect
 
 }  // namespace
 
+bool is_filled(const WaterBlock& block, const Vector3& place) {
+  if (block.form == WaterForm::box) return true;
+  Vector3 share = {};  // from the middle, in half edges
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double half = 0.5 * (block.upper[i] - block.lower[i]);
+    share[i] = (place[i] - block.lower[i]) / half - 1.0;
+  }
+  if (block.form == WaterForm::cylinder) share[1] = 0.0;
+  return std::hypot(share[0], share[1], share[2]) <= 1.0;
+}
+
+bool is_displaced(const Scene& scene, std::span<const Keyframe> poses, const Vector3& place,
+                  double spacing) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Vector3 local = rotate(inverse(poses[i].rotation), place - poses[i].position);
+    if (distance_to(scene.bodies[i].shape, local) < 0.5 * spacing) return true;
+  }
+  return false;
+}
+
 std::vector<Vector3> initial_particles(const Scene& scene) {
   std::vector<Keyframe> poses;
   for (const auto& body : scene.bodies) poses.push_back(body.rest);
@@ -118,11 +126,7 @@ std::vector<Vector3> initial_particles(const Scene& scene, std::span<const Keyfr
   std::vector<Vector3> particles;
   for (const auto& block : scene.water) fill(scene, block, spacing, particles);
   std::erase_if(particles, [&](const Vector3& particle) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Vector3 local = rotate(inverse(poses[i].rotation), particle - poses[i].position);
-      if (distance_to(scene.bodies[i].shape, local) < 0.5 * spacing) return true;
-    }
-    return false;
+    return is_displaced(scene, poses, particle, spacing);
   });
   return particles;
 }

@@ -9,6 +9,14 @@
 
 namespace splash::sim {
 
+/// Whether a place of the block's box is inside its form.
+[[nodiscard]] bool is_filled(const WaterBlock& block, const Vector3& place);
+
+/// Whether a body at one of `poses` displaces a particle there: it is nearer than half a `spacing`
+/// to its surface, or inside [m].
+[[nodiscard]] bool is_displaced(const Scene& scene, std::span<const Keyframe> poses,
+                                const Vector3& place, double spacing);
+
 /// Centres of the particles: a lattice per block of water that fills its box exactly, half a
 /// spacing from its sides and above the slope, without those outside a round form and those that a
 /// body displaces. `poses` are the

@@ -70,10 +70,37 @@ double particle_spacing(const Scene& scene) {
   return std::cbrt(water_volume(scene) / scene.fluid.particles);
 }
 
+WaterColumn water_column(const Scene& scene, const Vector3& place) {
+  const double gap = particle_spacing(scene);
+  WaterColumn column = {place[2], place[2]};
+  // Each turn adds the blocks that touch what there is: as many turns as there are blocks, at most.
+  for (std::size_t turn = 0; turn < scene.water.size(); ++turn) {
+    for (const WaterBlock& block : scene.water) {
+      const bool over = place[0] >= block.lower[0] && place[0] <= block.upper[0] &&
+                        place[1] >= block.lower[1] && place[1] <= block.upper[1];
+      if (!over || block.lower[2] > column.top + gap || block.upper[2] < column.bottom - gap) {
+        continue;
+      }
+      column.bottom = std::min(column.bottom, block.lower[2]);
+      column.top = std::max(column.top, block.upper[2]);
+    }
+  }
+  column.bottom = std::max(column.bottom, floor_height(scene, place[0]));
+  return column;
+}
+
 double water_depth(const Scene& scene) {
-  double top = scene.tank.lower[2];
-  for (const auto& block : scene.water) top = std::max(top, block.upper[2]);
-  return top - scene.tank.lower[2];
+  double deepest = 0.0;
+  for (const WaterBlock& block : scene.water) {
+    const Vector3 middle = 0.5 * (block.lower + block.upper);
+    // Where the floor rises it is deepest at its foot.
+    const Vector3 foot = {block.lower[0], middle[1], middle[2]};
+    for (const Vector3& place : {middle, foot}) {
+      const WaterColumn column = water_column(scene, place);
+      deepest = std::max(deepest, column.top - column.bottom);
+    }
+  }
+  return deepest;
 }
 
 double fastest_fall(const Scene& scene) {

@@ -15,7 +15,14 @@ inline constexpr int kParticlesMax = 4'000'000;
 [[nodiscard]] double water_volume(const Scene& scene);
 /// As given, or such that the wanted number of particles fills the water [m].
 [[nodiscard]] double particle_spacing(const Scene& scene);
-/// Deepest water at rest [m].
+/// Water that is one on the other over a place, with gaps of less than a spacing.
+struct WaterColumn {
+  double bottom = 0.0;  ///< the floor's height there, or that of the lowest block [m]
+  double top = 0.0;     ///< [m]
+};
+/// The column of water that `place` is in; of no height where there is none.
+[[nodiscard]] WaterColumn water_column(const Scene& scene, const Vector3& place);
+/// Height of the deepest column of water at the start [m].
 [[nodiscard]] double water_depth(const Scene& scene);
 /// What free bodies, and water that hangs in the air, get at most by falling through the tank, with
 /// the speed that they begin with: sqrt(v^2 + 2 g drop) [m/s]. Nothing is said of what falls

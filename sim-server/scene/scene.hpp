@@ -20,6 +20,10 @@ enum class PressureKind { weakly_compressible, divergence_free };
 
 /// Over how much water a particle's quantities are smoothed: sim-server/fluid/smoothing.hpp.
 
+/// What of the water comes to rest before time begins: scene/holding.hpp. automatic: what something
+/// holds; always: all of it, wherever it flows meanwhile; never: none.
+enum class SettleKind { automatic, always, never };
+
 /// vector: as suits the device; reference: one particle at a time.
 enum class KernelKind { vector, reference };
 
@@ -30,6 +34,7 @@ struct FluidSettings {
   double density = 998.0;  ///< at rest [kg/m3]
   PressureKind solver = PressureKind::weakly_compressible;
   KernelKind kernels = KernelKind::vector;
+  SettleKind settle = SettleKind::automatic;
   double tolerance = 0.001;     ///< divergence-free: mean density error that ends a solve [1]
   double sound_speed = 0.0;     ///< of the weakly compressible model [m/s]; 0: from the scene
   double viscosity = 1.0e-6;    ///< kinematic [m2/s]

@@ -203,9 +203,13 @@ FluidSettings read_fluid(const ConfigMap& map) {
   static const std::map<std::string, PressureKind> kSolvers = {
       {"weakly_compressible", PressureKind::weakly_compressible},
       {"divergence_free", PressureKind::divergence_free}};
+  static const std::map<std::string, SettleKind> kSettling = {{"auto", SettleKind::automatic},
+                                                              {"always", SettleKind::always},
+                                                              {"never", SettleKind::never}};
   FluidEntry entry;
   map.read(fluid_fields(), {}, entry);
   entry.solver = kSolvers.at(entry.solver_name);
+  entry.settle = kSettling.at(entry.settle_name);
   entry.kernels = entry.kernels_name == "reference" ? KernelKind::reference : KernelKind::vector;
   if (map.has("density_tolerance") && entry.solver != PressureKind::divergence_free) {
     throw map.error("density_tolerance", "has no meaning for the solver " + entry.solver_name);

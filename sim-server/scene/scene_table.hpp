@@ -18,6 +18,7 @@ using Fields = std::vector<protocol::Field<Struct>>;
 struct FluidEntry : FluidSettings {
   std::string solver_name = "weakly_compressible";
   std::string kernels_name = "vector";
+  std::string settle_name = "auto";
 };
 
 /// A shape as its mapping spells it: the kind is still a word.

@@ -87,8 +87,22 @@ TEST(Resolution, SoundIsFastEnoughForWhatFalls) {
   EXPECT_NEAR(fastest_fall(scene), 2.0, 1e-9) << "to the left side";
 }
 
+TEST(Resolution, DepthIsThatOfAColumn) {
+  Scene scene = beach();
+  EXPECT_DOUBLE_EQ(water_depth(scene), 0.2) << "the higher block hangs above the floor";
+  scene.water.push_back({{-1.0, 0.5, 5.0}, {0.0, 1.0, 5.1}});
+  EXPECT_DOUBLE_EQ(water_depth(scene), 0.2) << "a block far above adds nothing";
+  scene.water.back() = {{-1.0, 0.5, 0.4}, {0.0, 1.0, 0.5}};
+  EXPECT_DOUBLE_EQ(water_depth(scene), 0.3) << "one that lies on another does";
+  const WaterColumn column = water_column(scene, {-0.5, 0.7, 0.25});
+  EXPECT_DOUBLE_EQ(column.bottom, 0.2);
+  EXPECT_DOUBLE_EQ(column.top, 0.5);
+  EXPECT_DOUBLE_EQ(water_column(scene, {1.25, 0.2, 0.28}).bottom, 0.25) << "on the slope";
+}
+
 TEST(Resolution, SoundIsEightTimesTheWaveSpeedButNeverTooSlow) {
   Scene scene = beach();
+  scene.water[1].lower[2] = 0.1;
   EXPECT_DOUBLE_EQ(water_depth(scene), 0.4 - 0.1);
   EXPECT_NEAR(scene_sound_speed(scene), 8.0 * std::sqrt(9.81 * 0.3), 1e-9);
   scene.water[1].upper[2] = 0.12;

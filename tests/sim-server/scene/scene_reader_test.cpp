@@ -169,6 +169,8 @@ const std::vector<Mistake> kMistakes = {
      "  - {lower: [0.5, 0.5, 0.4], upper: [0.9, 0.9, 0.9]}\nbodies:\n", "14:", "overlaps"},
     {"no_water", "water:\n  - lower: [0.0, 0.0, 0.0]\n    upper: [1.0, 1.0, 0.5]\n", "",
      "1:", "at least one block of water"},
+    {"unknown_settling", "  particles: 1000", "  particles: 1000\n  settle: sometimes",
+     "5:11:", "settle"},
     {"both_resolutions", "  particles: 1000", "  particles: 1000\n  spacing: 0.05",
      "5:", "exactly one of 'spacing' and 'particles'"},
     {"no_resolution", "fluid:\n  particles: 1000", "fluid:\n  density: 998", "",

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Puts particles in a mould back to their places there, at rest; all others go on.
+
+kernel void put_back(constant FluidParams* p, global const int* kept, global const float* place,
+                     global const int* id, global float* position, global float* velocity) {
+  const int i = get_global_id(0);
+  if (i >= p->count || !kept[id[i]]) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    position[axis * p->capacity + i] = place[axis * p->capacity + id[i]];
+    velocity[axis * p->capacity + i] = 0.0f;
+  }
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Which water something holds where a scene puts it, and which begins to flow or fall.
+#include "sim-server/scene/holding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+
+namespace splash::sim {
+namespace {
+
+using Kinds = std::set<Holding>;
+const Kinds kHeld = {Holding::held};
+const Kinds kFlows = {Holding::flows};
+const Kinds kHangs = {Holding::hangs};
+
+/// A tank 1 m long, 0.5 m wide and high, particles 25 mm apart.
+Scene tank(std::vector<WaterBlock> water) {
+  Scene scene;
+  scene.fluid.spacing = 0.025;
+  scene.tank.upper = {1.0, 0.5, 0.5};
+  scene.water = std::move(water);
+  return scene;
+}
+
+const WaterBlock kPool = {{0.0, 0.0, 0.0}, {1.0, 0.5, 0.2}};
+const WaterBlock kDam = {{0.0, 0.0, 0.0}, {0.4, 0.5, 0.2}};
+const WaterBlock kDrop = {{0.4, 0.2, 0.3}, {0.5, 0.3, 0.4}, WaterForm::sphere};
+
+void add_box(Scene& scene, const Vector3& size, const Vector3& place) {
+  BodySettings body;
+  body.shape.size = size;
+  body.rest.position = place;
+  scene.bodies.push_back(body);
+}
+
+std::vector<Holding> holding(const Scene& scene) {
+  std::vector<Keyframe> poses;
+  for (const BodySettings& body : scene.bodies) poses.push_back(body.rest);
+  return how_held(scene, poses, initial_particles(scene, poses));
+}
+
+Kinds kinds(const Scene& scene) {
+  const std::vector<Holding> all = holding(scene);
+  return {all.begin(), all.end()};
+}
+
+TEST(Holding, LevelWaterFromWallToWallIsHeld) {
+  EXPECT_EQ(kinds(tank({kPool})), kHeld);
+  Scene open = tank({kPool});
+  open.water[0].upper[2] = 0.5;
+  EXPECT_EQ(kinds(open), kHeld) << "up to the brim";
+}
+
+TEST(Holding, GapsAndStepsBelowTheSpacingDoNotCount) {
+  EXPECT_EQ(kinds(tank({{{0.02, 0.01, 0.01}, {0.98, 0.5, 0.2}}})), kHeld);
+  EXPECT_EQ(kinds(tank({kDam, {{0.4, 0.0, 0.0}, {1.0, 0.5, 0.23}}})), kHeld);
+  EXPECT_EQ(kinds(tank({{{0.08, 0.0, 0.0}, {1.0, 0.5, 0.2}}})), kFlows);
+  EXPECT_EQ(kinds(tank({kDam, {{0.4, 0.0, 0.0}, {1.0, 0.5, 0.3}}})), kFlows);
+}
+
+TEST(Holding, ADamNeedsAGateOrABody) {
+  EXPECT_EQ(kinds(tank({kDam})), kFlows);
+  Scene gated = tank({kDam});
+  gated.gate = {true, 0.4, true};
+  EXPECT_EQ(kinds(gated), kHeld);
+  Scene walled = tank({kDam});
+  add_box(walled, {0.01, 0.5, 0.5}, {0.405, 0.25, 0.25});
+  EXPECT_EQ(kinds(walled), kHeld) << "a board thinner than a spacing";
+  walled.bodies[0].rest.position[2] = 0.4;
+  EXPECT_EQ(kinds(walled), kFlows) << "the board stands 15 cm above the floor";
+}
+
+TEST(Holding, WhatIsInTheAirHangs) {
+  EXPECT_EQ(kinds(tank({kDrop})), kHangs);
+  EXPECT_EQ(kinds(tank({{{0.0, 0.0, 0.3}, {1.0, 0.5, 0.325}}})), kHangs) << "from wall to wall";
+}
+
+TEST(Holding, EachBodyOfWaterIsLookedAtAlone) {
+  const Scene scene = tank({kPool, kDrop});
+  const std::vector<Holding> all = holding(scene);
+  const std::vector<Vector3> places = initial_particles(scene);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i], places[i][2] < 0.25 ? Holding::held : Holding::hangs);
+  }
+}
+
+TEST(Holding, AColumnOnAPoolTakesThePoolAlong) {
+  EXPECT_EQ(kinds(tank({kPool, {{0.4, 0.2, 0.2}, {0.5, 0.3, 0.4}}})), kFlows);
+}
+
+TEST(Holding, ABasinOfBodiesHolds) {
+  Scene scene = tank({{{0.3, 0.1, 0.2}, {0.6, 0.4, 0.35}}});
+  add_box(scene, {0.4, 0.4, 0.05}, {0.45, 0.25, 0.175});
+  for (const double side : {-1.0, 1.0}) {
+    add_box(scene, {0.05, 0.4, 0.2}, {0.45 + side * 0.175, 0.25, 0.3});
+    add_box(scene, {0.4, 0.05, 0.2}, {0.45, 0.25 + side * 0.175, 0.3});
+  }
+  EXPECT_EQ(kinds(scene), kHeld);
+  scene.bodies.pop_back();
+  EXPECT_EQ(kinds(scene), kFlows) << "it has lost a side";
+}
+
+TEST(Holding, ABeachIsHeldUpToItsEdge) {
+  Scene scene = tank({kPool});
+  scene.slope = {true, 0.2, 0.4};
+  EXPECT_EQ(kinds(scene), kHeld);
+  scene.water[0].upper[0] = 0.5;
+  EXPECT_EQ(kinds(scene), kFlows) << "8 cm deep where the block ends";
+}
+
+TEST(Holding, TheWayDownIsThatOfTheField) {
+  Scene scene = tank({kPool});
+  scene.fluid.gravity = {0.0, 0.0, 0.0};
+  EXPECT_EQ(kinds(scene), kHeld);
+  EXPECT_EQ(kinds(tank({kDrop})), kHangs);
+  scene.water = {kDrop};
+  EXPECT_EQ(kinds(scene), kHeld) << "nothing pulls";
+  scene.fluid.pull = {10.0, 10.0, 10.0};
+  scene.fluid.pull_centre = {0.45, 0.25, 0.35};
+  EXPECT_EQ(kinds(scene), kHeld) << "round, about what it is drawn to";
+  scene.fluid.pull_centre = {0.2, 0.25, 0.35};
+  EXPECT_EQ(kinds(scene), kHangs) << "it will fly there";
+  scene = tank({kPool});
+  scene.fluid.gravity = {0.0, 0.0, 9.81};
+  EXPECT_EQ(kinds(scene), kHangs) << "upwards the tank is open";
+  scene.fluid.gravity = {6.9, 0.0, -6.9};
+  EXPECT_EQ(kinds(scene), kFlows) << "tilted, it is not level";
+}
+
+const std::filesystem::path kSource = SPLASH_SOURCE_DIR;
+
+/// All scenes that are shipped, and those that are compared with experiments.
+std::vector<std::filesystem::path> scene_files() {
+  std::vector<std::filesystem::path> all;
+  for (const char* folder : {"configs/scenes", "tests/validation/scenes"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(kSource / folder)) {
+      if (entry.path().extension() == ".yaml") all.push_back(entry.path());
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+class HoldingOf : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(HoldingOf, AllItsWater) {
+  EXPECT_EQ(kinds(read_scene(GetParam())), kHeld);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, HoldingOf, ::testing::ValuesIn(scene_files()),
+                         [](const auto& file) { return file.param.stem().string(); });
+
+}  // namespace
+}  // namespace splash::sim
