@@ -19,6 +19,7 @@ struct Trial {
   double seconds = 1.0;
   double speed = 1.0;   ///< the fastest that anything is meant to get [m/s]
   bool still = false;   ///< nothing moves: the water must be calm at the end
+  bool slams = false;   ///< all of it lands flat and at once
   bool harmed = false;  ///< faults are put in: steps may be computed again
   std::function<sim::Scene(double spacing)> scene;
   std::function<Drive()> drive = {};  ///< a fresh one for each run

@@ -16,6 +16,7 @@ void add_sheets(std::vector<Trial>& all) {
                  .name = "a sheet one particle thick",
                  .seconds = 1.0,
                  .speed = kFall,
+                 .slams = true,
                  .scene = [](double s) {
                    Scene scene = basin(s);
                    scene.water = {{{0.0, 0.0, 0.3}, {kWide, kWide, 0.3 + s}}};
