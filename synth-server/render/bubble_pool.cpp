@@ -141,12 +141,13 @@ class Pool final : public BubblePool {
       const int to = std::min(end, from + piece_);
       for (std::size_t k = 0; k < count; ++k) {
         Real* const rows = &rows_[k * kCellRows];
-        // Nothing is waited for while voices turn: time to fetch what is needed next.
+        // Nothing is waited for while voices turn: time to fetch what is needed next. Not the next
+        // packs, which this one would have to wait for.
         if (from == begin) feeds_.fetch_gains(static_cast<std::size_t>(packs[k]));
+        kernels_.turn(*lanes_[k], from, to, rows);
         if (from == begin && k + count < packs.size()) {
           fetch(static_cast<std::size_t>(packs[k + count]));
         }
-        kernels_.turn(*lanes_[k], from, to, rows);
         const Sitters& sitters = sitters_[static_cast<std::size_t>(packs[k])];
         if (cell + from < sitters.calm_from || cell + to > sitters.calm_to) {
           shape(sitters, cell + from, to - from, rows);
@@ -217,10 +218,11 @@ class Pool final : public BubblePool {
   void fetch(std::size_t p) const noexcept {
     constexpr int kToWrite = 1;
     constexpr int kSecondCache = 2;
+    constexpr std::size_t kPairOfLines = 128;  // one brings its neighbour
     // Lanes that begin() writes anew are not read.
     constexpr std::size_t kFirst = kAfresh ? offsetof(TurningLanes<Real>, rise) : 0;
     const char* const pack = reinterpret_cast<const char*>(&packs_[p]);
-    for (std::size_t at = kFirst; at < sizeof(Pack); at += 64) {
+    for (std::size_t at = kFirst; at < sizeof(Pack); at += kPairOfLines) {
       __builtin_prefetch(pack + at, kToWrite, kSecondCache);
     }
     __builtin_prefetch(&sitters_[p]);

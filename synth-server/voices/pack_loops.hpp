@@ -144,6 +144,10 @@ inline constexpr int kSumLanes = sizeof(Real) == sizeof(double) ? 8 : Lanes<Real
 /// Gains that are kept in registers, as vectors: of the 16 or 32 that there are.
 inline constexpr int kGainVectors = kVectorBytes == 64 ? 16 : 8;
 
+/// Samples that are mixed per turn of the loop. Its counting is an eighth of SSE2's operations;
+/// wider vectors' do not wait for it.
+inline constexpr int kSamplesAtOnce = kVectorBytes == 16 ? 4 : 1;
+
 /// What kChannels channels get of the same packs, and their sums.
 template <class Real, int kChannels>
 struct Mixing {
@@ -169,8 +173,7 @@ template <class Real, int kPacks, int kChannels>
         }
       }
     }
-    // Unrolled: counting is an eighth of SSE2's operations here.
-#pragma GCC unroll 4
+#pragma GCC unroll kSamplesAtOnce
     for (int n = from; n < to; ++n) {
       V added[kChannels];
       for (int c = 0; c < kChannels; ++c) {
