@@ -84,31 +84,32 @@ void Bubbles::look_for_spawns(const Step& step) {
   spawn_count_.enqueue_clear(device);
   // The threshold is in units of the gradient at a flat surface; its outermost particles, half a
   // spacing below, see 0.65 of that (the planar marginal there over the one at the centre).
-  spawn_bubbles_.run(device.queue(), static_cast<std::size_t>(fluid_.params().count),
-                     fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
-                     fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
-                     fluid_.water_density().memory(), fluid_.particles().id.memory(),
-                     fluid_.body_grid().cell_start(), fluid_.boundary().position.memory(),
-                     fluid_.boundary_volume().memory(), fluid_.boundary().stride,
-                     fluid_.body_steps().memory(), step.first_body, fluid_.body_count(),
-                     grid_.cell_start(), sorted_.position.memory(), sorted_.stride, carried_,
-                     as_float(step.piston), as_float(settings_.bubble_speed),
-                     as_float(settings_.bubble_gradient), static_cast<int>(spawns_read_.size()),
-                     memory_.memory(), spawn_count_.memory(), spawns_.memory());
+  spawn_bubbles_.run(
+      device.queue(), static_cast<std::size_t>(fluid_.params().count),
+      fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
+      fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
+      fluid_.water_density().memory(), fluid_.particles().id.memory(),
+      fluid_.boundary().grid().cell_start(), fluid_.boundary().points().position.memory(),
+      fluid_.boundary().volume().memory(), fluid_.boundary().points().stride,
+      fluid_.boundary().steps().memory(), step.first_body, fluid_.boundary().body_count(),
+      grid_.cell_start(), sorted_.position.memory(), sorted_.stride, carried_,
+      as_float(step.piston), as_float(settings_.bubble_speed), as_float(settings_.bubble_gradient),
+      static_cast<int>(spawns_read_.size()), memory_.memory(), spawn_count_.memory(),
+      spawns_.memory());
   spawn_count_.enqueue_read(device, spawn_count_read_);
   spawns_.enqueue_read(device,
                        std::span(spawns_read_).first(std::min(kReadAtOnce, spawns_read_.size())));
 }
 
 void Bubbles::carry(const Step& step, double frame) {
-  carry_bubbles_.run(fluid_.device().queue(), static_cast<std::size_t>(carried_),
-                     fluid_.params_buffer().memory(), as_float(frame), fluid_.grid().cell_start(),
-                     fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
-                     fluid_.body_grid().cell_start(), fluid_.boundary().position.memory(),
-                     fluid_.boundary_volume().memory(), fluid_.boundary().stride,
-                     fluid_.body_steps().memory(), step.first_body, fluid_.body_count(),
-                     grid_.cell_start(), sorted_.position.memory(), sorted_.id.memory(),
-                     sorted_.stride, carried_, as_float(step.piston), state_buffer_.memory());
+  carry_bubbles_.run(
+      fluid_.device().queue(), static_cast<std::size_t>(carried_), fluid_.params_buffer().memory(),
+      as_float(frame), fluid_.grid().cell_start(), fluid_.particles().position.memory(),
+      fluid_.particles().velocity.memory(), fluid_.boundary().grid().cell_start(),
+      fluid_.boundary().points().position.memory(), fluid_.boundary().volume().memory(),
+      fluid_.boundary().points().stride, fluid_.boundary().steps().memory(), step.first_body,
+      fluid_.boundary().body_count(), grid_.cell_start(), sorted_.position.memory(),
+      sorted_.id.memory(), sorted_.stride, carried_, as_float(step.piston), state_buffer_.memory());
   states_.resize(static_cast<std::size_t>(carried_));
   state_buffer_.enqueue_read(fluid_.device(), states_);
 }

@@ -67,7 +67,7 @@ Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
       cavities_(fluid, program_, settings, bubble_room(fluid.params().count), search_always),
-      impacts_(static_cast<std::size_t>(fluid.body_count()), settings,
+      impacts_(static_cast<std::size_t>(fluid.boundary().body_count()), settings,
                distance_of(fluid.params())) {}
 
 void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
@@ -88,7 +88,7 @@ void Detector::enqueue_contacts(const Step& step) {
                    fluid_.grid().cell_start(), fluid_.particles().position.memory(),
                    fluid_.particles().velocity.memory(), fluid_.water_density().memory(),
                    static_cast<int>(surface_points_.size()), skin_.memory(), owner_.memory(),
-                   fluid_.body_steps().memory(), step.first_body, touches_.memory());
+                   fluid_.boundary().steps().memory(), step.first_body, touches_.memory());
   touches_.enqueue_read(fluid_.device(), touches_read_);
 }
 

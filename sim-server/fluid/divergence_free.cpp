@@ -94,15 +94,15 @@ void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
 }
 
 void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
-  measure_response_.run(fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
-                        fluid.grid().cell_start(), fluid.awake_cells(),
-                        fluid.particles().position.memory(), fluid.body_images().memory(),
-                        fluid.body_grid().cell_start(), fluid.boundary().position.memory(),
-                        fluid.boundary().velocity.memory(), fluid.boundary_volume().memory(),
-                        fluid.boundary().stride, fluid.body_steps().memory(), step.first_body,
-                        fluid.body_count(), static_cast<float>(step.piston),
-                        static_cast<float>(step.piston_speed), gradient_.memory(),
-                        response_.memory(), boundary_rate_.memory());
+  measure_response_.run(
+      fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
+      fluid.grid().cell_start(), fluid.awake_cells(), fluid.particles().position.memory(),
+      fluid.body_images().memory(), fluid.boundary().grid().cell_start(),
+      fluid.boundary().points().position.memory(), fluid.boundary().points().velocity.memory(),
+      fluid.boundary().volume().memory(), fluid.boundary().points().stride,
+      fluid.boundary().steps().memory(), step.first_body, fluid.boundary().body_count(),
+      static_cast<float>(step.piston), static_cast<float>(step.piston_speed), gradient_.memory(),
+      response_.memory(), boundary_rate_.memory());
 }
 
 void DivergenceFree::answer_of_bodies(Fluid& fluid, const Step& step) {

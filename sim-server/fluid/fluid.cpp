@@ -13,9 +13,6 @@ namespace splash::sim {
 namespace {
 
 static_assert(sizeof(FluidParams) == 38 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
-static_assert(sizeof(BodyStep) == 20 * sizeof(float));
-static_assert(sizeof(BodyShape) == 17 * sizeof(float));
-
 static_assert(sizeof(SurveyPart) == 56);
 
 /// Parts of the fluid that are surveyed side by side.
@@ -33,17 +30,15 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
     : device_(device),
       params_(params),
       build_(build),
-      parts_(build.whole ? KernelParts{} : parts_needed(params, outlines.shapes)),
-      body_count_(static_cast<int>(outlines.shapes.size())) {
-  load_particles(particles);
+      parts_(build.whole ? KernelParts{} : parts_needed(params, outlines.shapes)) {
+  load_particles(particles, !outlines.shapes.empty());
   params_.capacity = sorted_.stride;
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
-  load_boundary(boundary, outlines);
-  build_kernels();
+  build_kernels(boundary, outlines);
   solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_), build.relaxed);
 }
 
-void Fluid::load_particles(const std::vector<Vector3>& particles) {
+void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodies) {
   const std::size_t count = particles.size();
   sorted_ = PointArrays(device_, count);
   unsorted_ = PointArrays(device_, count);
@@ -64,47 +59,16 @@ void Fluid::load_particles(const std::vector<Vector3>& particles) {
   density_before_ = Buffer<float>(device_, stride + kReadAhead);
   water_density_before_ = Buffer<float>(device_, stride + kReadAhead);
   moving_ = Buffer<int>(device_, stride + kReadAhead);
-  body_images_ = Buffer<float>(device_, body_count_ > 0 ? 5 * stride + kReadAhead : 1);
+  body_images_ = Buffer<float>(device_, near_bodies ? 5 * stride + kReadAhead : 1);
 }
 
-void Fluid::load_boundary(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines) {
-  boundary_count_ = static_cast<int>(boundary.size());
-  body_points_ = PointArrays(device_, boundary.size());
-  body_sorted_ = PointArrays(device_, boundary.size());
-  const auto stride = static_cast<std::size_t>(body_points_.stride);
-  std::vector<float> sample(3 * stride, 0.0F);
-  std::vector<int> owner(stride, 0);
-  std::vector<float> volume(stride, 0.0F);
-  // A body is weighed like the fluid it displaces: a particle's mass differs from rho0 spacing^3.
-  const float weight = params_.layer_weight / params_.spacing;
-  std::vector<int> ids(boundary.size());
-  std::iota(ids.begin(), ids.end(), 0);
-  for (std::size_t i = 0; i < boundary.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      sample[axis * stride + i] = as_float(boundary[i].place[axis]);
-    }
-    owner[i] = boundary[i].owner;
-    volume[i] = weight * as_float(boundary[i].volume);
-  }
-  body_sample_ = Buffer<float>(device_, sample);
-  body_owner_ = Buffer<int>(device_, owner);
-  body_sample_volume_ = Buffer<float>(device_, volume);
-  body_points_.id.write(device_, ids);
-  body_volume_ = Buffer<float>(device_, stride + kReadAhead);
-  body_shapes_ = Buffer<BodyShape>(device_, outlines.shapes);
-  meshes_ = Buffer<float>(device_, outlines.meshes);
-}
-
-void Fluid::build_kernels() {
+void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines) {
   const std::vector<std::string> defines = kernel_defines(parts_);
   const cl::Program program = build_program(device_, fluid_sources(), defines, build_.relaxed);
   const cl::Program guard = build_program(device_, survey_sources(), defines, false);
   const auto particles = static_cast<std::size_t>(params_.count);
   grid_ = NeighbourGrid(device_, program, params_, particles, device_.sort_chunks());
-  body_grid_ =
-      NeighbourGrid(device_, program, params_, static_cast<std::size_t>(boundary_count_), 1);
-  place_bodies_ = Kernel(program, "place_bodies");
-  gather_body_volumes_ = Kernel(program, "gather_body_volumes");
+  boundary_ = Boundary(device_, program, params_, boundary, outlines);
   sleep_ = Sleep(device_, program, params_);
   const std::size_t group = device_.lanes() > 1 ? 4 : 64;
   compute_density_ = Kernel(program, "compute_density", group);
@@ -117,24 +81,16 @@ void Fluid::build_kernels() {
 }
 
 void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
-  // One step more: where free bodies are when the frame ends.
-  const std::size_t room = steps.size() + static_cast<std::size_t>(body_count_);
-  if (room > body_steps_.size() || body_steps_.size() == 0) {
-    body_steps_ = Buffer<BodyStep>(device_, std::max<std::size_t>(2 * room, 1));
-  }
-  uploaded_steps_ = steps;
-  body_steps_.enqueue_write(device_, uploaded_steps_);
+  boundary_.set_steps(device_, steps);
 }
 
 void Fluid::let_go(const std::vector<FreeBody>& bodies) {
-  std::vector<BodyShape> shapes = body_shapes_.read(device_, static_cast<std::size_t>(body_count_));
-  for (const FreeBody& body : bodies) shapes[static_cast<std::size_t>(body.body)].free = 1;
-  body_shapes_.write(device_, shapes);
+  boundary_.let_go(device_, bodies);
   free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies);
 }
 
 void Fluid::prepare(const Step& step) {
-  place_bodies(step);
+  boundary_.place(device_.queue(), params_buffer_, step);
   sort_particles();
   wake_and_sleep(step);
   compute_density(step);
@@ -146,10 +102,11 @@ void Fluid::advance(const Step& step) {
   integrate(step);
   if (free_) free_->move(*this, step);
   if (watched_) {
-    health_.look(device_,
-                 {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
-                  body_shapes_, meshes_, body_steps_, body_count_},
-                 step);
+    health_.look(
+        device_,
+        {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
+         boundary_.shapes(), boundary_.meshes(), boundary_.steps(), boundary_.body_count()},
+        step);
   }
 }
 
@@ -170,18 +127,6 @@ void Fluid::note_recalled() {
   sleep_.wake(device_);
 }
 
-void Fluid::place_bodies(const Step& step) {
-  if (boundary_count_ == 0) return;
-  cl::CommandQueue& queue = device_.queue();
-  const auto points = static_cast<std::size_t>(boundary_count_);
-  place_bodies_.run(queue, points, boundary_count_, body_points_.stride, body_sample_.memory(),
-                    body_owner_.memory(), body_steps_.memory(), step.first_body,
-                    body_points_.position.memory(), body_points_.velocity.memory());
-  body_grid_.sort(queue, params_buffer_, boundary_count_, body_points_, body_sorted_);
-  gather_body_volumes_.run(queue, points, boundary_count_, body_sorted_.id.memory(),
-                           body_sample_volume_.memory(), body_volume_.memory());
-}
-
 void Fluid::sort_particles() {
   std::swap(sorted_, unsorted_);
   std::swap(density_, density_before_);
@@ -196,8 +141,8 @@ void Fluid::let_sleep(const SleepRule& rule) {
 
 void Fluid::wake_and_sleep(const Step& step) {
   if (!sleep_.allowed() || !step.opens_frame) return;
-  sleep_.update(device_.queue(), params_, params_buffer_, grid_, sorted_.velocity, body_steps_,
-                static_cast<int>(uploaded_steps_.size()),
+  sleep_.update(device_.queue(), params_, params_buffer_, grid_, sorted_.velocity,
+                boundary_.steps(), boundary_.step_entries(),
                 params_.piston >= 0 && step.piston_speed != 0.0, step.piston);
 }
 
@@ -214,27 +159,29 @@ void Fluid::compute_density(const Step& step) {
   compute_density_.run(
       device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
       grid_.source(), density_before_.memory(), water_density_before_.memory(),
-      sorted_.position.memory(), body_grid_.cell_start(), body_sorted_.position.memory(),
-      body_volume_.memory(), body_sorted_.stride, body_shapes_.memory(), meshes_.memory(),
-      body_steps_.memory(), step.first_body, body_count_, as_float(step.piston),
-      body_images_.memory(), density_.memory(), water_density_.memory(), pressure_term_.memory());
+      sorted_.position.memory(), boundary_.grid().cell_start(),
+      boundary_.points().position.memory(), boundary_.volume().memory(), boundary_.points().stride,
+      boundary_.shapes().memory(), boundary_.meshes().memory(), boundary_.steps().memory(),
+      step.first_body, boundary_.body_count(), as_float(step.piston), body_images_.memory(),
+      density_.memory(), water_density_.memory(), pressure_term_.memory());
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
   compute_acceleration_.run(
       device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
       sorted_.position.memory(), velocity.memory(), pressure_term_.memory(), body_images_.memory(),
-      body_grid_.cell_start(), body_sorted_.position.memory(), body_sorted_.velocity.memory(),
-      body_volume_.memory(), body_sorted_.stride, body_steps_.memory(), step.first_body,
-      body_count_, as_float(step.piston), acceleration_.memory(), moving_.memory());
+      boundary_.grid().cell_start(), boundary_.points().position.memory(),
+      boundary_.points().velocity.memory(), boundary_.volume().memory(), boundary_.points().stride,
+      boundary_.steps().memory(), step.first_body, boundary_.body_count(), as_float(step.piston),
+      acceleration_.memory(), moving_.memory());
 }
 
 void Fluid::integrate(const Step& step) {
   integrate_.run(device_.queue(), groups(), params_buffer_.memory(), as_float(step.dt),
-                 as_float(step.piston), as_float(step.piston_speed), body_shapes_.memory(),
-                 meshes_.memory(), body_steps_.memory(), step.first_body, body_count_,
-                 acceleration_.memory(), sorted_.position.memory(), sorted_.velocity.memory(),
-                 moving_.memory());
+                 as_float(step.piston), as_float(step.piston_speed), boundary_.shapes().memory(),
+                 boundary_.meshes().memory(), boundary_.steps().memory(), step.first_body,
+                 boundary_.body_count(), acceleration_.memory(), sorted_.position.memory(),
+                 sorted_.velocity.memory(), moving_.memory());
 }
 
 void Fluid::still() {

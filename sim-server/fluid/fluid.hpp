@@ -7,6 +7,7 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
+#include "sim-server/fluid/boundary.hpp"
 #include "sim-server/fluid/boundary_point.hpp"
 #include "sim-server/fluid/fluid_params.h"
 #include "sim-server/fluid/free_bodies.hpp"
@@ -144,23 +145,11 @@ class Fluid {
   [[nodiscard]] const Buffer<float>& acceleration() const noexcept { return acceleration_; }
   /// Of each particle: 0 if it slept through the last step.
   [[nodiscard]] const Buffer<int>& moving() const noexcept { return moving_; }
-  [[nodiscard]] const PointArrays& boundary() const noexcept { return body_sorted_; }
-  [[nodiscard]] const PointArrays& boundary_by_sample() const noexcept { return body_points_; }
-  [[nodiscard]] const NeighbourGrid& body_grid() const noexcept { return body_grid_; }
-  [[nodiscard]] const Buffer<float>& boundary_volume() const noexcept { return body_volume_; }
-  [[nodiscard]] const Buffer<BodyStep>& body_steps() const noexcept { return body_steps_; }
-  [[nodiscard]] const Buffer<BodyShape>& body_shapes() const noexcept { return body_shapes_; }
-  /// Numbers of those that are meshes.
-  [[nodiscard]] const Buffer<float>& meshes() const noexcept { return meshes_; }
-  [[nodiscard]] const Buffer<int>& boundary_owner() const noexcept { return body_owner_; }
-  [[nodiscard]] int boundary_count() const noexcept { return boundary_count_; }
-  [[nodiscard]] int body_count() const noexcept { return body_count_; }
+  [[nodiscard]] const Boundary& boundary() const noexcept { return boundary_; }
 
  private:
-  void load_particles(const std::vector<Vector3>& particles);
-  void load_boundary(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines);
-  void build_kernels();
-  void place_bodies(const Step& step);
+  void load_particles(const std::vector<Vector3>& particles, bool near_bodies);
+  void build_kernels(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines);
   void wake_and_sleep(const Step& step);
   void sort_particles();
   void compute_density(const Step& step);
@@ -170,8 +159,6 @@ class Fluid {
   FluidParams params_;
   KernelBuild build_;
   KernelParts parts_;
-  int boundary_count_ = 0;
-  int body_count_ = 0;
 
   Buffer<FluidParams> params_buffer_;
   PointArrays sorted_;    ///< the state, in cell order after prepare
@@ -186,23 +173,10 @@ class Fluid {
   Buffer<int> moving_;  ///< 0: slept through the last step
   NeighbourGrid grid_;
   Sleep sleep_;
+  Boundary boundary_;
   std::unique_ptr<PressureSolver> solver_;
   std::unique_ptr<FreeBodies> free_;
 
-  Buffer<float> body_sample_;
-  Buffer<int> body_owner_;
-  Buffer<float> body_sample_volume_;
-  Buffer<BodyShape> body_shapes_;
-  Buffer<float> meshes_;
-  Buffer<BodyStep> body_steps_;
-  std::vector<BodyStep> uploaded_steps_;  ///< kept until the queue has read them
-  PointArrays body_points_;
-  PointArrays body_sorted_;
-  Buffer<float> body_volume_;
-  NeighbourGrid body_grid_;
-
-  Kernel place_bodies_;
-  Kernel gather_body_volumes_;
   Kernel compute_density_;
   Kernel compute_acceleration_;
   Kernel integrate_;

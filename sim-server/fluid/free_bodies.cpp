@@ -46,15 +46,16 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
 
 void FreeBodies::reach(Fluid& fluid, const Step& step, const Buffer<float>& velocity,
                        const Buffer<float>& response) {
-  const PointArrays& points = fluid.boundary();
-  reach_bodies_.run(
-      fluid.device().queue(), list_.size() * groups_, fluid.params_buffer().memory(),
-      as_float(step.dt), count_, bodies_.memory(), fluid.body_steps().memory(), step.first_body,
-      fluid.grid().cell_start(), fluid.particles().position.memory(), velocity.memory(),
-      fluid.density().memory(), fluid.body_images().memory(), fluid.pressure_term().memory(),
-      response.memory(), fluid.body_grid().cell_start(), points.position.memory(),
-      points.velocity.memory(), fluid.boundary_volume().memory(), points.id.memory(),
-      fluid.boundary_owner().memory(), points.stride, reach_.memory(), reached_.memory());
+  const PointArrays& points = fluid.boundary().points();
+  reach_bodies_.run(fluid.device().queue(), list_.size() * groups_, fluid.params_buffer().memory(),
+                    as_float(step.dt), count_, bodies_.memory(), fluid.boundary().steps().memory(),
+                    step.first_body, fluid.grid().cell_start(), fluid.particles().position.memory(),
+                    velocity.memory(), fluid.density().memory(), fluid.body_images().memory(),
+                    fluid.pressure_term().memory(), response.memory(),
+                    fluid.boundary().grid().cell_start(), points.position.memory(),
+                    points.velocity.memory(), fluid.boundary().volume().memory(),
+                    points.id.memory(), fluid.boundary().owner().memory(), points.stride,
+                    reach_.memory(), reached_.memory());
 }
 
 void FreeBodies::answer(Fluid& fluid, const Step& step) {
@@ -72,7 +73,7 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
   const cl::Buffer& state = (occasion.state != nullptr ? *occasion.state : no_solve_).memory();
-  const cl::Buffer& steps = fluid.body_steps().memory();
+  const cl::Buffer& steps = fluid.boundary().steps().memory();
   const cl::Buffer& places = fluid.particles().position.memory();
   const int k = occasion.iteration;
   weigh_water_.run(queue, list_.size() * SPLASH_PUSH_PARTS, params, k, state, count_,
@@ -92,27 +93,29 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
 void FreeBodies::move(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
-  const cl::Buffer& shapes = fluid.body_shapes().memory();
-  const cl::Buffer& meshes = fluid.meshes().memory();
+  const cl::Buffer& shapes = fluid.boundary().shapes().memory();
+  const cl::Buffer& meshes = fluid.boundary().meshes().memory();
   const PointArrays& particles = fluid.particles();
   const auto piston = as_float(step.piston);
   const auto speed = as_float(step.piston_speed);
   keep_out_of_free_.run(queue, groups_, params, as_float(step.dt), piston, speed, count_,
-                        bodies_.memory(), shapes, meshes, fluid.body_steps().memory(),
+                        bodies_.memory(), shapes, meshes, fluid.boundary().steps().memory(),
                         step.first_body, fluid.particles_before().position.memory(),
                         fluid.grid().source(), particles.position.memory(),
                         particles.velocity.memory(), reach_.memory(), reached_.memory());
   answer(fluid, step,
          {.pressure = &fluid.pressure_term(), .rubbing = 1.0, .velocity = &particles.velocity});
   move_bodies_.run(queue, 1, params, as_float(step.dt), piston, speed, count_, bodies_.memory(),
-                   shapes, meshes, step.first_body, fluid.body_count(), fluid.body_steps().memory(),
-                   contacts_.memory(), kept_pushes_.memory(), felt_.memory(), force_.memory());
-  next_ = static_cast<std::size_t>(step.first_body) + static_cast<std::size_t>(fluid.body_count());
+                   shapes, meshes, step.first_body, fluid.boundary().body_count(),
+                   fluid.boundary().steps().memory(), contacts_.memory(), kept_pushes_.memory(),
+                   felt_.memory(), force_.memory());
+  next_ = static_cast<std::size_t>(step.first_body) +
+          static_cast<std::size_t>(fluid.boundary().body_count());
 }
 
 void FreeBodies::enqueue_read(Fluid& fluid) {
-  steps_read_.resize(static_cast<std::size_t>(fluid.body_count()));
-  fluid.body_steps().enqueue_read(fluid.device(), steps_read_, next_);
+  steps_read_.resize(static_cast<std::size_t>(fluid.boundary().body_count()));
+  fluid.boundary().steps().enqueue_read(fluid.device(), steps_read_, next_);
   force_.enqueue_read(fluid.device(), force_read_);
 }
 

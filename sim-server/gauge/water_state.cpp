@@ -22,7 +22,7 @@ void read_images(Fluid& fluid, WaterState& water) {
   const std::size_t count = water.position.size();
   water.image.assign(count, 1.0);
   water.slope.assign(count, {0.0, 0.0, 0.0});
-  if (fluid.body_count() == 0) return;
+  if (fluid.boundary().body_count() == 0) return;
   const auto stride = static_cast<std::size_t>(fluid.params().capacity);
   const std::vector<float> parts = fluid.body_images().read(fluid.device(), 4 * stride);
   for (std::size_t i = 0; i < count; ++i) {

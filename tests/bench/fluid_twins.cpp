@@ -79,14 +79,14 @@ struct MainKernels {
     moving = Buffer<int>(device, points);
     set(density, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
         f.grid().source(), rho.memory(), water.memory(), f.particles().position.memory(),
-        f.body_grid().cell_start(), f.boundary().position.memory(), none.memory(), 0,
-        f.body_shapes().memory(), f.meshes().memory(), nobody.memory(), 0, 0, 0.0F,
+        f.boundary().grid().cell_start(), f.boundary().points().position.memory(), none.memory(), 0,
+        f.boundary().shapes().memory(), f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F,
         f.body_images().memory(), rho.memory(), water.memory(), term.memory());
     set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
         f.particles().position.memory(), f.particles().velocity.memory(),
-        f.pressure_term().memory(), f.body_images().memory(), f.body_grid().cell_start(),
-        f.boundary().position.memory(), f.boundary().velocity.memory(), none.memory(), 0,
-        nobody.memory(), 0, 0, 0.0F, push.memory(), moving.memory());
+        f.pressure_term().memory(), f.body_images().memory(), f.boundary().grid().cell_start(),
+        f.boundary().points().position.memory(), f.boundary().points().velocity.memory(),
+        none.memory(), 0, nobody.memory(), 0, 0, 0.0F, push.memory(), moving.memory());
   }
 
   /// Sleep has a number for each cell and for each row (kernels/sleep.h).

@@ -115,9 +115,9 @@ TEST(FreeBody, ThatIsNowhereIsAFault) {
   int harms = 0;
   simulation.set_hook([&harms](Fluid& fluid, Step& step, Moment moment) {
     if (moment != Moment::between || harms++ > 0) return;
-    std::vector<BodyStep> steps = fluid.body_steps().read(fluid.device(), 1);
+    std::vector<BodyStep> steps = fluid.boundary().steps().read(fluid.device(), 1);
     steps[0].px = std::numeric_limits<float>::infinity();
-    Buffer<BodyStep> buffer = fluid.body_steps();
+    Buffer<BodyStep> buffer = fluid.boundary().steps();
     buffer.write(fluid.device(), steps, static_cast<std::size_t>(step.first_body));
   });
   const FrameResult frame = simulation.advance();

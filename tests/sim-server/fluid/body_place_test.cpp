@@ -27,7 +27,7 @@ TEST(BodyPlace, IsTheDoubleRotation) {
   const FluidState state = read_state(*water.fluid);
   const auto points = state.body_position.size();
   ASSERT_EQ(points, water.bodies->points().size());
-  const std::vector<int> ids = water.fluid->boundary().id.read(device, points);
+  const std::vector<int> ids = water.fluid->boundary().points().id.read(device, points);
   const double weight = static_cast<double>(state.params.layer_weight / state.params.spacing);
   for (std::size_t i = 0; i < points; ++i) {
     const BodyPoint& point = water.bodies->points()[static_cast<std::size_t>(ids[i])];

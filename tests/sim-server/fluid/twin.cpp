@@ -113,16 +113,17 @@ FluidState read_state(Fluid& fluid, double piston) {
   s.velocity = read_vectors(device, points.velocity, points.stride, count);
   s.density = read_numbers(device, fluid.density(), count);
   s.pressure_term = read_numbers(device, fluid.pressure_term(), count);
-  const auto body_points = static_cast<std::size_t>(fluid.boundary_count());
-  const PointArrays& boundary = fluid.boundary();
+  const auto body_points = static_cast<std::size_t>(fluid.boundary().point_count());
+  const PointArrays& boundary = fluid.boundary().points();
   s.body_position = read_vectors(device, boundary.position, boundary.stride, body_points);
   s.body_velocity = read_vectors(device, boundary.velocity, boundary.stride, body_points);
-  s.body_volume = read_numbers(device, fluid.boundary_volume(), body_points);
-  const auto bodies = static_cast<std::size_t>(fluid.body_count());
+  s.body_volume = read_numbers(device, fluid.boundary().volume(), body_points);
+  const auto bodies = static_cast<std::size_t>(fluid.boundary().body_count());
   if (bodies == 0) return s;
-  s.shapes = fluid.body_shapes().read(device, bodies);
-  s.bodies = fluid.body_steps().read(device, bodies);
-  const std::vector<float> meshes = fluid.meshes().read(device, fluid.meshes().size());
+  s.shapes = fluid.boundary().shapes().read(device, bodies);
+  s.bodies = fluid.boundary().steps().read(device, bodies);
+  const std::vector<float> meshes =
+      fluid.boundary().meshes().read(device, fluid.boundary().meshes().size());
   for (const BodyShape& shape : s.shapes) s.fields.push_back(field_of(shape, meshes));
   return s;
 }

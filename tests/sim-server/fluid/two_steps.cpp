@@ -42,8 +42,8 @@ int two_steps(int lanes, bool divergence_free, bool free, int steps) {
   }
   const Survey survey = water.fluid->survey();
   std::printf("%s: %d particles, %d body points, fastest %.3f m/s, %d faulty\n",
-              device.facts().platform.c_str(), water.params.count, water.fluid->boundary_count(),
-              survey.speed, survey.not_finite);
+              device.facts().platform.c_str(), water.params.count,
+              water.fluid->boundary().point_count(), survey.speed, survey.not_finite);
   return survey.not_finite == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
