@@ -2,6 +2,38 @@
 // Sort, second half: every point to its place, cells in order, x fastest. `source`: where each
 // came from.
 
+// Points as arrays, before the sort or after.
+typedef struct {
+  global float* position;
+  global float* velocity;
+  global int* id;
+} Points;
+
+static void move_point(int stride, global const float* position, global const float* velocity,
+                       global const int* id, int i, const Points* out, global int* source,
+                       int to) {
+  for (int axis = 0; axis < 3; ++axis) {
+    out->position[axis * stride + to] = position[axis * stride + i];
+    out->velocity[axis * stride + to] = velocity[axis * stride + i];
+  }
+  out->id[to] = id[i];
+  source[to] = i;
+}
+
+#if LANES > 1
+// Points that stay next to each other, as most do from step to step, LANES of them.
+static void move_together(int stride, global const float* position, global const float* velocity,
+                          global const int* id, int i, const Points* out, global int* source,
+                          int to) {
+  for (int axis = 0; axis < 3; ++axis) {
+    STORE(LOAD(position + axis * stride, i), out->position + axis * stride, to);
+    STORE(LOAD(velocity + axis * stride, i), out->velocity + axis * stride, to);
+  }
+  STORE(LOAD(id, i), out->id, to);
+  STORE(LANE_NUMBERS + i, source, to);
+}
+#endif
+
 kernel void sort_points(constant FluidParams* p, int points, int stride, int chunks, int whole,
                         global const int* cells, global int* place,
                         global const float* position, global const float* velocity,
@@ -17,15 +49,27 @@ kernel void sort_points(constant FluidParams* p, int points, int stride, int chu
     extent[chunks] = cells_in_use(p, extent, chunks, 0);
   }
   global int* mine = place + (size_t)chunk * cell_count;
+  const Points out = {position_out, velocity_out, id_out};
   const int size = (points + chunks - 1) / chunks;
   const int last = min((chunk + 1) * size, points);
-  for (int i = chunk * size; i < last; ++i) {
-    const int to = mine[cells[i]]++;
-    for (int axis = 0; axis < 3; ++axis) {
-      position_out[axis * stride + to] = position[axis * stride + i];
-      velocity_out[axis * stride + to] = velocity[axis * stride + i];
+  int i = chunk * size;
+#if LANES > 1
+  for (; i + LANES <= last; i += LANES) {
+    int to[LANES], apart = 0;
+    for (int lane = 0; lane < LANES; ++lane) {
+      to[lane] = mine[cells[i + lane]]++;
+      apart |= to[lane] - to[0] - lane;
     }
-    id_out[to] = id[i];
-    source[to] = i;
+    if (apart == 0) {
+      move_together(stride, position, velocity, id, i, &out, source, to[0]);
+      continue;
+    }
+    for (int lane = 0; lane < LANES; ++lane) {
+      move_point(stride, position, velocity, id, i + lane, &out, source, to[lane]);
+    }
+  }
+#endif
+  for (; i < last; ++i) {
+    move_point(stride, position, velocity, id, i, &out, source, mine[cells[i]]++);
   }
 }
