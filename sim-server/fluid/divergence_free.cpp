@@ -96,7 +96,7 @@ void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
 void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
   measure_response_.run(
       fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
-      fluid.grid().cell_start(), fluid.awake_cells(), fluid.particles().position.memory(),
+      fluid.grid().cell_start(), fluid.stirred_cells(), fluid.particles().position.memory(),
       fluid.body_images().memory(), fluid.boundary().grid().cell_start(),
       fluid.boundary().points().position.memory(), fluid.boundary().points().velocity.memory(),
       fluid.boundary().volume().memory(), fluid.boundary().points().stride,
@@ -120,7 +120,7 @@ void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
   const cl::Buffer& cells = fluid.grid().cell_start();
-  const cl::Buffer& awake = fluid.awake_cells();
+  const cl::Buffer& stir = fluid.stirred_cells();
   const cl::Buffer& places = fluid.particles().position.memory();
   const cl::Buffer& state = state_[number].memory();
   const std::size_t items = fluid.groups();
@@ -131,13 +131,13 @@ void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
     const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     const auto beta = static_cast<float>((t - 1.0) / next);
     t = next;
-    correct_pressure_.run(queue, items, params, k, state, beta, dt, cells, awake, places,
+    correct_pressure_.run(queue, items, params, k, state, beta, dt, cells, stir, places,
                           guess_.memory(), gradient_.memory(), response_.memory(),
                           boundary_rate_.memory(), offset_.memory(), pressure.memory(),
                           jacobi_.memory(), change_.memory(), error_part_.memory());
     judge_solve_.run(queue, kJudges, params, static_cast<int>(groups_), k, least, most,
                      error_part_.memory(), state);
-    push_by_pressure_.run(queue, items, params, k, state, dt, cells, awake, places,
+    push_by_pressure_.run(queue, items, params, k, state, dt, cells, stir, places,
                           gradient_.memory(), change_.memory(), pressure.memory(), guess_.memory());
     if (fluid.free_bodies() == nullptr) continue;
     fluid.free_bodies()->answer(fluid, step,

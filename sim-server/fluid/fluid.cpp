@@ -74,7 +74,7 @@ void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outl
   compute_density_ = Kernel(program, "compute_density", group);
   compute_acceleration_ = Kernel(program, "compute_acceleration", group);
   integrate_ = Kernel(program, "integrate", group);
-  survey_ = Kernel(guard, "survey");
+  survey_ = Kernel(guard, "survey", group);
   health_ = Health(device_, guard, params_);
   survey_parts_ = Buffer<SurveyPart>(device_, kParts);
   survey_read_.resize(kParts);
@@ -102,11 +102,11 @@ void Fluid::advance(const Step& step) {
   integrate(step);
   if (free_) free_->move(*this, step);
   if (watched_) {
-    health_.look(
-        device_,
-        {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
-         boundary_.shapes(), boundary_.meshes(), boundary_.steps(), boundary_.body_count()},
-        step);
+    health_.look(device_,
+                 {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
+                  sleep_.resting(), boundary_.shapes(), boundary_.meshes(), boundary_.steps(),
+                  boundary_.body_count()},
+                 step);
   }
 }
 
@@ -157,20 +157,21 @@ std::size_t Fluid::groups() const {
 
 void Fluid::compute_density(const Step& step) {
   compute_density_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.stir(),
       grid_.source(), density_before_.memory(), water_density_before_.memory(),
       sorted_.position.memory(), boundary_.grid().cell_start(),
       boundary_.points().position.memory(), boundary_.volume().memory(), boundary_.points().stride,
       boundary_.shapes().memory(), boundary_.meshes().memory(), boundary_.steps().memory(),
       step.first_body, boundary_.body_count(), as_float(step.piston), body_images_.memory(),
-      density_.memory(), water_density_.memory(), pressure_term_.memory());
+      density_.memory(), water_density_.memory(), pressure_term_.memory(), acceleration_.memory(),
+      moving_.memory(), sleep_.resting());
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
   compute_acceleration_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.cells(),
-      sorted_.position.memory(), velocity.memory(), pressure_term_.memory(), body_images_.memory(),
-      boundary_.grid().cell_start(), boundary_.points().position.memory(),
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.stir(),
+      sleep_.resting(), sorted_.position.memory(), velocity.memory(), pressure_term_.memory(),
+      body_images_.memory(), boundary_.grid().cell_start(), boundary_.points().position.memory(),
       boundary_.points().velocity.memory(), boundary_.volume().memory(), boundary_.points().stride,
       boundary_.steps().memory(), step.first_body, boundary_.body_count(), as_float(step.piston),
       acceleration_.memory(), moving_.memory());
@@ -181,7 +182,7 @@ void Fluid::integrate(const Step& step) {
                  as_float(step.piston), as_float(step.piston_speed), boundary_.shapes().memory(),
                  boundary_.meshes().memory(), boundary_.steps().memory(), step.first_body,
                  boundary_.body_count(), acceleration_.memory(), sorted_.position.memory(),
-                 sorted_.velocity.memory(), moving_.memory());
+                 sorted_.velocity.memory(), moving_.memory(), sleep_.resting());
 }
 
 void Fluid::still() {

@@ -134,8 +134,8 @@ class Fluid {
   /// As they were before the step and its sort: grid().source() says where each was.
   [[nodiscard]] const PointArrays& particles_before() const noexcept { return unsorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
-  /// Frames that each cell stays awake (kernels/sleep.h).
-  [[nodiscard]] const cl::Buffer& awake_cells() const noexcept { return sleep_.cells(); }
+  /// What goes on in each cell (kernels/sleep.h).
+  [[nodiscard]] const cl::Buffer& stirred_cells() const noexcept { return sleep_.stir(); }
   [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
   [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
   /// What kernels/body_image.h keeps of each particle near a body: R, its gradient and the nearest

@@ -25,6 +25,9 @@ constexpr int kThreads = 16384;
 constexpr Fault kByCause[] = {Fault::step,    Fault::changed, Fault::lost,  Fault::not_finite,
                               Fault::outside, Fault::stray,   Fault::speed, Fault::density};
 
+/// At groups that rest (RESTING_ in kernels/state_sums.h).
+enum class Look { unseen, seen, anew };
+
 float as_float(double value) {
   return static_cast<float>(value);
 }
@@ -111,12 +114,16 @@ Health::Health(Device& device, const cl::Program& program, const FluidParams& pa
       parts_(device.lanes() > 1 ? kStretches : kThreads),
       longest_step_(2.0 * largest_time_step(params, 0.0, 0.0, 1.0)),
       check_(program, "check_health", device.lanes() > 1 ? 1 : 64) {
+  const auto lanes = static_cast<std::size_t>(device.lanes());
+  const std::size_t groups = (static_cast<std::size_t>(params.count) + lanes - 1) / lanes;
+  rested_ = Buffer<std::uint32_t>(device, 2 * groups);
   const HealthLimits limits = health_limits(params);
   limits_ = Buffer<HealthLimits>(device, std::span<const HealthLimits>(&limits, 1));
 }
 
 void Health::begin(Device& device, std::size_t steps) {
   steps_.clear();
+  frame_ = steps;
   if (steps > records_.size()) records_ = Buffer<HealthRecord>(device, 2 * steps);
   records_.enqueue_clear(device);
 }
@@ -127,14 +134,17 @@ void Health::look(Device& device, const Patient& patient, const Step& step) {
   }
   const auto slot = static_cast<int>(steps_.size());
   steps_.push_back(step.dt);
+  const Look resting = !last_ && slot == 0       ? Look::anew
+                       : steps_.size() >= frame_ ? Look::seen
+                                                 : Look::unseen;
   check_.run(device.queue(), static_cast<std::size_t>(parts_), patient.params.memory(),
              limits_.memory(), static_cast<int>(checks_), parts_, as_float(step.dt),
              as_float(step.piston), patient.now.position.memory(), patient.now.velocity.memory(),
              patient.acceleration.memory(), patient.density.memory(), patient.now.id.memory(),
              patient.before.position.memory(), patient.before.velocity.memory(),
-             patient.before.id.memory(), patient.source, patient.shapes.memory(),
-             patient.meshes.memory(), patient.bodies.memory(), step.first_body, patient.body_count,
-             slot, records_.memory());
+             patient.before.id.memory(), patient.source, patient.resting, static_cast<int>(resting),
+             rested_.memory(), patient.shapes.memory(), patient.meshes.memory(),
+             patient.bodies.memory(), step.first_body, patient.body_count, slot, records_.memory());
 }
 
 void Health::enqueue_read(Device& device) {

@@ -84,7 +84,8 @@ struct Patient {
   const PointArrays& before;  ///< at its beginning, unsorted
   const Buffer<float>& acceleration;
   const Buffer<float>& density;
-  const cl::Buffer& source;  ///< where each particle was among those before
+  const cl::Buffer& source;   ///< where each particle was among those before
+  const cl::Buffer& resting;  ///< steps that each group of particles has rested (kernels/rest.h)
   const Buffer<BodyShape>& shapes;
   const Buffer<float>& meshes;
   const Buffer<BodyStep>& bodies;
@@ -99,7 +100,8 @@ class Health {
 
   /// A frame of so many steps begins.
   void begin(Device& device, std::size_t steps);
-  /// Enqueues the look at a step that has just been enqueued.
+  /// Enqueues the look at a step that has just been enqueued: at all that is at work, in the last
+  /// one of the frame at what rests, too.
   void look(Device& device, const Patient& patient, const Step& step);
   void enqueue_read(Device& device);
   /// Once the queue is finished: what was wrong first, if anything.
@@ -128,8 +130,10 @@ class Health {
   FaultSet checks_ = kAllFaults;
   bool fast_ = false;
   double longest_step_ = 0.0;  ///< [s]
+  std::size_t frame_ = 0;      ///< steps of the frame
   Buffer<HealthLimits> limits_;
   Buffer<HealthRecord> records_;
+  Buffer<std::uint32_t> rested_;  ///< bits of each group when it was last looked at
   std::vector<HealthRecord> read_;
   std::vector<double> steps_;          ///< lengths of those that were looked at [s]
   std::optional<std::uint32_t> last_;  ///< the state's bits at the end of the last sound frame

@@ -5,16 +5,30 @@
 #include <vector>
 
 namespace splash::sim {
+namespace {
+
+/// Of so many particles, one to a lane.
+std::size_t groups_of(int particles, int lanes) {
+  return static_cast<std::size_t>((particles + lanes - 1) / lanes);
+}
+
+}  // namespace
 
 Sleep::Sleep(Device& device, const cl::Program& program, const FluidParams& params)
     : rows_(static_cast<std::size_t>(params.cells_y) * static_cast<std::size_t>(params.cells_z)),
       awake_(device, rows_ * (static_cast<std::size_t>(params.cells_x) + 1)),
-      keep_awake_(program, "keep_awake", 4) {
+      stir_(device, 2 * rows_ * static_cast<std::size_t>(params.cells_x)),
+      resting_(device, groups_of(params.count, device.lanes())),
+      keep_awake_(program, "keep_awake", 4),
+      stir_cells_(program, "stir_cells", 4) {
   wake(device);
 }
 
 void Sleep::wake(Device& device) {
+  constexpr int kMoves = 2;  // STIR_MOTION
   awake_.write(device, std::vector<int>(awake_.size(), std::max(rule_.frames, 1) + 1));
+  stir_.write(device, std::vector<int>(stir_.size(), kMoves));
+  resting_.write(device, std::vector<int>(resting_.size(), 0));
 }
 
 void Sleep::update(cl::CommandQueue& queue, const FluidParams& params,
@@ -27,7 +41,8 @@ void Sleep::update(cl::CommandQueue& queue, const FluidParams& params,
   const int piston_reach = piston_moves ? static_cast<int>(cell) + 2 : 0;
   keep_awake_.run(queue, rows_, params_buffer.memory(), grid.cell_start(), velocity.memory(),
                   bodies.memory(), body_count, piston_reach, static_cast<float>(rule_.speed),
-                  rule_.frames, awake_.memory());
+                  rule_.frames, awake_.memory(), stir_.memory());
+  stir_cells_.run(queue, rows_, params_buffer.memory(), awake_.memory(), stir_.memory());
 }
 
 }  // namespace splash::sim

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which cells of the fluid are awake (kernels/sleep.h says what that means).
+// Which cells of the fluid are awake (kernels/sleep.h says what that means), and which groups of
+// particles a step has no work for (kernels/rest.h).
 #pragma once
 
 #include "sim-server/device/buffer.hpp"
@@ -33,14 +34,19 @@ class Sleep {
   /// Wakes everything.
   void wake(Device& device);
 
-  /// Frames that each cell stays awake, 0: asleep.
-  [[nodiscard]] const cl::Buffer& cells() const noexcept { return awake_.memory(); }
+  /// Of each cell, what goes on in it (STIR_ in kernels/sleep.h).
+  [[nodiscard]] const cl::Buffer& stir() const noexcept { return stir_.memory(); }
+  /// Of each group of particles, for how many steps it has rested (kernels/rest.h).
+  [[nodiscard]] const cl::Buffer& resting() const noexcept { return resting_.memory(); }
 
  private:
   SleepRule rule_;
   std::size_t rows_ = 0;
-  Buffer<int> awake_;
+  Buffer<int> awake_;  ///< frames that each cell stays awake, 0: asleep
+  Buffer<int> stir_;
+  Buffer<int> resting_;
   Kernel keep_awake_;
+  Kernel stir_cells_;
 };
 
 }  // namespace splash::sim

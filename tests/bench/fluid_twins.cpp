@@ -67,7 +67,8 @@ struct MainKernels {
       : program(build_program(device, fluid_sources(), {}, false)),
         density(program, "compute_density"),
         acceleration(program, "compute_acceleration"),
-        awake(device, std::vector<int>(cells_and_rows(block.params), 1)),
+        stir(device, std::vector<int>(cells_of(block.params), 2)),
+        resting(device, static_cast<std::size_t>(block.params.count)),
         none(device, 1),
         nobody(device, 1) {
     Fluid& f = block.fluid;
@@ -77,21 +78,22 @@ struct MainKernels {
     term = Buffer<float>(device, points);
     push = Buffer<float>(device, 3 * points);
     moving = Buffer<int>(device, points);
-    set(density, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
+    set(density, f.params_buffer().memory(), f.grid().cell_start(), stir.memory(),
         f.grid().source(), rho.memory(), water.memory(), f.particles().position.memory(),
         f.boundary().grid().cell_start(), f.boundary().points().position.memory(), none.memory(), 0,
         f.boundary().shapes().memory(), f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F,
-        f.body_images().memory(), rho.memory(), water.memory(), term.memory());
-    set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), awake.memory(),
-        f.particles().position.memory(), f.particles().velocity.memory(),
+        f.body_images().memory(), rho.memory(), water.memory(), term.memory(), push.memory(),
+        moving.memory(), resting.memory());
+    set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), stir.memory(),
+        resting.memory(), f.particles().position.memory(), f.particles().velocity.memory(),
         f.pressure_term().memory(), f.body_images().memory(), f.boundary().grid().cell_start(),
         f.boundary().points().position.memory(), f.boundary().points().velocity.memory(),
         none.memory(), 0, nobody.memory(), 0, 0, 0.0F, push.memory(), moving.memory());
   }
 
-  /// Sleep has a number for each cell and for each row (kernels/sleep.h).
-  static std::size_t cells_and_rows(const FluidParams& p) {
-    return (static_cast<std::size_t>(p.cells_x) + 1) * static_cast<std::size_t>(p.cells_y) *
+  /// Each says what goes on in it (kernels/sleep.h).
+  static std::size_t cells_of(const FluidParams& p) {
+    return static_cast<std::size_t>(p.cells_x) * static_cast<std::size_t>(p.cells_y) *
            static_cast<std::size_t>(p.cells_z);
   }
 
@@ -104,7 +106,8 @@ struct MainKernels {
   cl::Program program;
   cl::Kernel density;
   cl::Kernel acceleration;
-  Buffer<int> awake;
+  Buffer<int> stir;
+  Buffer<int> resting;
   Buffer<float> none;
   Buffer<BodyStep> nobody;
   Buffer<float> rho, water, term, push;

@@ -18,7 +18,11 @@ using namespace splash::sim;
 constexpr double kSettled = 8.0;   ///< until then all but the stirrer's corner sleeps [s]
 constexpr double kMeasured = 4.0;  ///< whole turns of the stirrer [s]
 constexpr double kTurn = 2.0;      ///< the paddle goes there and back [s]
-constexpr double kWay = 0.01;      ///< that far [m]
+
+/// That far [m], so that it keeps a tenth of the particles awake: finer water is stirred less far.
+double way_of(int particles) {
+  return particles > 30'000 ? 0.018 : 0.01;
+}
 
 /// A paddle that goes to and fro in the corner, slowly.
 Scene stirred(int particles) {
@@ -31,7 +35,7 @@ Scene stirred(int particles) {
   paddle.motion.kind = MotionKind::script;
   paddle.motion.repeat = true;
   const Vector3 here = {0.15, 0.15, 0.12};
-  const Vector3 there = {0.15 + kWay, 0.15, 0.12};
+  const Vector3 there = {0.15 + way_of(particles), 0.15, 0.12};
   for (const auto& [time, place] : {std::pair{0.0, here}, {kTurn / 2.0, there}, {kTurn, here}}) {
     Keyframe key;
     key.time = time;
@@ -110,8 +114,8 @@ StirredPool measure_stirred_pool(Device& device, int particles) {
   const auto per_step = [](double seconds, const Half& half) {
     return seconds / static_cast<double>(half.noted_steps);
   };
-  for (const auto& [name, seconds] : waking.stages) {
-    pool.stages[name] = {per_step(sleeping.stages[name], sleeping), per_step(seconds, waking)};
+  for (const auto& [name, seconds] : sleeping.stages) {
+    pool.stages[name] = {per_step(seconds, sleeping), per_step(waking.stages[name], waking)};
   }
   return pool;
 }
@@ -127,7 +131,7 @@ void print_stages(const StirredPool& pool) {
   for (const auto& [name, times] : sorted) {
     asleep += times.first;
     awake += times.second;
-    if (times.second < 1e-6) continue;
+    if (times.first < 1e-6) continue;
     std::printf("    %-38s %7.4f %7.4f\n", name.c_str(), 1e3 * times.first, 1e3 * times.second);
   }
   std::printf("    %-38s %7.4f %7.4f  %.1f %% saved\n", "together", 1e3 * asleep, 1e3 * awake,

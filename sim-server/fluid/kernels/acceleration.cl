@@ -94,7 +94,7 @@ static Push field_at(constant FluidParams* p, const Group* g) {
 }
 
 kernel void compute_acceleration(constant FluidParams* p, global const int* cell_start,
-                                 global const int* awake,
+                                 global const int* stir, global const int* resting,
                                  global const float* position, global const float* velocity,
                                  global const float* pressure_term,
                                  global const float* images,
@@ -105,14 +105,16 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
                                  float piston, global float* acceleration,
                                  global int* moving) {
   const int n = p->capacity;
-  const int first = group_of(p, get_global_id(0)) * LANES;
+  const int group = group_of(p, get_global_id(0));
+  const int first = group * LANES;
   const int last = min(first + LANES, p->count);
+  if (first >= last || resting[group] > 0) return;
   const float gradient = gradient_norm(p);
   Push a = {0.0f, 0.0f, 0.0f};
   lane_flags move = 0;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (!awake_near(p, awake, &g, WAKES_MOTION)) {
+    if (stir_of(p, stir, &g) < STIR_MOTION) {
       turn = g.next;
       continue;
     }
@@ -135,7 +137,6 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
     a.z = select(a.z, gradient * by.z - own * (wall.gz + gz) + field.z, g.mine);
     turn = g.next;
   }
-  if (first >= last) return;
   STORE(move, moving, first);
   STORE(a.x, acceleration, first);
   STORE(a.y, acceleration + n, first);

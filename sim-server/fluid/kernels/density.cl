@@ -46,17 +46,30 @@ static lanes sum_bodies(constant FluidParams* p, const Group* g, global const in
   return sum;
 }
 
-// What sleeping particles `first` to `last` had, before the sort.
-static lanes kept(global const float* before, global const int* source, int first, int last) {
-  float part[LANES];
-  for (int lane = 0; lane < LANES; ++lane) {
-    part[lane] = before[source[min(first + lane, last - 1)]];
-  }
-  return LOAD(part, 0);
+// P = p / rho^2 of the state equation.
+static lanes state_equation(constant FluidParams* p, lanes rho) {
+  const lanes pressure = fmax(p->sound_speed * p->sound_speed * (rho - p->rest_density), 0.0f);
+  return pressure / (rho * rho);
+}
+
+// A group that rests has what it had, wherever the sort put it, and nothing moves it.
+static void keep_resting(constant FluidParams* p, global const int* source, int first, int last,
+                         global const float* density_before,
+                         global const float* water_density_before, global float* density,
+                         global float* water_density, global float* pressure_term,
+                         global float* acceleration, global int* moving) {
+  const lanes rho = kept(density_before, source, first, last);
+  const lanes none = 0.0f;
+  const lane_flags still = 0;
+  STORE(rho, density, first);
+  STORE(kept(water_density_before, source, first, last), water_density, first);
+  STORE(state_equation(p, rho), pressure_term, first);
+  STORE(still, moving, first);
+  for (int axis = 0; axis < 3; ++axis) STORE(none, acceleration + axis * p->capacity, first);
 }
 
 kernel void compute_density(constant FluidParams* p, global const int* cell_start,
-                            global const int* awake, global const int* source,
+                            global const int* stir, global const int* source,
                             global const float* density_before,
                             global const float* water_density_before, global const float* position,
                             global const int* body_start, global const float* body_position,
@@ -64,9 +77,21 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
                             constant BodyShape* shapes, global const float* meshes,
                             global const BodyStep* bodies, int first_body, int body_count,
                             float piston, global float* images, global float* density,
-                            global float* water_density, global float* pressure_term) {
-  const int first = group_of(p, get_global_id(0)) * LANES;
+                            global float* water_density, global float* pressure_term,
+                            global float* acceleration, global int* moving,
+                            global int* resting) {
+  const int group = group_of(p, get_global_id(0));
+  const int first = group * LANES;
   const int last = min(first + LANES, p->count);
+  if (first >= last) return;
+  resting[group] = rested(p, cell_start, stir, source, position, bodies, first_body, body_count,
+                          resting[group], first, last);
+  if (resting[group] > 0) {
+    if (resting[group] == RESTED) return;
+    keep_resting(p, source, first, last, density_before, water_density_before, density,
+                 water_density, pressure_term, acceleration, moving);
+    return;
+  }
   lanes water = p->rest_density, rho = p->rest_density;
   BodyImage images_here = no_image();
   bool any_near = false;
@@ -81,7 +106,7 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
       choose_image(&images_here, &image, g.mine);
       any_near = true;
     }
-    if (!awake_near(p, awake, &g, WAKES_DENSITY)) {
+    if (stir_of(p, stir, &g) < STIR_DENSITY) {
       water = select(water, kept(water_density_before, source, first, last), g.mine);
       rho = select(rho, kept(density_before, source, first, last), g.mine);
       turn = g.next;
@@ -100,10 +125,8 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
     rho = select(rho, all, g.mine);
     turn = g.next;
   }
-  if (first >= last) return;
   if (any_near) store_image(p, &images_here, first, images);
-  const lanes pressure = fmax(p->sound_speed * p->sound_speed * (rho - p->rest_density), 0.0f);
   STORE(rho, density, first);
   STORE(water, water_density, first);
-  STORE(pressure / (rho * rho), pressure_term, first);
+  STORE(state_equation(p, rho), pressure_term, first);
 }

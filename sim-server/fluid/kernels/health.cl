@@ -63,8 +63,15 @@ static lane_flags wrong_density(const Patients* s, constant HealthLimits* limits
   return (s->density < (lanes)(limits->thinnest)) | (s->density > (lanes)(limits->densest));
 }
 
+// Whether LANES particles from `i` on were next to each other when the step began, as most were.
+static bool were_together(global const int* source, int i, int count) {
+  return i + LANES <= count && !any_lane(LOAD(source, i) != LANE_NUMBERS + source[i]);
+}
+
 // Where the particles that are now `i` and on were when the step began.
-static lanes place_before(global const float* before, global const int* source, int i, int count) {
+static lanes place_before(global const float* before, global const int* source, bool together,
+                          int i, int count) {
+  if (together) return LOAD(before, source[i]);
   float part[LANES];
   for (int lane = 0; lane < LANES; ++lane) part[lane] = before[source[min(i + lane, count - 1)]];
   return LOAD(part, 0);
@@ -75,13 +82,14 @@ static Patients load(constant FluidParams* p, float dt, global const float* posi
                      global const float* position_before, global const int* source, int i) {
   const int n = p->capacity;
   Patients s;
+  const bool together = were_together(source, i, p->count);
   s.here = LANE_NUMBERS < (lane_flags)(p->count - i);
   s.density = LOAD(density, i);
   s.way.way2 = s.way.miss2 = s.way.size = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     s.x[axis] = LOAD(position + axis * n, i);
     s.v[axis] = LOAD(velocity + axis * n, i);
-    const lanes before = place_before(position_before + axis * n, source, i, p->count);
+    const lanes before = place_before(position_before + axis * n, source, together, i, p->count);
     const lanes way = s.x[axis] - before;
     const lanes miss = way - dt * s.v[axis];
     s.way.way2 += way * way;
@@ -143,14 +151,23 @@ static lane_flags but_for_solids(lane_flags stray, constant FluidParams* p, floa
   return LOAD(flag, 0);
 }
 
+static void report_sums(global HealthRecord* record, const Sums* s) {
+  atomic_add(&record->before, bits_of(s->before) + s->known.state);
+  atomic_add(&record->after, bits_of(s->after) + s->known.state);
+  atomic_add(&record->ids_before, bits_of(s->ids_before) + s->known.ids + s->ids_known);
+  atomic_add(&record->ids_after, bits_of(s->ids_after) + s->known.ids);
+}
+
 // `checks`: a bit for each thing that is looked at. `before`: the arrays as they were when the step
 // began, unsorted; `source`: where each particle was among those. `acceleration`: that of the step.
+// `look`: at groups that rest, which `resting` knows.
 kernel void check_health(constant FluidParams* p, constant HealthLimits* limits, int checks,
                          int parts, float dt, float piston, global const float* position,
                          global const float* velocity, global const float* acceleration,
                          global const float* density, global const int* id,
                          global const float* position_before, global const float* velocity_before,
                          global const int* id_before, global const int* source,
+                         global const int* resting, int look, global Rested* rested,
                          constant BodyShape* shapes, global const float* meshes,
                          global const BodyStep* bodies, int first_body, int body_count, int slot,
                          global HealthRecord* records) {
@@ -158,7 +175,7 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
   if (part >= parts) return;
   const int n = p->capacity;
   global HealthRecord* record = records + slot;
-  lane_bits before = 0, after = 0, ids_before = 0, ids_after = 0;
+  Sums sums = {0, 0, 0, 0, {0, 0}, 0};
 #if LANES > 1  // each work-item its own stretch, in whole vectors
   const int size = ((p->count + parts - 1) / parts + LANES - 1) / LANES * LANES;
   const int stride = LANES, begin = part * size, end = min(begin + size, p->count);
@@ -166,12 +183,15 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
   const int stride = parts, begin = part, end = p->count;
 #endif
   for (int i = begin; i < end; i += stride) {
+    const int rests = resting[i / LANES];
+    if (rests > 1 && look == RESTING_UNSEEN) {
+      sums.known.state += rested[i / LANES].state;
+      sums.known.ids += rested[i / LANES].ids;
+      continue;
+    }
     const Patients s = load(p, dt, position, velocity, density, position_before, source, i);
-    const lane_bits mine = ALL_BITS(s.here);
-    before += mine & state_bits(position_before, velocity_before, n, i);
-    after += mine & state_bits(position, velocity, n, i);
-    ids_before += mine & id_bits(id_before, i);
-    ids_after += mine & id_bits(id, i);
+    add_bits(&sums, n, i, ALL_BITS(s.here), rests, look, position, velocity, id, position_before,
+             velocity_before, id_before, rested + i / LANES);
     lane_flags bad[HEALTH_CHECKS];
     bad[HEALTH_NOT_FINITE] = s.here & not_finite(&s);
     const lane_flags fine = s.here & (bad[HEALTH_NOT_FINITE] == (lane_flags)(0));
@@ -193,8 +213,5 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
       if (checks & (1 << check)) report_lanes(record, check, bad[check], id, i);
     }
   }
-  atomic_add(&record->before, bits_of(before));
-  atomic_add(&record->after, bits_of(after));
-  atomic_add(&record->ids_before, bits_of(ids_before));
-  atomic_add(&record->ids_after, bits_of(ids_after));
+  report_sums(record, &sums);
 }

@@ -7,9 +7,11 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
                       constant BodyShape* shapes, global const float* meshes,
                       global const BodyStep* bodies, int first_body, int body_count,
                       global const float* acceleration, global float* position,
-                      global float* velocity, global const int* moving) {
-  const int i = group_of(p, get_global_id(0)) * LANES;
-  if (i >= p->count) return;
+                      global float* velocity, global const int* moving,
+                      global const int* resting) {
+  const int group = group_of(p, get_global_id(0));
+  const int i = group * LANES;
+  if (i >= p->count || resting[group] > 0) return;
   const lane_flags move = LOAD(moving, i) != 0;
   if (!any_lane(move)) return;
   const int n = p->capacity;

@@ -43,7 +43,7 @@ static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
 // their number.
 kernel void correct_pressure(constant FluidParams* p, int k, global const SolveState* state,
                              float beta, float dt, global const int* cell_start,
-                             global const int* awake, global const float* position,
+                             global const int* stir, global const float* position,
                              global const float* velocity, global const float* gradient,
                              global const float* response, global const float* boundary_rate,
                              global const float* offset, global const float* pressure,
@@ -59,7 +59,7 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   lane_flags moves = 0;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (!awake_near(p, awake, &g, WAKES_MOTION)) {
+    if (stir_of(p, stir, &g) < STIR_MOTION) {
       turn = g.next;
       continue;
     }

@@ -28,7 +28,7 @@ static Shove shove_by_fluid(constant FluidParams* p, const Group* g, global cons
 }
 
 kernel void push_by_pressure(constant FluidParams* p, int k, global const SolveState* state,
-                             float dt, global const int* cell_start, global const int* awake,
+                             float dt, global const int* cell_start, global const int* stir,
                              global const float* position,
                              global const float* gradient, global const float* change,
                              global float* pressure, global float* velocity) {
@@ -41,7 +41,7 @@ kernel void push_by_pressure(constant FluidParams* p, int k, global const SolveS
   Shove shove = {0.0f, 0.0f, 0.0f};
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (!awake_near(p, awake, &g, WAKES_MOTION)) {
+    if (stir_of(p, stir, &g) < STIR_MOTION) {
       turn = g.next;
       continue;
     }

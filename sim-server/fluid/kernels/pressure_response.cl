@@ -87,7 +87,7 @@ static BodyResponse response_of_bodies(constant FluidParams* p, const Group* g,
 }
 
 kernel void measure_response(constant FluidParams* p, global const int* cell_start,
-                             global const int* awake, global const float* position,
+                             global const int* stir, global const float* position,
                              global const float* images,
                              global const int* body_start,
                              global const float* body_position,
@@ -103,7 +103,7 @@ kernel void measure_response(constant FluidParams* p, global const int* cell_sta
   lanes gx = 0.0f, gy = 0.0f, gz = 0.0f, d = 0.0f, rate = 0.0f;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (!awake_near(p, awake, &g, WAKES_MOTION)) {
+    if (stir_of(p, stir, &g) < STIR_MOTION) {
       turn = g.next;
       continue;
     }

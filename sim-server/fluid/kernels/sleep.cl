@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Once a frame: how many frames more each cell stays awake. One work-item for each row of cells.
+// Once a frame: how many frames more each cell stays awake, and what that means for the cells
+// around it. One work-item for each row of cells.
 
 // Cells that lie in [lower, upper] along one axis, whatever part of them.
 static int2 cells_within(float lower, float upper, float origin, float inverse_cell, int cells) {
@@ -7,11 +8,39 @@ static int2 cells_within(float lower, float upper, float origin, float inverse_c
                 (int)fmin((upper - origin) * inverse_cell, (float)(cells - 1)));
 }
 
+// Whether any of the particles `first` to `last` is not slower than `speed`.
+static bool any_fast(int n, global const float* velocity, float speed, int first, int last) {
+  for (int j = first; j < last; j += LANES) {
+    const lanes u = LOAD(velocity, j), v = LOAD(velocity + n, j), w = LOAD(velocity + 2 * n, j);
+    // Not the other way round: what is no number stays awake.
+    const lane_flags slow = u * u + v * v + w * w <= (lanes)(speed * speed);
+    if (any_lane((slow == 0) & (LANE_NUMBERS < (lane_flags)(last - j)))) return true;
+  }
+  return false;
+}
+
+// Behind what goes on in all cells: what would, were their own row all that is awake.
+static global int* own_stir(constant FluidParams* p, global int* stir) {
+  return stir + p->cells_x * p->cells_y * p->cells_z;
+}
+
+// What awake cells of a row mean for the others of it.
+static void stir_along(constant FluidParams* p, global const int* awake, global int* along) {
+  for (int x = 0; x < p->cells_x; ++x) along[x] = 0;
+  for (int x = 0; x < p->cells_x; ++x) {
+    if (awake[x] == 0) continue;
+    for (int k = max(x - WAKES_DENSITY, 0); k <= min(x + WAKES_DENSITY, p->cells_x - 1); ++k) {
+      along[k] = max(along[k], abs(k - x) <= WAKES_MOTION ? STIR_MOTION : STIR_DENSITY);
+    }
+  }
+}
+
 // `bodies`: those of all steps of the frame; `piston_reach`: cells at the moving wall's side that
 // it wakes; `speed`: slower water may sleep [m/s]; `hold`: frames.
 kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
                        global const float* velocity, global const BodyStep* bodies, int body_count,
-                       int piston_reach, float speed, int hold, global int* awake) {
+                       int piston_reach, float speed, int hold, global int* awake,
+                       global int* stir) {
   const int row = get_global_id(0);
   if (row >= p->cells_y * p->cells_z) return;
   const int n = p->capacity;
@@ -19,15 +48,9 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
   awake += row * p->cells_x;
   cell_start += row * p->cells_x * SLICES;
   for (int x = 0; x < p->cells_x; ++x) {
-    int frames = max(awake[x] - 1, 0);
-    for (int j = cell_start[x * SLICES]; j < cell_start[(x + 1) * SLICES]; ++j) {
-      const float u = velocity[j], v = velocity[n + j], w = velocity[2 * n + j];
-      // Not the other way round: what is no number stays awake.
-      if (!(u * u + v * v + w * w <= speed * speed)) {
-        frames = hold;
-        break;
-      }
-    }
+    const int first = cell_start[x * SLICES], last = cell_start[(x + 1) * SLICES];
+    const int frames =
+        any_fast(n, velocity, speed, first, last) ? hold : max(awake[x] - 1, 0);
     awake[x] = x < piston_reach ? hold : frames;
   }
   const int y = row % p->cells_y, z = row / p->cells_y;
@@ -46,4 +69,28 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
   }
   *most = 0;
   for (int x = 0; x < p->cells_x; ++x) *most = max(*most, awake[x]);
+  stir_along(p, awake, own_stir(p, stir) + row * p->cells_x);
+}
+
+kernel void stir_cells(constant FluidParams* p, global const int* awake, global int* stir) {
+  const int row = get_global_id(0);
+  if (row >= p->cells_y * p->cells_z) return;
+  global const int* most = awake + p->cells_x * p->cells_y * p->cells_z;
+  global const int* own = own_stir(p, stir);
+  stir += row * p->cells_x;
+  for (int x = 0; x < p->cells_x; ++x) stir[x] = 0;
+  const int at_y = row % p->cells_y, at_z = row / p->cells_y;
+  const int last_y = min(at_y + WAKES_DENSITY, p->cells_y - 1);
+  const int last_z = min(at_z + WAKES_DENSITY, p->cells_z - 1);
+  for (int z = max(at_z - WAKES_DENSITY, 0); z <= last_z; ++z) {
+    for (int y = max(at_y - WAKES_DENSITY, 0); y <= last_y; ++y) {
+      const int other = z * p->cells_y + y;
+      if (most[other] == 0) continue;
+      const int off = max(abs(z - at_z), abs(y - at_y));
+      const int reach = off <= WAKES_MOTION ? STIR_MOTION : STIR_DENSITY;
+      for (int x = 0; x < p->cells_x; ++x) {
+        stir[x] = max(stir[x], min(own[other * p->cells_x + x], reach));
+      }
+    }
+  }
 }

@@ -61,7 +61,8 @@ void PrintTo(const Watched& watched, std::ostream* out) {
 const std::set<std::string> kStep = {
     "place_bodies", "gather_body_volumes", "count_cells",     "sum_blocks",
     "place_cells",  "sort_points",         "compute_density", "compute_acceleration",
-    "integrate",    "keep_awake",          "survey",          "check_health"};
+    "integrate",    "keep_awake",          "survey",          "check_health",
+    "stir_cells"};
 const std::set<std::string> kSolve = {"check_health",
                                       "place_bodies",
                                       "gather_body_volumes",
@@ -81,7 +82,8 @@ const std::set<std::string> kSolve = {"check_health",
                                       "begin_density_solve",
                                       "end_solves",
                                       "judge_solve",
-                                      "keep_awake"};
+                                      "keep_awake",
+                                      "stir_cells"};
 const std::set<std::string> kDetect = {"place_bodies",    "gather_body_volumes",  "count_cells",
                                        "sum_blocks",      "place_cells",          "sort_points",
                                        "compute_density", "compute_acceleration", "integrate",

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Sums of the whole state's bits. A group that rests (rest.h) and in which nobody has changed place
+// is looked at in the last step of a frame only. Until then it counts with the bits that it had
+// when it was last looked at: what is done to it meanwhile is seen there, for the bits are others.
+
+// Of groups that rest.
+#define RESTING_UNSEEN 0  // they are not looked at
+#define RESTING_SEEN 1    // they are, and have been before
+#define RESTING_ANEW 2    // they are, for the first time
+
+// The bits of a group that rests, when it was last looked at.
+typedef struct {
+  uint state, ids;
+} Rested;
+
+// Sums of bits at the step's ends; `known`: of what is not looked at, which is the same at both,
+// and `ids_known`: of what was looked at before.
+typedef struct {
+  lane_bits before, after, ids_before, ids_after;
+  Rested known;
+  uint ids_known;
+} Sums;
+
+// Adds the group of particle `i`, of whose lanes `mine` hold one.
+static void add_bits(Sums* sums, int n, int i, lane_bits mine, int rests, int look,
+                     global const float* position, global const float* velocity,
+                     global const int* id, global const float* position_before,
+                     global const float* velocity_before, global const int* id_before,
+                     global Rested* rested) {
+  const lane_bits state = mine & state_bits(position, velocity, n, i);
+  const lane_bits ids = mine & id_bits(id, i);
+  sums->before += mine & state_bits(position_before, velocity_before, n, i);
+  sums->after += state;
+  sums->ids_after += ids;
+  if (rests > 1 && look == RESTING_SEEN) {
+    sums->ids_known += rested->ids;
+  } else {
+    sums->ids_before += mine & id_bits(id_before, i);
+  }
+  if (rests == 0) return;
+  rested->state = bits_of(state);
+  rested->ids = bits_of(ids);
+}
