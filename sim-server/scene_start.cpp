@@ -32,7 +32,7 @@ std::vector<Holding> wanted_holding(const Scene& scene, std::span<const Keyframe
   }
   std::vector<Holding> all = how_held(scene, poses, particles);
   if (scene.fluid.settle == SettleKind::never) {
-    std::replace(all.begin(), all.end(), Holding::held, Holding::flows);
+    std::fill(all.begin(), all.end(), Holding::flows);
   }
   return all;
 }

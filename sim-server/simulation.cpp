@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "sim-server/bodies/mass.hpp"
+#include "sim-server/fluid/pack.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/settle.hpp"
 #include "sim-server/free_body_watch.hpp"
@@ -25,10 +27,12 @@ constexpr double kFlight = 1.0;
 /// be heard doing so. What something holds is given this long before time begins [s].
 constexpr double kSettleSeconds = 1.0;
 
-std::vector<bool> not_held(const std::vector<Holding>& holding) {
+/// Of each particle whether it is held in one of these ways.
+std::vector<bool> flagged(const std::vector<Holding>& holding, bool flows, bool hangs) {
   std::vector<bool> flags(holding.size());
-  std::transform(holding.begin(), holding.end(), flags.begin(),
-                 [](Holding how) { return how != Holding::held; });
+  std::transform(holding.begin(), holding.end(), flags.begin(), [&](Holding how) {
+    return (flows && how == Holding::flows) || (hangs && how == Holding::hangs);
+  });
   return flags;
 }
 
@@ -63,14 +67,17 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
 }
 
 void Simulation::settle_in(const Progress& tell) {
-  const Snapshot lattice = fluid_.snapshot();
-  Mould mould(fluid_, not_held(holding_));
+  const std::vector<BodyStep> bodies = at_rest(bodies_.at(0.0));
   const PistonState piston = piston_at(scene_.wave_maker, 0.0);
   double dt = largest_time_step(fluid_.params(), bodies_.fastest(0.0),
                                 std::abs(scene_.fluid.gravity[2]), step_factor(scene_.fluid));
+  pack(fluid_, bodies, piston.offset, dt, flagged(holding_, false, true),
+       static_cast<std::uint32_t>(scene_.seed));
+  const Snapshot packed = fluid_.snapshot();
+  Mould mould(fluid_, flagged(holding_, true, true));
   std::optional<Diagnosis> wrong;
   for (int k = 0; k <= Recovery::kTries; ++k) {
-    settle(fluid_, bodies_.at(0.0), piston.offset, kSettleSeconds, dt, tell, &mould);
+    settle(fluid_, bodies, piston.offset, kSettleSeconds, dt, tell, &mould);
     const Step step = {dt, piston.offset, 0.0, 0};
     fluid_.begin_watch(1);
     fluid_.prepare(step);
@@ -81,7 +88,7 @@ void Simulation::settle_in(const Progress& tell) {
     mould.put_back();
     fluid_.still();
     if (!wrong) return;
-    fluid_.restore(lattice);
+    fluid_.restore(packed);
     dt /= 2.0;
   }
   sound_.keep(fluid_.device(), state());

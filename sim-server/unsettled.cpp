@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <set>
 
+#include "sim-server/scene/rotation.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -48,7 +50,8 @@ std::string corner(const Vector3& x) {
 
 std::string unsettled_water(Simulation& simulation) {
   const Scene& scene = simulation.scene();
-  if (scene.fluid.settle != SettleKind::automatic) return {};
+  const bool has_weight = length(scene.fluid.gravity) > 0.0 || length(scene.fluid.pull) > 0.0;
+  if (scene.fluid.settle != SettleKind::automatic || !has_weight) return {};
   std::string list;
   for (const std::size_t b : blocks_of(simulation)) {
     list += list.empty() ? "" : "; ";

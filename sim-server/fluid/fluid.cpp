@@ -190,6 +190,17 @@ void Fluid::still() {
   health_.forget();
 }
 
+void Fluid::take_weight() {
+  FluidParams weightless = params_;
+  weightless.gravity_x = weightless.gravity_y = weightless.gravity_z = 0.0F;
+  weightless.pull_x = weightless.pull_y = weightless.pull_z = 0.0F;
+  params_buffer_.write(device_, std::span<const FluidParams>(&weightless, 1));
+}
+
+void Fluid::give_weight() {
+  params_buffer_.write(device_, std::span<const FluidParams>(&params_, 1));
+}
+
 void Fluid::drop_last_wall() {
   --params_.wall_count;
   params_buffer_.write(device_, std::span<const FluidParams>(&params_, 1));

@@ -104,6 +104,9 @@ class Fluid {
 
   /// Stops all particles where they are.
   void still();
+  /// Nothing acts from afar on the water until give_weight: neither gravity nor pull. Both wait.
+  void take_weight();
+  void give_weight();
   /// Takes away the last wall, which a gate is; waits.
   void drop_last_wall();
 

@@ -65,14 +65,17 @@ class Settling {
 
 }  // namespace
 
-void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
-            double dt, const Progress& tell, Mould* mould) {
-  std::vector<BodyStep> still = bodies;
-  for (BodyStep& body : still) {
+std::vector<BodyStep> at_rest(std::vector<BodyStep> bodies) {
+  for (BodyStep& body : bodies) {
     body.vx = body.vy = body.vz = 0.0F;
     body.wx = body.wy = body.wz = body.speed = 0.0F;
   }
-  fluid.set_bodies(still);
+  return bodies;
+}
+
+void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
+            double dt, const Progress& tell, Mould* mould) {
+  fluid.set_bodies(bodies);
   if (mould != nullptr && mould->has_all()) return;
   const int steps = static_cast<int>(seconds / dt);
   const int most = static_cast<int>(kMost * seconds / dt);

@@ -13,7 +13,10 @@ namespace splash::sim {
 /// Is told now and then which part of a long task is done [1].
 using Progress = std::function<void(double share)>;
 
-/// Runs `fluid` in steps of `dt` [s] with its bodies at rest where `bodies` says: for `seconds`
+/// The same bodies, not moving.
+[[nodiscard]] std::vector<BodyStep> at_rest(std::vector<BodyStep> bodies);
+
+/// Runs `fluid` in steps of `dt` [s] with its bodies where `bodies`, at rest, says: for `seconds`
 /// first freely, so that the lattice finds a better packing, then stopping all motion again and
 /// again, so that the column ceases to breathe. Then it is left alone, and stopped once more, until
 /// nothing gets faster than a twentieth of its longest wave within half a second; four times

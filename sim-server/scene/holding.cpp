@@ -122,7 +122,7 @@ class WaterBodies {
 
 std::vector<Holding> how_held(const Scene& scene, std::span<const Keyframe> poses,
                               const std::vector<Vector3>& particles) {
-  std::vector<Holding> all(particles.size(), Holding::held);
+  std::vector<Holding> all(particles.size(), Holding::hangs);
   if (length(scene.fluid.gravity) == 0.0 && length(scene.fluid.pull) == 0.0) return all;
   const WaterBodies water(scene, poses);
   std::transform(particles.begin(), particles.end(), all.begin(),

@@ -17,7 +17,7 @@ namespace splash::sim {
 enum class Holding : std::uint8_t { held, flows, hangs };
 
 /// Of each of `particles` [m], all those of one body of water alike. `poses` of the bodies, one
-/// each; their times are ignored. Without gravity and pull all are held: there is no way to fall.
+/// each; their times are ignored. Without gravity and pull all hangs.
 [[nodiscard]] std::vector<Holding> how_held(const Scene& scene, std::span<const Keyframe> poses,
                                             const std::vector<Vector3>& particles);
 

@@ -70,7 +70,7 @@ TEST_P(Settling, LeavesADropWhereItHangs) {
   const std::size_t pool = initial_particles(scene_of(kPool)).size();
   Simulation simulation(device, scene, {});
   const std::vector<Particle> start = particles_of(simulation);
-  EXPECT_LT(farthest(start, lattice, pool), 0.02);
+  EXPECT_LT(farthest(start, lattice, pool), 1.5) << "packed anew, where it was";
   for (const Particle& particle : start) EXPECT_EQ(particle.velocity, Vector3({0.0, 0.0, 0.0}));
   for (std::size_t i = 0; i < pool; ++i) EXPECT_LT(start[i].place[2], 0.17);
   // Then it falls as one, and nothing in it presses.
@@ -122,9 +122,9 @@ TEST(SettlingOfHeldWater, IsTheSameToTheLastBitWhateverIsAskedElsewhere) {
 
 TEST(SettlingOfHeldWater, IsLeftOutWhereTheSceneWantsNone) {
   Device device;
-  const Scene scene = scene_of(kPool, ", settle: never");
+  const Scene scene = scene_of(kPool + kDrop, ", settle: never");
   Simulation simulation(device, scene, {});
-  EXPECT_LT(farthest(particles_of(simulation), initial_particles(scene)), 0.1);
+  EXPECT_LT(farthest(particles_of(simulation), initial_particles(scene)), 0.1) << "nor packed";
 }
 
 TEST(SettlingOfFreeWater, IsDoneWhereTheSceneWantsIt) {
