@@ -40,7 +40,7 @@ const std::vector<Room>& rooms() {
       {"sim-server/scene", {"protocol"}, {}},
       {"sim-server/device", {}, {"CL/"}},
       {"sim-server/tracking", {"protocol/config.hpp", "sim-server/scene"}, {"Eigen/"}},
-      {"sim-server/fluid", {"sim-server/scene", "sim-server/device"}, {}},
+      {"sim-server/fluid", {"sim-server/scene", "sim-server/device"}, {"Random123/"}},
       // What the fluid gives a body to be sampled with, not the solver.
       {"sim-server/bodies",
        {"sim-server/scene", "sim-server/tracking", "sim-server/fluid/boundary_point.hpp",
