@@ -59,10 +59,9 @@ void PrintTo(const Watched& watched, std::ostream* out) {
 }
 
 const std::set<std::string> kStep = {
-    "place_bodies", "gather_body_volumes", "count_cells",     "sum_blocks",
-    "place_cells",  "sort_points",         "compute_density", "compute_acceleration",
-    "integrate",    "keep_awake",          "survey",          "check_health",
-    "stir_cells"};
+    "place_bodies", "gather_body_volumes", "count_cells",          "sum_blocks", "place_cells",
+    "sort_points",  "compute_density",     "compute_acceleration", "integrate",  "keep_awake",
+    "survey",       "check_health",        "stir_cells",           "put_back"};
 const std::set<std::string> kSolve = {"check_health",
                                       "place_bodies",
                                       "gather_body_volumes",
@@ -83,7 +82,8 @@ const std::set<std::string> kSolve = {"check_health",
                                       "end_solves",
                                       "judge_solve",
                                       "keep_awake",
-                                      "stir_cells"};
+                                      "stir_cells",
+                                      "put_back"};
 const std::set<std::string> kDetect = {"place_bodies",    "gather_body_volumes",  "count_cells",
                                        "sum_blocks",      "place_cells",          "sort_points",
                                        "compute_density", "compute_acceleration", "integrate",

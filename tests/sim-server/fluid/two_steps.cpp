@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Two steps, or more, of a small fluid with walls, slope, piston and bodies, and two in which it
-// may sleep: every kernel once, small enough for an OpenCL interpreter. Arguments: particles per
-// vector (1, 8 or 16), whether the water is divergence-free (1), whether it moves the bodies (1),
-// and how many steps.
+// Two steps, or more, of a small fluid with walls, slope, piston and bodies, a third of it in a
+// mould, and two in which it may sleep: every kernel once, small enough for an OpenCL interpreter.
+// Arguments: particles per vector (1, 8 or 16), whether the water is divergence-free (1), whether
+// it moves the bodies (1), and how many steps.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <vector>
 
 #include "sim-server/bodies/mass.hpp"
+#include "sim-server/fluid/mould.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {
+
+std::vector<bool> every_third(std::size_t count) {
+  std::vector<bool> flags(count);
+  for (std::size_t i = 0; i < count; i += 3) flags[i] = true;
+  return flags;
+}
 
 int two_steps(int lanes, bool divergence_free, bool free, int steps) {
   using namespace splash::sim;
@@ -31,7 +39,11 @@ int two_steps(int lanes, bool divergence_free, bool free, int steps) {
     water.fluid->let_go(free_bodies(water.scene.bodies));
   }
   water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);
-  for (int k = 0; k < steps; ++k) water.step(1.0e-3);
+  Mould mould(*water.fluid, every_third(water.particles.size()));
+  for (int k = 0; k < steps; ++k) {
+    water.step(1.0e-3);
+    mould.put_back();
+  }
   water.fluid->let_sleep({.speed = 0.05, .frames = 1});
   Step sleepy = water.step_at(1.0e-3);
   sleepy.opens_frame = true;
