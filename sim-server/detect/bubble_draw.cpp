@@ -5,12 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#include <Random123/philox.h>
-#pragma GCC diagnostic pop
+#include "sim-server/fluid/random_draw.hpp"
 
 namespace splash::sim {
 
@@ -38,13 +33,9 @@ double mean_volume(const DetectSettings& settings) {
 }
 
 Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle, int bubble) {
-  const r123::Philox4x32 generator;
-  const r123::Philox4x32::key_type key = {{seed, 0x62756262U}};  // "bubb"
-  const r123::Philox4x32::ctr_type counter = {
-      {step, particle, static_cast<std::uint32_t>(bubble), 0U}};
-  const auto bits = generator(counter, key);
-  constexpr double kUnit = 1.0 / 4294967296.0;  // 2^-32
-  return {bits[0] * kUnit, bits[1] * kUnit, bits[2] * kUnit, bits[3] * kUnit};
+  const auto shares = random_draw({step, particle, static_cast<std::uint32_t>(bubble), 0U},
+                                  {seed, 0x62756262U});  // "bubb"
+  return {shares[0], shares[1], shares[2], shares[3]};
 }
 
 }  // namespace splash::sim

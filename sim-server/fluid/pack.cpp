@@ -3,14 +3,8 @@
 
 #include <algorithm>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#include <Random123/philox.h>
-#pragma GCC diagnostic pop
-
 #include "sim-server/fluid/mould.hpp"
+#include "sim-server/fluid/random_draw.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -23,13 +17,11 @@ constexpr double kHalfCube = 0.5;
 /// the same to 1e-5 of its size.
 constexpr int kPackingSteps = 100;
 
-/// Uniform on [-1, 1], three for each particle (Philox, Salmon et al. 2011).
+/// Uniform on [-1, 1) along each axis.
 Vector3 displacement(std::uint32_t seed, int particle) {
-  const r123::Philox4x32 generator;
-  const auto bits = generator({{static_cast<std::uint32_t>(particle), 0U, 0U, 0U}},
-                              {{seed, 0x7061636BU}});  // "pack"
-  constexpr double kUnit = 1.0 / 2147483648.0;         // 2^-31
-  return {bits[0] * kUnit - 1.0, bits[1] * kUnit - 1.0, bits[2] * kUnit - 1.0};
+  const auto shares = random_draw({static_cast<std::uint32_t>(particle), 0U, 0U, 0U},
+                                  {seed, 0x7061636BU});  // "pack"
+  return {2.0 * shares[0] - 1.0, 2.0 * shares[1] - 1.0, 2.0 * shares[2] - 1.0};
 }
 
 void scatter(Fluid& fluid, const std::vector<bool>& loose, std::uint32_t seed) {

@@ -48,7 +48,7 @@ const std::vector<Room>& rooms() {
        {}},
       {"sim-server/detect",
        {"sim-server/scene", "sim-server/device", "sim-server/bodies", "sim-server/fluid"},
-       {"Random123/"}},
+       {}},
       {"sim-server/gauge",
        {"sim-server/scene", "sim-server/device", "sim-server/tracking", "sim-server/bodies",
         "sim-server/fluid", "protocol/write_error.hpp"},
