@@ -43,8 +43,9 @@ class Launcher : public testing::Test {
 
   CommandResult launch(const std::string& arguments) const {
     return run_command("PATH='" + folder_.string() + "':$PATH " + SPLASH_SOURCE_DIR + "/splash " +
-                       arguments + " --build-dir '" + (folder_ / "build").string() + "'");
+                       arguments + " --build-dir '" + build().string() + "'");
   }
+  fs::path build() const { return folder_ / "build"; }
 
   std::string apt_calls() const {
     std::ifstream in(folder_ / "apt");
@@ -82,6 +83,34 @@ TEST_F(Launcher, InstallsOnlyWhatIsMissing) {
                            HasSubstr("pocl-opencl-icd")));
   EXPECT_THAT(calls, AllOf(Not(HasSubstr("cmake")), Not(HasSubstr("liblo-dev")),
                            Not(HasSubstr("pkg-config"))));
+}
+
+TEST_F(Launcher, TellsWhatTestsSkippedAndWhatSanitizersReported) {
+  write_program("apt-get", "exit 0");
+  write_program("cmake", "exit 0");
+  write_program("ctest", R"(mkdir -p "$2/Testing/Temporary"
+    cat >"$2/Testing/Temporary/LastTest.log" <<'LOG'
+1/2 Test: room/Some.Case
+a_test.cpp:7: Skipped
+no such thing here
+
+2/2 Test: other_test
+Skipped: it replaces malloc
+LOG
+    [ ! -e "$2/faulty" ] || echo "SUMMARY: a race" >"${ASAN_OPTIONS##*log_path=}.program.1"
+    echo "100% tests passed, 0 tests failed out of 2")");
+  const CommandResult sound = launch("test --preset tsan");
+  EXPECT_EQ(sound.exit_code, 0) << sound.output;
+  EXPECT_THAT(sound.output, AllOf(HasSubstr("skipped: room/Some.Case: no such thing here\n"),
+                                  HasSubstr("skipped: other_test: it replaces malloc\n"),
+                                  HasSubstr("\n0 reports of sanitizers\n2 tests run, 0 failed")));
+  write_program("build/faulty", "");
+  const CommandResult faulty = launch("test --preset tsan");
+  EXPECT_EQ(faulty.exit_code, 1);
+  EXPECT_THAT(faulty.output, AllOf(HasSubstr("/reports/report.program.1:\nSUMMARY: a race\n"),
+                                   HasSubstr("\n1 reports of sanitizers\n")));
+  fs::remove(build() / "faulty");
+  EXPECT_THAT(launch("test").output, Not(HasSubstr("of sanitizers")));
 }
 
 TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
