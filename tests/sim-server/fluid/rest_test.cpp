@@ -71,15 +71,17 @@ class Resting : public Sleeping {
   }
 
   /// The most that goes on in the cells of all that are handled with particle `id`: those of its
-  /// vector that are in the same row.
-  int most_around(const Cells& stir, const Numbers& now, std::size_t id) const {
+  /// vector that are in the same row. Vectors are as they are `now`, cells as they were sorted by,
+  /// of where all had been `before` the step: whoever wakes may leave its cell at once.
+  int most_around(const Cells& stir, const Numbers& before, const Numbers& now,
+                  std::size_t id) const {
     const auto lanes = static_cast<std::size_t>(GetParam().lanes);
     const std::size_t first = now.place[id] / lanes * lanes;
-    const std::array<int, 3> here = stir.of(water_.params, now.state[id]);
+    const std::array<int, 3> here = stir.of(water_.params, before.state[id]);
     int from = here[0];
     int to = here[0];
     for (std::size_t i = first; i < std::min(first + lanes, now.id.size()); ++i) {
-      const std::array<int, 3> cell = stir.of(water_.params, now.state[now.id[i]]);
+      const std::array<int, 3> cell = stir.of(water_.params, before.state[now.id[i]]);
       if (cell[1] != here[1] || cell[2] != here[2]) continue;
       from = std::min(from, cell[0]);
       to = std::max(to, cell[0]);
@@ -112,6 +114,7 @@ class Resting : public Sleeping {
 TEST_P(Resting, WhoeverSleepsKeepsItsNumbersThroughAllSorts) {
   put_to_sleep();
   const Numbers first = numbers();
+  Numbers before = first;
   std::vector<bool> sleeps(first.place.size(), true);
   drop_ = 1.0;
   int moved = 0;
@@ -120,11 +123,12 @@ TEST_P(Resting, WhoeverSleepsKeepsItsNumbersThroughAllSorts) {
     const Numbers now = numbers();
     const Cells stir = read_cells();
     for (std::size_t id = 0; id < sleeps.size(); ++id) {
-      sleeps[id] = sleeps[id] && most_around(stir, now, id) == 0;
+      sleeps[id] = sleeps[id] && most_around(stir, before, now, id) == 0;
       if (!sleeps[id]) continue;
       ASSERT_EQ(now.state[id], first.state[id]) << "at a height of " << height_;
       moved += now.place[id] != first.place[id];
     }
+    before = now;
   }
   EXPECT_GT(moved, 1000);
   EXPECT_GT(std::count(sleeps.begin(), sleeps.end(), false), 100);
