@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tank walls as half-spaces without boundary particles: behind a wall lies the mirror image of the
 // fluid, in layers one spacing apart, the first as deep as the particle is high. Its part of the
-// kernel's weight is known in closed form, 0.129 at half a spacing as in the fluid's own lattice (a
-// continuous half-space would weigh 0.173 and push the fluid away). Because the image comes nearer
+// kernel's weight is known in closed form, 0.187 at half a spacing as in the fluid's own lattice (a
+// continuous half-space would weigh 0.215 and push the fluid away). Because the image comes nearer
 // as the particle does, the weight falls twice as fast as that of a fixed layer: the particle's own
 // pressure alone then balances the fluid's, and the wall's push is the gradient of an energy.
 // On a slope the water thins out to nothing, where an image at twice the height leaves a particle
