@@ -95,6 +95,9 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
               seconds_to_build > 1.0 ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());
+  if (server.is_unheard()) {
+    std::printf("nobody hears it yet: --target host:port sends to a synth\n");
+  }
   std::printf("running, steps of %.2f ms; Ctrl-C ends it\n", 1e3 * simulation.time_step());
   std::fflush(stdout);
 }
@@ -104,10 +107,11 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
 Progress telling_how_it_settles(protocol::ServiceNotice& service) {
   constexpr double kPeriod = 3.0;     // [s]
   constexpr double kPatience = 60.0;  // between two words, some steps of four million particles [s]
-  return [&service, start = 0.0, last = 0.0](double share) mutable {
+  return [&service, start = 0.0, done = 0.0, last = 0.0](double share) mutable {
     const double now = protocol::monotonic_now();
-    if (share <= 0.0) {
+    if (done == 0.0) {  // the first step says nothing of the others: kernels are compiled in it
       start = last = now;
+      done = share;
       service.starting(kPatience);
     }
     if (now - last < kPeriod) return;
@@ -116,7 +120,7 @@ Progress telling_how_it_settles(protocol::ServiceNotice& service) {
     std::printf(
         "the water comes to rest before it begins: %.0f %%, %.0f s to go (fewer "
         "fluid.particles or a faster --device would help)\n",
-        100.0 * share, (now - start) * (1.0 / share - 1.0));
+        100.0 * share, (now - start) * (1.0 - share) / (share - done));
     std::fflush(stdout);
   };
 }
@@ -146,6 +150,7 @@ void run(const Options& options) {
   Device device = protocol::failing_with(protocol::kExitUnavailable, [&] {
     return Device(options.device, false, scene.fluid.kernels == KernelKind::reference ? 1 : 0);
   });
+  last_words.devices_known();
   std::printf("device  %s\n", describe(device.facts()).c_str());
   std::printf("compiling kernels (the first start on a machine takes some seconds)\n");
   std::fflush(stdout);

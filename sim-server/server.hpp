@@ -40,6 +40,10 @@ class Server {
 
   /// Whether the thread that listens has turned since this was last asked.
   [[nodiscard]] bool listens();
+  /// Neither a target nor a file was named.
+  [[nodiscard]] bool is_unheard() const noexcept {
+    return options_.targets.empty() && options_.record.empty();
+  }
   /// Where poses and control are listened for.
   [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 

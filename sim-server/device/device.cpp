@@ -2,6 +2,7 @@
 #include "sim-server/device/device.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
@@ -23,9 +24,13 @@ std::vector<cl::Platform> platforms() {
     found.clear();  // no loader entry at all (-1001): answered below like an empty list
   }
   if (found.empty()) {
-    throw std::runtime_error(
-        "no OpenCL platform found (searched /etc/OpenCL/vendors or $OCL_ICD_VENDORS); install one, "
-        "for example: apt install pocl-opencl-icd");
+    const char* folder = std::getenv("OCL_ICD_VENDORS");
+    const std::string searched = folder == nullptr ? "/etc/OpenCL/vendors; install one"
+                                                   : std::string(folder) +
+                                                         ", which $OCL_ICD_VENDORS names; "
+                                                         "unset that, or install one";
+    throw std::runtime_error("no OpenCL platform found in " + searched +
+                             ", for example: apt install pocl-opencl-icd");
   }
   return found;
 }

@@ -36,6 +36,10 @@ extern "C" void take_crash(int /*number*/) {
   say_last_words();
 }
 
+void take_crashes() {
+  for (const int number : kCrashes) static_cast<void>(std::signal(number, take_crash));
+}
+
 std::string sentence(const std::filesystem::path& cache) {
   std::error_code error;
   const auto space = std::filesystem::space(cache, error);
@@ -60,7 +64,7 @@ LastWords::LastWords(const std::filesystem::path& cache, int exit_code) {
   listening = true;
   static const bool kRegistered = std::atexit(say_last_words) == 0;
   static_cast<void>(kRegistered);
-  for (const int number : kCrashes) static_cast<void>(std::signal(number, take_crash));
+  take_crashes();
 }
 
 LastWords::~LastWords() {
@@ -68,7 +72,12 @@ LastWords::~LastWords() {
   listening = false;
 }
 
-// Not a static function: whoever has no last words has no crash to give back.
+// Not static functions: whoever has no last words has no crash to take or to give back.
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static)
+void LastWords::devices_known() {
+  take_crashes();
+}
+
 // NOLINTNEXTLINE(readability-convert-member-functions-to-static)
 void LastWords::built() {
   for (const int number : kCrashes) static_cast<void>(std::signal(number, SIG_DFL));

@@ -17,6 +17,9 @@ class LastWords {
   LastWords(const LastWords&) = delete;
   LastWords& operator=(const LastWords&) = delete;
 
+  /// LLVM takes all signals when the devices are first asked for, and an abort that its handler has
+  /// returned from ends the program without a word: from now on they are ours again.
+  void devices_known();
   /// The kernels are there: from now on a crash leaves what a crash leaves.
   void built();
 };
