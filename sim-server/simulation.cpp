@@ -64,6 +64,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
+  rehearse();
 }
 
 void Simulation::settle_in(const Progress& tell) {
@@ -97,6 +98,25 @@ void Simulation::settle_in(const Progress& tell) {
                            "' does not come to rest before it begins, not even with steps an "
                            "eighth as long: " +
                            describe_fault(mishap));
+}
+
+// OpenCL on CPUs compiles a kernel when it first runs. On a machine's first start that takes
+// seconds, which nobody minds before time begins, and everybody in the midst of a splash.
+void Simulation::rehearse() {
+  std::vector<BodyStep> poses;
+  const std::vector<Step> plan =
+      plan_frame(steps_of_frame(1.0 / scene_.serve.frame_rate, largest_step_), poses);
+  fluid_.set_bodies(poses);
+  fluid_.begin_watch(plan.size());
+  for (const Step& step : plan) {
+    fluid_.prepare(step);
+    if (&step == &plan.back()) detector_.rehearse(step);
+    fluid_.advance(step);
+  }
+  static_cast<void>(fluid_.survey());
+  sound_.recall(fluid_.device(), state());
+  fluid_.note_recalled();
+  fluid_.forget_work();
 }
 
 std::vector<cl::Buffer> Simulation::state() const {

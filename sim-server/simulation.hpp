@@ -106,6 +106,8 @@ class Simulation {
 
   [[nodiscard]] std::vector<cl::Buffer> state() const;
   void settle_in(const Progress& tell);
+  /// Computes a frame with all that a splash needs, and takes it back.
+  void rehearse();
   /// Takes the state back to the last sound one, and notes what was wrong.
   [[nodiscard]] Mishap examine(const Diagnosis& what, double dt);
   /// Ends a frame that no try made sound.

@@ -37,6 +37,9 @@ class Cavities {
   /// Rounds of the longest search so far.
   [[nodiscard]] int rounds() const noexcept { return rounds_; }
 
+  /// Groups among bubbles that need not be enough for a search, for nobody.
+  void rehearse(const Bubbles& bubbles) { static_cast<void>(grow(bubbles)); }
+
  private:
   [[nodiscard]] std::vector<int> grow(const Bubbles& bubbles);
 

@@ -83,6 +83,14 @@ void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
   }
 }
 
+void Detector::rehearse(const Step& step) {
+  bubbles_.pool().resize(1);
+  enqueue(step, step.dt);
+  cavities_.rehearse(bubbles_);
+  bubbles_.pool().clear();
+  bubbles_.skip();
+}
+
 void Detector::enqueue_contacts(const Step& step) {
   touch_water_.run(fluid_.device().queue(), surface_points_.size(), fluid_.params_buffer().memory(),
                    fluid_.grid().cell_start(), fluid_.particles().position.memory(),

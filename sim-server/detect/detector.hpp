@@ -32,6 +32,10 @@ class Detector {
   /// far.
   [[nodiscard]] Detections collect(double time, double frame, std::uint32_t step);
 
+  /// Runs all of it once, on a bubble that is then forgotten, in place of enqueue. Changes what it
+  /// remembers of the particles.
+  void rehearse(const Step& step);
+
   /// What it remembers of the particles, on the device, for checkpoints.
   [[nodiscard]] std::vector<cl::Buffer> state() const { return {bubbles_.memory()}; }
 

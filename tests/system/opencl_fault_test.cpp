@@ -94,6 +94,20 @@ TEST_F(OpenClFault, ALinkerThatFailsIsSaid) {
               AllOf(HasSubstr("\"ld\" doesn't exist"), HasSubstr("OpenCL ended the program")));
 }
 
+/// On a machine's first start a splash would wait for it else.
+TEST_F(OpenClFault, NothingIsCompiledOnceTimeRuns) {
+  Arguments splash = arguments();
+  splash[5] = "2";  // seconds, in which the disc plunges
+  ChildProcess simulator(command("sim-server", splash), {{"POCL_CACHE_DIR", cache().string()}});
+  ASSERT_TRUE(simulator.wait_for_text("running", 300.0)) << simulator.output();
+  const std::vector<fs::path> before = cached(".so");
+  EXPECT_EQ(simulator.wait_for_end(120.0), 0);
+  for (const char* kind : {"impacts", "bubbles", "cavities"}) {
+    EXPECT_THAT(simulator.output(), Not(HasSubstr(std::string(" 0 ") + kind)));
+  }
+  EXPECT_THAT(cached(".so"), testing::UnorderedElementsAreArray(before));
+}
+
 /// The last of the programs in `files`, whose others stay as they are.
 fs::path last_of(std::vector<fs::path> files) {
   return files.empty() ? fs::path() : *std::max_element(files.begin(), files.end());
