@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
@@ -79,13 +80,47 @@ Vector3 carried_to_skin(const Shape& shape, const Lattice& lattice, const Vector
   return {place[0] / radius, place[1] / radius, place[2] / radius};
 }
 
+using Cell = std::array<int, 3>;
+
+Cell cell_of(const Vector3& place, double size) {
+  Cell cell = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cell[axis] = static_cast<int>(std::floor(place[axis] / size));
+  }
+  return cell;
+}
+
+/// Numbers of the points in this cell and those around it, in ascending order: sums do not depend
+/// on how a body lies among the cells.
+std::vector<std::size_t> around(const std::map<Cell, std::vector<std::size_t>>& cells,
+                                const Cell& middle) {
+  std::vector<std::size_t> found;
+  for (int k = 0; k < 27; ++k) {
+    const auto cell =
+        cells.find({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
+    if (cell == cells.end()) continue;
+    found.insert(found.end(), cell->second.begin(), cell->second.end());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 void mark_surface(std::vector<BodyPoint>& points, double support) {
-  for (BodyPoint& point : points) {
-    point.colour = 0.0;
-    for (const BodyPoint& other : points) {
-      point.colour += other.volume * kernel_value(distance(point.place, other.place), support);
+  std::map<Cell, std::vector<std::size_t>> cells;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cells[cell_of(points[i].place, support)].push_back(i);
+  }
+  for (const auto& [cell, inside] : cells) {
+    const std::vector<std::size_t> others = around(cells, cell);
+    for (const std::size_t i : inside) {
+      BodyPoint& point = points[i];
+      point.colour = 0.0;
+      for (const std::size_t j : others) {
+        const double apart = distance(point.place, points[j].place);
+        if (apart < support) point.colour += points[j].volume * kernel_value(apart, support);
+      }
+      point.surface = point.colour < kSurfaceColour;
     }
-    point.surface = point.colour < kSurfaceColour;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "sim-server/scene/mesh/mesh_solid.hpp"
@@ -130,6 +131,20 @@ TEST(BodyPoints, FollowARockerSole) {
   }
   EXPECT_NEAR(points[0].skin[0], -0.13, 1.0e-12);
   EXPECT_NEAR(points[12].skin[0], 0.13, 1.0e-12);
+}
+
+/// Processor time to sample a ball of so many spacings across [s].
+double cost(double spacings) {
+  const double spacing = 0.1 / spacings;
+  const Shape ball = {ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0};
+  const std::clock_t start = std::clock();
+  EXPECT_GT(sample_shape(ball, 0, spacing, 2.0 * spacing).size(), 100U);
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+// A ball among a million particles has 30,000 points: a look at every pair took minutes.
+TEST(BodyPoints, TakeTimeInProportionToTheirNumber) {
+  EXPECT_LT(cost(36.0), 3.0 * 8.0 * cost(18.0)) << "eight times as many, not 64";
 }
 
 TEST(BodyPoints, SkinOfASurfacePointIsOnTheTrueSurface) {
