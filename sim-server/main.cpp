@@ -13,6 +13,7 @@
 #include "protocol/input_file.hpp"
 #include "protocol/service_notice.hpp"
 #include "protocol/time_tag.hpp"
+#include "protocol/udp_socket.hpp"
 #include "sim-server/device/cache.hpp"
 #include "sim-server/device/cache_seal.hpp"
 #include "sim-server/device/device.hpp"
@@ -65,6 +66,12 @@ void print_devices() {
 Scene load_scene(const std::filesystem::path& path) {
   protocol::require_readable("--scene", path);
   return read_scene(path);
+}
+
+/// Nobody is to wait for kernels only to be told that the port is taken.
+void require_free(const protocol::Endpoint& listen) {
+  protocol::failing_with(protocol::kExitUnavailable,
+                         [&] { static_cast<void>(protocol::UdpSocket(listen)); });
 }
 
 /// Whoever asks for longer steps is told what they cost.
@@ -142,6 +149,7 @@ void run(const Options& options) {
   if (options.list_devices) return print_devices();
   protocol::ServiceNotice service;
   const Scene scene = load_scene(options.scene);
+  require_free(options.listen);
   const double start = protocol::monotonic_now();
   const std::filesystem::path cache =
       protocol::failing_with(protocol::kExitUnavailable, prepare_kernel_cache);
