@@ -34,15 +34,22 @@ class Log : public testing::Test {
   }
 
   /// Three seconds of plunging; the path of their log.
-  std::string record(const std::string& name, int seed = 1) {
+  std::string record(const std::string& name, int seed = 1,
+                     const ChildProcess::Environment& environment = {}) {
     const SmallScene scene(plunging(), seed);
     std::string log = file(name);
     const auto [code, text] =
-        run_program("sim-server", {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record",
-                                   log, "--duration", "3", "--faster-than-real-time"});
+        run_program("sim-server",
+                    {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record", log,
+                     "--duration", "3", "--faster-than-real-time"},
+                    120.0, environment);
     EXPECT_EQ(code, 0) << text;
+    told_ = text;
     return log;
   }
+
+  /// What the last recording program said.
+  [[nodiscard]] const std::string& told() const noexcept { return told_; }
 
   std::string render(const std::string& log, const std::string& name) {
     std::string wav = file(name);
@@ -54,6 +61,7 @@ class Log : public testing::Test {
 
  private:
   std::vector<std::string> files_;
+  std::string told_;
 };
 
 TEST_F(Log, SameSeedWritesTheSameBytes) {
@@ -61,6 +69,16 @@ TEST_F(Log, SameSeedWritesTheSameBytes) {
   EXPECT_GT(first.size(), 1000U);
   EXPECT_EQ(first, bytes_of(record("second.osc")));
   EXPECT_NE(first, bytes_of(record("other.osc", 2))) << "another seed, another log";
+}
+
+TEST_F(Log, OneProcessorTellsTheSameAsAll) {
+  const std::string all = bytes_of(record("all.osc"));
+  // By the names that PoCL 3 and its successors know.
+  const std::string one = bytes_of(
+      record("one.osc", 1, {{"POCL_MAX_PTHREAD_COUNT", "1"}, {"POCL_CPU_MAX_CU_COUNT", "1"}}));
+  EXPECT_THAT(told(), testing::HasSubstr("(CPU, 1 compute units"));
+  EXPECT_GT(all.size(), 1000U);
+  EXPECT_EQ(one, all);
 }
 
 TEST_F(Log, ReplayedTwiceGivesTheSameBits) {

@@ -6,6 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 namespace splash::stress {
 namespace {
 
@@ -91,6 +95,62 @@ TEST_P(Faults, ThatStayAreGivenUpOnAndEndWithAReset) {
   EXPECT_FALSE(simulation_.advance().mishap);
   EXPECT_EQ(simulation_.totals().resets, 2U);
   EXPECT_EQ(simulation_.totals().calmed, 4U);
+}
+
+/// Speeds along x of the particles nearer to a place than `reach`, and of the others [m/s].
+struct Speeds {
+  std::set<float> near;
+  std::set<float> far;
+};
+
+Speeds speeds_around(const sim::Fluid& fluid, const sim::Snapshot& state, const sim::Vector3& place,
+                     double reach) {
+  Speeds speeds;
+  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    const auto off = [&](std::size_t axis) {
+      return static_cast<double>(state.position[axis * stride + i]) - place.at(axis);
+    };
+    const bool near = std::hypot(off(0), off(1), off(2)) <= reach;
+    (near ? speeds.near : speeds.far).insert(state.velocity[i]);
+  }
+  return speeds;
+}
+
+TEST_P(Faults, ThatStayStopTheWaterAroundThemAndAtLastTakeItToItsBeginning) {
+  sim::Scene scene = still_scene(GetParam(), kShort);
+  scene.tank.upper[0] = scene.water.front().upper[0] = 1.2;
+  sim::Simulation channel(device_, scene, {});
+  const sim::Snapshot first = channel.fluid().snapshot();
+  const std::size_t count = first.id.size();
+  sim::Snapshot drifting = first;
+  std::fill(drifting.velocity.begin(), drifting.velocity.end(), 0.0F);
+  std::fill_n(drifting.velocity.begin(), count, 0.25F);
+  channel.resume(drifting, 0.0);
+  const std::vector<Single> all = single_faults();
+  const auto stray = std::find_if(all.begin(), all.end(), [](const Single& one) {
+    return one.fault == Fault::stray;  // of one particle alone
+  });
+  const Injection& harm = stray->injection;
+  channel.set_hook([&](sim::Fluid& fluid, sim::Step& step, sim::Moment moment) {
+    if (moment == harm.moment) harm.harm(fluid, step, 123);
+  });
+  const sim::FrameResult frame = channel.advance();
+  ASSERT_TRUE(frame.mishap);
+  const Speeds speeds = speeds_around(channel.fluid(), channel.fluid().snapshot(),
+                                      frame.mishap->place, frame.mishap->calmed);
+  EXPECT_THAT(speeds.near, testing::ElementsAre(0.0F));
+  EXPECT_THAT(speeds.far, testing::ElementsAre(0.25F)) << "what is far away goes on";
+  for (int k = 0; k < 2; ++k) static_cast<void>(channel.advance());
+  EXPECT_EQ(channel.totals().resets, 1U);
+  const sim::Snapshot anew = channel.fluid().snapshot();
+  EXPECT_EQ(anew.id, first.id);
+  const auto of_water = [count](const std::vector<float>& numbers) {
+    return std::vector<float>(numbers.begin(),
+                              numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  EXPECT_EQ(of_water(anew.position), of_water(first.position));
+  EXPECT_EQ(of_water(anew.velocity), of_water(first.velocity));
 }
 
 INSTANTIATE_TEST_SUITE_P(Waters, Faults, testing::ValuesIn(all_waters()),

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Test S5, the short way: a built-in scene for 20,000 steps. A million of each: ./splash bench
+// stability -- --part endurance.
+#include "tests/stress/endurance.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace splash::stress {
+namespace {
+
+TEST(Endurance, TwentyThousandStepsLoseNothingAndKeepTheirMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers keep what is freed: memory grows with them";
+#endif
+  const std::filesystem::path out =
+      std::filesystem::temp_directory_path() / ("splash-endurance-" + std::to_string(getpid()));
+  Endurance wanted;
+  wanted.scenes = {"bucket"};
+  wanted.steps = 20'000;
+  wanted.coarser = 2.0;
+  sim::Device device;
+  EXPECT_EQ(endure(device, wanted, out), 0) << "see its lines above";
+  std::filesystem::remove_all(out);
+}
+
+}  // namespace
+}  // namespace splash::stress
