@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Both real programs in real time for as long as one likes, scene after scene on its rig, with a
-// kill of one of them now and then: memory, missed heartbeats, lost bundles and exits, a line every
-// half minute and a verdict at the end.
+// Both real programs in real time for as long as one likes, scene after scene on its rig, over a
+// network that loses datagrams, with a kill of one of them now and then: memory, missed heartbeats,
+// lost bundles and exits, a line every half minute and a verdict at the end.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/support/lossy_relay.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 
@@ -27,6 +28,7 @@ struct Settings {
   double minutes = 30.0;
   double scene_minutes = 2.0;
   double kill_minutes = 5.0;
+  double loss = 0.01;  ///< of the datagrams in either direction [1]
   unsigned seed = 1;
 };
 
@@ -56,6 +58,7 @@ class Soak {
  public:
   explicit Soak(const Settings& settings) : settings_(settings), random_(settings.seed) {
     start_synth("127.0.0.1:0");
+    link_ = std::make_unique<LossyRelay>(synth_->endpoint(), settings.loss, settings.seed);
     start_simulator();
   }
 
@@ -97,7 +100,7 @@ class Soak {
         Arguments{"--scene",
                   std::string(SPLASH_SOURCE_DIR) + "/configs/scenes/" +
                       kScenes[static_cast<std::size_t>(scene_) % kScenes.size()] + ".yaml",
-                  "--target", protocol::to_string(synth_->endpoint())});
+                  "--target", protocol::to_string(link_->local())});
     simulator_memory_.restart();
     simulator_started_ = protocol::monotonic_now();
   }
@@ -180,13 +183,15 @@ class Soak {
     }
     const long departures = number_before(synth_->process().output(), "departures");
     std::printf(
-        "\nevents %llu, lost %llu, late %llu, dropped %llu\n"
+        "\nevents %llu, bundles lost %llu, late %llu, dropped %llu\n"
+        "datagrams that the network lost on their way to the synth: %llu\n"
         "departures the last synth saw %ld, planned %ld\n"
         "memory after the first minute of a life: simulator +%.1f MiB, synth +%.1f MiB\n"
         "unplanned exits: %d\n",
         static_cast<unsigned long long>(events_), static_cast<unsigned long long>(lost_),
         static_cast<unsigned long long>(late_), static_cast<unsigned long long>(dropped_),
-        departures, planned_, static_cast<double>(simulator_memory_.growth()) / 1024.0,
+        static_cast<unsigned long long>(link_->lost()), departures, planned_,
+        static_cast<double>(simulator_memory_.growth()) / 1024.0,
         static_cast<double>(synth_memory_.growth()) / 1024.0, unplanned_);
     return unplanned_ == 0 ? 0 : 1;
   }
@@ -194,6 +199,7 @@ class Soak {
   Settings settings_;
   std::mt19937 random_;
   std::unique_ptr<Synth> synth_;
+  std::unique_ptr<LossyRelay> link_;
   std::unique_ptr<Simulator> simulator_;
   Memory synth_memory_;
   Memory simulator_memory_;
@@ -219,7 +225,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--kill-minutes", settings.kill_minutes, "Between two kills")
       ->capture_default_str();
-  app.add_option("--seed", settings.seed, "Of who is killed")->capture_default_str();
+  app.add_option("--loss", settings.loss, "Share of the datagrams that never arrive")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--seed", settings.seed, "Of who is killed, and what is lost")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     return Soak(settings).run();
