@@ -5,6 +5,11 @@
 // continuous half-space would weigh 0.215 and push the fluid away). Because the image comes nearer
 // as the particle does, the weight falls twice as fast as that of a fixed layer: the particle's own
 // pressure alone then balances the fluid's, and the wall's push is the gradient of an energy.
+// A film comes nearer than half a spacing, where the mirror's weight falls by up to 3.5 / H: with
+// what its particles do to each other it would swing faster than the 3.08 c0 / H that steps are
+// made for. So nearer than that, where the lattice begins, the weight falls on as it does there, by
+// 2.4 / H: a film of one layer swings at 2.8 to 2.95 c0 / H (sim_fluid_test
+// --gtest_filter='FilmLimit*'), and the push is still the gradient of an energy.
 // On a slope the water thins out to nothing, where an image at twice the height leaves a particle
 // no place to rest (a pool stayed at 0.35 m/s): there, and on the floor that it continues, the
 // layers stay where they are.
@@ -32,16 +37,18 @@ static lanes wall_distance(constant FluidParams* p, int k, lanes x, lanes y, lan
 
 // Part of the kernel's weight behind a wall at distance d, and its fall with d [1], [1/m].
 static lanes behind_wall(constant FluidParams* p, lanes d, bool mirrors, lanes* fall) {
+  const lanes outside = fmax(d, 0.0f);
+  const lanes kept = fmax(d, 0.5f * p->spacing);
   lanes share = 0.0f;
   *fall = 0.0f;
   for (int layer = 0; layer < WALL_LAYERS; ++layer) {
-    const lanes z = mirrors ? 2.0f * fmax(d, 0.0f) + layer * p->spacing
-                            : fmax(d, 0.0f) + (layer + 0.5f) * p->spacing;
+    const lanes z = mirrors ? 2.0f * kept + layer * p->spacing
+                            : outside + (layer + 0.5f) * p->spacing;
     share += p->layer_weight * plane_marginal(z, p->inverse_support);
     *fall += p->layer_weight * (mirrors ? 2.0f : 1.0f) *
              plane_marginal_fall(z, p->inverse_support);
   }
-  return share;
+  return mirrors ? share + *fall * (kept - outside) : share;
 }
 
 static WallField wall_field(constant FluidParams* p, lanes x, lanes y, lanes z, float piston) {

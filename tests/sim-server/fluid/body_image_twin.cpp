@@ -58,10 +58,13 @@ double factor_at(const FluidParams& params, double distance) {
   const double support = static_cast<double>(params.support);
   const double spacing = static_cast<double>(params.spacing);
   const double d = std::max(distance, 0.0);
+  const double kept = std::max(distance, 0.5 * spacing);
   double mirror = 0.0;
   double fixed = 0.0;
   for (double behind = 0.0; behind < 0.999 * support; behind += spacing) {
-    mirror += plane_marginal(2.0 * d + behind, support);
+    const double z = 2.0 * kept + behind;
+    mirror += plane_marginal(z, support);
+    mirror += 4.0 * std::numbers::pi * z * kernel_value(z, support) * (kept - d);
     fixed += plane_marginal(d + 0.5 * spacing + behind, support);
   }
   return fixed > 0.0 ? mirror / fixed : 0.0;

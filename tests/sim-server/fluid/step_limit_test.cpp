@@ -14,42 +14,13 @@
 #include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/resolution.hpp"
+#include "tests/sim-server/fluid/lattice_waves.hpp"
 
 namespace splash::sim {
 namespace {
 
 constexpr double kSpacing = 0.0225;  ///< as in the built-in scenes, 0.016 to 0.03 m
 constexpr double kSound = 13.0;      ///< [m/s]
-
-/// The places of a lattice around a particle, one particle to a volume of kSpacing^3 [m].
-std::vector<Vector3> lattice(const std::vector<Vector3>& basis, double reach) {
-  const double edge = kSpacing * std::cbrt(static_cast<double>(basis.size()));
-  std::vector<Vector3> places;
-  constexpr int kFar = 4;
-  for (int i = -kFar; i <= kFar; ++i) {
-    for (int j = -kFar; j <= kFar; ++j) {
-      for (int k = -kFar; k <= kFar; ++k) {
-        for (const Vector3& b : basis) {
-          const Vector3 x = {(i + b[0]) * edge, (j + b[1]) * edge, (k + b[2]) * edge};
-          const double r = std::hypot(x[0], x[1], x[2]);
-          if (r > 1.0e-9 && r < reach) places.push_back(x);
-        }
-      }
-    }
-  }
-  return places;
-}
-
-/// c0 |s(k)| [1/s].
-double frequency(const std::vector<Vector3>& places, double support, const Vector3& k) {
-  Vector3 s = {};
-  for (const Vector3& x : places) {
-    const double wave = std::sin(k[0] * x[0] + k[1] * x[1] + k[2] * x[2]);
-    const double slope = kernel_gradient(std::hypot(x[0], x[1], x[2]), support);
-    for (std::size_t a = 0; a < 3; ++a) s[a] += slope * x[a] * wave;
-  }
-  return kSound * kSpacing * kSpacing * kSpacing * std::hypot(s[0], s[1], s[2]);
-}
 
 /// The trace of G / K for the shortest waves, 1 - cos = 2: no gamma is larger [1/m2].
 double friction(const std::vector<Vector3>& places, double support, double length) {
@@ -61,29 +32,6 @@ double friction(const std::vector<Vector3>& places, double support, double lengt
   return kSpacing * kSpacing * kSpacing * sum / 3.0;  // alike along the three axes
 }
 
-/// The highest frequency of all waves, by climbing from many places [1/s].
-double highest(const std::vector<Vector3>& places, double support) {
-  constexpr int kStarts = 7;
-  double best = 0.0;
-  for (int start = 0; start < kStarts * kStarts * kStarts; ++start) {
-    const auto at = [&](int part) { return 6.5 / kSpacing * (part % kStarts) / (kStarts - 1.0); };
-    Vector3 k = {at(start), at(start / kStarts), at(start / kStarts / kStarts)};
-    double here = frequency(places, support, k);
-    for (double step = 0.5 / kSpacing; step > 1.0e-3 / kSpacing; step /= 2.0) {
-      for (std::size_t a = 0; a < 6; ++a) {
-        Vector3 next = k;
-        next[a / 2] += a % 2 == 0 ? step : -step;
-        const double there = frequency(places, support, next);
-        if (!(there > here)) continue;
-        here = there;
-        k = next;
-      }
-    }
-    best = std::max(best, here);
-  }
-  return best;
-}
-
 struct Limits {
   double frictionless = 0.0;  ///< in H / c0 [1]
   double rubbing = 0.0;       ///< with the default viscosities
@@ -91,8 +39,9 @@ struct Limits {
 
 Limits limits_of(const std::vector<Vector3>& basis) {
   const double support = kSupportSpacings * kSpacing;
-  const std::vector<Vector3> places = lattice(basis, support);
-  const double omega = highest(places, support);
+  const std::vector<Vector3> places = lattice(basis, kSpacing, support);
+  const double volume = kSpacing * kSpacing * kSpacing;
+  const double omega = kSound * steepest_wave(places, volume, support);
   const FluidSettings fluid;
   const double length = kLengthOfSupport * support;
   const double rub = 10.0 * fluid.viscosity + fluid.artificial * kSound * length;
@@ -145,7 +94,7 @@ double damping(const std::vector<Vector3>& places, double support, double length
 double viscous_limit(const std::vector<Vector3>& basis) {
   const double support = kSupportSpacings * kSpacing;
   const double length = kLengthOfSupport * support;
-  const std::vector<Vector3> places = lattice(basis, support);
+  const std::vector<Vector3> places = lattice(basis, kSpacing, support);
   constexpr int kParts = 9;
   double most = 0.0;
   for (int part = 1; part < kParts * kParts * kParts; ++part) {

@@ -52,21 +52,22 @@ std::vector<int> open_walls(const FluidParams& params, const Vector3& place, dou
 /// Layers of fluid behind wall k at distance `d`, one spacing apart: its mirror image, the first as
 /// deep as d is high; or, behind a slope and the floor it continues, fixed ones, the first half a
 /// spacing deep. Their weight, and its fall with d: 2 pi z W(z) per layer and z, twice for a
-/// mirror, as z grows by 2 d.
+/// mirror, as z grows by 2 d. Nearer than half a spacing a mirror's fall stays as it is there.
 std::pair<double, double> layers_behind(const FluidParams& params, int k, double d) {
   const bool mirrors = params.slope < 0 || (k != 0 && k != params.slope);
   const double support = static_cast<double>(params.support);
   const double spacing = static_cast<double>(params.spacing);
   const double weight = static_cast<double>(params.layer_weight);
+  const double outside = std::max(d, 0.0);
+  const double kept = std::max(d, spacing / 2.0);
   double share = 0.0;
   double fall = 0.0;
   for (double behind = 0.0; behind < 0.999 * support; behind += spacing) {
-    const double z =
-        mirrors ? 2.0 * std::max(d, 0.0) + behind : std::max(d, 0.0) + spacing / 2.0 + behind;
+    const double z = mirrors ? 2.0 * kept + behind : outside + spacing / 2.0 + behind;
     share += weight * plane_marginal(z, support);
     fall += (mirrors ? 2.0 : 1.0) * weight * 2.0 * std::numbers::pi * z * kernel_value(z, support);
   }
-  return {share, fall};
+  return {mirrors ? share + fall * (kept - outside) : share, fall};
 }
 
 /// One term of the pair sums: the push of a neighbour at `from` with `weight` = m or rho0 V, by
