@@ -160,7 +160,7 @@ struct DetectSettings {
   double impact_lookahead = 0.015;  ///< an impact is announced this long before it happens [s]
   double impact_release = 0.006;    ///< gap at which a body may make its next impact [m]
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
-  double bubble_gradient = 0.15;    ///< least upward colour gradient, in that of a flat surface [1]
+  double bubble_gradient = 0.25;    ///< least upward colour gradient, in that of a flat surface [1]
   bool bubble_per_particle =
       false;                  ///< the paper's rule: every particle that entraps air makes one
   double bubble_air = 10.0;   ///< air in the volume of water that entraps it, per metre [1/m]

@@ -23,6 +23,7 @@ sim::Scene splashing(const Water& water, int seed) {
   scene.fluid.solver = water.solver;
   scene.seed = seed;
   scene.detect.bubble_speed = 0.2;
+  scene.detect.bubble_gradient = 0.1;  // so that coarse water makes some
   return scene;
 }
 
