@@ -32,8 +32,9 @@ static void note_reach(BodyShape s, float support, BodyStep* b) {
   b->upper_x = b->px + grown.x;
   b->upper_y = b->py + grown.y;
   b->upper_z = b->pz + grown.z;
-  b->speed = length((float3)(b->vx, b->vy, b->vz)) +
-             length(extent) * length((float3)(b->wx, b->wy, b->wz));
+  const float far = s.kind == SPLASH_SPHERE ? s.half_x : length(extent);
+  b->speed =
+      length((float3)(b->vx, b->vy, b->vz)) + far * length((float3)(b->wx, b->wy, b->wz));
 }
 
 // What touches what, and the speeds after that. Walls last: they give way to nobody.
