@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 38 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
+static_assert(sizeof(FluidParams) == 39 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(SurveyPart) == 56);
 
 /// Parts of the fluid that are surveyed side by side.
@@ -54,10 +54,12 @@ void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodi
   sorted_.id.write(device_, ids);
   density_ = Buffer<float>(device_, stride + kReadAhead);
   water_density_ = Buffer<float>(device_, stride + kReadAhead);
+  knit_ = Buffer<float>(device_, stride + kReadAhead);
   pressure_term_ = Buffer<float>(device_, stride + kReadAhead);
   acceleration_ = Buffer<float>(device_, 3 * stride);
   density_before_ = Buffer<float>(device_, stride + kReadAhead);
   water_density_before_ = Buffer<float>(device_, stride + kReadAhead);
+  knit_before_ = Buffer<float>(device_, stride + kReadAhead);
   moving_ = Buffer<int>(device_, stride + kReadAhead);
   body_images_ = Buffer<float>(device_, near_bodies ? 5 * stride + kReadAhead : 1);
 }
@@ -117,7 +119,7 @@ void Fluid::begin_watch(std::size_t steps) {
 
 std::vector<cl::Buffer> Fluid::state() const {
   std::vector<cl::Buffer> all = {sorted_.position.memory(), sorted_.velocity.memory(),
-                                 sorted_.id.memory()};
+                                 sorted_.id.memory(), knit_.memory()};
   const std::vector<cl::Buffer> kept = solver_->kept();
   all.insert(all.end(), kept.begin(), kept.end());
   return all;
@@ -131,6 +133,7 @@ void Fluid::sort_particles() {
   std::swap(sorted_, unsorted_);
   std::swap(density_, density_before_);
   std::swap(water_density_, water_density_before_);
+  std::swap(knit_, knit_before_);
   grid_.sort(device_.queue(), params_buffer_, params_.count, unsorted_, sorted_);
 }
 
@@ -159,12 +162,12 @@ void Fluid::compute_density(const Step& step) {
   compute_density_.run(
       device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.stir(),
       grid_.source(), density_before_.memory(), water_density_before_.memory(),
-      sorted_.position.memory(), boundary_.grid().cell_start(),
+      knit_before_.memory(), sorted_.position.memory(), boundary_.grid().cell_start(),
       boundary_.points().position.memory(), boundary_.volume().memory(), boundary_.points().stride,
       boundary_.shapes().memory(), boundary_.meshes().memory(), boundary_.steps().memory(),
-      step.first_body, boundary_.body_count(), as_float(step.piston), body_images_.memory(),
-      density_.memory(), water_density_.memory(), pressure_term_.memory(), acceleration_.memory(),
-      moving_.memory(), sleep_.resting());
+      step.first_body, boundary_.body_count(), as_float(step.dt), as_float(step.piston),
+      body_images_.memory(), density_.memory(), water_density_.memory(), knit_.memory(),
+      pressure_term_.memory(), acceleration_.memory(), moving_.memory(), sleep_.resting());
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
@@ -194,6 +197,7 @@ void Fluid::take_weight() {
   FluidParams weightless = params_;
   weightless.gravity_x = weightless.gravity_y = weightless.gravity_z = 0.0F;
   weightless.pull_x = weightless.pull_y = weightless.pull_z = 0.0F;
+  weightless.torn_density = std::numeric_limits<float>::infinity();
   params_buffer_.write(device_, std::span<const FluidParams>(&weightless, 1));
 }
 
@@ -251,13 +255,14 @@ Snapshot Fluid::snapshot() {
   const auto stride = static_cast<std::size_t>(sorted_.stride);
   return {sorted_.position.read(device_, 3 * stride), sorted_.velocity.read(device_, 3 * stride),
           sorted_.id.read(device_, static_cast<std::size_t>(params_.count)),
-          solver_->pressure(device_)};
+          knit_.read(device_, static_cast<std::size_t>(params_.count)), solver_->pressure(device_)};
 }
 
 void Fluid::restore(const Snapshot& snapshot) {
   sorted_.position.write(device_, snapshot.position);
   sorted_.velocity.write(device_, snapshot.velocity);
   sorted_.id.write(device_, snapshot.id);
+  knit_.write(device_, snapshot.knit);
   solver_->restore_pressure(device_, snapshot.pressure);
   health_.forget();
   sleep_.wake(device_);

@@ -61,6 +61,7 @@ struct Snapshot {
   std::vector<float> position;
   std::vector<float> velocity;
   std::vector<int> id;
+  std::vector<float> knit;      ///< (kernels/density.cl) [kg/m3]
   std::vector<float> pressure;  ///< what the solver keeps from step to step
 };
 
@@ -104,7 +105,8 @@ class Fluid {
 
   /// Stops all particles where they are.
   void still();
-  /// Nothing acts from afar on the water until give_weight: neither gravity nor pull. Both wait.
+  /// Until give_weight nothing acts on the water from afar, neither gravity nor the central field,
+  /// and it does not pull. Both wait.
   void take_weight();
   void give_weight();
   /// Takes away the last wall, which a gate is; waits.
@@ -144,6 +146,7 @@ class Fluid {
   /// What kernels/body_image.h keeps of each particle near a body: R, its gradient and the nearest
   /// body, part after part; others have what an earlier step left.
   [[nodiscard]] const Buffer<float>& body_images() const noexcept { return body_images_; }
+  [[nodiscard]] const Buffer<float>& knit() const noexcept { return knit_; }
   [[nodiscard]] const Buffer<float>& pressure_term() const noexcept { return pressure_term_; }
   [[nodiscard]] const Buffer<float>& acceleration() const noexcept { return acceleration_; }
   /// Of each particle: 0 if it slept through the last step.
@@ -168,11 +171,13 @@ class Fluid {
   PointArrays unsorted_;  ///< the state before the sort
   Buffer<float> density_;
   Buffer<float> water_density_;  ///< without the bodies' part
+  Buffer<float> knit_;           ///< densest since the water last came apart
   Buffer<float> pressure_term_;
   Buffer<float> body_images_;
   Buffer<float> acceleration_;
   Buffer<float> density_before_;  ///< of the step before, in its order
   Buffer<float> water_density_before_;
+  Buffer<float> knit_before_;
   Buffer<int> moving_;  ///< 0: slept through the last step
   NeighbourGrid grid_;
   Sleep sleep_;

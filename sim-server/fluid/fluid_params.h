@@ -53,6 +53,7 @@ typedef struct {
   float spacing;        // [m]
   float layer_weight;   // mass of a particle per rho0 and area spacing^2: weighs a layer of it [m]
   float least_density;  // of a particle in a body of water, not in spray or a film [kg/m3]
+  float torn_density;   // water that is less dense has air in it, and pulls nothing [kg/m3]
   float speed_limit;    // no particle moves faster [m/s]
   int wall_count;
   int piston;           // index of the wall that moves along its normal, -1: none
@@ -64,6 +65,13 @@ typedef struct {
   float way;            // divergence-free: as far as anything goes in a step [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
+
+// Water that is stretched (kernels/stretch.h): its stiffness over that of compressed water [1], and
+// how fast it forgets that it is [1/s]. A slap's relief takes R / c0, some 10 ms, a hollow behind a
+// body some tenths of a second, a few thousandths stretched at most: forgetting lets that grow by
+// as much again. A pool that settles is rid of what its surface was left with.
+#define SPLASH_STRETCH_STIFFNESS 0.5f
+#define SPLASH_STRETCH_FADES 10.0f
 
 // Where a body is during one step.
 typedef struct {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -166,6 +167,10 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.inverse_cell = p.inverse_support;
   p.length = static_cast<float>(kLengthOfSupport * support);
   p.least_density = static_cast<float>(kLeastDensity * scene.fluid.density);
+  // The divergence-free solver's pressures are not the state equation's, and never pull.
+  p.torn_density = is_divergence_free(scene)
+                       ? std::numeric_limits<float>::infinity()
+                       : static_cast<float>(kTornDensity * scene.fluid.density);
   p.kernel_norm = static_cast<float>(kernel_norm(support));
   const Vector3 step = {layer_distance(particles, 0, spacing),
                         layer_distance(particles, 1, spacing),

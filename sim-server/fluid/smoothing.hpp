@@ -13,12 +13,15 @@ constexpr double kLengthOfSupport = 0.4;
 /// volume says, than half a spacing: they have nothing above them and pack more densely. Measured:
 /// 0.18 to 0.28 in 0.1 to 0.25 m of water, 0.32 to 0.37 in 0.3 and 0.4 m [spacings].
 constexpr double kSurfaceLoss = 0.22;
-/// Largest time step, in H / (c0 + v): still water and dam breaks stay calm up to 0.72 and grow
-/// rough from 0.81 on [1].
-constexpr double kAcousticShare = 0.65;
+/// Largest time step, in H / (c0 + v): three layers of water on a floor stay calm up to 0.61 and
+/// simmer from 0.63 on, deeper water from 0.81 [1].
+constexpr double kAcousticShare = 0.6;
 /// Least density of a particle in a body of water: on the lattice a lone particle has 0.23, a film
 /// of one layer 0.63, the top layer of a flat surface 0.81 [rho0].
 constexpr double kLeastDensity = 0.72;
+/// Density at which water has come apart: halfway from a full neighbourhood to the top layer of a
+/// flat surface [rho0].
+constexpr double kTornDensity = 0.9063;
 
 // `support`: H [m].
 

@@ -7,12 +7,19 @@
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
+namespace {
 
-double compression_energy(double density, double rest_density, double sound_speed) {
-  if (density <= rest_density) return 0.0;
-  const double stretch = rest_density / density - 1.0;
-  // ln(rho/rho0) = -log1p(stretch): no difference of numbers close to one.
-  return sound_speed * sound_speed * (stretch - std::log1p(stretch));
+constexpr auto kStretchStiffness = static_cast<double>(SPLASH_STRETCH_STIFFNESS);
+
+}  // namespace
+
+double compression_energy(const WaterState& water, double density, double knit) {
+  const double sound2 = water.sound_speed * water.sound_speed;
+  const double stretch = std::max(knit - density, 0.0) / water.rest_density;
+  if (density <= water.rest_density) return 0.5 * kStretchStiffness * sound2 * stretch * stretch;
+  const double push = water.rest_density / density - 1.0;
+  // ln(rho/rho0) = -log1p(push): no difference of numbers close to one.
+  return sound2 * (push - std::log1p(push));
 }
 
 Energies energies(const WaterState& water) {
@@ -20,8 +27,7 @@ Energies energies(const WaterState& water) {
   for (std::size_t i = 0; i < water.position.size(); ++i) {
     sum.kinetic += 0.5 * water.mass * dot(water.velocity[i], water.velocity[i]);
     sum.potential += water.mass * water.potential_at(water.position[i]);
-    sum.compression +=
-        water.mass * compression_energy(water.density[i], water.rest_density, water.sound_speed);
+    sum.compression += water.mass * compression_energy(water, water.density[i], water.knit[i]);
   }
   return sum;
 }

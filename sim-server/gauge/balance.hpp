@@ -24,9 +24,10 @@ struct Spread {
   Vector3 deviation = {0.0, 0.0, 0.0};  ///< sqrt(mean (x - centre)^2) per axis [m]
 };
 
-/// Energy stored by compression from rho0 to `density`, per mass [J/kg]: the integral of
-/// p / rho^2 with p = c0^2 (rho - rho0), c0^2 (ln(rho/rho0) + rho0/rho - 1); none below rho0.
-[[nodiscard]] double compression_energy(double density, double rest_density, double sound_speed);
+/// Energy stored in water of this density and knit, per mass [J/kg]: the integral of p / rho^2 with
+/// the p of fluid/kernels/stretch.h, c0^2 (ln(rho/rho0) + rho0/rho - 1) of what is compressed and
+/// b c0^2 (knit - rho)^2 / (2 rho0^2) of what is stretched.
+[[nodiscard]] double compression_energy(const WaterState& water, double density, double knit);
 
 /// `water` has densities.
 [[nodiscard]] Energies energies(const WaterState& water);

@@ -75,15 +75,17 @@ struct MainKernels {
     const auto points = static_cast<std::size_t>(f.particles().stride) + kReadAhead;
     rho = Buffer<float>(device, points);
     water = Buffer<float>(device, points);
+    knit = Buffer<float>(device, points);
     term = Buffer<float>(device, points);
     push = Buffer<float>(device, 3 * points);
     moving = Buffer<int>(device, points);
     set(density, f.params_buffer().memory(), f.grid().cell_start(), stir.memory(),
-        f.grid().source(), rho.memory(), water.memory(), f.particles().position.memory(),
-        f.boundary().grid().cell_start(), f.boundary().points().position.memory(), none.memory(), 0,
-        f.boundary().shapes().memory(), f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F,
-        f.body_images().memory(), rho.memory(), water.memory(), term.memory(), push.memory(),
-        moving.memory(), resting.memory());
+        f.grid().source(), rho.memory(), water.memory(), knit.memory(),
+        f.particles().position.memory(), f.boundary().grid().cell_start(),
+        f.boundary().points().position.memory(), none.memory(), 0, f.boundary().shapes().memory(),
+        f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F, 0.0F, f.body_images().memory(),
+        rho.memory(), water.memory(), knit.memory(), term.memory(), push.memory(), moving.memory(),
+        resting.memory());
     set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), stir.memory(),
         resting.memory(), f.particles().position.memory(), f.particles().velocity.memory(),
         f.pressure_term().memory(), f.body_images().memory(), f.boundary().grid().cell_start(),
@@ -110,7 +112,7 @@ struct MainKernels {
   Buffer<int> resting;
   Buffer<float> none;
   Buffer<BodyStep> nobody;
-  Buffer<float> rho, water, term, push;
+  Buffer<float> rho, water, knit, term, push;
   Buffer<int> moving;
 };
 

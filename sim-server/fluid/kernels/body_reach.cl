@@ -50,8 +50,11 @@ static lanes yield_of(constant FluidParams* p, float dt, global const float* pre
     const float least = gradient_norm(p) * p->mass * SLOPE_UNIT;  // as in pressure_correction.cl
     return 1.0f / fmax(LOAD(response, first), 1.0e-4f * least * least);
   }
+  const lanes term = LOAD(pressure_term, first);
   const lanes way = p->sound_speed * dt / LOAD(density, first);
-  return select((lanes)(0.0f), way * way, LOAD(pressure_term, first) > 0.0f);
+  const float stretched = p->sound_speed * dt / p->rest_density;
+  const lanes yield = select((lanes)(0.0f), way * way, term > 0.0f);
+  return select(yield, (lanes)(SPLASH_STRETCH_STIFFNESS * stretched * stretched), term < 0.0f);
 }
 
 static void finish_reach(constant FluidParams* p, float dt, lanes yield, Reach* r) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Density by summation over fluid, bodies (as the frozen fluid they displace, Akinci et al. 2012)
-// and walls; pressure from the weakly compressible state equation, never negative:
+// and walls:
 //   rho_i = sum_j m W_ij + rho0 f_i + rho0 (share of the kernel inside walls)
 //   f_i   = R_i sum_b V_b W_ib                                                   body_image.h
-//   p_i   = max(0, c0^2 (rho_i - rho0))
-// The force needs p / rho^2 only, so that is what is stored.
+// and pressure from it by the weakly compressible state equation (stretch.h). The force needs
+// p / rho^2 only, so that is what is stored.
 // The part without bodies is kept, too: it tells water from the film that a body carries along.
-// Where the water sleeps all three are what they were before the sort.
+// Where the water sleeps all of them are what they were before the sort.
 
 static lanes shape_at(constant FluidParams* p, const Group* g, global const float* position,
                       int stride, int j) {
@@ -46,24 +46,22 @@ static lanes sum_bodies(constant FluidParams* p, const Group* g, global const in
   return sum;
 }
 
-// P = p / rho^2 of the state equation.
-static lanes state_equation(constant FluidParams* p, lanes rho) {
-  const lanes pressure = fmax(p->sound_speed * p->sound_speed * (rho - p->rest_density), 0.0f);
-  return pressure / (rho * rho);
-}
-
 // A group that rests has what it had, wherever the sort put it, and nothing moves it.
 static void keep_resting(constant FluidParams* p, global const int* source, int first, int last,
                          global const float* density_before,
-                         global const float* water_density_before, global float* density,
-                         global float* water_density, global float* pressure_term,
-                         global float* acceleration, global int* moving) {
+                         global const float* water_density_before,
+                         global const float* knit_before, global float* density,
+                         global float* water_density, global float* knit,
+                         global float* pressure_term, global float* acceleration,
+                         global int* moving) {
   const lanes rho = kept(density_before, source, first, last);
+  const lanes k = kept(knit_before, source, first, last);
   const lanes none = 0.0f;
   const lane_flags still = 0;
   STORE(rho, density, first);
   STORE(kept(water_density_before, source, first, last), water_density, first);
-  STORE(state_equation(p, rho), pressure_term, first);
+  STORE(k, knit, first);
+  STORE(state_equation(p, rho, k), pressure_term, first);
   STORE(still, moving, first);
   for (int axis = 0; axis < 3; ++axis) STORE(none, acceleration + axis * p->capacity, first);
 }
@@ -71,15 +69,16 @@ static void keep_resting(constant FluidParams* p, global const int* source, int 
 kernel void compute_density(constant FluidParams* p, global const int* cell_start,
                             global const int* stir, global const int* source,
                             global const float* density_before,
-                            global const float* water_density_before, global const float* position,
+                            global const float* water_density_before,
+                            global const float* knit_before, global const float* position,
                             global const int* body_start, global const float* body_position,
                             global const float* body_volume, int body_stride,
                             constant BodyShape* shapes, global const float* meshes,
                             global const BodyStep* bodies, int first_body, int body_count,
-                            float piston, global float* images, global float* density,
-                            global float* water_density, global float* pressure_term,
-                            global float* acceleration, global int* moving,
-                            global int* resting) {
+                            float dt, float piston, global float* images, global float* density,
+                            global float* water_density, global float* knit,
+                            global float* pressure_term, global float* acceleration,
+                            global int* moving, global int* resting) {
   const int group = group_of(p, get_global_id(0));
   const int first = group * LANES;
   const int last = min(first + LANES, p->count);
@@ -88,8 +87,8 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
                           resting[group], first, last);
   if (resting[group] > 0) {
     if (resting[group] == RESTED) return;
-    keep_resting(p, source, first, last, density_before, water_density_before, density,
-                 water_density, pressure_term, acceleration, moving);
+    keep_resting(p, source, first, last, density_before, water_density_before, knit_before, density,
+                 water_density, knit, pressure_term, acceleration, moving);
     return;
   }
   lanes water = p->rest_density, rho = p->rest_density;
@@ -128,5 +127,7 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
   if (any_near) store_image(p, &images_here, first, images);
   STORE(rho, density, first);
   STORE(water, water_density, first);
-  STORE(state_equation(p, rho), pressure_term, first);
+  const lanes k = knit_now(p, dt, rho, kept(knit_before, source, first, last));
+  STORE(k, knit, first);
+  STORE(state_equation(p, rho, k), pressure_term, first);
 }

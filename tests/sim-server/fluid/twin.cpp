@@ -113,6 +113,7 @@ FluidState read_state(Fluid& fluid, double piston) {
   s.position = read_vectors(device, points.position, points.stride, count);
   s.velocity = read_vectors(device, points.velocity, points.stride, count);
   s.density = read_numbers(device, fluid.density(), count);
+  s.knit = read_numbers(device, fluid.knit(), count);
   s.pressure_term = read_numbers(device, fluid.pressure_term(), count);
   const auto body_points = static_cast<std::size_t>(fluid.boundary().point_count());
   const PointArrays& boundary = fluid.boundary().points();
@@ -179,10 +180,19 @@ std::vector<double> twin_density(const FluidState& s) {
   return density;
 }
 
-double twin_pressure_term(const FluidParams& params, double density) {
+double twin_knit(const FluidParams& params, double dt, double density, double before) {
+  if (density < static_cast<double>(params.torn_density)) return density;
+  if (density >= before) return std::min(density, static_cast<double>(params.rest_density));
+  return before - static_cast<double>(SPLASH_STRETCH_FADES) * dt * (before - density);
+}
+
+double twin_pressure_term(const FluidParams& params, double density, double knit) {
   const double sound = static_cast<double>(params.sound_speed);
-  const double excess = density - static_cast<double>(params.rest_density);
-  return std::max(sound * sound * excess, 0.0) / (density * density);
+  const double rest = static_cast<double>(params.rest_density);
+  if (density > rest) return sound * sound * (density - rest) / (density * density);
+  if (density > knit) return 0.0;
+  return static_cast<double>(SPLASH_STRETCH_STIFFNESS) * sound * sound * (density - knit) /
+         (rest * rest);
 }
 
 std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {

@@ -18,6 +18,7 @@ struct FluidState {
   std::vector<Vector3> position;      ///< [m]
   std::vector<Vector3> velocity;      ///< [m/s]
   std::vector<double> density;        ///< [kg/m3]
+  std::vector<double> knit;           ///< [kg/m3]
   std::vector<double> pressure_term;  ///< p / rho^2
   std::vector<Vector3> body_position;
   std::vector<Vector3> body_velocity;
@@ -43,8 +44,10 @@ struct TwinWalls {
 [[nodiscard]] TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double piston);
 
 [[nodiscard]] std::vector<double> twin_density(const FluidState& state);
-/// p / rho^2 from a density.
-[[nodiscard]] double twin_pressure_term(const FluidParams& params, double density);
+/// The knit of water of this density that had the knit `before`, `dt` ago [kg/m3].
+[[nodiscard]] double twin_knit(const FluidParams& params, double dt, double density, double before);
+/// p / rho^2 from a density and a knit.
+[[nodiscard]] double twin_pressure_term(const FluidParams& params, double density, double knit);
 
 /// An acceleration, and the sum of the magnitudes of all terms it is the sum of: rounding is
 /// relative to these, which nearly cancel in water at rest [m/s2].

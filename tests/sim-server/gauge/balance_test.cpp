@@ -5,36 +5,51 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "tests/sim-server/gauge/lattice.hpp"
 
 namespace splash::sim {
 namespace {
 
-TEST(Balance, CompressionIsTheWorkDoneOnTheWater) {
-  const double sound = 15.0;
-  const double rest = 998.0;
-  const double density = 1040.0;
+/// The integral of p / rho^2 from `from` to `density`, by midpoints, where it is `term` [J/kg].
+double work(double from, double density, const std::function<double(double)>& term) {
   constexpr int kParts = 200000;
-  double work = 0.0;  // the integral of p / rho^2, by midpoints
-  for (int i = 0; i < kParts; ++i) {
-    const double rho = rest + (density - rest) * (i + 0.5) / kParts;
-    work += sound * sound * (rho - rest) / (rho * rho) * (density - rest) / kParts;
-  }
-  EXPECT_NEAR(compression_energy(density, rest, sound) / work, 1.0, 1e-9);
-  EXPECT_EQ(compression_energy(rest, rest, sound), 0.0);
-  EXPECT_EQ(compression_energy(0.5 * rest, rest, sound), 0.0) << "stretched water has no pressure";
+  const double step = (density - from) / kParts;
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i) sum += term(from + step * (i + 0.5)) * step;
+  return sum;
+}
+
+TEST(Balance, CompressionIsTheWorkDoneOnTheWater) {
+  const WaterState water = lattice_water({0.0, 0.0, 0.0}, {0.1, 0.1, 0.1}, 0.05);
+  const double sound2 = water.sound_speed * water.sound_speed;
+  const double pushed =
+      work(1000.0, 1040.0, [sound2](double rho) { return sound2 * (rho - 1000.0) / (rho * rho); });
+  EXPECT_NEAR(compression_energy(water, 1040.0, 1000.0) / pushed, 1.0, 1e-9);
+  EXPECT_EQ(compression_energy(water, 1000.0, 1000.0), 0.0);
+}
+
+TEST(Balance, AStretchTakesWorkFromTheKnitOn) {
+  const WaterState water = lattice_water({0.0, 0.0, 0.0}, {0.1, 0.1, 0.1}, 0.05);
+  const double sound2 = water.sound_speed * water.sound_speed;
+  const double pulled =
+      work(980.0, 940.0, [sound2](double rho) { return 0.5 * sound2 * (rho - 980.0) / 1.0e6; });
+  EXPECT_NEAR(compression_energy(water, 940.0, 980.0) / pulled, 1.0, 1e-9);
+  EXPECT_EQ(compression_energy(water, 990.0, 980.0), 0.0) << "neither pushes nor pulls";
+  EXPECT_EQ(compression_energy(water, 500.0, 500.0), 0.0) << "torn";
 }
 
 TEST(Balance, EnergiesOfABlockThatMovesAsOne) {
   WaterState water = lattice_water({0.0, 0.0, 1.0}, {0.1, 0.2, 1.4}, 0.01);
   water.density.assign(water.position.size(), 1010.0);
+  water.knit.assign(water.position.size(), 1000.0);
   for (Vector3& v : water.velocity) v = {0.3, 0.0, -0.4};
   const double mass = 1000.0 * 0.1 * 0.2 * 0.4;
   const Energies e = energies(water);
   EXPECT_NEAR(e.kinetic, 0.5 * mass * 0.25, 1e-9);
   EXPECT_NEAR(e.potential, mass * 9.81 * 1.2, 1e-9);
-  EXPECT_NEAR(e.compression, mass * compression_energy(1010.0, 1000.0, 20.0), 1e-12);
+  EXPECT_NEAR(e.compression, mass * compression_energy(water, 1010.0, 1000.0), 1e-12);
   EXPECT_NEAR(e.total(), e.kinetic + e.potential + e.compression, 1e-12);
 }
 
