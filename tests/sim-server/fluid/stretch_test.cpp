@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/fluid/checkpoint.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
@@ -173,6 +174,30 @@ TEST(Stretched, ASnapshotRemembersIt) {
   stretch(*other.fluid, 1.02);
   other.fluid->prepare(other.step_at(0.0));
   EXPECT_EQ(read_state(*other.fluid).pressure_term, first);
+  EXPECT_LT(*std::min_element(first.begin(), first.end()), 0.0);
+}
+
+/// What the ball presses with when it was as dense as at rest, then moved outward by a fiftieth.
+std::vector<double> pull_of(Water& water) {
+  stretch(*water.fluid, 1.02);
+  water.fluid->prepare(water.step_at(0.0));
+  return read_state(*water.fluid).pressure_term;
+}
+
+// So does a checkpoint, which frames that fail are taken back to.
+TEST(Stretched, ACheckpointRemembersIt) {
+  Device device;
+  Water water = ball();
+  water.start(device);
+  stretch(*water.fluid, 0.99);
+  water.fluid->prepare(water.step_at(0.0));
+  Checkpoint checkpoint;
+  checkpoint.keep(device, water.fluid->state());
+  const std::vector<double> first = pull_of(water);
+  stretch(*water.fluid, 1.2);
+  water.fluid->prepare(water.step_at(0.0));  // torn
+  checkpoint.recall(device, water.fluid->state());
+  EXPECT_EQ(pull_of(water), first);
   EXPECT_LT(*std::min_element(first.begin(), first.end()), 0.0);
 }
 
