@@ -25,11 +25,11 @@ namespace {
 constexpr double kSpacing = 0.02;
 constexpr double kSupport = kSupportSpacings * kSpacing;
 constexpr int kReach = 4;  ///< of a film, from its middle particle [particles]
-constexpr std::size_t kMiddle = 2 * kReach * (kReach + 1);
+constexpr auto kMiddle = std::size_t{2} * kReach * (kReach + 1);
 
 struct Ground {
   FluidState state;
-  Vector3 middle;  ///< of its face [m]
+  Vector3 middle = {};  ///< of its face [m]
 };
 
 /// The floor of a wide tank.
