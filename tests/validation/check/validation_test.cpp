@@ -47,7 +47,7 @@ const std::vector<Check>& checks() {
        {{"level, drift", -0.25, 0.25, ""},
         {"floor pressure, error", -1.0, 2.5, kPacking},
         {"profile, rms of rho g H", 0.0, 2.0, ""},
-        {"fastest particle after 5 s", 0.0, 1.0, ""}}},
+        {"fastest particle after 5 s", 0.0, 1.5, "single particles slip, in a run of three"}}},
       {"StandingWave",
        "standing_wave",
        1,
