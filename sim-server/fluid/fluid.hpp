@@ -61,7 +61,7 @@ struct Snapshot {
   std::vector<float> position;
   std::vector<float> velocity;
   std::vector<int> id;
-  std::vector<float> knit;      ///< (kernels/density.cl) [kg/m3]
+  std::vector<float> knit;      ///< densest since torn (kernels/stretch.h) [kg/m3]
   std::vector<float> pressure;  ///< what the solver keeps from step to step
 };
 
