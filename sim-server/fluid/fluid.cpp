@@ -151,11 +151,7 @@ void Fluid::wake_and_sleep(const Step& step) {
 
 std::size_t Fluid::groups() const {
   const auto lanes = static_cast<std::size_t>(device_.lanes());
-  const std::size_t groups = (static_cast<std::size_t>(params_.count) + lanes - 1) / lanes;
-  if (lanes == 1) return groups;
-  // Whole strips of packets of four (kernels/group.h).
-  constexpr std::size_t kWhole = std::size_t{4} * SPLASH_STRIPS;
-  return (groups + kWhole - 1) / kWhole * kWhole;
+  return (static_cast<std::size_t>(params_.count) + lanes - 1) / lanes;
 }
 
 void Fluid::compute_density(const Step& step) {

@@ -6,7 +6,6 @@
 
 #define SPLASH_MAX_WALLS 8
 #define SPLASH_SLICES 4   // of each cell along x, by which points are sorted (kernels/grid.h)
-#define SPLASH_STRIPS 16  // of the fluid, from which work is dealt in turn (kernels/group.h)
 
 // Where pressure comes from.
 #define SPLASH_WEAKLY_COMPRESSIBLE 0

@@ -136,8 +136,7 @@ void beside_the_yardstick(sim::Device& device, int most_particles, std::FILE* cs
     const auto stride = static_cast<std::size_t>(p.stride);
     const auto particles = static_cast<std::size_t>(p.params.count);
     const auto lanes = static_cast<std::size_t>(device.lanes());
-    const std::size_t packet = lanes == 1 ? 4 : 4 * SPLASH_STRIPS;
-    const std::size_t items = ((particles + lanes - 1) / lanes + packet - 1) / packet * packet;
+    const std::size_t items = ((particles + lanes - 1) / lanes + 3) / 4 * 4;
     std::vector<float> density(stride);
     std::vector<float> push(3 * stride);
     std::vector<double> ours_d, ours_f, hand_d, hand_f;

@@ -105,7 +105,7 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
                                  float piston, global float* acceleration,
                                  global int* moving) {
   const int n = p->capacity;
-  const int group = group_of(p, get_global_id(0));
+  const int group = get_global_id(0);
   const int first = group * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last || resting[group] > 0) return;

@@ -79,7 +79,7 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
                             global float* water_density, global float* knit,
                             global float* pressure_term, global float* acceleration,
                             global int* moving, global int* resting) {
-  const int group = group_of(p, get_global_id(0));
+  const int group = get_global_id(0);
   const int first = group * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last) return;

@@ -13,22 +13,6 @@ typedef struct {
   float3 lower, upper;  // the box around the turn's particles [m]
 } Group;
 
-// Which group a work-item handles; past the last one for padding. Awake groups often lie together,
-// and drivers hand work-items out in long runs: so packets of four groups are dealt from
-// SPLASH_STRIPS strips in turn. Within a strip they follow each other, as caches like it.
-static int group_of(constant FluidParams* p, int work_item) {
-#if LANES > 1
-  const int packets = ((p->count + LANES - 1) / LANES + 3) / 4;
-  const int strip = (packets + SPLASH_STRIPS - 1) / SPLASH_STRIPS;
-  const int turn = work_item / 4;
-  const int packet = turn % SPLASH_STRIPS * strip + turn / SPLASH_STRIPS;
-  if (turn >= SPLASH_STRIPS * strip || packet >= packets) return 4 * packets;
-  return 4 * packet + work_item % 4;
-#else
-  return work_item;
-#endif
-}
-
 // The particles of the work-item's `first` to `last` (not included), from `turn` on.
 static Group load_group(constant FluidParams* p, global const int* cell_start,
                         global const float* position, int first, int last, int turn) {

@@ -9,7 +9,7 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
                       global const float* acceleration, global float* position,
                       global float* velocity, global const int* moving,
                       global const int* resting) {
-  const int group = group_of(p, get_global_id(0));
+  const int group = get_global_id(0);
   const int i = group * LANES;
   if (i >= p->count || resting[group] > 0) return;
   const lane_flags move = LOAD(moving, i) != 0;

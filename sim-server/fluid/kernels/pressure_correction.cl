@@ -51,7 +51,7 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
                              global float* error_part) {
   if (is_done(state, k)) return;
   const int n = p->capacity;
-  const int first = group_of(p, get_global_id(0)) * LANES;
+  const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last) return;
   const float scale = -gradient_norm(p);

@@ -97,7 +97,7 @@ kernel void measure_response(constant FluidParams* p, global const int* cell_sta
                              global float* gradient, global float* response,
                              global float* boundary_rate) {
   const int n = p->capacity;
-  const int first = group_of(p, get_global_id(0)) * LANES;
+  const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
   const float scale = -gradient_norm(p);
   lanes gx = 0.0f, gy = 0.0f, gz = 0.0f, d = 0.0f, rate = 0.0f;
