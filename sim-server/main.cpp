@@ -92,7 +92,8 @@ void say_what_flows(Simulation& simulation) {
   if (!notice.empty()) std::printf("water   %s\n", notice.c_str());
 }
 
-void say_hello(Simulation& simulation, const Server& server, double seconds_to_build) {
+void say_hello(Simulation& simulation, const Server& server, double seconds_to_build,
+               bool compiled) {
   const Scene& scene = simulation.scene();
   std::printf("scene   %s: %d particles %.1f mm apart, %zu bodies, sound speed %.1f m/s\n",
               scene.name.c_str(), simulation.particles(), 1e3 * particle_spacing(scene),
@@ -100,7 +101,7 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
   say_price(simulation);
   say_what_flows(simulation);
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
-              seconds_to_build > 1.0 ? " (compiled; kept for the next start)" : "");
+              compiled ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());
   if (server.is_unheard()) {
     std::printf("nobody hears it yet: --target host:port sends to a synth\n");
@@ -164,10 +165,11 @@ void run(const Options& options) {
   std::fflush(stdout);
   Simulation simulation(device, scene, options.tracker, telling_how_it_settles(service));
   last_words.built();
+  const bool compiled = seal.has_new();
   seal.renew();
   Server server(options, simulation, device.facts().name);
   take_signals();
-  say_hello(simulation, server, protocol::monotonic_now() - start);
+  say_hello(simulation, server, protocol::monotonic_now() - start, compiled);
   service.ready(scene.name + ", " + std::to_string(simulation.particles()) + " particles, on " +
                 protocol::to_string(server.local()));
   serve(server, service);

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim-server/device/cache_leftovers.hpp"
 #include "sim-server/device/cache_seal.hpp"
 
 namespace splash::sim {
@@ -49,6 +50,7 @@ void join(const std::filesystem::path& folder) {
   const int lock = open((folder / "splash-lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (lock < 0) return;  // the folder was tried before: another limit, and no reason to give up
   if (flock(lock, LOCK_EX | LOCK_NB) == 0) {
+    remove_leftovers(folder);
     const int removed = remove_damaged_programs(folder);
     if (removed > 0) {
       std::cerr << "note: " << removed << " compiled programs in " << folder.string()

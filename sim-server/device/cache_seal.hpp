@@ -23,6 +23,8 @@ class CacheSeal {
   CacheSeal(const CacheSeal&) = delete;
   CacheSeal& operator=(const CacheSeal&) = delete;
 
+  /// Whether kernels are there that the seal does not know: some were compiled since.
+  [[nodiscard]] bool has_new() const;
   /// All kernels that are there now are whole. A disk that refuses the list is no error: the next
   /// start then compiles again.
   void renew() const;

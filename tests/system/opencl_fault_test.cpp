@@ -135,11 +135,11 @@ TEST_F(OpenClFault, DamagedCacheIsCompiledAgain) {
   expect_mended();
   // Of a simulator that died before it sealed what it built.
   std::string sealed;
-  std::ifstream seal(cache() / "splash-seal");
+  std::ifstream seal(cache() / "splash-sums");
   for (std::string line; std::getline(seal, line);) {
     if (line.find(program.parent_path().filename()) == std::string::npos) sealed += line + '\n';
   }
-  std::ofstream(cache() / "splash-seal") << sealed;
+  std::ofstream(cache() / "splash-sums") << sealed;
   std::ofstream{cache() / "splash-at-work-1"};
   fs::resize_file(survey, 0);
   expect_mended();

@@ -64,6 +64,44 @@ TEST_F(Seal, TrustsNothingMoreOfASimulatorThatDied) {
   EXPECT_EQ(remove_damaged_programs(folder_), 0) << "it is buried once";
 }
 
+TEST_F(Seal, KnowsWhatWasCompiledSince) {
+  const CacheSeal seal(folder_);
+  fill();
+  EXPECT_TRUE(seal.has_new());
+  seal.renew();
+  EXPECT_FALSE(seal.has_new());
+  write("AB/CD/last_accessed", "PoCL writes it at every start");
+  EXPECT_FALSE(seal.has_new());
+  write("AB/CD/integrate/1-1-1/integrate.so", "machine code");
+  EXPECT_TRUE(seal.has_new());
+}
+
+/// Bits anywhere in a file count, also in its last bytes, and where words are only exchanged.
+TEST_F(Seal, SeesEveryChangeOfALongFile) {
+  std::string text(200'003, 'a');
+  text.replace(64, 8, "exchange");
+  const auto sealed = [&] {
+    write("AB/CD/program.bc", text);
+    fs::remove(folder_ / "splash-sums");
+    CacheSeal(folder_).renew();
+  };
+  for (const std::size_t at : {std::size_t{0}, std::size_t{65'535}, text.size() - 1}) {
+    sealed();
+    std::string changed = text;
+    changed[at] ^= 1;
+    write("AB/CD/program.bc", changed);
+    EXPECT_EQ(remove_damaged_programs(folder_), 1) << "bit of byte " << at;
+  }
+  sealed();
+  std::string moved = text;
+  moved.replace(64, 8, "aaaaaaaa").replace(72, 8, "exchange");
+  write("AB/CD/program.bc", moved);
+  EXPECT_EQ(remove_damaged_programs(folder_), 1);
+  sealed();
+  write("AB/CD/program.bc", text + '\0');
+  EXPECT_EQ(remove_damaged_programs(folder_), 1) << "longer by a zero";
+}
+
 TEST_F(Seal, MarksItsWorkWhileItLasts) {
   fs::create_directories(folder_);
   const std::string mark = "splash-at-work-" + std::to_string(getpid());
