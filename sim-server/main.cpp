@@ -143,7 +143,10 @@ void serve(Server& server, protocol::ServiceNotice& service) {
     return asked_to_end.load();
   });
   service.stopping();
-  std::printf("%s", summary(server.finish()).c_str());
+  const RunReport report = server.finish();
+  std::printf("%s", summary(report).c_str());
+  std::fflush(stdout);
+  server.leave(report);
 }
 
 void run(const Options& options) {

@@ -257,11 +257,14 @@ RunReport Server::finish() {
   report.late = target_status_.late();
   report.lost = target_status_.lost();
   report.refused_poses = refused_poses_;
+  return report;
+}
+
+void Server::leave(const RunReport& report) const {
   if (!options_.report.empty()) {
     protocol::failing_with(protocol::kExitIo, [&] { write_report(options_.report, report); });
   }
   if (!unwritten_.empty()) throw protocol::Failure(protocol::kExitIo, unwritten_);
-  return report;
 }
 
 }  // namespace splash::sim

@@ -34,9 +34,11 @@ class Server {
   void run(const std::function<bool()>& ended);
   /// Begins log and gauges anew, if somebody has moved the files away. Between two frames only.
   void reopen();
-  /// Closes the log, asks the targets how they fared and writes the report. Throws
-  /// protocol::Failure when a file could not be written, now or before.
+  /// Closes the log and asks the targets how they fared.
   [[nodiscard]] RunReport finish();
+  /// Writes the report where the options want it. Throws protocol::Failure when that or a file
+  /// before could not be written.
+  void leave(const RunReport& report) const;
 
   /// Whether the thread that listens has turned since this was last asked.
   [[nodiscard]] bool listens();

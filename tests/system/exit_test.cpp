@@ -123,6 +123,7 @@ TEST(Exit, FilesThatCannotBeWrittenAreNamed) {
   const auto report = simulate(scene, {"--listen", "127.0.0.1:0", "--report", "/nowhere/a.json"});
   EXPECT_EQ(report.code, 74);
   EXPECT_THAT(report.text, HasSubstr("/nowhere/a.json"));
+  EXPECT_THAT(report.text, HasSubstr("density   error mean")) << "its figures are not lost with it";
   for (const auto& text : {log.text, report.text}) {
     EXPECT_THAT(text, HasSubstr("No such file or directory; name a file in a folder that exists"));
   }
