@@ -43,7 +43,7 @@ struct Verdict {
   double fastest_body = 0.0;  ///< of those that the water moves [m/s]
   double mean_excess = 0.0;   ///< largest in time [1]
   double max_excess = 0.0;    ///< [1]
-  double calm = 0.0;          ///< fastest at the end [m/s]
+  double calm = 0.0;          ///< median of the fastest in the last half second [m/s]
   std::uint64_t events = 0;
   std::uint64_t retried = 0;
   std::uint64_t calmed = 0;
