@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kDraft = "tempfile_";     // PoCL's, by pocl_cache_write_program_source
+constexpr std::string_view kDraft = "tempfile_";     // PoCL leaves one, empty, at every start
 constexpr std::string_view kUsed = "last_accessed";  // PoCL touches it at every start
 
 bool is_program_letter(char c) {
