@@ -21,7 +21,7 @@ constexpr double kTurn = 2.0;      ///< the paddle goes there and back [s]
 
 /// That far [m], so that it keeps a tenth of the particles awake: finer water is stirred less far.
 double way_of(int particles) {
-  return particles > 30'000 ? 0.018 : 0.01;
+  return particles > 30'000 ? 0.034 : 0.022;
 }
 
 /// A paddle that goes to and fro in the corner, slowly.
