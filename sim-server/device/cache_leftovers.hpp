@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <vector>
 
 namespace splash::sim {
 
@@ -15,9 +14,5 @@ constexpr std::chrono::days kProgramKept{30};
 /// Removes from `folder` the drafts that PoCL left and the programs that nobody used in
 /// `kProgramKept`. Nobody else may be using the folder. Returns how many programs were removed.
 int remove_leftovers(const std::filesystem::path& folder);
-
-/// The folders of compiled programs, relative to PoCL's cache `folder`: two capital letters / the
-/// rest of the source's hash.
-[[nodiscard]] std::vector<std::filesystem::path> programs_in(const std::filesystem::path& folder);
 
 }  // namespace splash::sim

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// PoCL's cache: two capital letters / the rest of the source's hash / program.bc, kernels/.../*.so
 #include "sim-server/device/cache_seal.hpp"
 
 #include <unistd.h>
@@ -15,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim-server/device/cache_leftovers.hpp"
+#include "sim-server/device/cache_layout.hpp"
 
 namespace splash::sim {
 namespace {
@@ -58,8 +57,7 @@ std::vector<std::string> files_of(const fs::path& folder, const fs::path& progra
   std::vector<std::string> files;
   std::error_code ignored;
   for (const auto& entry : fs::recursive_directory_iterator(folder / program, ignored)) {
-    // PoCL touches this one at every start.
-    if (!entry.is_regular_file(ignored) || entry.path().filename() == "last_accessed") continue;
+    if (!entry.is_regular_file(ignored) || entry.path().filename() == kLastAccessed) continue;
     files.push_back(entry.path().lexically_relative(folder));
   }
   return files;
