@@ -160,7 +160,7 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/version", Direction::to_both, "Asks for /version.reply", {}},
     {"/sync", Direction::to_both, "Answered by /synced when all earlier commands are done", kSync},
     {"/clearSched", Direction::to_both, "Drops what waits for its time; answered by /done", {}},
-    {"/mute", Direction::to_synth,
+    {"/mute", Direction::synth_alone,
      "Fades all channels out in 20 ms, or opens them within two seconds; answered by /done", kMute},
     {"/dumpOSC", Direction::to_both, "Prints incoming packets", kDumpOsc},
     {"/error", Direction::to_both, "Turns the report of failures on or off", kError},

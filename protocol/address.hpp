@@ -16,6 +16,7 @@ enum class Direction {
   to_synth,     ///< the simulator's events
   to_sim,       ///< trackers' poses
   to_both,      ///< control: either program takes it
+  synth_alone,  ///< control: only the synth takes it
   subscribers,  ///< from the simulator to who asked with /notify
   reply,        ///< to who sent the command
 };
@@ -39,6 +40,12 @@ struct AddressRow {
 };
 
 [[nodiscard]] std::span<const AddressRow> address_table() noexcept;
+
+/// Control: who sends one waits for an answer. Behind its own arguments texts are allowed and
+/// ignored (filling.hpp).
+[[nodiscard]] constexpr bool is_command(const AddressRow& row) noexcept {
+  return row.direction == Direction::to_both || row.direction == Direction::synth_alone;
+}
 
 /// The row's type string with its comma, optional arguments included.
 [[nodiscard]] std::string type_tags(const AddressRow& row);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Messages against the address table: types, counts and ranges.
+#include <algorithm>
 #include <cstdio>
 
 #include "protocol/address.hpp"
@@ -17,13 +18,18 @@ std::size_t required_count(const AddressRow& row) {
 
 bool has_types(const Message& message, const AddressRow& row) {
   const auto& arguments = message.arguments;
-  if (arguments.size() > row.arguments.size() || arguments.size() < required_count(row)) {
-    return false;
-  }
+  if (arguments.size() < required_count(row)) return false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (kTypes[arguments[i].index()] != row.arguments[i].type) return false;
+    const bool fills = i >= row.arguments.size();
+    if (fills && !is_command(row)) return false;
+    if (kTypes[arguments[i].index()] != (fills ? 's' : row.arguments[i].type)) return false;
   }
   return true;
+}
+
+/// How many arguments of a message are in its row: what fills it up is not.
+std::size_t told_count(const Message& message, const AddressRow& row) {
+  return std::min(message.arguments.size(), row.arguments.size());
 }
 
 // Bounds are compared as floats: 1e-4 sent as a float lies under the double 1e-4.
@@ -73,7 +79,7 @@ const AddressRow* find_address(std::string_view address) noexcept {
 
 bool conforms(const Message& message, const AddressRow& row) noexcept {
   if (message.address != row.address || !has_types(message, row)) return false;
-  for (std::size_t i = 0; i < message.arguments.size(); ++i) {
+  for (std::size_t i = 0; i < told_count(message, row); ++i) {
     if (!in_range(message.arguments[i], row.arguments[i])) return false;
   }
   return true;
@@ -86,7 +92,7 @@ std::optional<std::string> violation(const Message& message) {
     if (conforms(message, row)) return std::nullopt;
     reason = "types are " + type_tags(message) + ", expected " + type_tags(row);
     if (!has_types(message, row)) continue;
-    for (std::size_t i = 0; i < message.arguments.size(); ++i) {
+    for (std::size_t i = 0; i < told_count(message, row); ++i) {
       if (in_range(message.arguments[i], row.arguments[i])) continue;
       reason = describe_range(message.arguments[i], row.arguments[i]);
       break;

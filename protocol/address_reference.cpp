@@ -10,6 +10,7 @@ namespace {
 std::string_view name_of(Direction direction) {
   switch (direction) {
     case Direction::to_synth:
+    case Direction::synth_alone:
       return "to the synth";
     case Direction::to_sim:
       return "to the simulator";
@@ -35,14 +36,21 @@ std::string range_of(const ArgumentRow& row) {
   return number(row.min) + " .. " + number(row.max);
 }
 
+std::string types_of(const AddressRow& row) {
+  return type_tags(row) + (is_command(row) ? "s*" : "");
+}
+
 std::string heading(const AddressRow& row) {
-  return "`" + std::string(row.address) + " " + type_tags(row) + "`";
+  return "`" + std::string(row.address) + " " + types_of(row) + "`";
 }
 
 std::string overview() {
-  std::string out = "| address | types | direction | meaning |\n|---|---|---|---|\n";
+  std::string out =
+      "`s*`: behind a command's own arguments any texts are allowed and ignored, 16 arguments in\n"
+      "all. They fill a question up to the length of its answer (see \"Who is answered\").\n\n"
+      "| address | types | direction | meaning |\n|---|---|---|---|\n";
   for (const auto& row : address_table()) {
-    out += "| `" + std::string(row.address) + "` | `" + type_tags(row) + "` | " +
+    out += "| `" + std::string(row.address) + "` | `" + types_of(row) + "` | " +
            std::string(name_of(row.direction)) + " | " + std::string(row.meaning) + " |\n";
   }
   return out;
@@ -57,6 +65,7 @@ std::string arguments_of(const AddressRow& row) {
            std::string(argument.unit) + " | " + range_of(argument) + " | " +
            std::string(argument.meaning) + (argument.optional ? " (may be missing)" : "") + " |\n";
   }
+  if (is_command(row)) out += "| filling | s* |  | text | ignored |\n";
   return out;
 }
 

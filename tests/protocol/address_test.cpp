@@ -73,6 +73,35 @@ TEST(AddressTable, OneStepOutsideEachBoundIsAViolation) {
   EXPECT_GT(tried, 60);
 }
 
+// What fills a question up is text behind all the arguments of its row.
+TEST(AddressTable, OnlyCommandsMayBeFilledUp) {
+  int commands = 0;
+  for (const auto& row : address_table()) {
+    SCOPED_TRACE(row.address);
+    commands += is_command(row) ? 1 : 0;
+    auto message = example(row, false);
+    while (message.arguments.size() < kMaxArguments) {
+      message.arguments.emplace_back(std::string(kMaxString, 'x'));
+      EXPECT_EQ(conforms(message, row), is_command(row));
+      EXPECT_EQ(violation(message).has_value(), !is_command(row));
+      for (const Argument& other : {Argument(1), Argument(1.0F), Argument(TimeTag{1})}) {
+        auto wrong = message;
+        wrong.arguments.back() = other;
+        EXPECT_FALSE(conforms(wrong, row)) << type_tags(wrong);
+        EXPECT_TRUE(violation(wrong)) << type_tags(wrong);
+      }
+    }
+  }
+  EXPECT_EQ(commands, 10) << "/notify /status /version /sync /clearSched /mute /dumpOSC /error "
+                             "/quit /ping";
+}
+
+TEST(AddressTable, FillingDoesNotStandInForArguments) {
+  EXPECT_TRUE(violation({"/sync", {std::string("x")}}));
+  EXPECT_TRUE(violation({"/dumpOSC", {7, std::string("x")}})) << "out of range";
+  EXPECT_FALSE(violation({"/dumpOSC", {3, std::string("x")}}));
+}
+
 TEST(Violation, SaysWhatIsAllowed) {
   auto message = to_message(Impact{1, 0, 120.0F, 1.0F, {}, 0.0F});
   EXPECT_EQ(violation(message), "speed 120 m/s, allowed 0 to 100");
