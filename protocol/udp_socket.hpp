@@ -21,6 +21,11 @@ struct Endpoint {
   bool operator==(const Endpoint&) const = default;
 };
 
+/// 127.0.0.0/8: this host itself, under an address that reaches no other.
+[[nodiscard]] constexpr bool is_loopback(const Endpoint& endpoint) noexcept {
+  return endpoint.address >> 24U == 127U;
+}
+
 /// "host:port", ":port" or "host" -> Endpoint; names are resolved.
 /// Throws std::invalid_argument with the text, the cause and an example.
 [[nodiscard]] Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port);

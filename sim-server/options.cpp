@@ -43,7 +43,8 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   app.add_option("--allow", texts.allow,
-                 "A further host that may send poses and control (repeatable)")
+                 "A further host that may send poses and control (repeatable); no reply to it is "
+                 "longer than its question, see protocol/README.md")
       ->type_name("HOST");
   app.add_option("--record", options.record, "Write the events to this log")->type_name("LOG");
   app.add_option("--report", options.report, "Write what the run achieved to this file")

@@ -35,6 +35,10 @@ std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Sc
   }
 }
 
+void print_line(const std::string& line) {
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 protocol::UdpSocket open_socket(const std::vector<protocol::Endpoint>& targets) {
   return protocol::failing_with(protocol::kExitUnavailable,
                                 [&] { return protocol::UdpSocket(sending_endpoint(targets)); });
@@ -66,19 +70,19 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       pacer_({.real_time = options.real_time, .slip_limit = kSlipLimit}),
       overload_({.has_gauges = gauges_.has_value()}),
       target_status_(options.targets),
+      clock_answers_(socket_, targets_, print_line),
       control_(protocol::failing_with(protocol::kExitUnavailable, [&] {
-        return ControlServer(
-            {.listen = options_.listen, .allowed = options_.allow},
-            {.pose = [this](const protocol::BodyPose& pose,
-                            double arrival) { take_pose(pose, arrival); },
-             .status =
-                 [this] {
-                   const std::lock_guard lock(status_mutex_);
-                   return status_;
-                 },
-             .quit = [this] { quit_ = true; },
-             .print = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }},
-            targets_);
+        return ControlServer({.listen = options_.listen, .allowed = options_.allow},
+                             {.pose = [this](const protocol::BodyPose& pose,
+                                             double arrival) { take_pose(pose, arrival); },
+                              .status =
+                                  [this] {
+                                    const std::lock_guard lock(status_mutex_);
+                                    return status_;
+                                  },
+                              .quit = [this] { quit_ = true; },
+                              .print = print_line},
+                             targets_);
       })) {}
 
 void Server::take_pose(const protocol::BodyPose& pose, double arrival) {

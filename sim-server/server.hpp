@@ -90,7 +90,7 @@ class Server {
   double next_line_ = 0.0;     ///< monotonic [s]
   double next_mishap_ = 0.0;   ///< monotonic [s]
   int unsaid_ = 0;             ///< mishaps since the last line on one
-  ClockAnswers clock_answers_{socket_, targets_};
+  ClockAnswers clock_answers_;
   ControlServer control_;  ///< last: its thread uses all of the above
 };
 

@@ -31,7 +31,9 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
                  "Address and port for events and control; 0.0.0.0 for other hosts")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  app.add_option("--allow", texts.allow, "A further host that may control (repeatable)")
+  app.add_option("--allow", texts.allow,
+                 "A further host that may control (repeatable); no reply to it is longer than its "
+                 "question, see protocol/README.md")
       ->type_name("HOST");
   auto* replay =
       app.add_option("--replay", options.replay, "Render this event log instead of playing live")

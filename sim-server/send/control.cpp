@@ -69,11 +69,12 @@ void ControlServer::take(protocol::Bytes packet, const protocol::Endpoint& from)
   targets_.renew(from);
   const auto level = static_cast<unsigned>(dump_level_);
   if ((level & 2U) != 0 && actions_.print) actions_.print(to_hexadecimal(packet));
+  protocol::ReplyBudget budget(from, packet.size());
   for (const auto& message : decoded.packet.messages) {
     if ((level & 1U) != 0 && actions_.print) {
       actions_.print(protocol::to_string(from) + ' ' + to_text(message));
     }
-    obey({message, from, monotonic, unix_time});
+    obey({message, from, monotonic, unix_time, budget});
   }
 }
 
@@ -96,8 +97,7 @@ void ControlServer::obey(const Request& request) {
 
 bool ControlServer::is_allowed(const protocol::Endpoint& from) const {
   const auto& hosts = settings_.allowed;
-  return is_loopback(from.address) ||
-         std::find(hosts.begin(), hosts.end(), from.address) != hosts.end();
+  return is_loopback(from) || std::find(hosts.begin(), hosts.end(), from.address) != hosts.end();
 }
 
 void ControlServer::complain(const protocol::Endpoint& from, const std::string& text) {

@@ -16,6 +16,7 @@
 #include "protocol/gate.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
+#include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/udp_socket.hpp"
 #include "sim-server/send/dump.hpp"
@@ -47,10 +48,11 @@ struct ControlCounts {
   std::uint64_t replies = 0;      ///< sent
   std::uint64_t not_allowed = 0;  ///< from a host that is not heard; never answered
   std::array<std::uint64_t, static_cast<std::size_t>(protocol::Refusal::count_)> refused = {};
-  std::uint64_t failed = 0;    ///< messages that were not obeyed; answered by /fail
-  std::uint64_t unasked = 0;   ///< replies and events, which the simulator has no use for
-  std::uint64_t withheld = 0;  ///< replies over the limit, see RateLimit
-  std::uint64_t dropped = 0;   ///< by the kernel, its buffer full
+  std::uint64_t failed = 0;   ///< messages that were not obeyed; answered by /fail
+  std::uint64_t unasked = 0;  ///< replies and events, which the simulator has no use for
+  /// Replies over the limit (RateLimit) or longer than their question (protocol::ReplyBudget).
+  std::uint64_t withheld = 0;
+  std::uint64_t dropped = 0;  ///< by the kernel, its buffer full
 };
 
 class ControlServer {
@@ -72,6 +74,7 @@ class ControlServer {
     protocol::Endpoint from;
     double monotonic = 0.0;  ///< of arrival [s]
     double unix_time = 0.0;  ///< of arrival [s]
+    protocol::ReplyBudget& budget;
   };
   struct Command;  ///< an address and what it does, see control_commands.cpp
 

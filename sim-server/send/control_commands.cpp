@@ -75,11 +75,15 @@ void ControlServer::run(const Request& request) {
 }
 
 void ControlServer::reply(const Request& request, const protocol::Message& message) {
-  if (!replies_.allow(request.from, request.monotonic)) {
+  const auto fitting = request.budget.take(message);
+  if (!fitting) {
+    complain(request.from, request.budget.complaint(request.message.address, message));
+  }
+  if (!fitting || !replies_.allow(request.from, request.monotonic)) {
     count(&ControlCounts::withheld);
     return;
   }
-  if (socket_.send_to(request.from, build_message(message))) count(&ControlCounts::replies);
+  if (socket_.send_to(request.from, build_message(*fitting))) count(&ControlCounts::replies);
 }
 
 void ControlServer::fail(const Request& request, const std::string& reason) {
@@ -149,7 +153,7 @@ void ControlServer::clear_sched(const Request& request) {
 }
 
 void ControlServer::quit(const Request& request) {
-  if (!is_loopback(request.from.address)) {
+  if (!is_loopback(request.from)) {
     fail(request, "only from the simulator's own host");
   } else if (!actions_.quit) {
     fail(request, "this program does not end on request");

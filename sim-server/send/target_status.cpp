@@ -7,6 +7,7 @@
 #include <array>
 #include <utility>
 
+#include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
 #include "sim-server/send/lo_packet.hpp"
@@ -50,11 +51,13 @@ void TargetStatus::finish(double timeout) {
 }
 
 void TargetStatus::ask() {
-  const auto question = build_message({"/status", {}});
+  const protocol::Message question{"/status", {}};
+  const auto here = build_message(question);
+  const auto afar = build_message(protocol::filled_up(question, protocol::kFilledQuestion));
   for (auto& answer : answers_) {
     answer.awaited = true;
     // Refused by the kernel or lost on the way: both show as a missing answer.
-    static_cast<void>(socket_.send_to(answer.target, question));
+    static_cast<void>(socket_.send_to(answer.target, is_loopback(answer.target) ? here : afar));
   }
   next_question_ = clock_() + kPeriod;
 }

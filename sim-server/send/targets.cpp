@@ -71,9 +71,8 @@ void Targets::drop_expired() {
 }
 
 protocol::Endpoint sending_endpoint(const std::vector<protocol::Endpoint>& targets) {
-  const bool stays_here = std::all_of(targets.begin(), targets.end(), [](const auto& target) {
-    return is_loopback(target.address);
-  });
+  const bool stays_here = std::all_of(targets.begin(), targets.end(),
+                                      [](const auto& target) { return is_loopback(target); });
   return {.address = stays_here ? INADDR_LOOPBACK : INADDR_ANY, .port = 0};
 }
 

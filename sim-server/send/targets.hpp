@@ -59,9 +59,4 @@ class Targets {
 /// every interface; any free port.
 [[nodiscard]] protocol::Endpoint sending_endpoint(const std::vector<protocol::Endpoint>& targets);
 
-/// 127.0.0.0/8. `address` in host byte order.
-[[nodiscard]] constexpr bool is_loopback(std::uint32_t address) noexcept {
-  return (address >> 24) == 127U;
-}
-
 }  // namespace splash::sim

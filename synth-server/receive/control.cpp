@@ -17,6 +17,11 @@ std::int32_t integer(const protocol::Message& message) {
   return std::get<std::int32_t>(message.arguments.front());
 }
 
+/// To who asked with /notify, when the program ends.
+protocol::Message goodbye() {
+  return protocol::done("/quit");
+}
+
 }  // namespace
 
 Control::Control(ControlActions actions, std::vector<std::uint32_t> allowed)
@@ -29,36 +34,40 @@ bool Control::allows(const protocol::Endpoint& from) const noexcept {
 
 void Control::handle(const protocol::Message& message, const Arrived& arrived,
                      const protocol::SynthStatus& status, std::vector<Reply>& replies) {
-  const protocol::Endpoint& from = arrived.from;
-  if (message.address == "/ping" && !protocol::violation(message)) {
-    if (!pongs_.allow(from.address, arrived.monotonic)) {
-      ++withheld_;
-      return;
-    }
-    replies.push_back({from, protocol::pong(std::get<protocol::TimeTag>(message.arguments[0]),
-                                            protocol::to_time_tag(arrived.unix_time),
-                                            protocol::to_time_tag(protocol::unix_now()))});
+  const auto reason = protocol::violation(message);
+  if (message.address == "/ping" && !reason) {
+    const auto pong = protocol::pong(std::get<protocol::TimeTag>(message.arguments[0]),
+                                     protocol::to_time_tag(arrived.unix_time),
+                                     protocol::to_time_tag(protocol::unix_now()));
+    answer(message.address, pong, arrived, pongs_, replies);
     return;
   }
-  const auto reason = protocol::violation(message);
-  protocol::Message reply =
-      reason ? protocol::fail(message.address, *reason) : carry_out(message, from, status);
-  if (limit_.allow(from.address, arrived.monotonic)) {
-    replies.push_back({from, std::move(reply)});
+  const protocol::Message reply =
+      reason ? protocol::fail(message.address, *reason) : carry_out(message, arrived, status);
+  answer(message.address, reply, arrived, limit_, replies);
+}
+
+void Control::answer(const std::string& command, const protocol::Message& reply,
+                     const Arrived& arrived, ReplyLimit& limit, std::vector<Reply>& replies) {
+  auto fitting = arrived.budget.take(reply);
+  if (!fitting) {
+    complaint_ = protocol::to_string(arrived.from) + ' ' + arrived.budget.complaint(command, reply);
+  }
+  if (fitting && limit.allow(arrived.from.address, arrived.monotonic)) {
+    replies.push_back({arrived.from, std::move(*fitting)});
   } else {
     ++withheld_;
   }
 }
 
-protocol::Message Control::carry_out(const protocol::Message& message,
-                                     const protocol::Endpoint& from,
+protocol::Message Control::carry_out(const protocol::Message& message, const Arrived& arrived,
                                      const protocol::SynthStatus& status) {
   const std::string& address = message.address;
   if (address == "/status") return protocol::to_message(actions_.status(status));
   if (address == "/version") return protocol::version_reply(protocol::kSynthProgram);
   if (address == "/sync") return protocol::synced(integer(message));
-  if (address == "/notify") return notify(message, from);
-  if (address == "/quit") return quit(from);
+  if (address == "/notify") return notify(message, arrived);
+  if (address == "/quit") return quit(arrived.from);
   if (address == "/clearSched") {
     actions_.clear_scheduled();
   } else if (address == "/mute") {
@@ -73,16 +82,18 @@ protocol::Message Control::carry_out(const protocol::Message& message,
   return protocol::done(address);
 }
 
-protocol::Message Control::notify(const protocol::Message& message,
-                                  const protocol::Endpoint& from) {
-  std::erase(clients_, from);
+// Who cannot be told that it is a client is none.
+protocol::Message Control::notify(const protocol::Message& message, const Arrived& arrived) {
+  std::erase(clients_, arrived.from);
   if (integer(message) == 0) return protocol::done(message.address, 0);
   if (clients_.size() == kMostClients) {
     return protocol::fail(message.address,
                           "there are " + std::to_string(kMostClients) + " clients already");
   }
-  clients_.push_back(from);
-  return protocol::done(message.address, static_cast<std::int32_t>(clients_.size()));
+  arrived.budget.owe(goodbye());
+  auto reply = protocol::done(message.address, static_cast<std::int32_t>(clients_.size() + 1));
+  if (arrived.budget.fits(reply)) clients_.push_back(arrived.from);
+  return reply;
 }
 
 protocol::Message Control::quit(const protocol::Endpoint& from) {
@@ -92,7 +103,7 @@ protocol::Message Control::quit(const protocol::Endpoint& from) {
 }
 
 void Control::say_goodbye(std::vector<Reply>& replies) const {
-  for (const auto& client : clients_) replies.push_back({client, protocol::done("/quit")});
+  for (const auto& client : clients_) replies.push_back({client, goodbye()});
 }
 
 }  // namespace splash::synth

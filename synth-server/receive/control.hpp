@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "protocol/message.hpp"
+#include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/udp_socket.hpp"
 #include "synth-server/receive/reply_limit.hpp"
@@ -22,11 +25,12 @@ struct ControlActions {
   std::function<void(bool)> mute;  ///< true: silent, false: heard
 };
 
-/// Where and when a command came.
+/// Where and when a command came, and what its datagram may still draw.
 struct Arrived {
   protocol::Endpoint from;
   double monotonic = 0.0;  ///< [s]
   double unix_time = 0.0;  ///< [s]
+  protocol::ReplyBudget& budget;
 };
 
 struct Reply {
@@ -49,17 +53,22 @@ class Control {
 
   [[nodiscard]] int dump_level() const noexcept { return dump_level_; }
   [[nodiscard]] bool reports_failures() const noexcept { return reports_failures_; }
-  /// Replies withheld because a host asked too often.
+  /// Replies withheld because a host asked too often, or in fewer bytes than the reply has.
   [[nodiscard]] std::uint64_t withheld() const noexcept { return withheld_; }
+  /// A line for people on the last question that was too short, once; empty: none was.
+  [[nodiscard]] std::string take_complaint() { return std::exchange(complaint_, {}); }
 
  private:
   /// The reply to a message that the address table accepts.
   [[nodiscard]] protocol::Message carry_out(const protocol::Message& message,
-                                            const protocol::Endpoint& from,
+                                            const Arrived& arrived,
                                             const protocol::SynthStatus& status);
-  [[nodiscard]] protocol::Message notify(const protocol::Message& message,
-                                         const protocol::Endpoint& from);
+  [[nodiscard]] protocol::Message notify(const protocol::Message& message, const Arrived& arrived);
   [[nodiscard]] protocol::Message quit(const protocol::Endpoint& from);
+
+  /// Sends `reply` if the question is as long and `limit` lets it.
+  void answer(const std::string& command, const protocol::Message& reply, const Arrived& arrived,
+              ReplyLimit& limit, std::vector<Reply>& replies);
 
   ControlActions actions_;
   std::vector<std::uint32_t> allowed_;
@@ -69,6 +78,7 @@ class Control {
   int dump_level_ = 0;
   bool reports_failures_ = true;
   std::uint64_t withheld_ = 0;
+  std::string complaint_;
 };
 
 }  // namespace splash::synth

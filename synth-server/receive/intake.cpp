@@ -7,6 +7,7 @@
 
 #include "protocol/address.hpp"
 #include "protocol/control.hpp"
+#include "protocol/filling.hpp"
 #include "synth-server/receive/oscpack_reader.hpp"
 
 namespace splash::synth {
@@ -25,6 +26,12 @@ bool is_event(std::string_view address) noexcept {
 bool is_reply(const protocol::Message& message) noexcept {
   const auto* row = protocol::find_address(message.address);
   return row != nullptr && row->direction == protocol::Direction::reply;
+}
+
+/// The same, as long as its /pong.
+protocol::Message answerable(const protocol::Message& ping) {
+  static const std::size_t kSize = protocol::encoded_size(protocol::pong({}, {}, {}));
+  return protocol::filled_up(ping, kSize);
 }
 
 /// Moment of an event after its bundle's [s].
@@ -49,14 +56,14 @@ void Intake::datagram(protocol::Bytes bytes, const protocol::Endpoint& from, dou
     ++counters_.refusals[static_cast<std::size_t>(refusal)];
     return;
   }
-  const auto timing = open_bundle(packet, from, arrival, replies);
+  Visit visit{from, arrival, protocol::ReplyBudget(from, bytes.size()), replies};
+  const auto timing = open_bundle(packet, visit);
   if (!timing) return;
-  for (const auto& message : packet.messages) route(message, *timing, from, arrival, replies);
+  for (const auto& message : packet.messages) route(message, *timing, visit);
 }
 
-std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet,
-                                                  const protocol::Endpoint& from, double arrival,
-                                                  std::vector<Reply>& replies) {
+std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet, Visit& visit) {
+  const double arrival = visit.arrival;
   const bool tagged = packet.time && *packet.time != protocol::kImmediately;
   const auto frame =
       packet.messages.empty() ? std::nullopt : protocol::to_frame(packet.messages.front());
@@ -64,10 +71,10 @@ std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet
     const double moment = tagged ? time_.monotonic_of(*packet.time) : arrival;
     return Timing{moment, arrival, !tagged};
   }
-  Sender& sender = senders_.at(from);
+  Sender& sender = senders_.at(visit.from);
   const protocol::Arrival order = welcome(*frame, sender, arrival);
   if (order == protocol::Arrival::duplicate) return std::nullopt;
-  if (arrival >= sender.next_ping) ask_clock(sender, arrival, replies);
+  if (arrival >= sender.next_ping) ask_clock(sender, visit);
 
   const double delay = 1e-3 * static_cast<double>(frame->delay_ms);
   const double by_arrival = arrival + delay;
@@ -96,16 +103,17 @@ protocol::Arrival Intake::welcome(const protocol::Frame& frame, Sender& sender, 
   return kind;
 }
 
-void Intake::route(const protocol::Message& message, const Timing& timing,
-                   const protocol::Endpoint& from, double arrival, std::vector<Reply>& replies) {
+void Intake::route(const protocol::Message& message, const Timing& timing, Visit& visit) {
   if (is_event(message.address) || message.address == "/frame") {
     if (const auto event = protocol::to_event(message)) return play(*event, timing);
     if (protocol::violation(message)) ++counters_.out_of_table;
   } else if (is_reply(message)) {
-    take_pong(message, from, arrival);
-  } else if (control_.allows(from)) {
+    take_pong(message, visit.from, visit.arrival);
+  } else if (control_.allows(visit.from)) {
     if (protocol::violation(message)) ++counters_.out_of_table;
-    control_.handle(message, {from, arrival, time_.unix_of(arrival)}, status(), replies);
+    control_.handle(message,
+                    {visit.from, visit.arrival, time_.unix_of(visit.arrival), visit.budget},
+                    status(), visit.replies);
   } else {
     ++counters_.forbidden;
   }
@@ -126,12 +134,17 @@ void Intake::push(Command::Kind kind) {
   (void)queue_.push(command);
 }
 
-// Only ever in answer to a frame, which is longer: a forged frame draws no more than was sent.
-void Intake::ask_clock(Sender& sender, double now, std::vector<Reply>& replies) {
+// Only ever in answer to a frame, which is longer: a forged frame draws no more than was sent. To
+// another host it is as long as the /pong that is wanted, unless the frame came alone, in 32 bytes.
+void Intake::ask_clock(Sender& sender, Visit& visit) {
+  const double now = visit.arrival;
   sender.next_ping = now + (sender.pings < kQuickPings ? kQuickPingPeriod : kPingPeriod);
   ++sender.pings;
   sender.asked = protocol::to_time_tag(time_.unix_of(now));
-  replies.push_back({sender.endpoint, protocol::ping(sender.asked)});
+  const protocol::Message ping = protocol::ping(sender.asked);
+  auto fitting = is_loopback(sender.endpoint) ? std::nullopt : visit.budget.take(answerable(ping));
+  if (!fitting) fitting = visit.budget.take(ping);
+  if (fitting) visit.replies.push_back({sender.endpoint, std::move(*fitting)});
 }
 
 void Intake::take_pong(const protocol::Message& message, const protocol::Endpoint& from,

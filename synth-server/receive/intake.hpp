@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "protocol/gate.hpp"
@@ -23,7 +24,7 @@ struct IntakeCounters {
   std::uint64_t queue_full = 0;    ///< events dropped because the audio thread did not take them
   std::uint64_t out_of_table = 0;  ///< messages the address table refuses
   std::uint64_t forbidden = 0;     ///< commands from hosts that are not allowed
-  std::uint64_t withheld = 0;      ///< replies beyond the limit
+  std::uint64_t withheld = 0;      ///< replies over the limit or longer than their question
   std::uint64_t clock_steps = 0;   ///< times this host's clock was set
   std::uint64_t sender_steps = 0;  ///< times a sender's clock was set, or ours against it
   std::uint64_t corrected = 0;     ///< bundles whose sender's clock was off
@@ -48,6 +49,8 @@ class Intake {
 
   [[nodiscard]] IntakeCounters counters() const;
   [[nodiscard]] const Control& control() const noexcept { return control_; }
+  /// See Control.
+  [[nodiscard]] std::string take_complaint() { return control_.take_complaint(); }
   [[nodiscard]] bool sender_present() const noexcept { return senders_.anybody_present(); }
   /// When tick() next has a lease to end [s, monotonic]; infinity: nobody is present.
   [[nodiscard]] double next_expiry() const noexcept { return senders_.next_expiry(); }
@@ -59,16 +62,20 @@ class Intake {
     double by_arrival = 0.0;  ///< arrival + announced delay [s, monotonic]
     bool at_once = false;     ///< OSC's "immediately", and no delay announced
   };
+  /// Where and when a datagram came, and what it draws.
+  struct Visit {
+    const protocol::Endpoint& from;
+    double arrival = 0.0;  ///< [s, monotonic]
+    protocol::ReplyBudget budget;
+    std::vector<Reply>& replies;
+  };
   /// nullopt: a bundle that was heard before.
-  [[nodiscard]] std::optional<Timing> open_bundle(const protocol::Packet& packet,
-                                                  const protocol::Endpoint& from, double arrival,
-                                                  std::vector<Reply>& replies);
+  [[nodiscard]] std::optional<Timing> open_bundle(const protocol::Packet& packet, Visit& visit);
   protocol::Arrival welcome(const protocol::Frame& frame, Sender& sender, double arrival);
-  void route(const protocol::Message& message, const Timing& timing, const protocol::Endpoint& from,
-             double arrival, std::vector<Reply>& replies);
+  void route(const protocol::Message& message, const Timing& timing, Visit& visit);
   void play(const protocol::Event& event, const Timing& timing);
   void take_pong(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
-  void ask_clock(Sender& sender, double now, std::vector<Reply>& replies);
+  void ask_clock(Sender& sender, Visit& visit);
   void push(Command::Kind kind);
   [[nodiscard]] protocol::SynthStatus status() const;
 

@@ -80,19 +80,24 @@ void Receiver::take(const protocol::UdpSocket::Received& received, std::vector<R
   const double arrival = protocol::monotonic_now();
   const protocol::Bytes bytes(buffer_.data(), std::min(received.size, buffer_.size()));
   const std::uint64_t before = rejected();
+  std::string unanswered;
   {
     const std::lock_guard lock(mutex_);
     intake_.datagram(bytes, received.from, arrival, replies);
+    unanswered = intake_.take_complaint();
   }
-  if (rejected() != before) report(received.from);
+  if (rejected() != before && is_due(next_refusal_)) {
+    log_(complaint(intake_.counters(), received.from));
+  }
+  if (!unanswered.empty() && is_due(next_unanswered_)) log_(unanswered);
   if (intake_.control().dump_level() != 0) dump(bytes, received.from);
 }
 
-void Receiver::report(const protocol::Endpoint& from) {
+bool Receiver::is_due(double& next) const {
   const double now = protocol::monotonic_now();
-  if (!intake_.control().reports_failures() || now < next_report_) return;
-  next_report_ = now + kReportPeriod;
-  log_(complaint(intake_.counters(), from));
+  if (!intake_.control().reports_failures() || now < next) return false;
+  next = now + kReportPeriod;
+  return true;
 }
 
 void Receiver::dump(protocol::Bytes bytes, const protocol::Endpoint& from) const {

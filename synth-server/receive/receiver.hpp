@@ -16,7 +16,8 @@ namespace splash::synth {
 
 class Receiver {
  public:
-  /// `log` gets lines for people: refused datagrams (at most one a second) and /dumpOSC's.
+  /// `log` gets lines for people: refused datagrams and questions that are too short for their
+  /// answers (at most one line a second of each), and /dumpOSC's.
   Receiver(protocol::UdpSocket socket, CommandQueue& queue, Control control,
            std::function<void(const std::string&)> log);
   /// Says goodbye to the clients.
@@ -39,8 +40,9 @@ class Receiver {
   void take(const protocol::UdpSocket::Received& received, std::vector<Reply>& replies);
   void send(std::vector<Reply>& replies);
   void dump(protocol::Bytes bytes, const protocol::Endpoint& from) const;
-  /// At most one line a second, whatever comes.
-  void report(const protocol::Endpoint& from);
+  /// Whether a line may be said of which the last was due before `next`: once a second at most,
+  /// whatever comes, and not at all after /error 0.
+  [[nodiscard]] bool is_due(double& next) const;
   [[nodiscard]] std::uint64_t rejected() const;
 
   protocol::UdpSocket socket_;
@@ -48,7 +50,8 @@ class Receiver {
   mutable std::mutex mutex_;  ///< guards intake_; the audio thread never takes it
   Intake intake_;
   std::vector<std::byte> buffer_;
-  double next_report_ = 0.0;  ///< [s, monotonic]
+  double next_refusal_ = 0.0;     ///< when the next line on one is due [s, monotonic]
+  double next_unanswered_ = 0.0;  ///< same
   std::atomic<std::uint64_t> dropped_by_kernel_{0};
   std::atomic<std::uint64_t> turns_{0};
   std::atomic<bool> stopping_{false};

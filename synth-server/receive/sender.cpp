@@ -20,10 +20,6 @@ void add(SequenceTotals& totals, const protocol::SequenceWatch& watch) noexcept 
 
 }  // namespace
 
-bool is_loopback(const protocol::Endpoint& endpoint) noexcept {
-  return endpoint.address >> 24U == 127U;
-}
-
 Sender* SenderTable::find(const protocol::Endpoint& from) noexcept {
   const auto found = std::find_if(senders_.begin(), senders_.end(),
                                   [&](const Sender& sender) { return sender.endpoint == from; });

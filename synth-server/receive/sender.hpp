@@ -15,9 +15,6 @@
 
 namespace splash::synth {
 
-/// Whether an address is this host's own loopback, 127.0.0.0/8.
-[[nodiscard]] bool is_loopback(const protocol::Endpoint& endpoint) noexcept;
-
 struct Sender {
   explicit Sender(const protocol::Endpoint& from) : endpoint(from), clock(is_loopback(from)) {}
 

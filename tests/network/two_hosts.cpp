@@ -2,14 +2,21 @@
 #include "tests/network/two_hosts.hpp"
 
 #include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/ip.h>
+#include <netinet/udp.h>
 #include <sched.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 
+#include "protocol/limits.hpp"
 #include "tests/support/child_process.hpp"
 
 namespace splash::network {
@@ -80,6 +87,50 @@ protocol::UdpSocket TwoHosts::socket_on(int host, const std::string& endpoint) c
   std::optional<protocol::UdpSocket> socket;
   inside(name(host), [&] { socket.emplace(protocol::parse_endpoint(endpoint, 0)); });
   return std::move(*socket);
+}
+
+void TwoHosts::send_forged(int host, const protocol::Endpoint& sender, const protocol::Endpoint& to,
+                           protocol::Bytes payload) const {
+  struct Packet {
+    iphdr ip{};
+    udphdr udp{};
+    std::array<std::byte, protocol::kMaxDatagram> payload{};
+  } packet;
+  const std::size_t size = sizeof packet.udp + payload.size();
+  packet.ip.version = 4;
+  packet.ip.ihl = 5;
+  packet.ip.ttl = 64;
+  packet.ip.protocol = IPPROTO_UDP;
+  packet.ip.saddr = htonl(sender.address);
+  packet.ip.daddr = htonl(to.address);  // the kernel fills in length and checksum
+  packet.udp.source = htons(sender.port);
+  packet.udp.dest = htons(to.port);
+  packet.udp.len = htons(static_cast<std::uint16_t>(size));
+  std::copy(payload.begin(), payload.end(), packet.payload.begin());
+  inside(name(host), [&] {
+    const int raw = socket(AF_INET, SOCK_RAW | SOCK_CLOEXEC, IPPROTO_RAW);
+    sockaddr_in peer{};
+    peer.sin_family = AF_INET;
+    peer.sin_addr.s_addr = packet.ip.daddr;
+    const auto sent = sendto(raw, &packet, sizeof packet.ip + size, 0,
+                             reinterpret_cast<const sockaddr*>(&peer), sizeof peer);
+    if (raw >= 0) close(raw);
+    if (sent < 0) throw std::runtime_error("cannot send a forged datagram");
+  });
+}
+
+std::uint64_t TwoHosts::received_on(int host) const {
+  std::uint64_t packets = 0;
+  inside(name(host), [&] {
+    std::ifstream table("/proc/thread-self/net/dev");
+    for (std::string line; std::getline(table, line);) {
+      std::istringstream words(line);
+      std::string interface;
+      std::uint64_t bytes = 0;
+      if (words >> interface && interface == "cable:") words >> bytes >> packets;
+    }
+  });
+  return packets;
 }
 
 std::vector<std::string> TwoHosts::listening_on(int host) const {

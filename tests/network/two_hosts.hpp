@@ -3,6 +3,7 @@
 // rights of an administrator and the program `ip`; says so where it has not.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,11 @@ class TwoHosts {
                                                     std::vector<std::string> command) const;
   /// A socket that sends and listens there.
   [[nodiscard]] protocol::UdpSocket socket_on(int host, const std::string& endpoint) const;
+  /// Sends `payload` from there with any address, which may be another host's, as its sender's.
+  void send_forged(int host, const protocol::Endpoint& sender, const protocol::Endpoint& to,
+                   protocol::Bytes payload) const;
+  /// Datagrams and whatever else came there over the cable so far.
+  [[nodiscard]] std::uint64_t received_on(int host) const;
   /// What listens there on UDP, as /proc/net/udp has it: "0100007F:DFF3".
   [[nodiscard]] std::vector<std::string> listening_on(int host) const;
 

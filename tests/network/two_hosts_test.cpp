@@ -14,54 +14,18 @@
 #include <thread>
 
 #include "protocol/control.hpp"
+#include "protocol/filling.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/network/two_hosts.hpp"
-#include "tests/support/programs.hpp"
+#include "tests/network/on_two_hosts.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {
 namespace {
 
 using protocol::Message;
+using testing::HasSubstr;
 using tests::Arguments;
-using tests::ChildProcess;
-
-constexpr int kSimHost = 0;
-constexpr int kSynthHost = 1;
-
-class OnTwoHosts : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!hosts_.why_not().empty()) {
-      GTEST_SKIP() << "no network namespaces here (they need root and iproute2): "
-                   << hosts_.why_not();
-    }
-  }
-
-  [[nodiscard]] std::unique_ptr<ChildProcess> start(int host, const std::string& program,
-                                                    const Arguments& arguments) const {
-    return std::make_unique<ChildProcess>(
-        hosts_.command_on(host, tests::command(program, arguments)));
-  }
-  [[nodiscard]] std::unique_ptr<ChildProcess> start_synth(const Arguments& more) const {
-    Arguments arguments{"--rig", tests::rig_path("stereo.yaml"), "--device", "null"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    auto synth = start(kSynthHost, "synth-server", arguments);
-    EXPECT_TRUE(synth->wait_for_text("listening: ")) << synth->output();
-    return synth;
-  }
-  static Message answer_to(const Message& question, protocol::UdpSocket& socket,
-                           const std::string& to, double patience) {
-    socket.send_to(protocol::parse_endpoint(to, 0), protocol::encode(question));
-    std::array<std::byte, 2048> buffer{};
-    const auto received = socket.receive(buffer.data(), buffer.size(), patience);
-    if (!received) return {"no answer", {}};
-    return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);
-  }
-
-  TwoHosts hosts_;
-};
 
 /// What a receiver of its own making got.
 struct Heard {
@@ -139,6 +103,8 @@ TEST_F(OnTwoHosts, EachReceiverGetsEveryEventWhateverTheOthersDo) {
     played += tests::number_before(synth->output(), kind);
   }
   EXPECT_EQ(played, static_cast<long>(sent)) << synth->output();
+  EXPECT_THAT(simulator->output() + synth->output(), testing::Not(HasSubstr(" asked /")))
+      << "neither asks the other in fewer bytes than the answer has";
   EXPECT_LT(std::abs(median(heard.travel)), 0.05) << "tags and delays fit each other";
   std::cout << "events " << sent << ", late " << told.at("late") << ", median travel "
             << 1e3 * median(heard.travel) << " ms\n";
@@ -154,8 +120,11 @@ TEST_F(OnTwoHosts, StrangersAreNotObeyed) {
   }
   EXPECT_EQ(answer_to({"/mute", {1}}, stranger, there, 0.1).address, "no answer");
   EXPECT_EQ(answer_to(protocol::ping({5}), stranger, there, 0.1).address, "no answer");
-  EXPECT_EQ(answer_to({"/status", {}}, friendly, there, 20.0).address, "/status.reply");
-  EXPECT_EQ(answer_to({"/quit", {}}, friendly, there, 20.0).address, "/fail") << "not from afar";
+  const auto filled = [](const Message& message) { return protocol::filled_up(message, 256); };
+  EXPECT_EQ(answer_to(filled({"/status", {}}), stranger, there, 0.1).address, "no answer");
+  EXPECT_EQ(answer_to(filled({"/status", {}}), friendly, there, 20.0).address, "/status.reply");
+  EXPECT_EQ(answer_to(filled({"/quit", {}}), friendly, there, 20.0).address, "/fail")
+      << "not from afar";
   EXPECT_TRUE(synth->running());
 }
 
@@ -172,7 +141,8 @@ TEST_F(OnTwoHosts, BothListenToTheirOwnHostUnlessToldOtherwise) {
 
   protocol::UdpSocket other_host = hosts_.socket_on(kSimHost, "10.77.0.1:0");
   for (const char* port : {"10.77.0.2:57310", "10.77.0.2:57300"}) {
-    EXPECT_EQ(answer_to({"/status", {}}, other_host, port, 0.1).address, "no answer");
+    const Message question = protocol::filled_up({"/status", {}}, protocol::kFilledQuestion);
+    EXPECT_EQ(answer_to(question, other_host, port, 0.1).address, "no answer");
   }
 }
 

@@ -67,6 +67,12 @@ TEST(UdpSocket, AnAddressOfAnotherMachineIsAnError) {
 }
 
 // As the kernel lists it: 127.0.0.1 only, not every network of the machine.
+TEST(Endpoint, IsLoopbackInTheWholeBlock) {
+  EXPECT_TRUE(is_loopback({0x7F000001, 1}));
+  EXPECT_TRUE(is_loopback({0x7F123456, 1}));
+  EXPECT_FALSE(is_loopback({0x0A000001, 1}));
+}
+
 TEST(UdpSocket, IsBoundToLoopbackOnly) {
   const UdpSocket socket(Endpoint{});
   std::ifstream table("/proc/net/udp");

@@ -2,14 +2,19 @@
 // A receiver's pings are answered where the events come from, with stamps of the simulator's clock.
 #include "sim-server/send/clock_answers.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <future>
+#include <string>
 #include <thread>
 
 #include "protocol/control.hpp"
+#include "protocol/filling.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/sim-server/send/peer.hpp"
+#include "tests/support/own_address.hpp"
 
 namespace splash::sim {
 namespace {
@@ -19,7 +24,7 @@ class ClockAnswersTest : public testing::Test {
   test::Peer receiver;
   Targets targets{{receiver.endpoint()}};
   protocol::UdpSocket events{protocol::Endpoint{}};
-  ClockAnswers answers{events, targets};
+  ClockAnswers answers{events, targets, nullptr};
 
   /// The pongs counted once their thread, which counts after it has sent, got round to it.
   std::uint64_t answered() {
@@ -64,9 +69,52 @@ TEST(ClockAnswers, StrangersAreNotAnswered) {
   test::Peer stranger;
   const Targets targets({{.address = 0x7F000102, .port = 9}});  // 127.0.1.2 alone
   protocol::UdpSocket events{protocol::Endpoint{}};
-  const ClockAnswers answers(events, targets);
+  const ClockAnswers answers(events, targets, nullptr);
   stranger.send(events.local(), protocol::ping(protocol::TimeTag{7}));
   EXPECT_FALSE(stranger.bytes(0.3));
+}
+
+// A target on another host gets a /pong for as many bytes only.
+TEST(ClockAnswers, APingOfAnotherHostMustBeAsLongAsItsPong) {
+  const auto address = tests::own_address();
+  if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
+  protocol::UdpSocket receiver({.address = *address, .port = 0});
+  protocol::UdpSocket events({.address = *address, .port = 0});
+  const Targets targets({receiver.local()});
+  std::promise<std::string> told;
+  const ClockAnswers answers(events, targets,
+                             [&](const std::string& line) { told.set_value(line); });
+  const auto ping = protocol::ping(protocol::TimeTag{7});
+  const auto filled = protocol::filled_up(protocol::ping(protocol::TimeTag{8}), 40);
+  ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode(ping)));
+  ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode(filled)));
+  std::vector<std::byte> buffer(2048);
+  const auto received = receiver.receive(buffer.data(), buffer.size(), test::kPatience);
+  ASSERT_TRUE(received && received->size == 40U);
+  const auto pong = protocol::decode(protocol::Bytes(buffer).first(40)).packet.messages.at(0);
+  EXPECT_EQ(std::get<protocol::TimeTag>(pong.arguments.at(0)).value, 8U) << "the first got none";
+  EXPECT_EQ(answers.withheld(), 1U);
+  auto line = told.get_future();
+  ASSERT_EQ(line.wait_for(std::chrono::duration<double>(test::kPatience)),
+            std::future_status::ready);
+  EXPECT_THAT(line.get(), testing::HasSubstr("asked /ping in a datagram of 20 bytes; "
+                                             "the reply has 40 bytes"));
+}
+
+// Both pings of a bundle would draw 80 bytes for 64.
+TEST(ClockAnswers, PingsOfABundleCountTogether) {
+  const auto address = tests::own_address();
+  if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
+  protocol::UdpSocket receiver({.address = *address, .port = 0});
+  protocol::UdpSocket events({.address = *address, .port = 0});
+  const Targets targets({receiver.local()});
+  const ClockAnswers answers(events, targets, nullptr);
+  const auto ping = protocol::ping(protocol::TimeTag{7});
+  ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode({1}, {ping, ping})));
+  std::vector<std::byte> buffer(2048);
+  EXPECT_TRUE(receiver.receive(buffer.data(), buffer.size(), test::kPatience));
+  EXPECT_FALSE(receiver.receive(buffer.data(), buffer.size(), 0.3));
+  EXPECT_EQ(answers.withheld(), 1U);
 }
 
 }  // namespace

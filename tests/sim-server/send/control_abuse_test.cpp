@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Packets that crash or hang the libraries, floods and strangers: the control goes on answering.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <ifaddrs.h>
-#include <netinet/in.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "protocol/control.hpp"
+#include "protocol/filling.hpp"
 #include "sim-server/send/rate_limit.hpp"
 #include "tests/protocol/killers.hpp"
 #include "tests/sim-server/send/control_fixture.hpp"
+#include "tests/support/own_address.hpp"
 
 namespace splash::sim {
 namespace {
@@ -73,25 +71,10 @@ TEST_F(ControlAbuse, PosesAreNotLimited) {
   EXPECT_EQ(poses().size(), 500U);
 }
 
-/// An address of this machine that is not loopback: packets sent from it to itself never leave.
-std::optional<std::uint32_t> own_address() {
-  ifaddrs* list = nullptr;
-  if (getifaddrs(&list) != 0) return std::nullopt;
-  std::optional<std::uint32_t> found;
-  for (const auto* item = list; item != nullptr; item = item->ifa_next) {
-    if (item->ifa_addr == nullptr || item->ifa_addr->sa_family != AF_INET) continue;
-    const auto* ip = reinterpret_cast<const sockaddr_in*>(item->ifa_addr);
-    const auto address = ntohl(ip->sin_addr.s_addr);
-    if (!is_loopback(address)) found = address;
-  }
-  freeifaddrs(list);
-  return found;
-}
-
 class ControlStranger : public ControlAbuse {
  protected:
   void SetUp() override {
-    const auto address = own_address();
+    const auto address = tests::own_address();
     if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
     address_ = *address;
   }
@@ -120,7 +103,8 @@ TEST_F(ControlStranger, WhoIsAllowedIsHeardButMayNotQuit) {
   protocol::UdpSocket friendly({.address = address_, .port = 0});
   std::vector<std::byte> buffer(2048);
   const auto ask_friendly = [&](const protocol::Message& message) {
-    EXPECT_TRUE(friendly.send_to(server_->local(), protocol::encode(message)));
+    const auto question = protocol::filled_up(message, protocol::kFilledQuestion);
+    EXPECT_TRUE(friendly.send_to(server_->local(), protocol::encode(question)));
     const auto received = friendly.receive(buffer.data(), buffer.size(), test::kPatience);
     if (!received) return protocol::Message{};
     return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);

@@ -9,6 +9,7 @@
 
 #include "protocol/message.hpp"
 #include "tests/sim-server/send/peer.hpp"
+#include "tests/support/own_address.hpp"
 
 namespace splash::sim {
 namespace {
@@ -77,6 +78,23 @@ TEST_F(TargetStatusTest, ARestartedSynthLosesNothingItHadTold) {
     now += 1.1;
   }
   EXPECT_EQ(status.late(), 9U + 3U);
+}
+
+// Only then may it answer: its reply must not be longer than the question.
+TEST(TargetStatusAfar, AsksInAsManyBytesAsAnyReplyHas) {
+  const auto address = tests::own_address();
+  if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
+  protocol::UdpSocket synth({.address = *address, .port = 0});
+  TargetStatus status({synth.local()});
+  status.poll();
+  std::vector<std::byte> buffer(2048);
+  const auto received = synth.receive(buffer.data(), buffer.size(), test::kPatience);
+  ASSERT_TRUE(received);
+  EXPECT_GE(received->size, protocol::encode(protocol::to_message(SynthStatus{})).size());
+  const auto question = protocol::decode(protocol::Bytes(buffer).first(received->size));
+  ASSERT_EQ(question.packet.messages.size(), 1U);
+  EXPECT_EQ(question.packet.messages[0].address, "/status");
+  EXPECT_EQ(protocol::violation(question.packet.messages[0]), std::nullopt);
 }
 
 TEST_F(TargetStatusTest, SumsOverThoseWhoAnswer) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/address.hpp"
+#include "protocol/filling.hpp"
 
 namespace splash::synth {
 namespace {
@@ -20,7 +21,7 @@ class ControlTest : public testing::Test {
   ControlTest() : control_(actions(), {kFriend.address}) {}
 
   ControlActions actions() {
-    return {[this](protocol::SynthStatus status) {
+    return {[](protocol::SynthStatus status) {
               status.voices = 7;
               return status;
             },
@@ -32,7 +33,9 @@ class ControlTest : public testing::Test {
     now_ += 1.0;
     protocol::SynthStatus status;
     status.events = 42;
-    control_.handle(message, {from, now_, 1.8e9 + now_}, status, replies);
+    const Message question = from == kLocal ? message : protocol::filled_up(message, 256);
+    protocol::ReplyBudget budget(from, protocol::encode(question).size());
+    control_.handle(question, {from, now_, 1.8e9 + now_, budget}, status, replies);
     EXPECT_EQ(replies.size(), 1U) << message.address;
     if (replies.empty()) return {};
     EXPECT_EQ(replies.front().to, from);
@@ -129,11 +132,13 @@ TEST_F(ControlTest, SaysGoodbyeToItsClients) {
 
 TEST_F(ControlTest, LimitsRepliesAndPongsApart) {
   std::vector<Reply> replies;
-  for (int i = 0; i < 100; ++i) control_.handle({"/version", {}}, {kLocal, 1.0, 1.0}, {}, replies);
+  protocol::ReplyBudget budget(kLocal, 0);
+  const Arrived arrived{kLocal, 1.0, 1.0, budget};
+  for (int i = 0; i < 100; ++i) control_.handle({"/version", {}}, arrived, {}, replies);
   EXPECT_EQ(replies.size(), 10U);
   EXPECT_EQ(control_.withheld(), 90U);
   for (int i = 0; i < 200; ++i) {
-    control_.handle({"/ping", {protocol::TimeTag{5}}}, {kLocal, 1.0, 1.0}, {}, replies);
+    control_.handle({"/ping", {protocol::TimeTag{5}}}, arrived, {}, replies);
   }
   EXPECT_EQ(replies.size(), 110U);
   EXPECT_EQ(control_.withheld(), 190U);

@@ -59,11 +59,5 @@ TEST(SenderTable, KeepsTheCountsOfThoseItForgets) {
   EXPECT_EQ(table.totals().lost, 200U);
 }
 
-TEST(IsLoopback, KnowsTheWholeBlock) {
-  EXPECT_TRUE(is_loopback({0x7F000001, 1}));
-  EXPECT_TRUE(is_loopback({0x7F123456, 1}));
-  EXPECT_FALSE(is_loopback({0x0A000001, 1}));
-}
-
 }  // namespace
 }  // namespace splash::synth
