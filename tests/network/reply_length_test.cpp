@@ -149,6 +149,29 @@ TEST_F(OnTwoHosts, NoReplyOfTheSimulatorIsLongerThanItsRequest) {
       simulator->wait_for_text("asked /status in a datagram of 12 bytes; the reply has 96 bytes"));
 }
 
+// The patch in the synth's place answers /status alone, to whoever asks.
+TEST_F(OnTwoHosts, NoReplyOfThePdPatchIsLongerThanItsRequest) {
+  const std::string patch = std::string(SPLASH_SOURCE_DIR) + "/pd-patches/splash-stereo.pd";
+  tests::ChildProcess pd(
+      hosts_.command_on(kSynthHost, {"pd", "-nogui", "-noprefs", "-stderr", "-noaudio", "-open",
+                                     patch, "-send", "splash-host 0.0.0.0"}));
+  Talk home(hosts_.socket_on(kSynthHost, "127.0.0.1:0"), {INADDR_LOOPBACK, 57310});
+  Talk afar(hosts_.socket_on(kSimHost, "10.77.0.1:0"),
+            protocol::parse_endpoint("10.77.0.2:57310", 0));
+  const Message status{"/status", {}};
+  const auto bare = protocol::encode(status);
+  ASSERT_TRUE(soon([&] { return home.drawn_by(bare).bytes == 112; })) << pd.output();
+  EXPECT_EQ(afar.drawn_by(bare).datagrams, 0U);
+  EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 108))).datagrams, 0U);
+  EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 112)), 1).bytes, 112U);
+  const auto bundle = bundle_of(status);
+  const std::size_t room = (bundle.size() + kHeaders) / (112 + kHeaders);
+  const Drawn drawn = afar.drawn_by(bundle, room);
+  expect_no_more("bundle", "/status", bundle.size(), drawn);
+  EXPECT_EQ(drawn.datagrams, room);
+  EXPECT_EQ(home.drawn_by(bare, 1).datagrams, 1U);
+}
+
 /// The lines of protocol/README.md that ask a synth on 192.168.0.20, for ours.
 std::string example_of_the_readme() {
   std::ifstream file(std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md");
