@@ -6,11 +6,16 @@
 #define FIRST_EDGE 64  // number of the first edge among a body's features
 #define PUT_APART 4    // times that overlaps are ended, pair after pair
 #define LEFT_IN 0.1f   // overlap that is left, so that what lies stays in touch [rounding]
+#define BOX_SLACK 1.01f  // of boxes, for the rounding of places [1]
 
-static bool boxes_meet(const Pairing* m) {
-  const BodyStep a = m->step, b = m->step_other;
-  return a.lower_x < b.upper_x && b.lower_x < a.upper_x && a.lower_y < b.upper_y &&
-         b.lower_y < a.upper_y && a.lower_z < b.upper_z && b.lower_z < a.upper_z;
+// Whether the boxes around two outlines, along the axes of the world, meet within the step: what
+// does not is passed over before any corner is looked at.
+static bool boxes_meet(const Pairing* m, float dt) {
+  const float3 apart = fabs(place_of(m->step) - place_of(m->step_other));
+  const float3 sizes = reach_along_axes(m->shape, m->step) +
+                       reach_along_axes(m->shape_other, m->step_other);
+  const float3 reach = BOX_SLACK * sizes + dt * (m->step.speed + m->step_other.speed);
+  return apart.x < reach.x && apart.y < reach.y && apart.z < reach.z;
 }
 
 static Pairing turned_round(const Pairing* m) {
@@ -61,7 +66,7 @@ static int free_number(constant FreeBody* frees, int free_count, int body) {
 
 // The pair of free body `k` and body `j`; false: none, or it is met from the other side.
 static bool pair_up(constant FreeBody* frees, int free_count, constant BodyShape* shapes,
-                    BodyStep step, BodyStep step_other, int k, int j, Pairing* m) {
+                    BodyStep step, BodyStep step_other, int k, int j, float dt, Pairing* m) {
   const int two = free_number(frees, free_count, j);
   if (j == frees[k].body || (two != NO_BODY && two < k)) return false;
   if (is_mesh(shapes[frees[k].body]) || is_mesh(shapes[j])) return false;
@@ -73,7 +78,7 @@ static bool pair_up(constant FreeBody* frees, int free_count, constant BodyShape
   m->two = two;
   m->body = frees[k].body;
   m->body_other = j;
-  return boxes_meet(m);
+  return boxes_meet(m, dt);
 }
 
 static void meet_bodies(Contacts* all, constant BodyShape* shapes, int free_count, int body_count,
@@ -81,7 +86,8 @@ static void meet_bodies(Contacts* all, constant BodyShape* shapes, int free_coun
   for (int k = 0; k < free_count; ++k) {
     for (int j = 0; j < body_count; ++j) {
       Pairing m;
-      if (!pair_up(all->frees, free_count, shapes, *step_of(all, k), all->bodies[j], k, j, &m)) {
+      if (!pair_up(all->frees, free_count, shapes, *step_of(all, k), all->bodies[j], k, j, dt,
+                   &m)) {
         continue;
       }
       add_meetings(all, &m, dt);
@@ -137,7 +143,7 @@ static void leave_bodies(const Contacts* all, constant BodyShape* shapes, int fr
       Pairing m;
       const BodyStep mine = step_after(all, body_count, k, all->frees[k].body, dt);
       const BodyStep other = step_after(all, body_count, two, j, dt);
-      if (pair_up(all->frees, free_count, shapes, mine, other, k, j, &m)) {
+      if (pair_up(all->frees, free_count, shapes, mine, other, k, j, dt, &m)) {
         put_apart(all, &m, body_count, j);
       }
     }
