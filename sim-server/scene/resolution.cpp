@@ -52,6 +52,11 @@ double block_volume(const Scene& scene, const WaterBlock& block) {
   return area * width;
 }
 
+/// The fastest wave that the depth allows, sqrt(g H) [m/s].
+double longest_wave(const Scene& scene) {
+  return std::sqrt(length(scene.fluid.gravity) * water_depth(scene));
+}
+
 }  // namespace
 
 double floor_height(const Scene& scene, double x) {
@@ -129,6 +134,11 @@ double fastest_fall(const Scene& scene) {
   return std::sqrt(fastest2);
 }
 
+double slowest_sound(const Scene& scene) {
+  const double flow = scene.flow.kind == FlowKind::uniform ? length(scene.flow.velocity) : 0.0;
+  return std::max({2.0 * longest_wave(scene), fastest_fall(scene), flow});
+}
+
 double scene_sound_speed(const Scene& scene, double fastest_body) {
   if (scene.fluid.sound_speed > 0.0) return scene.fluid.sound_speed;
   // Monaghan 1994: density stays within (v/c)^2 of rest, so c should be ten times the fastest
@@ -141,9 +151,8 @@ double scene_sound_speed(const Scene& scene, double fastest_body) {
   constexpr double kLeast = 13.0;
   constexpr double kMach = 0.3;
   const double fastest = std::max(fastest_body, fastest_fall(scene));
-  const auto& g = scene.fluid.gravity;
-  const double wave = std::sqrt(std::hypot(g[0], g[1], g[2]) * water_depth(scene));
-  return std::max(sound_share(scene.fluid) * std::max(kRatio * wave, kLeast), fastest / kMach);
+  const double slow = std::max(kRatio * longest_wave(scene), kLeast);
+  return std::max(sound_share(scene.fluid) * slow, fastest / kMach);
 }
 
 double longest_step_factor(PressureKind solver) noexcept {

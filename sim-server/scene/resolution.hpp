@@ -31,6 +31,11 @@ struct WaterColumn {
 /// As given, or from the depth, times sound_share, and the speed of the fastest body,
 /// `fastest_body` or one that falls [m/s].
 [[nodiscard]] double scene_sound_speed(const Scene& scene, double fastest_body = 0.0);
+/// The least speed of sound that a scene may name: that of the front of its deepest water when
+/// nothing holds it, 2 sqrt(g H) (Ritter 1892), of what falls (fastest_fall) and of a uniform flow
+/// [m/s]. Water cannot give way to what is faster than its sound, and where it stands still it
+/// would be 25 % denser at the floor.
+[[nodiscard]] double slowest_sound(const Scene& scene);
 /// The most by which steps may exceed the default at one speed of sound, by what still water stands
 /// (sim-server/fluid/README, "How long a step may be") [1].
 [[nodiscard]] double longest_step_factor(PressureKind solver) noexcept;

@@ -171,6 +171,18 @@ void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
                       "it becomes as slow as such steps need");
 }
 
+void check_sound(const ConfigMap& fluid, const Scene& scene) {
+  const double least = slowest_sound(scene);
+  const bool unused = scene.fluid.solver != PressureKind::weakly_compressible;
+  if (unused || !fluid.has("sound_speed") || scene.fluid.sound_speed >= least) return;
+  throw fluid.error("sound_speed",
+                    "must be at least " + text(least) + " m/s in this scene, got '" +
+                        text(scene.fluid.sound_speed) +
+                        "': its water flows or falls as fast as that, and sound cannot be slower. "
+                        "Eight times as much keeps density within some per cent; leave it out, and "
+                        "it is chosen");
+}
+
 void check_resolution(const ConfigMap& fluid, const Scene& scene) {
   if (fluid.has("spacing") == fluid.has("particles")) {
     throw fluid.error(fluid.has("spacing") ? "spacing" : "particles",
