@@ -51,7 +51,7 @@ std::string join(const std::vector<std::string>& words) {
 int run_trials(sim::Device& device, const Options& options) {
   std::ofstream csv(options.out / "trials.csv");
   csv << "group,trial,solver,spacing,factor,particles,steps,fastest,mean_excess,max_excess,events,"
-         "retried,calmed,resets,least_step,broken\n";
+         "retried,calmed,resets,least_step,calm,drift,inside,broken\n";
   int failed = 0;
   int done = 0;
   for (const Trial& trial : all_trials()) {
@@ -61,12 +61,14 @@ int run_trials(sim::Device& device, const Options& options) {
     }
     for (const PressureKind solver : kSolvers) {
       for (const double spacing : options.spacings) {
+        if (spacing < trial.finest) continue;
         for (const double factor : options.factors) {
           const Verdict v = run_trial(device, trial, {solver, spacing, factor});
           csv << trial.group << ',' << trial.name << ',' << name_of(solver) << ',' << spacing << ','
               << factor << ',' << v.particles << ',' << v.steps << ',' << v.fastest << ','
               << v.mean_excess << ',' << v.max_excess << ',' << v.events << ',' << v.retried << ','
-              << v.calmed << ',' << v.resets << ',' << v.least_step << ',' << join(v.broken) << '\n'
+              << v.calmed << ',' << v.resets << ',' << v.least_step << ',' << v.calm << ','
+              << v.drift << ',' << v.inside << ',' << join(v.broken) << '\n'
               << std::flush;
           ++done;
           failed += !v.passes();

@@ -15,16 +15,19 @@ using sim::Scene;
 using sim::Simulation;
 using sim::Vector3;
 
-Trial rest(const std::string& name, std::vector<BodySettings> bodies) {
-  return {.group = 1, .name = name, .seconds = 4.0, .still = true, .scene = [bodies](double s) {
+Trial rest(const std::string& name, double seconds, std::vector<BodySettings> bodies) {
+  return {.group = 1, .name = name, .seconds = seconds, .still = true, .scene = [bodies](double s) {
             return with(basin(s), bodies);
           }};
 }
 
 void add_rests(std::vector<Trial>& all) {
-  all.push_back(rest("rest", {}));
-  all.push_back(rest("rest, half in", {ball({0.2, 0.2, kDeep})}));
-  all.push_back(rest("rest, sunk", {ball({0.2, 0.2, 0.1})}));
+  constexpr double kLong = 20.0;  // [s]
+  all.push_back(rest("rest", kLong, {}));
+  all.push_back(rest("rest, half in", kLong, {ball({0.2, 0.2, kDeep})}));
+  all.push_back(rest("rest, sunk", kLong, {ball({0.2, 0.2, 0.1})}));
+  all.push_back(rest("rest for ten minutes", 600.0, {}));
+  all.back().finest = 0.05;
 }
 
 void add_break(std::vector<Trial>& all) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Group 6: bodies that the water moves, a thousandth to a thousand times as dense as it: let go
-// under water, and dropped from 10 m.
+// under water, dropped from 10 m, on each other.
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "tests/stress/trial_parts.hpp"
 
@@ -27,9 +29,32 @@ std::string with_ratio(const std::string& what, double ratio) {
   return what + ", density " + text.data();
 }
 
+/// Ten plates, each on the one beneath it, from the floor of the basin to out of its water.
+sim::Scene stack(double spacing, double ratio) {
+  constexpr double kThick = 0.04;  // [m]
+  std::vector<sim::BodySettings> plates;
+  for (int k = 0; k < 10; ++k) {
+    plates.push_back(free_body(
+        box("plate " + std::to_string(k), {0.12, 0.12, kThick}, {0.2, 0.2, (k + 0.5) * kThick}),
+        ratio));
+  }
+  return with(basin(spacing), plates);
+}
+
+void add_stacks(std::vector<Trial>& all) {
+  for (const double ratio : {0.5, 2.0, 10.0}) {
+    all.push_back({.group = 6,
+                   .name = with_ratio("ten on each other", ratio),
+                   .seconds = 2.0,
+                   .speed = kFall,
+                   .scene = [=](double s) { return stack(s, ratio); }});
+  }
+}
+
 }  // namespace
 
 void add_free_trials(std::vector<Trial>& all) {
+  add_stacks(all);
   for (const double ratio : {1.0e-3, 1.0e-2, 0.1, 0.5, 1.0, 10.0, 1.0e3}) {
     all.push_back({.group = 6,
                    .name = with_ratio("let go under water", ratio),

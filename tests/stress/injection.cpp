@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/stress/injection.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace splash::stress {
 namespace {
@@ -97,6 +99,25 @@ void move_to_neighbour(Fluid& fluid, int place) {
   }
 }
 
+/// Puts all of the water into one cell, a tenth of a spacing from one to the next: every particle
+/// is every other's neighbour.
+void move_all_to_one_cell(Fluid& fluid) {
+  const sim::FluidParams& p = fluid.params();
+  const auto stride = static_cast<std::size_t>(p.capacity);
+  std::vector<float> place(3 * stride);
+  const std::array<float, 3> middle = {0.5F * (p.walls[1].offset - p.walls[2].offset),
+                                       0.5F * (p.walls[3].offset - p.walls[4].offset),
+                                       p.walls[0].offset + 2.0F * p.spacing};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
+    const std::array<std::size_t, 3> rank = {i % 10, i / 10 % 10, i / 100};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      place[axis * stride + i] = middle[axis] + 0.1F * p.spacing * static_cast<float>(rank[axis]);
+    }
+  }
+  fluid.device().queue().enqueueWriteBuffer(fluid.particles().position.memory(), CL_TRUE, 0,
+                                            place.size() * sizeof(float), place.data());
+}
+
 Injection double_a_name(const std::string& name) {
   return {name, Moment::between, [](Fluid& fluid, Step&, int place) {
             const int other = place == 0 ? 1 : 0;
@@ -132,6 +153,8 @@ std::vector<Injection> injections() {
       move_by("half a spacing farther within a step", 0.5F),
       {"onto its neighbour within a step", Moment::between,
        [](Fluid& fluid, Step&, int place) { move_to_neighbour(fluid, place); }},
+      {"all in one cell", Moment::before,
+       [](Fluid& fluid, Step&, int) { move_all_to_one_cell(fluid); }},
   };
   for (const Moment moment : {Moment::before, Moment::between}) {
     all.push_back({moment == Moment::before ? "two at one place" : "two at one place within a step",

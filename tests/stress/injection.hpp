@@ -19,8 +19,8 @@ struct Injection {
   std::function<void(sim::Fluid&, sim::Step&, int place)> harm;
 };
 
-/// Numbers that are none in place, velocity and density, 1e6 m/s, two particles at one place, a
-/// particle beyond the tank, a lost one, a step fifty times as long.
+/// Numbers that are none in place, velocity and density, 1e6 m/s, two particles at one place, all
+/// of them in one cell, one beyond the tank, a lost one, a step fifty times as long.
 [[nodiscard]] std::vector<Injection> injections();
 
 /// For each kind of fault a harm that no other check sees.

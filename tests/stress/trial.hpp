@@ -17,10 +17,12 @@ struct Trial {
   int group = 0;  ///< of the list of thirteen (README.md); 0: what users of other solvers reported
   std::string name;
   double seconds = 1.0;
-  double speed = 1.0;   ///< the fastest that anything is meant to get [m/s]
-  bool still = false;   ///< nothing moves: the water must be calm at the end
-  bool slams = false;   ///< all of it lands flat and at once
-  bool harmed = false;  ///< faults are put in: steps may be computed again
+  double speed = 1.0;     ///< the fastest that anything is meant to get [m/s]
+  bool still = false;     ///< nothing moves: the water, none of it asleep, must be calm at the end
+  bool slams = false;     ///< all of it lands flat and at once
+  bool harmed = false;    ///< faults are put in: steps may be computed again
+  bool turnover = false;  ///< bubbles end as fast as they begin: there is always room for more
+  double finest = 0.0;    ///< with finer water it takes hours and is left out [m]
   std::function<sim::Scene(double spacing)> scene;
   std::function<Drive()> drive = {};  ///< a fresh one for each run
 };
@@ -43,7 +45,9 @@ struct Verdict {
   double fastest_body = 0.0;  ///< of those that the water moves [m/s]
   double mean_excess = 0.0;   ///< largest in time [1]
   double max_excess = 0.0;    ///< [1]
-  double calm = 0.0;          ///< median of the fastest in the last half second [m/s]
+  double calm = 0.0;          ///< median of the fastest in the last second [m/s]
+  double drift = 0.0;         ///< by which the mean height has changed at the end [m]
+  double inside = 0.0;        ///< depth of the deepest particle in a body, at the end [spacings]
   std::uint64_t events = 0;
   std::uint64_t retried = 0;
   std::uint64_t calmed = 0;

@@ -44,16 +44,18 @@ void add_sheets(std::vector<Trial>& all) {
 }
 
 void add_domains(std::vector<Trial>& all) {
-  all.push_back({.group = 8,
-                 .name = "a column of 50 layers",
-                 .seconds = 1.0,
-                 .still = true,
-                 .scene = [](double s) {
-                   Scene scene = basin(s);
-                   scene.tank.upper = {4 * s, 4 * s, 60 * s};
-                   scene.water = {{{0.0, 0.0, 0.0}, {4 * s, 4 * s, 50 * s}}};
-                   return scene;
-                 }});
+  for (const int layers : {50, 200}) {
+    all.push_back({.group = 8,
+                   .name = "a column of " + std::to_string(layers) + " layers",
+                   .seconds = 2.0,
+                   .still = true,
+                   .scene = [=](double s) {
+                     Scene scene = basin(s);
+                     scene.tank.upper = {4 * s, 4 * s, (layers + 10) * s};
+                     scene.water = {{{0.0, 0.0, 0.0}, {4 * s, 4 * s, layers * s}}};
+                     return scene;
+                   }});
+  }
   all.push_back({.group = 8,
                  .name = "a tank much longer than its water",
                  .seconds = 1.0,
@@ -65,7 +67,7 @@ void add_domains(std::vector<Trial>& all) {
                  }});
   all.push_back({.group = 8,
                  .name = "95 m from the origin",
-                 .seconds = 1.0,
+                 .seconds = 2.0,
                  .still = true,
                  .scene = [](double s) {
                    Scene scene = basin(s);
@@ -77,7 +79,7 @@ void add_domains(std::vector<Trial>& all) {
                    return scene;
                  }});
   all.push_back(
-      {.group = 8, .name = "odd sizes", .seconds = 1.0, .still = true, .scene = [](double s) {
+      {.group = 8, .name = "odd sizes", .seconds = 2.0, .still = true, .scene = [](double s) {
          Scene scene = basin(s);
          scene.tank.upper = {0.4137, 0.3519, 0.611};
          scene.water = {{{0.0, 0.0, 0.0}, {0.4137, 0.3519, 0.2023}}};
@@ -174,6 +176,26 @@ void add_fluids(std::vector<Trial>& all) {
                  }});
 }
 
+/// A ball goes in and out of the basin for ever, and its bubbles last a millisecond.
+Trial churning() {
+  return {.group = 11,
+          .name = "bubbles that die at once, for ten minutes",
+          .seconds = 600.0,
+          .speed = kFall,
+          .turnover = true,
+          .finest = 0.05,
+          .scene = [](double s) {
+            sim::BodySettings stirrer = moved(
+                ball({}), {{0.0, {0.2, 0.2, 0.4}}, {0.3, {0.2, 0.2, 0.1}}, {0.6, {0.2, 0.2, 0.4}}});
+            stirrer.motion.repeat = true;
+            Scene scene = with(basin(s), {stirrer});
+            scene.detect.bubble_speed = 0.01;
+            scene.detect.bubble_gradient = 0.0;
+            scene.detect.bubble_life = 1.0e-3;
+            return scene;
+          }};
+}
+
 Scene foaming(double s) {
   Scene scene = with(basin(s), {moved(ball({}), {{0.0, {0.2, 0.2, 0.4}}, {0.3, {0.2, 0.2, 0.1}}})});
   scene.detect.bubble_speed = 0.01;
@@ -202,6 +224,7 @@ void add_bubbles(std::vector<Trial>& all) {
                    scene.detect.bubble_life = 1.0e-3;
                    return scene;
                  }});
+  all.push_back(churning());
   all.push_back({.group = 12,
                  .name = "a flood of events",
                  .seconds = 0.6,
@@ -216,7 +239,7 @@ void add_bubbles(std::vector<Trial>& all) {
 void add_reported_tanks(std::vector<Trial>& all) {
   for (const double length : {0.31, 0.47, 0.63, 0.95, 1.27}) {
     all.push_back({.name = "a tank " + std::to_string(length).substr(0, 4) + " m long",
-                   .seconds = 0.6,
+                   .seconds = 2.0,
                    .still = true,
                    .scene = [=](double s) {
                      Scene scene = basin(s);

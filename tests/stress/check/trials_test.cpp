@@ -55,9 +55,9 @@ INSTANTIATE_TEST_SUITE_P(
                         "95 m from the origin", "gravity tilts at once",
                         "a body appears in the water", "spikes of a body's speed",
                         "let go under water, density 0.001", "dropped from 10 m, density 0.5",
-                        "a box tumbles in, density 1000", "all of it bubbles",
-                        "a sheet one particle thick", "a drop from 10 m", "rest, sunk",
-                        "a tank 0.95 m long"),
+                        "a box tumbles in, density 1000", "ten on each other, density 2",
+                        "all of it bubbles", "a sheet one particle thick", "a drop from 10 m",
+                        "rest, sunk", "a tank 0.95 m long"),
         testing::Values(PressureKind::weakly_compressible, PressureKind::divergence_free)),
     words);
 
