@@ -2,6 +2,7 @@
 #include "sim-server/device/cache.hpp"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -60,6 +61,16 @@ void join(const std::filesystem::path& folder) {
   flock(lock, LOCK_SH);
 }
 
+/// Without it Linux often keeps all of PoCL's workers on one core for seconds. PoCL counts cores
+/// from the first whatever the process was given, so one that was given some of them only, as by
+/// taskset, keeps its workers where they are.
+void pin_workers() {
+  cpu_set_t given;
+  const bool all = sched_getaffinity(0, sizeof given, &given) == 0 &&
+                   CPU_COUNT(&given) == sysconf(_SC_NPROCESSORS_ONLN);
+  if (all) setenv("POCL_AFFINITY", "1", 0);
+}
+
 }  // namespace
 
 std::filesystem::path prepare_kernel_cache() {
@@ -70,8 +81,7 @@ std::filesystem::path prepare_kernel_cache() {
   static std::filesystem::path joined;
   if (joined != folder) join(joined = folder);
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);
-  // Without it Linux often keeps all of PoCL's workers on one core for seconds.
-  setenv("POCL_AFFINITY", "1", 0);
+  pin_workers();
   return folder;
 }
 

@@ -2,10 +2,13 @@
 // What the surroundings can do to the first OpenCL call. Each case in a process of its own: the
 // loader and PoCL read the environment once.
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <string>
 
 #include "sim-server/device/cache.hpp"
 #include "sim-server/device/device.hpp"
@@ -78,6 +81,33 @@ TEST_F(EnvironmentDeathTest, TheCacheFollowsTheUsersFolders) {
       },
       ::testing::ExitedWithCode(kAccepted), "");
   std::filesystem::remove_all(base);
+}
+
+/// Whether all threads of this process may run on `core` and on no other.
+bool all_keep_to(int core) {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    cpu_set_t allowed;
+    const int thread = std::stoi(task.path().filename());
+    if (sched_getaffinity(thread, sizeof allowed, &allowed) != 0) return false;
+    if (CPU_COUNT(&allowed) != 1 || !CPU_ISSET(core, &allowed)) return false;
+  }
+  return true;
+}
+
+TEST_F(EnvironmentDeathTest, WorkersKeepToTheCoresThatTheProcessWasGiven) {
+  const int last = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)) - 1;
+  if (last < 1) GTEST_SKIP() << "one core only";
+  EXPECT_EXIT(
+      {
+        unsetenv("POCL_AFFINITY");
+        cpu_set_t given;
+        CPU_ZERO(&given);
+        CPU_SET(last, &given);
+        sched_setaffinity(0, sizeof given, &given);
+        const Device device;
+        std::exit(all_keep_to(last) ? kAccepted : kRefused);
+      },
+      ::testing::ExitedWithCode(kAccepted), "");
 }
 
 }  // namespace
