@@ -30,8 +30,9 @@ constexpr double kWatched = 1.0;
 /// A still column may sink by this part of its depth as its particles find better places: less than
 /// the spacing that the coarsest is a quarter of.
 constexpr double kDrift = 0.01;
-/// Particles of which no more than half is in a body have not entered it [spacings].
-constexpr double kInside = 0.5;
+/// What is deeper in a body than half a spacing collides with it (kernels/keep_out.h): none is, but
+/// for the rounding [spacings].
+constexpr double kInside = 0.51;
 
 double wave_speed(const Scene& scene) {
   return std::sqrt(sim::length(scene.fluid.gravity) * sim::water_depth(scene));
