@@ -143,6 +143,32 @@ TEST(Trials, TwiceTheStepHalvesTheSpeedOfSound) {
   EXPECT_NEAR(longer.sound_speed() / usual.sound_speed(), 1.05F / 2.0F, 1.0e-5F);
 }
 
+/// Puts a particle into the middle of the ball, again before each frame.
+Drive intruding(const sim::Vector3& middle) {
+  return [=](sim::Simulation& simulation) {
+    sim::Snapshot water = simulation.fluid().snapshot();
+    const auto stride = static_cast<std::size_t>(simulation.fluid().params().capacity);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      water.position[axis * stride + 7] = static_cast<float>(middle.at(axis));
+    }
+    simulation.fluid().restore(water);
+  };
+}
+
+// Where no pressure says which way out is, it is put out (kernels/keep_out.h).
+TEST(Trials, WaterInABodyIsPutOutWithinAFrame) {
+  sim::Device device;
+  Trial trial = named("rest, sunk");
+  trial.still = false;
+  trial.harmed = true;
+  trial.speed = 5.0;  // shot out
+  trial.drive = [] { return intruding({0.21, 0.2, 0.09}); };
+  const Verdict verdict =
+      run_trial(device, trial, {PressureKind::weakly_compressible, kCoarse, 1.0}, 0.1);
+  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.mishap << ' ' << verdict.inside;
+  EXPECT_GT(verdict.inside, 0.0);
+}
+
 // The invariants can fail: three times the stable step does not keep still water still.
 TEST(Trials, InvariantsSeeWaterThatBoils) {
   sim::Device device;
