@@ -70,7 +70,8 @@ Fields<F> force_fields() {
             "Speed of sound of the weakly compressible model, and scale of the artificial "
             "viscosity; left out: from the depth and the speeds of bodies whose motion or "
             "fall is known beforehand. For one that a tracker moves faster than 0.3 times sound, "
-            "which is 13 m/s or more, give it. Not below what the water flows or falls at.",
+            "which is 13 m/s or more, give it. Four times the speed of the longest wave is the "
+            "least.",
         .min = 1,
         .max = 1500,
         .source = "Monaghan 1994: ten times the largest speed keeps density within 1 %"},

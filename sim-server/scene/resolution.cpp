@@ -135,8 +135,10 @@ double fastest_fall(const Scene& scene) {
 }
 
 double slowest_sound(const Scene& scene) {
+  constexpr double kDenser = 1.0 / 16.0;
   const double flow = scene.flow.kind == FlowKind::uniform ? length(scene.flow.velocity) : 0.0;
-  return std::max({2.0 * longest_wave(scene), fastest_fall(scene), flow});
+  const double fastest = std::max(fastest_fall(scene), flow);
+  return std::max(longest_wave(scene), fastest / std::numbers::sqrt2) / std::sqrt(kDenser);
 }
 
 double scene_sound_speed(const Scene& scene, double fastest_body) {

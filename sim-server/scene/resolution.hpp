@@ -31,10 +31,10 @@ struct WaterColumn {
 /// As given, or from the depth, times sound_share, and the speed of the fastest body,
 /// `fastest_body` or one that falls [m/s].
 [[nodiscard]] double scene_sound_speed(const Scene& scene, double fastest_body = 0.0);
-/// The least speed of sound that a scene may name: that of the front of its deepest water when
-/// nothing holds it, 2 sqrt(g H) (Ritter 1892), of what falls (fastest_fall) and of a uniform flow
-/// [m/s]. Water cannot give way to what is faster than its sound, and where it stands still it
-/// would be 25 % denser at the floor.
+/// The least speed of sound that a scene may name [m/s]: neither its own weight, g H / c^2, nor the
+/// stagnation of what falls (fastest_fall) or of a uniform flow, v^2 / 2 c^2, makes its water
+/// denser by more than a sixteenth. Sound that the scene leaves to us is at least as fast at any
+/// step.
 [[nodiscard]] double slowest_sound(const Scene& scene);
 /// The most by which steps may exceed the default at one speed of sound, by what still water stands
 /// (sim-server/fluid/README, "How long a step may be") [1].

@@ -175,12 +175,12 @@ void check_sound(const ConfigMap& fluid, const Scene& scene) {
   const double least = slowest_sound(scene);
   const bool unused = scene.fluid.solver != PressureKind::weakly_compressible;
   if (unused || !fluid.has("sound_speed") || scene.fluid.sound_speed >= least) return;
-  throw fluid.error("sound_speed",
-                    "must be at least " + text(least) + " m/s in this scene, got '" +
-                        text(scene.fluid.sound_speed) +
-                        "': its water flows or falls as fast as that, and sound cannot be slower. "
-                        "Eight times as much keeps density within some per cent; leave it out, and "
-                        "it is chosen");
+  throw fluid.error(
+      "sound_speed",
+      "must be at least " + text(least) + " m/s in this scene, got '" +
+          text(scene.fluid.sound_speed) +
+          "': slower, and the water's weight or its own fall would make it more than a "
+          "sixteenth denser. Twice as much is what a scene gets that leaves it out");
 }
 
 void check_resolution(const ConfigMap& fluid, const Scene& scene) {

@@ -23,7 +23,8 @@ void check_free(const protocol::ConfigMap& map, const MotionSettings& motion);
 void check_detect(const protocol::ConfigMap& map, const DetectSettings& detect);
 /// Steps no longer than the solver's water stands at a speed of sound that is given.
 void check_time_step(const protocol::ConfigMap& map, const FluidSettings& fluid);
-/// Sound that is given is no slower than what falls and flows. `scene` has its bodies.
+/// Sound that is given is fast enough for the scene's depth and for what falls and flows in it.
+/// `scene` has its bodies.
 void check_sound(const protocol::ConfigMap& fluid, const Scene& scene);
 /// Spacing or particles, one of them; a number of particles that can be simulated.
 void check_resolution(const protocol::ConfigMap& fluid, const Scene& scene);

@@ -95,7 +95,7 @@ const std::vector<Mistake> kWrongScenes{
     {"viscosity: 0.001",
      "sound_speed: 1.5",
      "1.5",
-     {"'fluid.sound_speed'", "at least", "got '1.5'", "leave it out"}},
+     {"'fluid.sound_speed'", "at least", "got '1.5'", "leaves it out"}},
     {"viscosity: 0.001", "time_step_factor: 2.5", "2.5", {"'fluid.time_step_factor'", "0.05..2"}},
     {"viscosity: 0.001", "viscosity: -1", "-1", {"'fluid.viscosity'", "got '-1'", "0..1 m2/s"}},
     {"viscosity: 0.001", "viscosity: \"0.001\"", "\"0.001\"", {"'fluid.viscosity'", "quotes"}},
