@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "sim-server/bodies/contact_step.hpp"
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/fluid/pack.hpp"
 #include "sim-server/fluid/set_up.hpp"
@@ -13,6 +14,7 @@
 #include "sim-server/free_body_watch.hpp"
 #include "sim-server/rescue.hpp"
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene_start.hpp"
 
 namespace splash::sim {
@@ -56,8 +58,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
   if (!free.empty()) fluid_.let_go(free);
   const double fastest = std::max(start_flow(fluid_, scene_), bodies_.fastest(0.0));
-  largest_step_ = largest_time_step(fluid_.params(), fastest, std::abs(scene_.fluid.gravity[2]),
-                                    step_factor(scene_.fluid));
+  contact_step_ = longest_contact_step(scene_.bodies, length(scene_.fluid.gravity));
+  set_largest_step(fastest, std::abs(scene_.fluid.gravity[2]));
   start_ = fluid_.snapshot();
   sound_.keep(device, state());
   // The divergence-free solver balances all of the water in every step: none of it may sleep.
@@ -242,8 +244,13 @@ void Simulation::keep(const FrameResult& result) {
   totals_.mean_excess_sum += survey_.mean_excess;
   totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
   const double fastest = std::max(survey_.speed, bodies_.fastest(seconds_));
-  largest_step_ = largest_time_step(fluid_.params(), fastest, survey_.acceleration,
-                                    stretch_ * step_factor(scene_.fluid));
+  set_largest_step(fastest, survey_.acceleration);
+}
+
+void Simulation::set_largest_step(double fastest, double acceleration) {
+  const double factor = stretch_ * step_factor(scene_.fluid);
+  largest_step_ =
+      std::min(largest_time_step(fluid_.params(), fastest, acceleration, factor), contact_step_);
 }
 
 Mishap Simulation::examine(const Diagnosis& what, double dt) {

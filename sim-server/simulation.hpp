@@ -102,6 +102,7 @@ class Simulation {
   /// Of the frame that has been computed, with so many steps.
   [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t steps);
   void keep(const FrameResult& result);
+  void set_largest_step(double fastest, double acceleration);
   void count(const FrameNeeds& needs);
 
   [[nodiscard]] std::vector<cl::Buffer> state() const;
@@ -124,6 +125,7 @@ class Simulation {
   double seconds_ = 0.0;
   double detected_at_ = 0.0;   ///< time of the last detection [s]
   double largest_step_ = 0.0;  ///< [s]
+  double contact_step_ = 0.0;  ///< no step is longer (bodies/contact_step.hpp) [s]
   double thrown_until_ = 0.0;  ///< water may be as fast as it can be [s]
   double stretch_ = 1.0;       ///< of all steps [1]
   Recovery recovery_;

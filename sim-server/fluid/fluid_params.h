@@ -86,6 +86,9 @@ typedef struct {
 // A body slower than this is at rest: trackers tremble [m/s].
 #define SPLASH_TREMBLE 1e-3f
 
+// Radius of edges and corners of bodies (kernels/outline_gap.h) [least half size].
+#define SPLASH_ROUNDED 0.02f
+
 #define SPLASH_BOX 0
 #define SPLASH_SPHERE 1
 #define SPLASH_CYLINDER 2

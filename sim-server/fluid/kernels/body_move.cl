@@ -60,7 +60,8 @@ kernel void move_bodies(constant FluidParams* p, float dt, float piston, float p
                         global BodyStep* bodies, global Contact* contacts, global KeptPush* kept,
                         global float* felt, global float* force) {
   if (get_global_id(0) > 0) return;
-  Contacts all = {frees, bodies + first_body, contacts, kept, 0, SPLASH_CONTACTS * free_count};
+  Contacts all = {frees, bodies + first_body, contacts, kept, 0, SPLASH_CONTACTS * free_count,
+                  rebound_speed(p, dt)};
   collide(&all, p, shapes, meshes, free_count, body_count, dt, piston, piston_speed);
   for (int k = 0; k < free_count; ++k) {
     BodyStep b = *step_of(&all, k);

@@ -9,6 +9,7 @@
 // to be: a worse guess, no wrong answer.
 
 #define REBOUND_SPEED 0.1f  // what comes slower does not rebound [m/s]
+#define REBOUND_FALLS 2.0f  // nor what comes no faster than a fall of so many steps makes it
 #define CONTACT_SWEEPS 16
 #define MOST_SWEEPS 64
 #define NO_BODY -1
@@ -40,7 +41,15 @@ typedef struct {
   global Contact* list;
   global KeptPush* kept;    // of the last step; the first one's key is how many follow it
   int count, room;
+  float rebound;            // what comes slower does not [m/s]
 } Contacts;
+
+// What lies on another falls towards it by g dt in each step; were that a knock, it would begin
+// without the push of the step before, and a pile would never be carried.
+static float rebound_speed(constant FluidParams* p, float dt) {
+  const float g = length((float3)(p->gravity_x, p->gravity_y, p->gravity_z));
+  return fmax(REBOUND_SPEED, REBOUND_FALLS * dt * g);
+}
 
 // `feature`: a number below 128 of the place; `turned`: it is not the body's, but the other's.
 // `met`: number of the other body, or MET_WALLS and the wall's.
@@ -118,7 +127,7 @@ static void add_contact(Contacts* all, Contact c, float gap, float dt) {
   if (!(gap + dt * leaving < 0.0f) || all->count >= all->room) return;
   float restitution = all->frees[c.body].restitution;
   if (c.other != NO_BODY) restitution = fmax(restitution, all->frees[c.other].restitution);
-  const bool rebounds = leaving < -REBOUND_SPEED && restitution > 0.0f;
+  const bool rebounds = leaving < -all->rebound && restitution > 0.0f;
   c.wanted = rebounds ? -restitution * leaving : -fmax(gap, 0.0f) / dt;
   c.friction = all->frees[c.body].friction;
   if (c.other != NO_BODY) c.friction = sqrt(c.friction * all->frees[c.other].friction);

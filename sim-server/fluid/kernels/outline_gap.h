@@ -10,7 +10,6 @@
 #define RIM_PLACES 12
 #define SECTIONS 16           // 0.618^16 = 4.5e-4 of an edge
 #define GOLDEN 0.61803399f
-#define ROUNDED 0.02f         // radius of edges and corners [least half size]
 #define NOT_AN_END 1.0e-3f    // nearer than an edge's ends by less is one of them [half edges]
 
 // Distance of a place in the world from an outline [m], and its normal there.
@@ -24,7 +23,7 @@ static float outline_distance(BodyShape s, BodyStep b, float3 at, float3* normal
 
 static float rounding_of(BodyShape s) {
   if (s.kind == SPLASH_SPHERE) return s.half_x;
-  return ROUNDED * fmin(s.half_z, fmin(s.half_x, s.half_y));
+  return SPLASH_ROUNDED * fmin(s.half_z, fmin(s.half_x, s.half_y));
 }
 
 // Half sizes of what is inside the rounding.

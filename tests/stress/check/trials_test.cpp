@@ -123,6 +123,15 @@ TEST_P(Stretched, StepsAreStable) {
   }
 }
 
+// Plates ten times as dense as water lie on each other in steps of twice the length, too.
+TEST_P(Stretched, StepsLetHeavyPlatesStandOnEachOther) {
+  sim::Device device;
+  const Verdict verdict =
+      run_trial(device, named("ten on each other, density 10"), {GetParam(), kCoarse, 2.0});
+  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.mishap;
+  EXPECT_LT(verdict.fastest_body, 0.2) << "they fell";
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, Stretched,
                          testing::Values(PressureKind::weakly_compressible,
                                          PressureKind::divergence_free),
