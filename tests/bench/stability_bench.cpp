@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 
 #include "protocol/time_tag.hpp"
@@ -64,11 +65,11 @@ int run_trials(sim::Device& device, const Options& options) {
         if (spacing < trial.finest) continue;
         for (const double factor : options.factors) {
           const Verdict v = run_trial(device, trial, {solver, spacing, factor});
-          csv << trial.group << ',' << trial.name << ',' << name_of(solver) << ',' << spacing << ','
-              << factor << ',' << v.particles << ',' << v.steps << ',' << v.fastest << ','
-              << v.mean_excess << ',' << v.max_excess << ',' << v.events << ',' << v.retried << ','
-              << v.calmed << ',' << v.resets << ',' << v.least_step << ',' << v.calm << ','
-              << v.drift << ',' << v.inside << ',' << join(v.broken) << '\n'
+          csv << trial.group << ',' << std::quoted(trial.name) << ',' << name_of(solver) << ','
+              << spacing << ',' << factor << ',' << v.particles << ',' << v.steps << ','
+              << v.fastest << ',' << v.mean_excess << ',' << v.max_excess << ',' << v.events << ','
+              << v.retried << ',' << v.calmed << ',' << v.resets << ',' << v.least_step << ','
+              << v.calm << ',' << v.drift << ',' << v.inside << ',' << join(v.broken) << '\n'
               << std::flush;
           ++done;
           failed += !v.passes();
