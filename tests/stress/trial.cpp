@@ -27,8 +27,8 @@ constexpr std::size_t kFlood = 200000;
 /// other, are fast for a third of a second. So the calm of still water is the median over so long
 /// at the end [s]: nothing that lasts for half of it is missed.
 constexpr double kWatched = 1.0;
-/// A still column may sink by this part of its depth as its particles find better places: less than
-/// the spacing that the coarsest is a quarter of.
+/// A still column may sink by this part of its depth as its particles find better places: 2 mm of
+/// the basin's 0.2 m, less than a tenth of the finest spacing.
 constexpr double kDrift = 0.01;
 /// What is deeper in a body than half a spacing collides with it (kernels/keep_out.h): none is, but
 /// for the rounding [spacings].
