@@ -6,15 +6,11 @@ namespace {
 
 constexpr std::size_t kHeaders = 28;  // IPv4 (RFC 791) and UDP (RFC 768) [bytes]
 
-std::size_t size_of(const Message& reply) {
-  return encode(reply).size();
-}
-
 }  // namespace
 
 // The question's own header pays for one of the replies'.
 bool ReplyBudget::fits(const Message& reply) const {
-  return !limited_ || spent_ + size_of(reply) <= bytes_;
+  return !limited_ || spent_ + encoded_size(reply) <= bytes_;
 }
 
 std::optional<Message> ReplyBudget::take(const Message& reply) {
@@ -29,11 +25,11 @@ std::optional<Message> ReplyBudget::take(const Message& reply) {
 }
 
 void ReplyBudget::owe(const Message& later) {
-  if (limited_) spent_ += size_of(later) + kHeaders;
+  if (limited_) spent_ += encoded_size(later) + kHeaders;
 }
 
 std::string ReplyBudget::complaint(const std::string& command, const Message& reply) const {
-  const std::size_t size = size_of(reply);
+  const std::size_t size = encoded_size(reply);
   const std::string others = spent_ == 0 ? "" : ", behind others to the same datagram,";
   return "asked " + command + " in a datagram of " + std::to_string(bytes_) +
          " bytes; the reply has " + std::to_string(size) + " bytes" + others +
