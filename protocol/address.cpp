@@ -52,7 +52,23 @@ constexpr ArgumentRow kImpact[] = {
     coordinate("x", "where the surfaces meet"),
     coordinate("y", "to the left of x, seen from above"),
     coordinate("z", "upwards"),
-    kOffset};
+    kOffset,
+    {'f',
+     "momentum",
+     "N s",
+     0,
+     1e6,
+     "given to the water until the blow is strongest, 0: not known",
+     {},
+     true},
+    {'f',
+     "rise",
+     "s",
+     0,
+     10,
+     "from the first touch until the blow is strongest, 0: not known",
+     {},
+     true}};
 constexpr ArgumentRow kBubble[] = {
     count_row("id", "counts the bubbles of a session, wraps at 2^24"),
     kNearestBody,
@@ -70,7 +86,8 @@ constexpr ArgumentRow kCavity[] = {
     coordinate("x", "the cavity's centre"),
     coordinate("y", "to the left of x, seen from above"),
     coordinate("z", "upwards"),
-    kOffset};
+    kOffset,
+    {'f', "life", "s", 0, 100, "until it surfaces or breaks, 0: not known", {}, true}};
 constexpr ArgumentRow kBodyPose[] = {
     {'i', "body", "1", 0, 255, "index of the body in the scene"},
     coordinate("x", "the body's origin"),

@@ -23,6 +23,8 @@ struct Impact {
   float approach = 0.0F;   ///< its part along the water surface's normal [m/s]
   Vec3 position;           ///< where the surfaces meet [m]
   float offset_ms = 0.0F;  ///< moment of the event after its bundle's time [ms]
+  float momentum = 0.0F;   ///< given to the water until the blow is strongest, 0: not known [N s]
+  float rise = 0.0F;       ///< from the first touch until the blow is strongest, 0: not known [s]
   bool operator==(const Impact&) const = default;
 };
 
@@ -37,7 +39,7 @@ struct Bubble {
   bool operator==(const Bubble&) const = default;
 };
 
-/// The main cavity behind a body closed. Same fields as a bubble. Paper, section 5.3.
+/// The main cavity behind a body closed. A bubble's fields, and its life. Paper, section 5.3.
 struct Cavity {
   std::int32_t id = 0;
   std::int32_t body = -1;
@@ -45,6 +47,7 @@ struct Cavity {
   float epsilon = 0.1F;  ///< [1]
   Vec3 position;         ///< its centre [m]
   float offset_ms = 0.0F;
+  float life = 0.0F;  ///< until it surfaces or breaks, 0: not known [s]
   bool operator==(const Cavity&) const = default;
 };
 

@@ -7,15 +7,17 @@
 namespace splash::protocol {
 namespace {
 
-// Takes the arguments of a message that conforms to its row, one after the other.
+// Takes the arguments of a message that conforms to its row, one after the other; what is missing
+// at the end is optional and stays as it is.
 class Taker {
  public:
   explicit Taker(const Message& message) : message_(message) {}
-  void operator()(std::int32_t& value) { value = std::get<std::int32_t>(next()); }
-  void operator()(float& value) { value = std::get<float>(next()); }
+  template <class Value>
+  void operator()(Value& value) {
+    if (index_ < message_.arguments.size()) value = std::get<Value>(message_.arguments[index_++]);
+  }
 
  private:
-  const Argument& next() { return message_.arguments[index_++]; }
   const Message& message_;
   std::size_t index_ = 0;
 };
@@ -59,7 +61,7 @@ void visit_arguments(Record& r, Visit visit) {
   using Plain = std::remove_const_t<Record>;
   if constexpr (std::is_same_v<Plain, Impact>) {
     visit_all(visit, r.id, r.body, r.speed, r.approach, r.position.x, r.position.y, r.position.z,
-              r.offset_ms);
+              r.offset_ms, r.momentum, r.rise);
   } else if constexpr (std::is_same_v<Plain, Frame>) {
     visit_all(visit, r.session, r.sequence, r.step, r.delay_ms);
   } else if constexpr (std::is_same_v<Plain, BodyPose>) {
@@ -67,13 +69,14 @@ void visit_arguments(Record& r, Visit visit) {
   } else {
     visit_all(visit, r.id, r.body, r.radius, r.epsilon, r.position.x, r.position.y, r.position.z,
               r.offset_ms);
+    if constexpr (std::is_same_v<Plain, Cavity>) visit_all(visit, r.life);
   }
 }
 
 template <class Record>
 Message give(const Record& record) {
   Message message{address_of(record), {}};
-  message.arguments.reserve(8);
+  message.arguments.reserve(10);
   visit_arguments(record, Giver(message));
   return message;
 }

@@ -106,7 +106,7 @@ TEST(Violation, SaysWhatIsAllowed) {
   auto message = to_message(Impact{1, 0, 120.0F, 1.0F, {}, 0.0F});
   EXPECT_EQ(violation(message), "speed 120 m/s, allowed 0 to 100");
   message.arguments[2] = 5;
-  EXPECT_EQ(violation(message), "types are ,iiifffff, expected ,iiffffff");
+  EXPECT_EQ(violation(message), "types are ,iiifffffff, expected ,iiffffffff");
   EXPECT_EQ(violation({"/impakt", {}}), "unknown address");
   EXPECT_EQ(violation({"/dumpOSC", {7}}), "level 7, allowed 0 to 3");
   EXPECT_FALSE(violation({"/done", {std::string("/quit")}}));

@@ -13,17 +13,18 @@
 namespace splash::protocol::test {
 namespace {
 
-const Impact kImpact{16777215, 1, 2.5F, 1.25F, {0.1F, -0.2F, 0.3F}, 3.5F};
+const Impact kImpact{16777215, 1, 2.5F, 1.25F, {0.1F, -0.2F, 0.3F}, 3.5F, 0.43F, 0.003F};
 const Bubble kBubble{42, -1, 0.0031F, 0.05F, {-1.0F, 2.0F, 0.0F}, 0.0F};
-const Cavity kCavity{7, 0, 0.05F, 0.1F, {0.0F, 0.0F, 0.2F}, 9.0F};
+const Cavity kCavity{7, 0, 0.05F, 0.1F, {0.0F, 0.0F, 0.2F}, 9.0F, 0.15F};
 const Frame kFrame{123456, 16777215, 77, 12.5F};
 const BodyPose kPose{3, {1.0F, 2.0F, 3.0F}, 0.0F, 0.6F, 0.0F, 0.8F};
 
 TEST(Encode, BytesOfAnImpact) {
-  const Raw expected = padded("/impact") + padded(",iiffffff") + word(1) + word(2) +
+  const Raw expected = padded("/impact") + padded(",iiffffffff") + word(1) + word(2) +
                        word(0x3f800000) + word(0x3f000000) + word(0) + word(0x80000000) +
-                       word(0x40000000) + word(0x3e800000);
-  EXPECT_EQ(encode(to_message(Impact{1, 2, 1.0F, 0.5F, {0.0F, -0.0F, 2.0F}, 0.25F})), expected);
+                       word(0x40000000) + word(0x3e800000) + word(0x40800000) + word(0);
+  EXPECT_EQ(encode(to_message(Impact{1, 2, 1.0F, 0.5F, {0.0F, -0.0F, 2.0F}, 0.25F, 4.0F})),
+            expected);
 }
 
 TEST(Encode, SizesAreToldBeforehand) {
@@ -113,6 +114,22 @@ TEST(EventMessage, EventsComeBack) {
   EXPECT_FALSE(to_event(to_message(kFrame)));
 }
 
+// Logs and senders that do not know the later fields leave them out.
+TEST(EventMessage, FieldsAtTheEndMayBeMissing) {
+  Message impact = to_message(kImpact);
+  impact.arguments.resize(8);
+  Impact known = kImpact;
+  known.momentum = known.rise = 0.0F;
+  EXPECT_EQ(to_event(impact), Event{known});
+  Message cavity = to_message(kCavity);
+  cavity.arguments.resize(8);
+  Cavity without_life = kCavity;
+  without_life.life = 0.0F;
+  EXPECT_EQ(to_event(cavity), Event{without_life});
+  impact.arguments.pop_back();
+  EXPECT_FALSE(to_event(impact));
+}
+
 TEST(EventMessage, WrongTypesAndCountsAreRefused) {
   const Message right = to_message(kBubble);
   for (std::size_t i = 0; i < right.arguments.size(); ++i) {
@@ -148,6 +165,9 @@ TEST(EventMessage, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(refused([](Impact& i) { i.approach = -0.1F; }, kImpact));
   EXPECT_TRUE(refused([](Impact& i) { i.position.x = 1001.0F; }, kImpact));
   EXPECT_TRUE(refused([](Impact& i) { i.offset_ms = -0.1F; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.momentum = -0.1F; }, kImpact));
+  EXPECT_TRUE(refused([](Impact& i) { i.rise = 10.1F; }, kImpact));
+  EXPECT_TRUE(refused([](Cavity& c) { c.life = -0.1F; }, kCavity));
   EXPECT_TRUE(refused([](Bubble& b) { b.radius = 0.99e-4F; }, kBubble));
   EXPECT_TRUE(refused([](Bubble& b) { b.radius = 0.0F; }, kBubble));
   EXPECT_TRUE(refused([](Bubble& b) { b.epsilon = 1.1F; }, kBubble));
