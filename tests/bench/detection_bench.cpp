@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// What the detectors tell of scripted motions and recordings, against what is true of them:
+// report.md and cases.csv, a row for each sweep.
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "protocol/time_tag.hpp"
+#include "tests/detection/table.hpp"
+
+namespace {
+
+using namespace splash;
+using namespace splash::detection;
+namespace fs = std::filesystem;
+
+const fs::path kSource = SPLASH_SOURCE_DIR;
+
+struct Options {
+  std::vector<std::string> sweeps;
+  std::vector<std::string> cases;
+  fs::path out = kSource / "out" / "detection";
+  fs::path scenes;
+  bool quick = false;
+  bool list = false;
+  int device = -1;
+  Material material;
+  fs::path hand;
+  std::vector<std::string> hand_markers;
+  std::vector<double> hand_size = {0.18, 0.09, 0.04};
+};
+
+/// The walk that the tests have, and one of its feet upside down as a hand.
+Walk own_walk() {
+  Walk walk;
+  walk.file = kSource / "tests" / "data" / "walk_feet.trc";
+  for (const char* place :
+       {"Heel", "Toe.Tip", "Toe.Lat", "Toe.Med", "Midfoot.Sup", "Midfoot.Lat"}) {
+    walk.left.push_back(std::string("L.") + place);
+    walk.right.push_back(std::string("R.") + place);
+  }
+  walk.contacts = kSource / "tests" / "data" / "walk_contacts.csv";
+  return walk;
+}
+
+void complete(Options& options) {
+  Material& material = options.material;
+  const Walk own = own_walk();
+  if (material.walk.file.empty()) material.walk.file = own.file;
+  if (material.walk.left.empty()) material.walk.left = own.left;
+  if (material.walk.right.empty()) material.walk.right = own.right;
+  if (material.walk.file == own.file) material.walk.contacts = own.contacts;
+  if (options.hand.empty()) {
+    material.hands = {{own.file, own.right, {0.25, 0.1, 0.07}}};
+  } else {
+    const std::vector<double>& size = options.hand_size;
+    material.hands = {{options.hand, options.hand_markers, {size[0], size[1], size[2]}}};
+  }
+}
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<Case> chosen(const Options& options) {
+  std::vector<Case> cases = all_cases(options.material);
+  std::erase_if(cases, [&](const Case& item) {
+    return !among(options.sweeps, item.sweep) || !among(options.cases, item.name) ||
+           (options.quick && !item.quick);
+  });
+  if (cases.empty()) throw std::runtime_error("no such case: --list shows them");
+  return cases;
+}
+
+/// Each as a scene file, so that it can be run and looked at alone.
+void keep_scenes(const fs::path& folder, const std::vector<Case>& cases) {
+  fs::create_directories(folder);
+  for (const Case& item : cases) {
+    std::string name = item.sweep + "_" + item.name;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
+    std::ofstream file(folder / (name + ".yaml"));
+    file << "# " << item.sweep << ": " << item.name << ", " << item.seconds << " s";
+    if (!item.tracker.empty()) file << ", --tracker " << item.tracker.string();
+    file << '\n' << item.scene;
+  }
+}
+
+class Progress {
+ public:
+  Progress(std::string what, std::size_t number, std::size_t of)
+      : what_(std::to_string(number) + "/" + std::to_string(of) + "  " + std::move(what)) {}
+  void operator()(double share) {
+    const double now = protocol::monotonic_now();
+    if (now - shown_ < 2.0) return;
+    shown_ = now;
+    std::printf("\r%s  %3.0f %%", what_.c_str(), 100.0 * std::min(share, 1.0));
+    std::fflush(stdout);
+  }
+  void end(const Outcome& outcome) const {
+    const Score& s = outcome.score;
+    std::printf(
+        "\r%s: told %d of %d, false %d; cavities %d, stray %d; %d bubbles  (%.1f s of processor)\n",
+        what_.c_str(), s.hit, s.wanted, s.untrue, s.cavities, s.stray, s.bubbles,
+        outcome.processor);
+    for (const std::string& fault : s.faults) std::printf("    %s\n", fault.c_str());
+    std::fflush(stdout);
+  }
+
+ private:
+  std::string what_;
+  double shown_ = protocol::monotonic_now();
+};
+
+void bench(Options options) {
+  complete(options);
+  options.material.folder = options.out / "files";
+  fs::create_directories(options.material.folder);
+  const std::vector<Case> cases = chosen(options);
+  if (!options.scenes.empty()) keep_scenes(options.scenes, cases);
+  if (options.list) {
+    for (const Case& item : cases) std::printf("%-10s %s\n", item.sweep.c_str(), item.name.c_str());
+    return;
+  }
+  sim::Device device(options.device);
+  std::printf("device: %s\n", describe(device.facts()).c_str());
+  std::vector<Outcome> outcomes;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    Progress progress(cases[k].sweep + ": " + cases[k].name, k + 1, cases.size());
+    outcomes.push_back(run_case(device, cases[k], [&](double share) { progress(share); }));
+    progress.end(outcomes.back());
+    // After every run, so that a run that is broken off leaves what it found.
+    write_report(options.out, device.facts().name, outcomes);
+  }
+  std::printf("\n%s\nreport: %s\n", summary(outcomes).c_str(), (options.out / "report.md").c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Walk& walk = options.material.walk;
+  CLI::App app("Holds impacts and cavities against the motions' own truth: report.md, cases.csv.",
+               "bench-detection");
+  app.add_option("--sweep", options.sweeps, "Only this sweep (repeatable)")->type_name("NAME");
+  app.add_option("--case", options.cases, "Only this case (repeatable)")->type_name("NAME");
+  app.add_flag("--quick", options.quick, "A few that stand for all");
+  app.add_flag("--list", options.list, "Names sweeps and cases, runs nothing");
+  app.add_option("--scenes", options.scenes, "Folder to keep each case in, as a scene file");
+  app.add_option("--out", options.out, "Folder for the report")->capture_default_str();
+  app.add_option("--walk", walk.file, "TRC file of two feet, in place of the tests' own")
+      ->check(CLI::ExistingFile);
+  app.add_option("--left", walk.left, "Its left foot's markers, heel and toe first")
+      ->delimiter(',');
+  app.add_option("--right", walk.right, "Its right foot's markers")->delimiter(',');
+  CLI::Option* hand = app.add_option("--hand", options.hand, "TRC file of a body that plunges");
+  hand->check(CLI::ExistingFile);
+  app.add_option("--hand-markers", options.hand_markers, "Three or more of its markers")
+      ->delimiter(',')
+      ->needs(hand);
+  app.add_option("--hand-size", options.hand_size, "Edges of its box [m]")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bench(options);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "bench-detection: " << error.what() << '\n';
+    return 70;
+  }
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// The sweeps' own measure: truth against formulas, and each way of being wrong counted as what it
+// is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim-server/tracking/path_motion.hpp"
+#include "tests/detection/recording.hpp"
+#include "tests/detection/score.hpp"
+#include "tests/detection/script.hpp"
+#include "tests/detection/table.hpp"
+
+namespace splash::detection {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr double kLevel = 0.3;  // [m]
+
+/// A centre that goes down from `height` at `speed`, turned by some degrees about y.
+Path falling(double height, double speed, double degrees = 0.0) {
+  return [=](double time) {
+    sim::BodyState state;
+    state.position = {0.0, 0.0, height - speed * time};
+    state.rotation = pitched(degrees);
+    state.velocity = {0.0, 0.0, -speed};
+    return state;
+  };
+}
+
+std::vector<Entry> whole(const sim::Shape& shape, const Path& path, double end = 1.0) {
+  return entries_of(0, shape, kWhole, path, kLevel, end, {});
+}
+
+TEST(Truth, IsWhenTheLowestPlaceCrossesTheLevel) {
+  const auto flat = whole(hand(), falling(0.5, 0.8));
+  ASSERT_THAT(flat, SizeIs(1));
+  EXPECT_NEAR(flat[0].time, (0.5 - 0.02 - kLevel) / 0.8, 1.0e-9);
+  EXPECT_NEAR(flat[0].down, 0.8, 1.0e-12);
+  EXPECT_TRUE(flat[0].wanted);
+  const double tilt = 30.0 * std::numbers::pi / 180.0;
+  const double low = 0.09 * std::sin(tilt) + 0.02 * std::cos(tilt);
+  EXPECT_NEAR(whole(hand(), falling(0.5, 0.8, 30.0)).at(0).time, (0.2 - low) / 0.8, 1.0e-9);
+  EXPECT_NEAR(whole(ball(0.1), falling(0.5, 0.8)).at(0).time, 0.15 / 0.8, 1.0e-9);
+  const double rim = 0.1 * std::sin(tilt) + 0.02 * std::cos(tilt);
+  EXPECT_NEAR(whole(disc(0.2, 0.04), falling(0.5, 0.8, 30.0)).at(0).time, (0.2 - rim) / 0.8,
+              1.0e-9);
+}
+
+TEST(Truth, AsksNothingOfSlowBodiesNorOfThoseThatHardlyLeave) {
+  EXPECT_THAT(whole(hand(), falling(0.33, 0.04)), IsEmpty());
+  const auto at_the_limit = whole(hand(), falling(0.33, 0.05));
+  ASSERT_THAT(at_the_limit, SizeIs(1));
+  EXPECT_FALSE(at_the_limit[0].wanted);
+  // Swings of 4 mm, and of 16, about the level.
+  for (const double swing : {0.002, 0.008}) {
+    const Path path = [=](double time) {
+      sim::BodyState state;
+      state.position[2] = kLevel + 0.02 + swing * std::cos(40.0 * time);
+      state.velocity[2] = -40.0 * swing * std::sin(40.0 * time);
+      return state;
+    };
+    const auto entries = whole(hand(), path);
+    ASSERT_THAT(entries, SizeIs(7));  // of 40 rad/s in a second
+    EXPECT_EQ(entries.back().wanted, swing > 0.005);
+  }
+}
+
+TEST(Truth, OfAFootIsItsHeelAndAllowsItsOtherParts) {
+  // The heel (-x) comes down first.
+  const auto steps = steps_of(0, hand(), falling(0.45, 0.5, -30.0), kLevel, 1.0, {});
+  ASSERT_THAT(steps, SizeIs(2));
+  EXPECT_TRUE(steps[0].wanted);
+  EXPECT_FALSE(steps[1].wanted);
+  EXPECT_LT(steps[0].time, steps[1].time);
+}
+
+sim::DetectedImpact impact(double time, double approach, double z = kLevel, int body = 0) {
+  return {.time = time,
+          .body = body,
+          .speed = approach,
+          .approach = approach,
+          .position = {0.0, 0.0, z}};
+}
+
+sim::DetectedCavity cavity(double time, double z) {
+  return {.time = time, .bubbles = 9, .radius = 0.05, .position = {0.0, 0.0, z}};
+}
+
+/// A body that enters at 1 m/s at 0.2 s.
+class Scorer : public testing::Test {
+ protected:
+  Scorer() {
+    entries_ = whole(hand(), falling(0.52, 1.0));
+    heard_.paths = {falling(0.52, 1.0), falling(2.0, 0.0)};
+    heard_.found.impacts = {impact(0.201, 1.1)};
+    heard_.momenta = {0.5};
+    wishes_.level = kLevel;
+    wishes_.added_mass = 0.4;
+  }
+  [[nodiscard]] Score judged() const { return score(entries_, heard_, wishes_); }
+
+  std::vector<Entry> entries_;
+  Heard heard_;
+  Wishes wishes_;
+};
+
+TEST_F(Scorer, FindsNoFaultWithWhatIsRight) {
+  heard_.found.cavities = {cavity(0.4, 0.2)};
+  const Score s = judged();
+  EXPECT_THAT(s.faults, IsEmpty());
+  EXPECT_EQ(s.wanted, 1);
+  EXPECT_EQ(s.hit, 1);
+  EXPECT_EQ(s.untrue, 0);
+  EXPECT_EQ(s.cavities, 1);
+  EXPECT_EQ(s.stray, 0);
+  ASSERT_THAT(s.late_ms, SizeIs(1));
+  EXPECT_NEAR(s.late_ms[0], 1.0, 1.0e-6);
+  EXPECT_NEAR(s.speed_error.at(0), 0.1, 1.0e-9);
+  EXPECT_NEAR(s.momentum.at(0), 1.25, 1.0e-9);
+}
+
+TEST_F(Scorer, MissesWhatIsNotTold) {
+  heard_.found.impacts.clear();
+  const Score s = judged();
+  EXPECT_EQ(s.hit, 0);
+  EXPECT_THAT(s.faults, ElementsAre(HasSubstr("missed: body 0 at 0.200 s")));
+}
+
+TEST_F(Scorer, CountsASecondTellingAsFalse) {
+  heard_.found.impacts.push_back(impact(0.22, 0.4));
+  const Score s = judged();
+  EXPECT_EQ(s.hit, 1);
+  EXPECT_NEAR(s.late_ms.at(0), 1.0, 1.0e-6);  // the nearer one is the entry's
+  EXPECT_EQ(s.untrue, 1);
+  EXPECT_THAT(s.faults, ElementsAre(HasSubstr("false: body 0 at 0.220 s")));
+}
+
+TEST_F(Scorer, TakesAnotherBodysOrMomentsImpactForFalse) {
+  for (const sim::DetectedImpact& wrong :
+       {impact(0.2, 1.0, kLevel, 1), impact(0.1, 1.0, 0.4), impact(0.3, 1.0)}) {
+    heard_.found.impacts = {wrong};
+    const Score s = judged();
+    EXPECT_EQ(s.hit, 0);
+    EXPECT_EQ(s.untrue, 1);
+    EXPECT_THAT(s.faults, SizeIs(2));
+  }
+}
+
+TEST_F(Scorer, TakesCavitiesAboveOrBeforeOrLongAfterForStray) {
+  heard_.found.cavities = {cavity(0.1, 0.2), cavity(0.4, 0.31), cavity(0.75, 0.2)};
+  const Score s = judged();
+  EXPECT_EQ(s.cavities, 0);
+  EXPECT_EQ(s.stray, 3);
+  EXPECT_EQ(s.stray_above, 1);
+  EXPECT_THAT(s.faults, SizeIs(3));
+}
+
+TEST_F(Scorer, HoldsCavitiesToTheirNumberAndTime) {
+  wishes_.cavities = Count{1, 1};
+  wishes_.closes_after = 0.2;
+  EXPECT_THAT(judged().faults, ElementsAre("0 cavities after entries, wanted 1 to 1"));
+  heard_.found.cavities = {cavity(0.41, 0.2)};
+  EXPECT_THAT(judged().faults, IsEmpty());
+  heard_.found.cavities = {cavity(0.3, 0.2), cavity(0.4, 0.2)};
+  EXPECT_THAT(judged().faults, ElementsAre(HasSubstr("closes 100 ms after the entry, expected 200"),
+                                           HasSubstr("2 cavities")));
+}
+
+TEST_F(Scorer, AllowsWavesOnAStandingBodyOnlyWhereTheyAreWished) {
+  heard_.found.impacts.push_back(impact(0.5, 0.3, kLevel, 1));
+  EXPECT_EQ(judged().untrue, 1);
+  wishes_.waves = Count{1, 2};
+  EXPECT_EQ(judged().untrue, 0);
+  EXPECT_EQ(judged().waves, 1);
+  EXPECT_THAT(judged().faults, IsEmpty());
+  wishes_.waves = Count{2, 3};
+  EXPECT_THAT(judged().faults, ElementsAre("1 impacts of waves, wanted 2 to 3"));
+}
+
+TEST_F(Scorer, SumsUpInARow) {
+  heard_.found.impacts.push_back(impact(0.5, 0.4));
+  Outcome one;
+  one.item.sweep = "speed";
+  one.score = judged();
+  const std::string table = summary({one, one});
+  EXPECT_THAT(table, HasSubstr("| speed | 2 | 2 | 2 | 0 | 2 | +1.0 / +1.0 / +1.0 | "
+                               "+10 / +10 / +10 | 1.25 / 1.25 / 1.25 | 0 | 0 (0) | 0 | 2 |"));
+}
+
+TEST(Recording, IsPlayedOtherwise) {
+  sim::MarkerRecording recording;
+  recording.rate = 100.0;
+  recording.names = {"A", "B"};
+  recording.times = {2.0, 2.01, 2.02};
+  const sim::Vector3 low = {0.1, 0.2, 0.0};
+  const sim::Vector3 high = {0.3, 0.4, 1.0};
+  recording.frames = {{low, high}, {low, std::nullopt}, {high, low}};
+  const auto file = std::filesystem::temp_directory_path() / "splash_played.trc";
+  write_trc(played(recording, {.backwards = true, .over = true, .pace = 2.0}), file);
+  const sim::MarkerRecording back = sim::read_markers(file);
+  std::filesystem::remove(file);
+  EXPECT_THAT(back.times,
+              ElementsAre(0.0, testing::DoubleNear(0.005, 1e-9), testing::DoubleNear(0.01, 1e-9)));
+  EXPECT_EQ(back.rate, 200.0);
+  EXPECT_FALSE(back.frames[1][1]);
+  // The last frame comes first, and what was high is low.
+  const sim::Vector3 first = back.frames[0][0].value();
+  EXPECT_NEAR(first[0], 0.3, 1e-6);
+  EXPECT_NEAR(first[1], -0.4, 1e-6);
+  EXPECT_NEAR(first[2], 0.0, 1e-6);
+  EXPECT_NEAR(played(recording, {.mirrored = true}).frames[0][0].value()[1], -0.2, 1e-12);
+}
+
+}  // namespace
+}  // namespace splash::detection

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "tests/detection/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation.hpp"
+#include "sim-server/tracking/make_motion.hpp"
+#include "tests/detection/shipped.hpp"
+
+namespace splash::detection {
+namespace {
+
+/// Where a free body was at the end of each frame; between them on straight lines.
+struct Trace {
+  std::vector<double> times;
+  std::vector<sim::BodyState> states;
+
+  [[nodiscard]] sim::BodyState at(double time) const {
+    const auto after = std::upper_bound(times.begin(), times.end(), time);
+    if (after == times.begin()) return states.front();
+    if (after == times.end()) return states.back();
+    const auto k = static_cast<std::size_t>(after - times.begin());
+    const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
+    sim::BodyState state = states[share < 0.5 ? k - 1 : k];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      state.position[axis] =
+          std::lerp(states[k - 1].position[axis], states[k].position[axis], share);
+      state.velocity[axis] =
+          std::lerp(states[k - 1].velocity[axis], states[k].velocity[axis], share);
+    }
+    return state;
+  }
+};
+
+/// P, where impacts tell it.
+template <class Impact>
+void note_momentum(const Impact& impact, std::vector<double>& momenta) {
+  if constexpr (requires { impact.momentum; }) {
+    momenta.push_back(static_cast<double>(impact.momentum));
+  }
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// The paths of all bodies: those that the water moves as traces.
+struct Paths {
+  std::vector<std::shared_ptr<const sim::Motion>> motions;
+  std::vector<std::shared_ptr<Trace>> traces;  ///< of free bodies, else null
+
+  Paths(const sim::Scene& scene, const std::filesystem::path& tracker) {
+    for (const sim::BodySettings& body : scene.bodies) {
+      const bool free = sim::is_free(body);
+      motions.push_back(free ? nullptr : sim::make_motion(body, tracker));
+      traces.push_back(free ? std::make_shared<Trace>() : nullptr);
+    }
+  }
+  void note(const sim::Simulation& simulation) const {
+    for (std::size_t b = 0; b < traces.size(); ++b) {
+      if (!traces[b]) continue;
+      traces[b]->times.push_back(simulation.seconds());
+      traces[b]->states.push_back(simulation.bodies().state(b, simulation.seconds()));
+    }
+  }
+  [[nodiscard]] std::vector<Path> all() const {
+    std::vector<Path> paths;
+    for (std::size_t b = 0; b < motions.size(); ++b) {
+      if (traces[b]) {
+        paths.emplace_back([trace = traces[b]](double time) { return trace->at(time); });
+      } else {
+        paths.emplace_back([motion = motions[b]](double time) { return motion->at(time); });
+      }
+    }
+    return paths;
+  }
+};
+
+/// Contacts that force plates saw; the first, at 0 s, is of a foot that stands already.
+std::vector<Entry> contacts_of(const std::filesystem::path& file, const sim::Scene& scene) {
+  std::ifstream in(file);
+  std::vector<Entry> entries;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream row(line);
+    std::string foot;
+    std::getline(row, foot, ',');
+    Entry entry;
+    entry.down = std::numeric_limits<double>::quiet_NaN();
+    entry.wanted = true;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      if (scene.bodies[b].name == "foot_" + foot) entry.body = b;
+    }
+    if (row >> entry.time && entry.time > 0.0) entries.push_back(entry);
+  }
+  if (entries.empty()) throw std::runtime_error("no contacts in " + file.string());
+  return entries;
+}
+
+std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
+                            const std::vector<Path>& paths, double level) {
+  if (!item.truth.empty()) return contacts_of(item.truth, scene);
+  Limits limits;
+  limits.impact_speed = scene.detect.impact_speed;
+  std::vector<Entry> all;
+  for (std::size_t b = 0; b < paths.size(); ++b) {
+    const sim::Shape& shape = scene.bodies[b].shape;
+    append(all, item.feet ? steps_of(b, shape, paths[b], level, item.seconds, limits)
+                          : entries_of(b, shape, kWhole, paths[b], level, item.seconds, limits));
+  }
+  return all;
+}
+
+}  // namespace
+
+Outcome run_case(sim::Device& device, const Case& item,
+                 const std::function<void(double)>& progress) {
+  const std::clock_t start = std::clock();
+  const sim::Scene scene =
+      sim::parse_scene(item.scene, (scene_folder() / (item.sweep + ".yaml")).string());
+  const Paths paths(scene, item.tracker);
+  sim::Simulation simulation(device, scene, item.tracker);
+  Heard heard;
+  paths.note(simulation);
+  while (simulation.seconds() < item.seconds) {
+    const sim::FrameResult frame = simulation.advance();
+    paths.note(simulation);
+    for (const sim::DetectedImpact& impact : frame.found.impacts) {
+      note_momentum(impact, heard.momenta);
+    }
+    append(heard.found.impacts, frame.found.impacts);
+    append(heard.found.bubbles, frame.found.bubbles);
+    append(heard.found.cavities, frame.found.cavities);
+    if (progress) progress(frame.seconds / item.seconds);
+  }
+  heard.paths = paths.all();
+  Outcome outcome;
+  outcome.item = item;
+  outcome.item.wishes.level = scene.water.front().upper[2];
+  const std::vector<Entry> truth = truth_of(item, scene, heard.paths, outcome.item.wishes.level);
+  outcome.score = score(truth, heard, outcome.item.wishes);
+  if (simulation.totals().resets > 0) outcome.score.faults.emplace_back("the water was begun anew");
+  outcome.particles = simulation.particles();
+  outcome.processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return outcome;
+}
+
+}  // namespace splash::detection

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// One case through the whole simulation, faster than real time, and scored.
+#pragma once
+
+#include <functional>
+
+#include "sim-server/device/device.hpp"
+#include "tests/detection/sweeps.hpp"
+
+namespace splash::detection {
+
+struct Outcome {
+  Case item;
+  Score score;
+  int particles = 0;
+  double processor = 0.0;  ///< time of all cores, with set-up and settling [s]
+};
+
+/// `progress` gets the share done [0, 1].
+[[nodiscard]] Outcome run_case(sim::Device& device, const Case& item,
+                               const std::function<void(double)>& progress = {});
+
+}  // namespace splash::detection

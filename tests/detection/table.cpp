@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "tests/detection/table.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+namespace splash::detection {
+namespace {
+
+const char* const kColumns =
+    " | impacts wanted | told | missed | false | moment, ms | approach, % | P / (m_a u) | "
+    "cavities of an entry | stray (above) | bubbles | faulty";
+const char* const kRule = " | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | ---";
+
+/// "smallest / median / largest".
+std::string spread(std::vector<double> values, double factor, const char* format) {
+  if (values.empty()) return "";
+  std::sort(values.begin(), values.end());
+  char text[96];
+  std::snprintf(text, sizeof text, format, factor * values.front(),
+                factor * values[values.size() / 2], factor * values.back());
+  return text;
+}
+
+std::string figures(const Score& s) {
+  char counts[64];
+  std::snprintf(counts, sizeof counts, " | %d | %d | %d | %d | ", s.wanted, s.hit, s.wanted - s.hit,
+                s.untrue);
+  char rest[64];
+  std::snprintf(rest, sizeof rest, " | %d | %d (%d) | %d", s.cavities, s.stray, s.stray_above,
+                s.bubbles);
+  std::vector<double> percent = s.speed_error;
+  return counts + spread(s.late_ms, 1.0, "%+.1f / %+.1f / %+.1f") + " | " +
+         spread(percent, 100.0, "%+.0f / %+.0f / %+.0f") + " | " +
+         spread(s.momentum, 1.0, "%.2f / %.2f / %.2f") + rest;
+}
+
+/// In the order of their first case.
+std::vector<std::string> sweeps_of(const std::vector<Outcome>& outcomes) {
+  std::vector<std::string> names;
+  for (const Outcome& outcome : outcomes) {
+    if (std::find(names.begin(), names.end(), outcome.item.sweep) == names.end()) {
+      names.push_back(outcome.item.sweep);
+    }
+  }
+  return names;
+}
+
+std::string row(const std::string& name, const std::vector<const Outcome*>& outcomes) {
+  Score sum;
+  int faulty = 0;
+  for (const Outcome* outcome : outcomes) {
+    add(sum, outcome->score);
+    if (!outcome->score.faults.empty()) ++faulty;
+  }
+  return "| " + name + " | " + std::to_string(outcomes.size()) + figures(sum) + " | " +
+         std::to_string(faulty) + " |\n";
+}
+
+std::vector<const Outcome*> of_sweep(const std::vector<Outcome>& outcomes,
+                                     const std::string& sweep) {
+  std::vector<const Outcome*> mine;
+  for (const Outcome& outcome : outcomes) {
+    if (sweep.empty() || outcome.item.sweep == sweep) mine.push_back(&outcome);
+  }
+  return mine;
+}
+
+void write_cases(std::ostream& out, const std::vector<Outcome>& outcomes) {
+  for (const std::string& sweep : sweeps_of(outcomes)) {
+    out << "\n## " << sweep << "\n\n| case" << kColumns
+        << " | particles | processor time, s |\n| ---" << kRule << " | --- | --- |\n";
+    for (const Outcome* outcome : of_sweep(outcomes, sweep)) {
+      char effort[48];
+      std::snprintf(effort, sizeof effort, " | %d | %.1f |\n", outcome->particles,
+                    outcome->processor);
+      out << "| " << outcome->item.name << figures(outcome->score) << " | "
+          << (outcome->score.faults.empty() ? "" : "yes") << effort;
+    }
+    out << '\n';
+    for (const Outcome* outcome : of_sweep(outcomes, sweep)) {
+      for (const std::string& fault : outcome->score.faults) {
+        out << "* " << outcome->item.name << ": " << fault << '\n';
+      }
+    }
+  }
+}
+
+void write_csv(std::ostream& out, const std::vector<Outcome>& outcomes) {
+  out << "sweep,case,wanted,told,missed,false,allowed,waves,cavities,stray,stray_above,bubbles,"
+         "faults,late_ms,approach_error,momentum_ratio\n";
+  const auto list = [&](const std::vector<double>& values) {
+    out << ',';
+    for (std::size_t k = 0; k < values.size(); ++k) out << (k > 0 ? " " : "") << values[k];
+  };
+  for (const Outcome& outcome : outcomes) {
+    const Score& s = outcome.score;
+    out << outcome.item.sweep << ",\"" << outcome.item.name << '"';
+    for (const int count :
+         {s.wanted, s.hit, s.wanted - s.hit, s.untrue, s.allowed, s.waves, s.cavities, s.stray,
+          s.stray_above, s.bubbles, static_cast<int>(s.faults.size())}) {
+      out << ',' << count;
+    }
+    list(s.late_ms);
+    list(s.speed_error);
+    list(s.momentum);
+    out << '\n';
+  }
+}
+
+}  // namespace
+
+std::string summary(const std::vector<Outcome>& outcomes) {
+  std::string text = "| sweep | runs" + std::string(kColumns) + " |\n| --- | ---" + kRule + " |\n";
+  for (const std::string& sweep : sweeps_of(outcomes))
+    text += row(sweep, of_sweep(outcomes, sweep));
+  return text + row("all", of_sweep(outcomes, ""));
+}
+
+void write_report(const std::filesystem::path& folder, const std::string& device,
+                  const std::vector<Outcome>& outcomes) {
+  double processor = 0.0;
+  for (const Outcome& outcome : outcomes) processor += outcome.processor;
+  std::ofstream report(folder / "report.md");
+  report << "# Detection against closed-form truth\n\n"
+         << outcomes.size() << " runs on " << device << " in " << static_cast<int>(processor)
+         << " s of processor time. Three figures are the smallest, the median and the largest.\n\n"
+         << summary(outcomes);
+  write_cases(report, outcomes);
+  std::ofstream csv(folder / "cases.csv");
+  write_csv(csv, outcomes);
+  if (!report.flush() || !csv.flush()) {
+    throw std::runtime_error("cannot write into " + folder.string());
+  }
+}
+
+}  // namespace splash::detection

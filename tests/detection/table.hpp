@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What the sweeps found: report.md for people, cases.csv for programs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/detection/run.hpp"
+
+namespace splash::detection {
+
+/// A Markdown table with a row for each sweep, and one for all of them.
+[[nodiscard]] std::string summary(const std::vector<Outcome>& outcomes);
+
+/// Writes report.md and cases.csv into `folder`, which must exist. Throws std::runtime_error.
+void write_report(const std::filesystem::path& folder, const std::string& device,
+                  const std::vector<Outcome>& outcomes);
+
+}  // namespace splash::detection
