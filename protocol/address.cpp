@@ -162,7 +162,9 @@ constexpr ArgumentRow kSimStatus[] = {
     count_row("skipped", "stages of the step skipped as needless"),
     {'f', "real_time_factor", "1", 0, 1e6, "simulated time in wall time, last second"},
     {'f', "steps_per_second", "1/s", 0, 1e6, "last second"},
-    {'f', "density_error", "1", 0, 10, "mean of |density / density at rest - 1|"}};
+    {'f', "density_error", "1", 0, 10, "mean of |density / density at rest - 1|"},
+    count_row("bubble_particles", "bubble particles alive now"),
+    count_row("thinned", "bubbles over the scene's bubbles_per_second, told in larger ones")};
 
 constexpr auto kTable = std::to_array<AddressRow>({
     {"/frame", Direction::to_synth, "Opens each bundle; alone in its bundle it is the heartbeat",

@@ -31,7 +31,8 @@ void visit_fields(Status& s, Visit&& visit) {
         s.cpu_average, s.cpu_peak, s.sample_rate, s.silenced, s.level, s.loudest);
   } else {
     all(s.particles, s.steps, s.impacts, s.bubbles, s.cavities, s.late, s.unsent, s.refused,
-        s.resets, s.skipped, s.real_time_factor, s.steps_per_second, s.density_error);
+        s.resets, s.skipped, s.real_time_factor, s.steps_per_second, s.density_error,
+        s.bubble_particles, s.thinned);
   }
 }
 

@@ -46,6 +46,8 @@ struct SimStatus {
   float real_time_factor = 0.0F;  ///< [1]
   float steps_per_second = 0.0F;  ///< [1/s]
   float density_error = 0.0F;     ///< [1]
+  std::uint64_t bubble_particles = 0;
+  std::uint64_t thinned = 0;
   bool operator==(const SimStatus&) const = default;
 };
 

@@ -10,9 +10,9 @@ SolveTotals totals_of(const SolveWork& work) {
   return {work.solves, work.iterations, work.most, work.given_up};
 }
 
-/// Of `frames`, at least one [1].
-double share(double sum, std::int64_t frames) {
-  return sum / static_cast<double>(std::max<std::int64_t>(frames, 1));
+/// Of `all`, at least one [1].
+double share(double sum, std::int64_t all) {
+  return sum / static_cast<double>(std::max<std::int64_t>(all, 1));
 }
 
 void put_water(const Simulation& simulation, RunReport& report) {
@@ -33,6 +33,16 @@ void put_water(const Simulation& simulation, RunReport& report) {
   report.resets = totals.resets;
 }
 
+void put_air(const RunTotals& totals, std::int64_t particles, RunReport& report) {
+  const double mean = share(totals.bubbles_alive_sum, totals.frames);
+  report.air = {
+      .entrapped = totals.air.entrapped,
+      .told = totals.air.told,
+      .thinned = totals.air.thinned,
+      .mean_particles = share(mean, particles),
+      .largest_particles = share(static_cast<double>(totals.bubbles_alive_most), particles)};
+}
+
 void put_skips(const RunTotals& totals, RunReport& report) {
   const SkipTotals& skipped = totals.skipped;
   report.idle_frames = skipped.idle;
@@ -49,6 +59,7 @@ RunReport report_on(const Simulation& simulation, const SendCounts& sent, const 
                     const Overload& overload) {
   RunReport report;
   put_water(simulation, report);
+  put_air(simulation.totals(), simulation.particles(), report);
   put_skips(simulation.totals(), report);
   report.events = {sent.impacts, sent.bubbles, sent.cavities};
   report.invalid_events = sent.invalid;

@@ -227,6 +227,8 @@ void Server::note_status(const FrameResult& frame) {
   status_.real_time_factor = static_cast<float>(frame.seconds / wall);
   status_.steps_per_second = static_cast<float>(static_cast<double>(totals.steps) / wall);
   status_.density_error = static_cast<float>(frame.survey.mean_excess);
+  status_.bubble_particles = totals.bubbles_alive;
+  status_.thinned = totals.air.thinned;
 }
 
 void Server::note_gauges() {

@@ -241,6 +241,10 @@ void Simulation::keep(const FrameResult& result) {
   recovery_.succeeded();
   survey_ = result.survey;
   totals_.bubbles_dropped = detector_.bubbles_dropped();
+  totals_.bubbles_alive = detector_.bubbles_alive();
+  totals_.bubbles_alive_most = std::max(totals_.bubbles_alive_most, totals_.bubbles_alive);
+  totals_.bubbles_alive_sum += static_cast<double>(totals_.bubbles_alive);
+  totals_.air = detector_.air();
   totals_.mean_excess_sum += survey_.mean_excess;
   totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
   const double fastest = std::max(survey_.speed, bodies_.fastest(seconds_));

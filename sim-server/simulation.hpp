@@ -39,6 +39,10 @@ struct RunTotals {
   std::uint64_t calmed = 0;      ///< frames given up, the water around a fault stopped
   std::uint64_t resets = 0;      ///< frames given up, the scene begun anew
   std::uint64_t bubbles_dropped = 0;
+  std::size_t bubbles_alive = 0;       ///< bubble particles, now
+  double bubbles_alive_sum = 0.0;      ///< of the frames' numbers of them
+  std::size_t bubbles_alive_most = 0;  ///< of any frame
+  AirTotals air;
   SkipTotals skipped;
 };
 

@@ -28,8 +28,24 @@ double power_law_moment(double low, double high, double exponent, double power) 
 }
 
 double mean_volume(const DetectSettings& settings) {
+  return mean_volume(settings, settings.radius_min);
+}
+
+double mean_volume(const DetectSettings& settings, double least) {
   return 4.0 / 3.0 * std::numbers::pi *
-         power_law_moment(settings.radius_min, settings.radius_max, settings.radius_exponent, 3.0);
+         power_law_moment(least, settings.radius_max, settings.radius_exponent, 3.0);
+}
+
+double least_radius(const DetectSettings& settings, double volume) {
+  constexpr int kHalvings = 40;
+  double low = settings.radius_min;
+  double high = std::max(low, 0.5 * settings.radius_max);
+  if (mean_volume(settings, high) <= volume) return high;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (mean_volume(settings, middle) < volume ? low : high) = middle;
+  }
+  return low;
 }
 
 Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle, int bubble) {

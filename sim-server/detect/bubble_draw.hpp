@@ -30,5 +30,11 @@ struct Draws {
 
 /// Mean volume of the bubbles drawn [m3].
 [[nodiscard]] double mean_volume(const DetectSettings& settings);
+/// Same of those whose radius is `least` or more [m].
+[[nodiscard]] double mean_volume(const DetectSettings& settings, double least);
+
+/// Few bubbles for much air: the least radius [m] from which on the law's bubbles have this mean
+/// volume [m3]. Up to half the largest radius: an octave of pitches is left.
+[[nodiscard]] double least_radius(const DetectSettings& settings, double volume);
 
 }  // namespace splash::sim

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <span>
-
-#include "sim-server/detect/bubble_draw.hpp"
 
 namespace splash::sim {
 namespace {
@@ -18,8 +18,33 @@ constexpr std::size_t kReadAtOnce = 128;
 
 constexpr float kSlow = -8.0F;  ///< a particle's memory: it was slow (kernels/bubble_spawn.cl)
 
+/// Of the draws that a frame makes as a whole.
+constexpr auto kNoParticle = std::numeric_limits<std::uint32_t>::max();
+
 float as_float(double value) {
   return static_cast<float>(value);
+}
+
+Vector3 place_of(const Spawn& spawn) {
+  return {static_cast<double>(spawn.x), static_cast<double>(spawn.y), static_cast<double>(spawn.z)};
+}
+
+double sphere(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
+/// `many` bubbles among all air, to each part of it in proportion: where the sum over the parts
+/// passes a whole number of even shares, `offset` (in [0, 1)) of a share away.
+std::vector<int> share_out(const std::vector<double>& air, int many, double offset) {
+  std::vector<int> bubbles;
+  const double share = std::accumulate(air.begin(), air.end(), 0.0) / std::max(many, 1);
+  double filled = offset;  // [shares]
+  for (const double part : air) {
+    filled += many > 0 ? part / share : 0.0;
+    bubbles.push_back(static_cast<int>(filled));
+    filled -= bubbles.back();
+  }
+  return bubbles;
 }
 
 }  // namespace
@@ -31,6 +56,7 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
       mean_volume_(mean_volume(settings)),
       seed_(static_cast<std::uint32_t>(seed)),
       room_(room),
+      budget_(settings.bubbles_per_second),
       spawn_count_(fluid.device(), 1),
       spawn_count_read_(1),
       spawns_read_(static_cast<std::size_t>(fluid.params().count)),
@@ -128,40 +154,59 @@ std::vector<Spawn> Bubbles::read_spawns() {
   return spawns;
 }
 
-int Bubbles::bubbles_of(const Spawn& spawn, double frame, double chance) const {
-  if (settings_.bubble_per_particle) return spawn.fresh;
-  if (spawn.dense == 0) return 0;
+double Bubbles::air_of(const Spawn& spawn, double frame) const {
+  if (settings_.bubble_per_particle) return spawn.fresh * mean_volume_;
+  if (spawn.dense == 0) return 0.0;
   const FluidParams& p = fluid_.params();
   const double water = static_cast<double>(p.mass / p.rest_density);
   const auto speed = static_cast<double>(std::hypot(spawn.u, spawn.v, spawn.w));
-  const double air = settings_.bubble_air * speed * frame * water;
-  return static_cast<int>(std::floor(air / mean_volume_ + chance));
+  return settings_.bubble_air * speed * frame * water;
+}
+
+DetectedBubble Bubbles::draw_bubble(const Spawn& spawn, const Draws& draws, double least) const {
+  DetectedBubble bubble;
+  bubble.particle = spawn.id;
+  bubble.radius = power_law(draws.radius, least, settings_.radius_max, settings_.radius_exponent);
+  bubble.epsilon = power_law(draws.epsilon, settings_.epsilon_min, settings_.epsilon_max,
+                             settings_.epsilon_exponent);
+  bubble.position = place_of(spawn);
+  return bubble;
 }
 
 std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step) {
-  std::vector<DetectedBubble> heard;
+  const std::vector<Spawn> spawns = read_spawns();
   spawned_.clear();
-  for (const Spawn& spawn : read_spawns()) {
-    const Vector3 place = {static_cast<double>(spawn.x), static_cast<double>(spawn.y),
-                           static_cast<double>(spawn.z)};
-    if (spawn.fresh != 0) spawned_.push_back(place);
-    Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
-    const int count = bubbles_of(spawn, frame, draws.chance);
-    for (int k = 0; k < count; ++k) {
-      if (k > 0) draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id), k);
-      const bool crossed = settings_.bubble_per_particle && spawn.before >= 0.0F;
-      const double part = crossed ? static_cast<double>(spawn.before) : draws.moment;
-      DetectedBubble bubble;
-      bubble.time = time - frame * (1.0 - std::min(part, 1.0));
-      bubble.particle = spawn.id;
-      bubble.radius = power_law(draws.radius, settings_.radius_min, settings_.radius_max,
-                                settings_.radius_exponent);
-      bubble.epsilon = power_law(draws.epsilon, settings_.epsilon_min, settings_.epsilon_max,
-                                 settings_.epsilon_exponent);
-      bubble.position = place;
-      heard.push_back(bubble);
+  std::vector<double> air;   // of each spawn [m3]
+  std::vector<int> bubbles;  // same
+  for (const Spawn& spawn : spawns) {
+    if (spawn.fresh != 0) spawned_.push_back(place_of(spawn));
+    const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
+    air.push_back(air_of(spawn, frame));
+    bubbles.push_back(static_cast<int>(std::floor(air.back() / mean_volume_ + draws.chance)));
+  }
+  const double entrapped = std::accumulate(air.begin(), air.end(), 0.0);
+  const int wanted = std::accumulate(bubbles.begin(), bubbles.end(), 0);
+  const int open = budget_.open(time);
+  double least = settings_.radius_min;
+  if (wanted > open) {
+    bubbles = share_out(air, open, draw(seed_, step, kNoParticle).chance);
+    if (open > 0) least = least_radius(settings_, entrapped / open);
+  }
+  std::vector<DetectedBubble> heard;
+  for (std::size_t i = 0; i < spawns.size(); ++i) {
+    for (int k = 0; k < bubbles[i]; ++k) {
+      const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawns[i].id), k);
+      const bool crossed = settings_.bubble_per_particle && spawns[i].before >= 0.0F;
+      const double part = crossed ? static_cast<double>(spawns[i].before) : draws.moment;
+      heard.push_back(draw_bubble(spawns[i], draws, least));
+      heard.back().time = time - frame * (1.0 - std::min(part, 1.0));
+      air_.told += sphere(heard.back().radius);
     }
   }
+  const auto told = static_cast<int>(heard.size());
+  budget_.spend(told);
+  air_.entrapped += entrapped;
+  air_.thinned += static_cast<std::uint64_t>(wanted - told);
   return heard;
 }
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim-server/detect/bubble_budget.hpp"
+#include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/detect/detection.hpp"
 #include "sim-server/fluid/fluid.hpp"
 
@@ -38,6 +40,14 @@ struct PoolBubble {
   double volume = 0.0;                 ///< space it takes up among the others [m3]
 };
 
+/// Sums over a run.
+struct AirTotals {
+  double entrapped = 0.0;     ///< [m3]
+  double told = 0.0;          ///< in bubbles; differs by the scatter of their radii, too [m3]
+  std::uint64_t thinned = 0;  ///< bubbles over the budget: their air went into larger ones, up to
+                              ///< the limit of those
+};
+
 class Bubbles {
  public:
   /// No more than `room` bubbles live at once; spawns beyond it are counted and dropped.
@@ -50,7 +60,8 @@ class Bubbles {
   void skip();
   /// What was found, once the queue is finished: bubbles to be heard, in the order of their
   /// particles' ids: one for each bubble particle that is spawned, or as many as the entrapped air
-  /// fills. `frame`: seconds since the last call; `step`: counts the steps.
+  /// fills; where that is more than the budget, as many as it has, and larger ones. `frame`:
+  /// seconds since the last call; `step`: counts the steps.
   [[nodiscard]] std::vector<DetectedBubble> collect(double time, double frame, std::uint32_t step);
 
   [[nodiscard]] std::vector<PoolBubble>& pool() noexcept { return pool_; }
@@ -64,6 +75,7 @@ class Bubbles {
   [[nodiscard]] const cl::Buffer& memory() const noexcept { return memory_.memory(); }
   [[nodiscard]] int carried() const noexcept { return carried_; }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
+  [[nodiscard]] const AirTotals& air() const noexcept { return air_; }
 
   /// Drops the dead, keeps the order, and adds what collect found to be spawned; called by its
   /// owner after cavities have been searched among the states.
@@ -74,8 +86,10 @@ class Bubbles {
   void look_for_spawns(const Step& step);
   void carry(const Step& step, double frame);
   [[nodiscard]] std::vector<Spawn> read_spawns();
-  /// Bubbles that one particle makes in a frame.
-  [[nodiscard]] int bubbles_of(const Spawn& spawn, double frame, double chance) const;
+  /// That one particle entraps in a frame [m3].
+  [[nodiscard]] double air_of(const Spawn& spawn, double frame) const;
+  [[nodiscard]] DetectedBubble draw_bubble(const Spawn& spawn, const Draws& draws,
+                                           double least) const;
 
   Fluid& fluid_;
   DetectSettings settings_;
@@ -88,6 +102,8 @@ class Bubbles {
   int carried_ = 0;
   int serial_ = 0;
   std::uint64_t dropped_ = 0;
+  BubbleBudget budget_;
+  AirTotals air_;
 
   Buffer<float> memory_;
   Buffer<int> spawn_count_;

@@ -41,6 +41,7 @@ class Detector {
 
   [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
   [[nodiscard]] std::uint64_t cavity_searches() const noexcept { return cavities_.searches(); }
+  [[nodiscard]] const AirTotals& air() const noexcept { return bubbles_.air(); }
   [[nodiscard]] std::uint64_t bubbles_dropped() const noexcept { return bubbles_.dropped(); }
 
  private:

@@ -62,6 +62,14 @@ Fields<D> bubble_fields() {
         .min = 0,
         .max = 1000},
        &D::bubble_air},
+      {{.key = "bubbles_per_second",
+        .unit = "1/s",
+        .meaning = "So many bubbles are told at most; a frame may also use what the last 50 ms "
+                   "left. Where "
+                   "more air is entrapped it is told in larger ones.",
+        .min = 1,
+        .max = 1'000'000},
+       &D::bubbles_per_second},
       {{.key = "bubble_life",
         .unit = "s",
         .meaning = "A bubble particle is dropped after this.",

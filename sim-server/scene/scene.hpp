@@ -162,11 +162,12 @@ struct DetectSettings {
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
   double bubble_gradient = 0.25;    ///< least upward colour gradient, in that of a flat surface [1]
   bool bubble_per_particle =
-      false;                  ///< the paper's rule: every particle that entraps air makes one
-  double bubble_air = 10.0;   ///< air in the volume of water that entraps it, per metre [1/m]
-  double bubble_life = 0.5;   ///< a bubble particle is dropped after this [s]
-  double radius_min = 0.003;  ///< bubble radii follow r^-radius_exponent [m]
-  double radius_max = 0.030;  ///< [m]
+      false;                 ///< the paper's rule: every particle that entraps air makes one
+  double bubble_air = 10.0;  ///< air in the volume of water that entraps it, per metre [1/m]
+  double bubbles_per_second = 4000.0;   ///< told at most, in larger ones if need be [1/s]
+  double bubble_life = 0.5;             ///< a bubble particle is dropped after this [s]
+  double radius_min = 0.003;            ///< bubble radii follow r^-radius_exponent [m]
+  double radius_max = 0.030;            ///< [m]
   double radius_exponent = 10.0 / 3.0;  ///< Deane & Stokes 2002, above the Hinze scale [1]
   double epsilon_min = 0.01;            ///< excitations follow epsilon^-epsilon_exponent [1]
   double epsilon_max = 0.1;             ///< [1]

@@ -18,6 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kLitres = 1000.0;  ///< in a cubic metre
+
 Json finite_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -92,6 +94,11 @@ std::string to_json(const RunReport& report) {
   json["events"] = {{"impacts", report.events.impacts},
                     {"bubbles", report.events.bubbles},
                     {"cavities", report.events.cavities}};
+  json["air"] = {{"entrapped_litres", finite_or_null(kLitres * report.air.entrapped)},
+                 {"told_litres", finite_or_null(kLitres * report.air.told)},
+                 {"thinned_bubbles", report.air.thinned}};
+  json["bubble_particles"] = {{"mean_share", finite_or_null(report.air.mean_particles)},
+                              {"largest_share", finite_or_null(report.air.largest_particles)}};
   json["invalid_events"] = report.invalid_events;
   json["overdue_events"] = report.overdue_events;
   json["send_failures"] = report.send_failures;
@@ -151,6 +158,11 @@ std::string summary(const RunReport& report) {
   }
   text << "events    " << report.events.impacts << " impacts, " << report.events.bubbles
        << " bubbles, " << report.events.cavities << " cavities\n";
+  text << "air       " << kLitres * report.air.entrapped << " l entrapped, "
+       << kLitres * report.air.told << " l told, " << report.air.thinned
+       << " bubbles over the budget; bubble particles " << 100.0 * report.air.mean_particles
+       << " % of the water's on average, " << 100.0 * report.air.largest_particles
+       << " % at most\n";
   text << "receivers late " << known_or_dash(report.late) << ", lost " << known_or_dash(report.lost)
        << ", refused by the network " << report.send_failures << '\n';
   text << "skipped   " << 100.0 * report.asleep << " % of the water asleep, of " << report.frames

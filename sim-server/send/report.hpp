@@ -26,6 +26,15 @@ struct SolveTotals {
   [[nodiscard]] double mean() const noexcept;
 };
 
+/// Air that the water folded in, and the bubble particles that mark where.
+struct AirReport {
+  double entrapped = 0.0;          ///< [m3]
+  double told = 0.0;               ///< in bubbles [m3]
+  std::uint64_t thinned = 0;       ///< bubbles over the scene's budget, told in larger ones
+  double mean_particles = 0.0;     ///< bubble particles alive, in particles of water, mean [1]
+  double largest_particles = 0.0;  ///< same, largest [1]
+};
+
 struct RunReport {
   std::string device;
   std::string scene;
@@ -39,6 +48,7 @@ struct RunReport {
   SolveTotals divergence_solve;
   SolveTotals density_solve;
   EventTotals events;
+  AirReport air;
   std::uint64_t invalid_events = 0;    ///< outside the wire's ranges, not sent
   std::uint64_t overdue_events = 0;    ///< their moment had passed when they were sent
   std::uint64_t send_failures = 0;     ///< datagrams the kernel refused, all targets

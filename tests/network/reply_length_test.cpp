@@ -146,7 +146,7 @@ TEST_F(OnTwoHosts, NoReplyOfTheSimulatorIsLongerThanItsRequest) {
             protocol::parse_endpoint("10.77.0.1:57300", 0));
   try_commands(home, afar, {"/mute", "/dumpOSC", "/error"});
   EXPECT_TRUE(
-      simulator->wait_for_text("asked /status in a datagram of 12 bytes; the reply has 96 bytes"));
+      simulator->wait_for_text("asked /status in a datagram of 12 bytes; the reply has 108 bytes"));
 }
 
 // The patch in the synth's place answers /status alone, to whoever asks.

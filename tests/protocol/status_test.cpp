@@ -17,7 +17,7 @@ SynthStatus synth_status() {
   return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10.5F, 11.5F, 48000.0F, 13, 0.25F, 15};
 }
 SimStatus sim_status() {
-  return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 1.25F, 240.0F, 0.01F};
+  return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 1.25F, 240.0F, 0.01F, 14, 15};
 }
 
 double value_of(const Message& message, std::span<const ArgumentRow> fields, const char* name) {
@@ -78,6 +78,8 @@ TEST(Status, NamesOfTheTableAreInTheStructsOrder) {
   EXPECT_EQ(value_of(sim, sim_status_fields(), "real_time_factor"), 1.25);
   EXPECT_EQ(value_of(sim, sim_status_fields(), "steps_per_second"), 240);
   EXPECT_NEAR(value_of(sim, sim_status_fields(), "density_error"), 0.01, 1e-9);
+  EXPECT_EQ(value_of(sim, sim_status_fields(), "bubble_particles"), 14);
+  EXPECT_EQ(value_of(sim, sim_status_fields(), "thinned"), 15);
 }
 
 TEST(Status, CountersWrapAndFloatsStayInRange) {

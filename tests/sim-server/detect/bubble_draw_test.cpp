@@ -188,5 +188,23 @@ TEST(PowerLaw, MomentsAreThoseOfTheDraws) {
   EXPECT_DOUBLE_EQ(power_law_moment(0.01, 0.01, 2.0, 3.0), 1.0e-6);
 }
 
+// For each volume between that of the scene's law and that of its largest bubbles.
+TEST(LeastRadius, GivesTheLawsBubblesTheVolumeThatIsWanted) {
+  const DetectSettings settings;
+  for (const double times : {1.0, 1.5, 4.0, 10.0, 20.0}) {
+    const double volume = times * mean_volume(settings);
+    EXPECT_NEAR(mean_volume(settings, least_radius(settings, volume)), volume, 1e-6 * volume);
+  }
+  EXPECT_EQ(least_radius(settings, 0.0), settings.radius_min);
+  EXPECT_EQ(least_radius(settings, 1.0), 0.5 * settings.radius_max);
+}
+
+TEST(LeastRadius, IsTheOnlyRadiusThereIs) {
+  DetectSettings settings;
+  settings.radius_min = settings.radius_max = 0.004;
+  EXPECT_EQ(least_radius(settings, 1.0), 0.004);
+  EXPECT_EQ(least_radius(settings, 0.0), 0.004);
+}
+
 }  // namespace
 }  // namespace splash::sim

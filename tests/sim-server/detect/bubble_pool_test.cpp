@@ -21,6 +21,7 @@ constexpr double kFrame = 0.004;
 DetectSettings literal() {
   DetectSettings settings;
   settings.bubble_per_particle = true;
+  settings.bubbles_per_second = 1.0e6;
   return settings;
 }
 
@@ -241,6 +242,100 @@ TEST_F(Spawns, AreHeardAsOftenAsTheirAirFillsBubbles) {
   std::printf("%zu bubbles of %d particles, %.0f expected\n", heard, dense, expected);
   ASSERT_GT(expected, 200.0);
   EXPECT_NEAR(static_cast<double>(heard), expected, 5.0 * std::sqrt(expected));
+}
+
+/// Half a second of a flood: `times` the air that the budget's bubbles of mean size hold.
+class Flood : public Spawns {
+ protected:
+  static constexpr int kFrames = 125;
+  static constexpr double kBudget = 1000.0;
+
+  void flood(double times, bool per_particle = false) {
+    DetectSettings settings = eager();
+    settings.bubble_per_particle = per_particle;
+    settings.bubbles_per_second = kBudget;
+    settings.bubble_air = 1.0;
+    const double one = air_in_a_second(settings);
+    settings.bubble_air = times * kBudget * mean_volume(settings) / one;
+    Bubbles& bubbles = make(800, settings);
+    drop();
+    for (unsigned k = 1; k <= kFrames; ++k) {
+      detect(water_, bubbles, kFrame);
+      const auto told = bubbles.collect(k * kFrame, kFrame, k);
+      most_ = std::max(most_, told.size());
+      told_.insert(told_.end(), told.begin(), told.end());
+    }
+    air_ = bubbles.air();
+    printf("%zu told, at most %zu in a frame, %.3f of %.3f l, %llu thinned\n", told_.size(), most_,
+           1e3 * air_.told, 1e3 * air_.entrapped, static_cast<unsigned long long>(air_.thinned));
+  }
+
+  /// Radius of any, once what was left at the beginning is used up.
+  [[nodiscard]] double smallest() const {
+    double radius = 1.0;
+    for (const DetectedBubble& bubble : told_) {
+      if (bubble.time > 0.05) radius = std::min(radius, bubble.radius);
+    }
+    return radius;
+  }
+
+  std::vector<DetectedBubble> told_;
+  std::size_t most_ = 0;  ///< in a frame
+  AirTotals air_;
+
+ private:
+  double air_in_a_second(const DetectSettings& settings) {
+    Bubbles& bubbles = make(800, settings);
+    drop();
+    detect(water_, bubbles, kFrame);
+    static_cast<void>(bubbles.collect(kFrame, kFrame, 1));
+    return bubbles.air().entrapped / kFrame;
+  }
+};
+
+TEST_F(Flood, IsToldInNoMoreBubblesThanTheBudgetHas) {
+  flood(10.0);
+  constexpr double kBurst = 0.05 * kBudget;
+  EXPECT_LE(static_cast<double>(told_.size()), kFrames * kFrame * kBudget + kBurst);
+  EXPECT_GE(static_cast<double>(told_.size()), kFrames * kFrame * kBudget);
+  EXPECT_LE(most_, static_cast<std::size_t>(kBurst));
+  const double wanted = air_.entrapped / mean_volume(DetectSettings{});
+  EXPECT_NEAR(static_cast<double>(air_.thinned + told_.size()), wanted, 0.05 * wanted);
+}
+
+// Larger ones: the air is the same within the scatter of some hundred radii.
+TEST_F(Flood, LosesNoAir) {
+  flood(10.0);
+  EXPECT_NEAR(air_.told, air_.entrapped, 0.1 * air_.entrapped);
+  EXPECT_GT(smallest(), 0.006);
+}
+
+// Where the largest do not hold it, an octave of pitches is left, and what is lost is counted.
+TEST_F(Flood, ThatNoBubblesHoldIsCounted) {
+  flood(200.0);
+  EXPECT_GE(smallest(), 0.015);
+  EXPECT_LT(air_.told, 0.2 * air_.entrapped);
+  EXPECT_GT(air_.told, 0.08 * air_.entrapped);
+}
+
+TEST_F(Flood, ComesFromAllPlacesAlike) {
+  flood(10.0);
+  int low = 0;
+  for (const DetectedBubble& bubble : told_) low += bubble.particle < 200;
+  const double share = low / static_cast<double>(told_.size());
+  EXPECT_NEAR(share, 0.5, 0.1);
+}
+
+TEST_F(Flood, WithinTheBudgetChangesNothing) {
+  flood(0.5);
+  EXPECT_EQ(air_.thinned, 0U);
+  EXPECT_LT(smallest(), 0.0031);
+}
+
+TEST_F(Flood, OfThePapersRuleIsThinnedAlike) {
+  flood(1.0, true);
+  EXPECT_EQ(most_, 50U);
+  EXPECT_EQ(air_.thinned + told_.size(), 400U);
 }
 
 }  // namespace

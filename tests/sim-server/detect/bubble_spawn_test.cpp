@@ -25,6 +25,7 @@ DetectSettings settings() {
   settings.bubble_speed = 0.8;  // not its own square
   settings.bubble_gradient = 0.3;
   settings.bubble_per_particle = true;
+  settings.bubbles_per_second = 1.0e6;
   return settings;
 }
 

@@ -62,14 +62,14 @@ TEST_F(ReplyLength, AShortQuestionIsObeyedButNotAnsweredAndItsAskerIsTold) {
   ASSERT_EQ(told.size(), 3U);
   EXPECT_EQ(told[2],
             protocol::to_string(friendly_->local()) +
-                " asked /status in a datagram of 12 bytes; the reply has 96 bytes and was "
-                "not sent. Fill the question up with text to 96 bytes (protocol/README.md, "
+                " asked /status in a datagram of 12 bytes; the reply has 108 bytes and was "
+                "not sent. Fill the question up with text to 108 bytes (protocol/README.md, "
                 "'Who is answered')");
 }
 
 TEST_F(ReplyLength, AQuestionAsLongAsItsAnswerIsAnswered) {
   const Message status = protocol::to_message(protocol::SimStatus{});
-  const auto filled = protocol::encode(protocol::filled_up({"/status", {}}, 96));
+  const auto filled = protocol::encode(protocol::filled_up({"/status", {}}, 108));
   ASSERT_EQ(filled.size(), protocol::encode(status).size());
   say(filled);
   EXPECT_EQ(answer().address, "/status.reply");

@@ -33,6 +33,11 @@ RunReport example() {
   report.divergence_solve = {.solves = 7200, .iterations = 9000, .most = 4, .given_up = 0};
   report.density_solve = {.solves = 7200, .iterations = 36000, .most = 20, .given_up = 3};
   report.events = {.impacts = 3, .bubbles = 120, .cavities = 2};
+  report.air = {.entrapped = 0.0125,
+                .told = 0.012,
+                .thinned = 17,
+                .mean_particles = 0.01,
+                .largest_particles = 0.06};
   report.late = 0;
   report.lost = 7;
   report.behind = 4;
@@ -60,6 +65,11 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(iterations.at("density"),
             (json{{"mean", 5.0}, {"most", 20}, {"given_up", 3}, {"solves", 7200}}));
   EXPECT_EQ(read.at("events"), (json{{"impacts", 3}, {"bubbles", 120}, {"cavities", 2}}));
+  const auto& air = read.at("air");
+  EXPECT_DOUBLE_EQ(air.at("entrapped_litres"), 12.5);
+  EXPECT_DOUBLE_EQ(air.at("told_litres"), 12.0);
+  EXPECT_EQ(air.at("thinned_bubbles"), 17);
+  EXPECT_EQ(read.at("bubble_particles"), (json{{"mean_share", 0.01}, {"largest_share", 0.06}}));
   EXPECT_EQ(read.at("late"), 0);
   EXPECT_EQ(read.at("lost"), 7);
   EXPECT_EQ(read.at("behind"), 4);
@@ -132,9 +142,11 @@ TEST(Report, ADeviceIsWrittenInPlaceAndItsErrorTold) {
 
 TEST(Report, SummaryTellsThePersonTheSame) {
   const auto text = summary(example());
-  for (const auto* part : {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25",
-                           "300 steps/s", "3 impacts, 120 bubbles, 2 cavities", "lost 7",
-                           "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried"}) {
+  for (const auto* part :
+       {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25", "300 steps/s",
+        "3 impacts, 120 bubbles, 2 cavities", "lost 7",
+        "12.50 l entrapped, 12.00 l told, 17 bubbles over the budget", "6.00 % at most",
+        "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   auto report = example();
