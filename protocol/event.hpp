@@ -53,6 +53,23 @@ struct Cavity {
 
 using Event = std::variant<Impact, Bubble, Cavity>;
 
+/// Bubbles come in floods, impacts and cavities do not: places are kept for those.
+[[nodiscard]] inline bool is_bubble(const Event& event) noexcept {
+  return std::holds_alternative<Bubble>(event);
+}
+
+/// Something for each kind of event.
+template <class T>
+struct ByKind {
+  T impacts{};
+  T bubbles{};
+  T cavities{};
+  [[nodiscard]] T& of(const Event& event) noexcept {
+    if (std::holds_alternative<Impact>(event)) return impacts;
+    return is_bubble(event) ? bubbles : cavities;
+  }
+};
+
 /// Opens each bundle: who speaks, which bundle this is, how long until its time.
 struct Frame {
   std::int32_t session = 0;   ///< drawn at start, in [1, 2^24): a new one means a restarted sender

@@ -61,14 +61,19 @@ std::uint64_t dropped(const EngineCounters& engine) noexcept {
 
 std::string summary(const Totals& t) {
   std::ostringstream out;
+  const auto& engine = t.engine.without_place;
+  const auto& queue = t.taken.without_place;
   out << "ran " << decimal(t.seconds, 1) << " s: played " << t.engine.impacts << " impacts, "
       << t.engine.bubbles << " bubbles, " << t.engine.cavities << " cavities; at most "
       << t.player.voices_peak << " voices at once\n";
   out << "not played: " << t.player.too_late << " too late, "
-      << dropped(t.engine) + t.taken.queue_full << " without a voice or place, "
-      << t.engine.dropped_band << " above the band, " << t.engine.dropped_unheard
-      << " unheard or out of reach, " << t.engine.dropped_masked << " masked, "
-      << t.engine.dropped_cleared << " cleared, " << t.waiting << " still to come at the end\n";
+      << t.engine.dropped_queue + t.engine.dropped_pool + t.taken.queue_full
+      << " without a voice or place (" << engine.impacts + queue.impacts << " impacts, "
+      << engine.bubbles + queue.bubbles << " bubbles, " << engine.cavities + queue.cavities
+      << " cavities), " << t.engine.dropped_refused << " out of range, " << t.engine.dropped_band
+      << " above the band, " << t.engine.dropped_unheard << " unheard or out of reach, "
+      << t.engine.dropped_masked << " masked, " << t.engine.dropped_cleared << " cleared, "
+      << t.waiting << " still to come at the end\n";
   out << "bundles: " << t.taken.sequence.received << " received, " << t.taken.sequence.lost
       << " lost, " << t.taken.sequence.duplicates << " duplicates, " << t.taken.sequence.reordered
       << " reordered, " << t.taken.corrected << " from a clock that was off; "

@@ -32,6 +32,8 @@ inline constexpr std::size_t kCommandCapacity = 8192;
 /// Of these, places that events leave for all other commands: a flood that nothing takes away, as
 /// when the device hangs, must not swallow a /mute.
 inline constexpr std::size_t kKeptPlaces = 256;
+/// And those that bubbles leave for impacts and cavities besides.
+inline constexpr std::size_t kKeptFromBubbles = 512;
 using CommandQueue =
     boost::lockfree::spsc_queue<Command, boost::lockfree::capacity<kCommandCapacity>>;
 

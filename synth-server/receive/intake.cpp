@@ -123,8 +123,10 @@ void Intake::play(const protocol::Event& event, const Timing& timing) {
   const double offset = offset_seconds(event);
   const Command command{Command::Kind::play,        event,          timing.moment + offset,
                         timing.by_arrival + offset, timing.at_once, offset};
-  const bool taken = queue_.write_available() > kKeptPlaces && queue_.push(command);
+  const std::size_t kept = kKeptPlaces + (is_bubble(event) ? kKeptFromBubbles : 0);
+  const bool taken = queue_.write_available() > kept && queue_.push(command);
   ++(taken ? counters_.events : counters_.queue_full);
+  if (!taken) ++counters_.without_place.of(event);
 }
 
 void Intake::push(Command::Kind kind) {

@@ -47,6 +47,7 @@ class Pool final : public BubblePool {
  public:
   using Real = typename Pack::Real;
   static constexpr bool kAfresh = std::is_same_v<Pack, FastPack>;  ///< each cell starts afresh
+  static constexpr std::size_t kKeptPart = 16;  ///< of all voices one of so many may be kept
   static constexpr auto kCellRows = static_cast<std::size_t>(kRows);
 
   explicit Pool(const PoolSettings& s)
@@ -62,12 +63,14 @@ class Pool final : public BubblePool {
         ranking_(packs_.size() * kPackLanes, s.sample_rate),
         piece_(s.channels > 1 ? kCell : kPiece) {}
 
-  Started start(const BubbleTone& tone, const VoiceLife& life, std::span<const Route> routes,
+  Started start(const BubbleTone& tone, const VoiceLife& wanted, std::span<const Route> routes,
                 int group, std::int64_t sample) noexcept override {
+    VoiceLife life = wanted;
+    life.kept = life.kept && kept_ < max_voices_ / kKeptPart;
     const int found = seating_.find(group, [&](int p) { return feeds_.added(p, routes); });
     if (found == Seating::kNone) return {};
     const auto pack = static_cast<std::size_t>(found);
-    const Start result = make_room(life.log_amplitude, sample);
+    const Start result = make_room(life, sample);
     if (result == Start::refused) {
       if (sitters_[pack].taken == 0) seating_.note_empty(found);
       return {};
@@ -82,6 +85,10 @@ class Pool final : public BubblePool {
     feeds_.add(found, lane, routes);
     const auto place = static_cast<std::uint32_t>(pack * kPackLanes + lane);
     ranking_.enter(place, life, sample, std::min(span.end, span.fade));
+    if (life.kept) {
+      sitters_[pack].kept |= 1U << lane;
+      ++kept_;
+    }
     ++size_;
     ++lasting_;
     return {result, place};
@@ -172,12 +179,14 @@ class Pool final : public BubblePool {
         });
   }
 
-  Start make_room(double log_amplitude, std::int64_t sample) noexcept {
+  Start make_room(const VoiceLife& life, std::int64_t sample) noexcept {
     if (lasting_ < max_voices_) return Start::started;
     const std::uint32_t quietest = ranking_.quietest(sample);
     // Without any, those that count are about to end within this cell.
     if (quietest == Ranking::kNone) return Start::started;
-    if (ranking_.level(quietest, sample) >= log_amplitude) return Start::refused;
+    if (!life.kept && ranking_.level(quietest, sample) >= life.log_amplitude) {
+      return Start::refused;
+    }
     fade_out(quietest, sample);
     return Start::stole;
   }
@@ -251,6 +260,8 @@ class Pool final : public BubblePool {
       }
       feeds_.remove(p, lane);
       if ((sitters.leaving >> lane & 1U) == 0) --lasting_;
+      if ((sitters.kept >> lane & 1U) != 0) --kept_;
+      sitters.kept &= ~(1U << lane);
       sitters.taken &= ~(1U << lane);
       sitters.leaving &= ~(1U << lane);
       copy_lane(kSilent, packs_[p], lane);
@@ -273,6 +284,7 @@ class Pool final : public BubblePool {
   Ranking ranking_;
   std::size_t size_ = 0;     ///< voices
   std::size_t lasting_ = 0;  ///< of them, those that were not told to make room
+  std::size_t kept_ = 0;     ///< same, those that never are
   int piece_;                ///< samples that are mixed at once
   int mixed_ = 0;            ///< samples of this cell that are mixed
   // Of the packs that are being mixed:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The sounding bubbles and cavities: a fixed number of them in packs of sixteen. Neighbours share a
 // pack, since a pack is mixed as a whole into all the channels that any of its voices reaches. When
-// all voices are taken, the quietest is faded out. Places are given back at the end of a cell only,
+// all voices are taken, the quietest is faded out, but none that is kept: up to a sixteenth of all
+// may be. Places are given back at the end of a cell only,
 // so that who sits where does not depend on how rendering is cut into blocks.
 #pragma once
 
@@ -23,6 +24,8 @@ enum class Precision { exact, fast };
 /// Most voices that start within one cell; 384 000 per second at 48 kHz. Bounds the time that a
 /// flood of events can take from a block.
 inline constexpr int kMostStarts = 512;
+/// Of these, those that bubbles leave to impacts and cavities.
+inline constexpr int kKeptStarts = 64;
 
 struct PoolSettings {
   Precision precision = Precision::exact;
@@ -47,7 +50,7 @@ class BubblePool {
     std::uint32_t place = 0;
   };
   /// A voice begins at `sample`, which lies in the cell that is being mixed and not before what was
-  /// mixed. Refused when all voices are louder than it.
+  /// mixed. Refused when all voices are louder than it, unless it is one that is kept.
   virtual Started start(const BubbleTone& tone, const VoiceLife& life,
                         std::span<const Route> routes, int group, std::int64_t sample) noexcept = 0;
   /// Adds samples [from, to) of all voices; both within one cell.

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cstdint>
 
+#include "protocol/event.hpp"
+
 namespace splash::synth {
 
 /// Everything since construction, save the first two, which are of now.
@@ -28,6 +30,7 @@ struct EngineCounters {
   std::uint64_t resets = 0;            ///< samples that were not finite and reset their channel
   std::uint64_t limited = 0;           ///< samples that a limiter turned down
   std::uint64_t dropped_masked = 0;    ///< bubbles that nobody could tell from louder ones
+  protocol::ByKind<std::uint64_t> without_place;  ///< dropped_queue and dropped_pool by kind
 };
 
 /// One number with one writer: cheaper than fetch_add, and no reader ever sees a torn value.

@@ -54,6 +54,7 @@ struct Engine::State {
   std::atomic<std::int64_t> shown_clock{0};
   struct Counts {
     Count voices, scheduled, late, refused, queue, muted, cleared, skipped, cells, resets, limited;
+    protocol::ByKind<Count> without_place;
   } counts;
 };
 
@@ -76,7 +77,7 @@ void Engine::State::render_piece(float* const* channels, int done, int count) no
     const EventQueue::Waiting next = queue.pop();
     const std::int64_t sample = std::max(next.sample, clock);
     if (next.sample < clock) counts.late.add();
-    std::visit([&](const auto& event) { ensemble.start(event, sample); }, next.event);
+    ensemble.start(next.event, sample);
   }
   ensemble.mix(clock, end, mix);
   const bool open = !silent.load(std::memory_order_relaxed);
@@ -139,6 +140,7 @@ bool Engine::schedule(const TimedEvent& timed) noexcept {
   }
   if (!state_->queue.push(timed.event, timed.sample)) {
     counts.queue.add();
+    counts.without_place.of(timed.event).add();
     return false;
   }
   counts.scheduled.set(state_->queue.size());
@@ -196,10 +198,31 @@ bool Engine::silenced() const noexcept {
 EngineCounters Engine::counters() const noexcept {
   const auto& c = state_->counts;
   const auto& e = state_->ensemble.counts();
-  return {c.voices.get(), c.scheduled.get(), e.impacts.get(), e.bubbles.get(), e.cavities.get(),
-          c.late.get(),   e.stolen.get(),    c.refused.get(), c.queue.get(),   e.pool.get(),
-          e.band.get(),   e.unheard.get(),   c.muted.get(),   c.cleared.get(), c.skipped.get(),
-          c.cells.get(),  c.resets.get(),    c.limited.get(), e.masked.get()};
+  const auto without_place = [&](auto kind) {
+    return (c.without_place.*kind).get() + (e.without_place.*kind).get();
+  };
+  using Kinds = protocol::ByKind<Count>;
+  return {c.voices.get(),
+          c.scheduled.get(),
+          e.started.impacts.get(),
+          e.started.bubbles.get(),
+          e.started.cavities.get(),
+          c.late.get(),
+          e.stolen.get(),
+          c.refused.get(),
+          c.queue.get(),
+          e.pool.get(),
+          e.band.get(),
+          e.unheard.get(),
+          c.muted.get(),
+          c.cleared.get(),
+          c.skipped.get(),
+          c.cells.get(),
+          c.resets.get(),
+          c.limited.get(),
+          e.masked.get(),
+          {without_place(&Kinds::impacts), without_place(&Kinds::bubbles),
+           without_place(&Kinds::cavities)}};
 }
 
 int Engine::channels() const noexcept {

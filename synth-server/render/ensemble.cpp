@@ -2,6 +2,8 @@
 #include "synth-server/render/ensemble.hpp"
 
 #include <span>
+#include <type_traits>
+#include <variant>
 
 namespace splash::synth {
 namespace {
@@ -21,21 +23,36 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       masking_(channel_count(rig), settings.sample_rate) {}
 
-void Ensemble::start(const protocol::Impact& impact, std::int64_t sample) noexcept {
+void Ensemble::start(const protocol::Event& event, std::int64_t sample) noexcept {
+  const Outcome outcome =
+      std::visit([&](const auto& kind) { return start_kind(kind, sample); }, event);
+  if (outcome == Outcome::started) {
+    counts_.started.of(event).add();
+    ++starts_;
+  } else if (outcome == Outcome::no_place) {
+    counts_.pool.add();
+    counts_.without_place.of(event).add();
+  }
+}
+
+Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
+                                       std::int64_t sample) noexcept {
   const double amplitude = impact_amplitude(static_cast<double>(impact.speed),
                                             settings_.impact_gain, settings_.impact_exponent);
   const Routing::Reach reach = routing_.route({impact.position, impact.body, 0.0}, routes_);
   const VoiceLife life = impact_life(amplitude, settings_.sample_rate, reach.floor);
-  if (reach.result != Routing::Result::heard || life.length <= 0) return counts_.unheard.add();
-  if (starts_ >= kMostStarts) return counts_.pool.add();
+  if (reach.result != Routing::Result::heard || life.length <= 0) {
+    counts_.unheard.add();
+    return Outcome::left_out;
+  }
+  if (starts_ >= kMostStarts) return Outcome::no_place;
   const Noise noise(settings_.seed, static_cast<std::uint64_t>(impact.id));
   const ImpactVoice voice(amplitude, noise, settings_.sample_rate);
   const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
   const ImpactPool::Start result = impacts_.start(voice, life, reached, sample);
-  if (result == ImpactPool::Start::refused) return counts_.pool.add();
+  if (result == ImpactPool::Start::refused) return Outcome::no_place;
   if (result == ImpactPool::Start::stole) counts_.stolen.add();
-  ++starts_;
-  counts_.impacts.add();
+  return Outcome::started;
 }
 
 bool Ensemble::masking() const noexcept {
@@ -43,55 +60,42 @@ bool Ensemble::masking() const noexcept {
          static_cast<double>(bubbles_->size()) >= settings_.mask_from * settings_.max_voices;
 }
 
-bool Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
-                          std::int64_t sample) noexcept {
-  const VoiceLife life = life_of(tone, settings_.sample_rate, reach.floor);
+Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
+                                       bool kept, std::int64_t sample) noexcept {
+  VoiceLife life = life_of(tone, settings_.sample_rate, reach.floor);
+  life.kept = kept;
   if (reach.result == Routing::Result::out_of_band || life.fold <= 0) {
     counts_.band.add();
-    return false;
+    return Outcome::left_out;
   }
   if (reach.result == Routing::Result::unheard || life.length <= 0) {
     counts_.unheard.add();
-    return false;
+    return Outcome::left_out;
   }
   const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
-  if (masking() && masking_.covers(tone, reached, sample, bubbles_->ranking())) {
+  if (!kept && masking() && masking_.covers(tone, reached, sample, bubbles_->ranking())) {
     counts_.masked.add();
-    return false;
+    return Outcome::left_out;
   }
-  if (starts_ >= kMostStarts) {
-    counts_.pool.add();
-    return false;
-  }
+  if (starts_ >= (kept ? kMostStarts : kMostStarts - kKeptStarts)) return Outcome::no_place;
   const BubblePool::Started started = bubbles_->start(tone, life, reached, reach.group, sample);
-  if (started.result == BubblePool::Start::refused) {
-    counts_.pool.add();
-    return false;
-  }
+  if (started.result == BubblePool::Start::refused) return Outcome::no_place;
   if (started.result == BubblePool::Start::stole) counts_.stolen.add();
-  ++starts_;
   if (settings_.skip_masked) {
     masking_.note(tone, reached, sample, started.place, bubbles_->ranking());
   }
-  return true;
+  return Outcome::started;
 }
 
 template <class BubbleOrCavity>
-bool Ensemble::start_bubble(const BubbleOrCavity& event, std::int64_t sample) noexcept {
+Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t sample) noexcept {
   const BubbleTone tone =
       bubble_tone(settings_.bubbles, settings_.literal_chirp ? Chirp::literal : Chirp::integrated,
                   settings_.water_level, static_cast<double>(event.radius),
                   static_cast<double>(event.epsilon), static_cast<double>(event.position.z));
   const Source source{event.position, event.body, tone.frequency};
-  return start_tone(tone, routing_.route(source, routes_), sample);
-}
-
-void Ensemble::start(const protocol::Bubble& bubble, std::int64_t sample) noexcept {
-  if (start_bubble(bubble, sample)) counts_.bubbles.add();
-}
-
-void Ensemble::start(const protocol::Cavity& cavity, std::int64_t sample) noexcept {
-  if (start_bubble(cavity, sample)) counts_.cavities.add();
+  constexpr bool kKept = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
+  return start_tone(tone, routing_.route(source, routes_), kKept, sample);
 }
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {

@@ -21,9 +21,8 @@ class Ensemble {
   Ensemble(const Rig& rig, const EngineSettings& settings);
 
   /// A voice begins at `sample`, within the cell that is being mixed and not before what was mixed.
-  void start(const protocol::Impact& impact, std::int64_t sample) noexcept;
-  void start(const protocol::Bubble& bubble, std::int64_t sample) noexcept;
-  void start(const protocol::Cavity& cavity, std::int64_t sample) noexcept;
+  /// However many bubbles there are, impacts and cavities find a place.
+  void start(const protocol::Event& event, std::int64_t sample) noexcept;
 
   /// Adds samples [from, to) of all voices; both within one cell.
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
@@ -35,15 +34,19 @@ class Ensemble {
   [[nodiscard]] std::size_t voices() const noexcept { return bubbles_->size() + impacts_.size(); }
 
   struct Counts {
-    Count impacts, bubbles, cavities, stolen, pool, band, unheard, masked;
+    Count stolen, pool, band, unheard, masked;
+    protocol::ByKind<Count> started;
+    protocol::ByKind<Count> without_place;  ///< `pool` by kind
   };
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
 
  private:
+  enum class Outcome { started, left_out, no_place };  ///< left out: counted with its reason
+  Outcome start_kind(const protocol::Impact& impact, std::int64_t sample) noexcept;
   template <class BubbleOrCavity>
-  bool start_bubble(const BubbleOrCavity& event, std::int64_t sample) noexcept;
-  bool start_tone(const BubbleTone& tone, const Routing::Reach& reach,
-                  std::int64_t sample) noexcept;
+  Outcome start_kind(const BubbleOrCavity& event, std::int64_t sample) noexcept;
+  Outcome start_tone(const BubbleTone& tone, const Routing::Reach& reach, bool kept,
+                     std::int64_t sample) noexcept;
   [[nodiscard]] bool masking() const noexcept;
 
   EngineSettings settings_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Events that wait for their sample: a heap of fixed capacity, first come first served among
-// events of one sample.
+// events of one sample. Bubbles leave a sixteenth of it to impacts and cavities.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,15 @@ namespace splash::synth {
 
 class EventQueue {
  public:
-  explicit EventQueue(int capacity) { waiting_.reserve(static_cast<std::size_t>(capacity)); }
+  explicit EventQueue(int capacity)
+      : capacity_(static_cast<std::size_t>(capacity)), kept_(capacity_ / kKeptPart) {
+    waiting_.reserve(capacity_);
+  }
 
   /// False when full.
   bool push(const protocol::Event& event, std::int64_t sample) noexcept {
-    if (waiting_.size() == waiting_.capacity()) return false;
+    const std::size_t kept = is_bubble(event) ? kept_ : 0;
+    if (waiting_.size() + kept >= capacity_) return false;
     waiting_.push_back({event, sample, serial_++});
     std::push_heap(waiting_.begin(), waiting_.end(), later);
     return true;
@@ -56,10 +60,13 @@ class EventQueue {
   void clear() noexcept { waiting_.clear(); }
 
  private:
+  static constexpr std::size_t kKeptPart = 16;
   static bool later(const Waiting& a, const Waiting& b) noexcept {
     return a.sample != b.sample ? a.sample > b.sample : a.serial > b.serial;
   }
 
+  std::size_t capacity_;
+  std::size_t kept_;              ///< of it, for others than bubbles
   std::vector<Waiting> waiting_;  ///< a heap, the next one first
   std::uint64_t serial_ = 0;
 };

@@ -39,8 +39,8 @@ void Ranking::enter(std::uint32_t place, const VoiceLife& life, std::int64_t sam
                     std::int64_t end) noexcept {
   const double decay = life.decay / sample_rate_;
   const double decay_start = static_cast<double>(sample) + life.hold * sample_rate_;
-  lines_[place] = {life.log_amplitude, decay, life.log_amplitude + decay * decay_start, sample,
-                   end};
+  lines_[place] = {life.log_amplitude, decay, life.log_amplitude + decay * decay_start, sample, end,
+                   life.kept};
   used_ = std::max<std::size_t>(used_, place + 1U);
 }
 
@@ -91,7 +91,7 @@ void Ranking::rank(std::int64_t sample) noexcept {
   float most = -kSilent;
   std::size_t sounding = 0;
   for (std::uint32_t place = 0; place < used_; ++place) {
-    const bool counts = lines_[place].until > sample;
+    const bool counts = lines_[place].until > sample && !lines_[place].kept;
     levels_[place] = counts ? static_cast<float>(level(place, sample)) : kSilent;
     if (!counts) continue;
     least = std::min(least, levels_[place]);

@@ -24,7 +24,8 @@ class Ranking {
   void end_at(std::uint32_t place, std::int64_t sample) noexcept;
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  /// Among the quietest of the voices that sound at `sample`, or kNone; never asked of the past.
+  /// Among the quietest of the voices that sound at `sample` and are not kept, or kNone; never
+  /// asked of the past.
   [[nodiscard]] std::uint32_t quietest(std::int64_t sample) noexcept;
 
   /// Natural logarithm of a voice's amplitude at `sample` [ln m].
@@ -41,6 +42,7 @@ class Ranking {
     double intercept = 0.0;   ///< of the decay's line at sample 0 of the clock [ln m]
     std::int64_t since = 0;   ///< sample at which it began
     std::int64_t until = -1;  ///< sample at which it ends or begins to fade
+    bool kept = false;        ///< never the quietest
   };
   struct Candidate {
     float level = 0.0F;  ///< when ranked [ln m]

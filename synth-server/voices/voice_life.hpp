@@ -13,6 +13,7 @@ struct VoiceLife {
   double hold = 0.0;           ///< decay begins after this [s]
   std::int64_t length = 0;     ///< samples until the amplitude is under the floor; 0: never audible
   std::int64_t fold = 0;       ///< sample at which the pitch reaches Nyquist; INT64_MAX: never
+  bool kept = false;           ///< not told to make room, however quiet
 
   /// Natural logarithm of the amplitude `t` seconds after the start [ln m].
   [[nodiscard]] double log_amplitude_at(double t) const noexcept {

@@ -159,6 +159,26 @@ TEST_F(IntakeTest, AFloodThatNobodyTakesLeavesRoomForSilence) {
   EXPECT_EQ(seen.back().kind, Command::Kind::silence) << "the last sender is gone";
 }
 
+TEST_F(IntakeTest, AFloodOfBubblesThatNobodyTakesLeavesRoomForImpactsAndCavities) {
+  for (std::size_t id = 1; id < 2 * kCommandCapacity; ++id) {
+    send(protocol::encode({bubble(static_cast<int>(id))}));
+  }
+  const std::uint64_t events = intake_.counters().events;
+  protocol::Impact impact;
+  protocol::Cavity cavity;
+  impact.speed = 1.0F;
+  cavity.radius = 0.1F;
+  for (int id = 1; id <= 100; ++id) {
+    send(protocol::encode({protocol::to_message(impact)}));
+    send(protocol::encode({protocol::to_message(cavity)}));
+  }
+  EXPECT_EQ(intake_.counters().events, events + 200);
+  EXPECT_EQ(intake_.counters().without_place.impacts, 0U);
+  EXPECT_EQ(intake_.counters().without_place.cavities, 0U);
+  EXPECT_EQ(intake_.counters().without_place.bubbles, intake_.counters().queue_full);
+  EXPECT_GT(intake_.counters().queue_full, 0U);
+}
+
 TEST_F(IntakeTest, UnframedSendersAreNotWatched) {
   send(protocol::encode(bubble(1)));
   now_ += 10.0;

@@ -162,6 +162,44 @@ TEST(BubblePool, RefusesWhenFadingVoicesTakeAllPlaces) {
   EXPECT_EQ(start(*pool, 0.2, 320), Start::stole);
 }
 
+Start start_kept(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05) {
+  const BubbleTone tone = paper_bubble(radius, epsilon, Chirp::literal);
+  VoiceLife life = life_of(tone, kRate, kFloor);
+  life.kept = true;
+  return pool.start(tone, life, {&kRoute, 1}, 0, sample).result;
+}
+
+// However loud the others, and however many come after it.
+TEST(BubblePool, KeepsAPlaceForWhatIsKept) {
+  const auto pool = pool_of(64);
+  for (int i = 0; i < 64; ++i) ASSERT_EQ(start(*pool, 0.03, 0), Start::started);
+  EXPECT_EQ(start(*pool, 0.02, 0, 0.01), Start::refused);
+  EXPECT_EQ(start_kept(*pool, 0.02, 0, 0.01), Start::stole);
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(start(*pool, 0.04, 0), Start::stole);
+  const auto with = mix(*pool, 0, 4800);
+  const auto other = pool_of(64);
+  for (int i = 0; i < 64; ++i) ASSERT_EQ(start(*other, 0.03, 0), Start::started);
+  for (int i = 0; i < 21; ++i) ASSERT_EQ(start(*other, 0.04, 0), Start::stole);
+  const auto without = mix(*other, 0, 4800);
+  const auto sound = [&](double radius, double epsilon) {
+    return pressure(paper_bubble(radius, epsilon, Chirp::literal), 4000.0 / kRate);
+  };
+  // All stolen ones have faded out: they differ by the kept voice and one of the loud ones.
+  EXPECT_NEAR(with[4000] - without[4000], sound(0.02, 0.01) - sound(0.04, 0.05), 1e-12);
+}
+
+TEST(BubblePool, KeepsNoMoreThanASixteenth) {
+  const auto pool = pool_of(64);
+  for (int i = 0; i < 64; ++i) ASSERT_EQ(start(*pool, 0.03, 0), Start::started);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(start_kept(*pool, 0.01, 0), Start::stole);
+  EXPECT_EQ(start_kept(*pool, 0.01, 0), Start::refused);
+  const VoiceLife life = life_of(paper_bubble(0.01, 0.05, Chirp::literal), kRate, kFloor);
+  mix(*pool, 0, (life.length / kCell + 1) * kCell);
+  for (int i = 0; i < 64; ++i) start(*pool, 0.03, (life.length / kCell + 1) * kCell);
+  EXPECT_EQ(start_kept(*pool, 0.01, (life.length / kCell + 1) * kCell), Start::stole)
+      << "the places come back";
+}
+
 TEST(BubblePool, TakesLatecomersOfACellAsIfTheyHadBeenKnown) {
   // Known before the cell is begun, or only when the pieces have come that far: the same bits.
   for (const Precision precision : {Precision::exact, Precision::fast}) {

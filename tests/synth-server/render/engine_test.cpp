@@ -202,11 +202,56 @@ TEST(Engine, SurvivesAFloodOfSimultaneousEvents) {
   }
   const auto out = render(engine, 9600);
   const auto counters = engine.counters();
-  EXPECT_EQ(counters.bubbles + counters.dropped_pool, 20000U);
+  EXPECT_EQ(counters.bubbles + counters.dropped_pool + counters.dropped_queue, 20000U);
   EXPECT_LE(counters.voices, 1024U);
   for (const auto& channel : out) {
     for (const float v : channel) ASSERT_LE(std::abs(v), 0.9F);
   }
+}
+
+// 450,000 loud bubbles a second for half a second, and among them quiet impacts and cavities,
+// twenty times a second each: none of those is dropped, what is dropped is told by its kind.
+TEST(Engine, PlaysAllImpactsAndCavitiesInAFloodOfBubbles) {
+  auto settings = file_settings();
+  settings.skip_masked = false;  // else most bubbles need no voice
+  Engine engine(open_rig(), settings);
+  constexpr int kBlocks = 94;
+  constexpr int kBlock = 256;
+  int others = 0;
+  for (int block = 0; block < kBlocks; ++block) {
+    const std::int64_t begin = engine.clock();
+    for (int i = 0; i < 2400; ++i) {
+      engine.schedule({bubble(0.03F, 0.1F), begin + i % kBlock});
+    }
+    if (block % 10 == 5) {
+      EXPECT_TRUE(engine.schedule({impact(1.0F, block), begin + 255}));
+      protocol::Cavity quiet = cavity(0.02F);
+      quiet.epsilon = 0.01F;
+      EXPECT_TRUE(engine.schedule({quiet, begin + 255}));
+      ++others;
+    }
+    render(engine, kBlock);
+  }
+  const EngineCounters counters = engine.counters();
+  EXPECT_EQ(counters.impacts, static_cast<std::uint64_t>(others));
+  EXPECT_EQ(counters.cavities, static_cast<std::uint64_t>(others));
+  EXPECT_EQ(counters.without_place.impacts, 0U);
+  EXPECT_EQ(counters.without_place.cavities, 0U);
+  EXPECT_GT(counters.without_place.bubbles, 0U);
+  EXPECT_EQ(counters.without_place.bubbles, counters.dropped_pool + counters.dropped_queue);
+}
+
+// More at once than may start in one of the engine's cells, and more than may wait.
+TEST(Engine, KeepsPlacesForImpactsAndCavitiesBehindBubblesOfOneMoment) {
+  Engine engine(open_rig(), file_settings());
+  for (int i = 0; i < 20000; ++i) engine.schedule({bubble(0.03F, 0.1F), 100});
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_TRUE(engine.schedule({impact(1.0F, i), 100}));
+    EXPECT_TRUE(engine.schedule({cavity(0.05F), 100}));
+  }
+  render(engine, 4800);
+  EXPECT_EQ(engine.counters().impacts, 30U);
+  EXPECT_EQ(engine.counters().cavities, 30U);
 }
 
 TEST(Engine, RefusesSettingsBeyondTheirLimits) {

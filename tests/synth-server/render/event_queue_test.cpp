@@ -30,6 +30,19 @@ TEST(EventQueue, RefusesWhatItCannotHold) {
   EXPECT_EQ(queue.size(), 0U);
 }
 
+TEST(EventQueue, KeepsPlacesFromBubbles) {
+  EventQueue queue(160);
+  int bubbles = 0;
+  while (queue.push(bubble(0.01F), 1)) ++bubbles;
+  EXPECT_EQ(bubbles, 150);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_TRUE(queue.push(impact(1.0F), 1));
+    EXPECT_TRUE(queue.push(cavity(0.1F), 1));
+  }
+  EXPECT_FALSE(queue.push(impact(1.0F), 1));
+  EXPECT_EQ(queue.size(), 160U);
+}
+
 TEST(EventQueue, AdvancesAllThatWait) {
   EventQueue queue(10);
   for (const std::int64_t sample : {500, 100, 300}) {
