@@ -39,9 +39,10 @@ void print_line(const std::string& line) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-protocol::UdpSocket open_socket(const std::vector<protocol::Endpoint>& targets) {
-  return protocol::failing_with(protocol::kExitUnavailable,
-                                [&] { return protocol::UdpSocket(sending_endpoint(targets)); });
+protocol::UdpSocket open_socket(const Options& options) {
+  return protocol::failing_with(protocol::kExitUnavailable, [&] {
+    return protocol::UdpSocket(sending_endpoint(options.targets, options.listen));
+  });
 }
 
 /// Poses of a body that no tracker may move are dropped without a word: the scene said so.
@@ -61,7 +62,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       simulation_(simulation),
       device_(device),
       targets_(options.targets),
-      socket_(open_socket(options.targets)),
+      socket_(open_socket(options)),
       log_(open_log(options.record)),
       gauges_(open_gauges(options.gauges, simulation.scene())),
       sender_(

@@ -70,9 +70,11 @@ void Targets::drop_expired() {
                 [now](const Target& target) { return !target.fixed && target.expires < now; });
 }
 
-protocol::Endpoint sending_endpoint(const std::vector<protocol::Endpoint>& targets) {
-  const bool stays_here = std::all_of(targets.begin(), targets.end(),
-                                      [](const auto& target) { return is_loopback(target); });
+protocol::Endpoint sending_endpoint(const std::vector<protocol::Endpoint>& targets,
+                                    const protocol::Endpoint& listening) {
+  const bool stays_here =
+      is_loopback(listening) && std::all_of(targets.begin(), targets.end(),
+                                            [](const auto& target) { return is_loopback(target); });
   return {.address = stays_here ? INADDR_LOOPBACK : INADDR_ANY, .port = 0};
 }
 

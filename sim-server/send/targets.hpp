@@ -55,8 +55,9 @@ class Targets {
   std::vector<Target> targets_;
 };
 
-/// Where a socket must be bound to reach all of `targets`: loopback where that is enough, else
-/// every interface; any free port.
-[[nodiscard]] protocol::Endpoint sending_endpoint(const std::vector<protocol::Endpoint>& targets);
+/// Where a socket must be bound to reach all of `targets`, and whoever asks for events at
+/// `listening`: loopback where that is enough, else every interface; any free port.
+[[nodiscard]] protocol::Endpoint sending_endpoint(const std::vector<protocol::Endpoint>& targets,
+                                                  const protocol::Endpoint& listening = {});
 
 }  // namespace splash::sim

@@ -128,6 +128,25 @@ TEST_F(OnTwoHosts, StrangersAreNotObeyed) {
   EXPECT_TRUE(synth->running());
 }
 
+// Whatever its targets are: none here, or one on its own host.
+TEST_F(OnTwoHosts, TheSimulatorSendsEventsToAnotherHostThatAsked) {
+  const tests::SmallScene scene(tests::plunging());
+  for (const Arguments& targets : {Arguments{}, Arguments{"--target", "127.0.0.1:9"}}) {
+    protocol::UdpSocket listener = hosts_.socket_on(kSynthHost, "10.77.0.2:0");
+    Arguments arguments{"--scene",       scene.path(), "--listen",
+                        "0.0.0.0:57300", "--allow",    "10.77.0.2"};
+    arguments.insert(arguments.end(), targets.begin(), targets.end());
+    auto simulator = start(kSimHost, "sim-server", arguments);
+    ASSERT_TRUE(simulator->wait_for_text("running")) << simulator->output();
+    const Message question = protocol::filled_up({"/notify", {1}}, protocol::kFilledQuestion);
+    EXPECT_EQ(answer_to(question, listener, "10.77.0.1:57300", 20.0).address, "/done");
+    std::array<std::byte, 2048> buffer{};
+    EXPECT_TRUE(listener.receive(buffer.data(), buffer.size(), 5.0)) << "a heartbeat at least";
+    simulator->signal(SIGTERM);
+    EXPECT_EQ(simulator->wait_for_end(), 0) << simulator->output();
+  }
+}
+
 TEST_F(OnTwoHosts, BothListenToTheirOwnHostUnlessToldOtherwise) {
   auto synth = start_synth({});
   const tests::SmallScene scene(tests::plunging());

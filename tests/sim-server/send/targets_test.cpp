@@ -70,6 +70,10 @@ TEST(SendingEndpoint, StaysOnLoopbackUnlessATargetIsElsewhere) {
   EXPECT_EQ(sending_endpoint({port(1), {.address = 0x7F000102U, .port = 1}}).address,
             INADDR_LOOPBACK);
   EXPECT_EQ(sending_endpoint({port(1), {.address = 0x0A000001U, .port = 1}}).address, INADDR_ANY);
+  // Who may ask from another host must be reached there.
+  EXPECT_EQ(sending_endpoint({port(1)}, {.address = 0x7F000102U}).address, INADDR_LOOPBACK);
+  EXPECT_EQ(sending_endpoint({port(1)}, {.address = INADDR_ANY}).address, INADDR_ANY);
+  EXPECT_EQ(sending_endpoint({}, {.address = 0x0A000001U}).address, INADDR_ANY);
 }
 
 }  // namespace
