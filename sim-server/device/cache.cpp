@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -20,6 +21,21 @@
 namespace splash::sim {
 namespace {
 
+/// `folder` in a place where everybody may write: what is loaded from it runs as this user, so it
+/// must be a folder of this user alone.
+std::filesystem::path own_folder(const std::filesystem::path& folder) {
+  static_cast<void>(mkdir(folder.c_str(), S_IRWXU));
+  struct stat found {};
+  const bool own = lstat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
+                   found.st_uid == geteuid() && (found.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+  if (!own) {
+    throw std::runtime_error("the folder for compiled kernels, " + folder.string() +
+                             ", is not a folder that this user alone may write to: remove it, or "
+                             "set HOME, XDG_CACHE_HOME or POCL_CACHE_DIR");
+  }
+  return folder;
+}
+
 std::filesystem::path default_cache() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') {
     return std::filesystem::path(cache) / "splash";
@@ -27,7 +43,8 @@ std::filesystem::path default_cache() {
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
     return std::filesystem::path(home) / ".cache" / "splash";
   }
-  return std::filesystem::temp_directory_path() / "splash-cache";
+  return own_folder(std::filesystem::temp_directory_path() /
+                    ("splash-cache-" + std::to_string(geteuid())));
 }
 
 void try_to_write(const std::filesystem::path& folder) {

@@ -7,11 +7,11 @@
 
 namespace splash::sim {
 
-/// Sets POCL_CACHE_DIR, if it is not set, to $XDG_CACHE_HOME/splash or ~/.cache/splash, makes the
-/// folder, writes to it and removes what is damaged there (cache_seal.hpp). Also pins PoCL's
-/// workers, one to a core (POCL_AFFINITY), unless the user chose or gave the process some cores
-/// only. Returns the folder; throws std::runtime_error
-/// that names it, the cause and the cure.
+/// Sets POCL_CACHE_DIR, if it is not set, to $XDG_CACHE_HOME/splash, ~/.cache/splash or, without
+/// either, a folder of this user's own among the temporary ones, makes the folder, writes to it and
+/// removes what is damaged there (cache_seal.hpp). Also pins PoCL's workers, one to a core
+/// (POCL_AFFINITY), unless the user chose or gave the process some cores only. Returns the folder;
+/// throws std::runtime_error that names it, the cause and the cure.
 std::filesystem::path prepare_kernel_cache();
 
 /// Removes environment settings that make PoCL many times slower, and says so on stderr.

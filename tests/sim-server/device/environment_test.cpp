@@ -83,6 +83,53 @@ TEST_F(EnvironmentDeathTest, TheCacheFollowsTheUsersFolders) {
   std::filesystem::remove_all(base);
 }
 
+/// Without a home: a folder among everybody's.
+class TemporaryCacheDeathTest : public Environment {
+ protected:
+  TemporaryCacheDeathTest() { std::filesystem::create_directories(base_); }
+  ~TemporaryCacheDeathTest() override { std::filesystem::remove_all(base_); }
+
+  [[noreturn]] void prepare() const {
+    for (const char* name : {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "HOME"}) unsetenv(name);
+    setenv("TMPDIR", base_.c_str(), 1);
+    try {
+      const auto folder = prepare_kernel_cache();
+      const auto mode = std::filesystem::status(folder).permissions();
+      std::exit(folder == folder_ && mode == std::filesystem::perms::owner_all ? kAccepted : 1);
+    } catch (const std::exception& error) {
+      std::cerr << error.what() << '\n';
+      std::exit(kRefused);
+    }
+  }
+
+  std::filesystem::path base_ = std::filesystem::path(::testing::TempDir()) / "splash-no-home-test";
+  std::filesystem::path folder_ = base_ / ("splash-cache-" + std::to_string(geteuid()));
+};
+
+TEST_F(TemporaryCacheDeathTest, IsThisUsersOwn) {
+  EXPECT_EXIT(prepare(), ::testing::ExitedWithCode(kAccepted), "");
+}
+
+// What is loaded from there runs as this user.
+TEST_F(TemporaryCacheDeathTest, IsRefusedWhereOthersMayWrite) {
+  const std::string words = "is not a folder that this user alone may write to.*POCL_CACHE_DIR";
+  std::filesystem::create_directory(folder_);
+  std::filesystem::permissions(folder_, std::filesystem::perms::all);
+  EXPECT_EXIT(prepare(), ::testing::ExitedWithCode(kRefused), words);
+  std::filesystem::remove(folder_);
+  std::filesystem::create_directory(base_ / "elsewhere");
+  std::filesystem::create_directory_symlink(base_ / "elsewhere", folder_);
+  EXPECT_EXIT(prepare(), ::testing::ExitedWithCode(kRefused), words);
+}
+
+TEST_F(TemporaryCacheDeathTest, IsRefusedWhereItIsAnothersFolder) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give a folder away";
+  std::filesystem::create_directory(folder_);
+  std::filesystem::permissions(folder_, std::filesystem::perms::owner_all);
+  ASSERT_EQ(chown(folder_.c_str(), 65534, 65534), 0);
+  EXPECT_EXIT(prepare(), ::testing::ExitedWithCode(kRefused), "this user alone may write to");
+}
+
 /// Whether all threads of this process may run on `core` and on no other.
 bool all_keep_to(int core) {
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
