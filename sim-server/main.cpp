@@ -149,6 +149,17 @@ void serve(Server& server, protocol::ServiceNotice& service) {
   server.leave(report);
 }
 
+/// A device that fails while kernels are built may have met damaged ones.
+template <class Build>
+auto doubting(CacheSeal& seal, const Build& build) {
+  try {
+    return naming_opencl_errors(build);
+  } catch (const DeviceError&) {
+    seal.doubt();
+    throw;
+  }
+}
+
 void run(const Options& options) {
   if (options.list_devices) return print_devices();
   protocol::ServiceNotice service;
@@ -157,7 +168,7 @@ void run(const Options& options) {
   const double start = protocol::monotonic_now();
   const std::filesystem::path cache =
       protocol::failing_with(protocol::kExitUnavailable, prepare_kernel_cache);
-  const CacheSeal seal(cache);
+  CacheSeal seal(cache);
   LastWords last_words(cache, protocol::kExitUnavailable);
   Device device = protocol::failing_with(protocol::kExitUnavailable, [&] {
     return Device(options.device, false, scene.fluid.kernels == KernelKind::reference ? 1 : 0);
@@ -166,7 +177,9 @@ void run(const Options& options) {
   std::printf("device  %s\n", describe(device.facts()).c_str());
   std::printf("compiling kernels (the first start on a machine takes some seconds)\n");
   std::fflush(stdout);
-  Simulation simulation(device, scene, options.tracker, telling_how_it_settles(service));
+  Simulation simulation = doubting(seal, [&] {
+    return Simulation(device, scene, options.tracker, telling_how_it_settles(service));
+  });
   last_words.built();
   const bool compiled = seal.has_new();
   seal.renew();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/device/cache_seal.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,8 +29,9 @@ constexpr std::string_view kMark = "splash-at-work-";
 /// FNV-1a (Fowler, Noll, Vo) over words of eight bytes, each folded once more, since a product
 /// carries nothing downwards; the last word is filled up with zeros. Against accidents, not against
 /// enemies.
-std::uint64_t checksum(const fs::path& path) {
+std::optional<std::uint64_t> checksum(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
   std::array<char, 65536> piece = {};
   std::uint64_t sum = 14695981039346656037ULL;
   std::uint64_t size = 0;
@@ -52,20 +55,32 @@ std::uint64_t checksum(const fs::path& path) {
 
 using Sums = std::map<std::string, std::uint64_t>;  // file, relative to the cache
 
-/// Of a program, relative to the cache.
-std::vector<std::string> files_of(const fs::path& folder, const fs::path& program) {
+/// Of a program, relative to the cache; nullopt: they cannot be listed.
+std::optional<std::vector<std::string>> files_of(const fs::path& folder, const fs::path& program) {
   std::vector<std::string> files;
-  std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(folder / program, ignored)) {
-    if (!entry.is_regular_file(ignored) || entry.path().filename() == kLastAccessed) continue;
-    files.push_back(entry.path().lexically_relative(folder));
+  std::error_code error;
+  // Step by step: in a range's loop a step that fails throws, as without a free descriptor.
+  for (fs::recursive_directory_iterator entry(folder / program, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& file = entry->path();
+    std::error_code ignored;
+    if (!entry->is_regular_file(ignored) || file.filename() == kLastAccessed) continue;
+    files.push_back(file.lexically_relative(folder));
   }
+  if (error) return std::nullopt;
   return files;
 }
 
-Sums sums_of(const fs::path& folder, const fs::path& program) {
+/// Same; nullopt: some cannot be read.
+std::optional<Sums> sums_of(const fs::path& folder, const fs::path& program) {
+  const auto files = files_of(folder, program);
+  if (!files) return std::nullopt;
   Sums sums;
-  for (const std::string& name : files_of(folder, program)) sums[name] = checksum(folder / name);
+  for (const std::string& name : *files) {
+    const auto sum = checksum(folder / name);
+    if (!sum) return std::nullopt;
+    sums[name] = *sum;
+  }
   return sums;
 }
 
@@ -76,6 +91,21 @@ Sums read_seal(const fs::path& folder) {
   std::string name;
   while (file >> std::hex >> sum && std::getline(file >> std::ws, name)) sums[name] = sum;
   return sums;
+}
+
+/// Whether the seal is there and says nothing: a power cut took it before it was on the disk.
+bool seal_is_lost(const fs::path& folder, const Sums& seal) {
+  std::error_code missing;
+  return seal.empty() && fs::exists(folder / kSeal, missing);
+}
+
+/// Waits until a file, or what a folder lists, has reached the disk; a disk that refuses is found
+/// out at the next start.
+void to_disk(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  static_cast<void>(fsync(file));
+  close(file);
 }
 
 /// Takes the marks of simulators that died; whether there was any.
@@ -107,11 +137,12 @@ bool is_whole(const Sums& found, const Sums& seal, const fs::path& program, bool
 }  // namespace
 
 int remove_damaged_programs(const fs::path& folder) {
-  const bool trusting = !clear_marks(folder);
   const Sums seal = read_seal(folder);
+  const bool trusting = !clear_marks(folder) && !seal_is_lost(folder, seal);
   int removed = 0;
   for (const fs::path& program : programs_in(folder)) {
-    if (is_whole(sums_of(folder, program), seal, program, trusting)) continue;
+    const auto found = sums_of(folder, program);
+    if (found && is_whole(*found, seal, program, trusting)) continue;
     std::error_code ignored;
     fs::remove_all(folder / program, ignored);
     ++removed;
@@ -121,10 +152,12 @@ int remove_damaged_programs(const fs::path& folder) {
 
 CacheSeal::CacheSeal(fs::path folder)
     : folder_(std::move(folder)), mark_(folder_ / (std::string(kMark) + std::to_string(getpid()))) {
-  std::ofstream{mark_};
+  std::ofstream(mark_).flush();
+  to_disk(folder_);
 }
 
 CacheSeal::~CacheSeal() {
+  if (in_doubt_) return;
   std::error_code ignored;
   fs::remove(mark_, ignored);
 }
@@ -134,26 +167,35 @@ bool CacheSeal::has_new() const {
   const auto programs = programs_in(folder_);
   return std::any_of(programs.begin(), programs.end(), [&](const fs::path& program) {
     const auto files = files_of(folder_, program);
-    return std::any_of(files.begin(), files.end(),
-                       [&](const std::string& name) { return !sealed.contains(name); });
+    return files && std::any_of(files->begin(), files->end(),
+                                [&](const std::string& name) { return !sealed.contains(name); });
   });
 }
 
 void CacheSeal::renew() const {
+  const Sums sealed = read_seal(folder_);
+  Sums sums;
+  for (const fs::path& program : programs_in(folder_)) {
+    const auto found = sums_of(folder_, program);
+    if (!found) return;  // the old seal says nothing wrong
+    sums.insert(found->begin(), found->end());
+  }
   const fs::path draft = folder_ / (std::string(kSeal) + "-" + std::to_string(getpid()));
   std::ofstream file(draft);
-  for (const fs::path& program : programs_in(folder_)) {
-    for (const auto& [name, sum] : sums_of(folder_, program)) {
-      file << std::hex << sum << ' ' << name << '\n';
-    }
+  for (const auto& [name, sum] : sums) {
+    const auto known = sealed.find(name);
+    if (known == sealed.end() || known->second != sum) to_disk(folder_ / name);
+    file << std::hex << sum << ' ' << name << '\n';
   }
   file.close();
   std::error_code ignored;
-  if (file) {
-    fs::rename(draft, folder_ / kSeal, ignored);
-  } else {
+  if (!file) {
     fs::remove(draft, ignored);
+    return;
   }
+  to_disk(draft);
+  fs::rename(draft, folder_ / kSeal, ignored);
+  to_disk(folder_);
 }
 
 }  // namespace splash::sim

@@ -9,19 +9,24 @@
 namespace splash::sim {
 
 /// Removes every compiled program in `folder` that is not what the seal says, and those that are in
-/// no seal if the simulator that built them died. Nobody else may be using the folder. Returns how
-/// many were removed; they are compiled anew when they are asked for.
+/// no seal if a simulator died or failed over its kernels, or if the seal is there but lost what it
+/// said. Nobody else may be using the folder. Returns how many were removed; they are compiled anew
+/// when they are asked for.
 int remove_damaged_programs(const std::filesystem::path& folder);
 
 /// A simulator at work in a cache: what it adds is not trusted until it is sealed.
 class CacheSeal {
  public:
   explicit CacheSeal(std::filesystem::path folder);
-  /// Ends the work in peace. What was not sealed is trusted as well: this process has seen it
-  /// whole.
+  /// Ends the work in peace, unless it is in doubt. What was not sealed is trusted as well: this
+  /// process has seen it whole.
   ~CacheSeal();
   CacheSeal(const CacheSeal&) = delete;
   CacheSeal& operator=(const CacheSeal&) = delete;
+
+  /// The device failed over the kernels: what is in no seal may be the cause, and the next start
+  /// compiles it again.
+  void doubt() noexcept { in_doubt_ = true; }
 
   /// Whether kernels are there that the seal does not know: some were compiled since.
   [[nodiscard]] bool has_new() const;
@@ -31,7 +36,8 @@ class CacheSeal {
 
  private:
   std::filesystem::path folder_;
-  std::filesystem::path mark_;  ///< of work going on; left behind by who dies
+  std::filesystem::path mark_;  ///< of work going on; left behind by who dies, and in doubt
+  bool in_doubt_ = false;
 };
 
 }  // namespace splash::sim

@@ -19,6 +19,10 @@ constexpr const char* kCompiler =
     "the platform has no compiler: install the rest of it, for PoCL apt install pocl-opencl-icd";
 constexpr const char* kOurs = "this is a fault of sim-server: please report it with this line";
 
+constexpr const char* kDamaged =
+    "a compiled kernel is damaged: start again, and what may be the cause is compiled anew; if it "
+    "happens again, please report it with this line";
+
 struct Row {
   int error;
   const char* name;
@@ -36,7 +40,7 @@ constexpr std::array kRows = {
         "CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST", kLost},
     Row{CL_INVALID_CONTEXT, "CL_INVALID_CONTEXT", kLost},
     Row{CL_INVALID_COMMAND_QUEUE, "CL_INVALID_COMMAND_QUEUE", kLost},
-    Row{CL_INVALID_KERNEL_NAME, "CL_INVALID_KERNEL_NAME", kOurs},
+    Row{CL_INVALID_KERNEL_NAME, "CL_INVALID_KERNEL_NAME", kDamaged},
     Row{CL_INVALID_ARG_SIZE, "CL_INVALID_ARG_SIZE", kOurs},
     Row{CL_INVALID_KERNEL_ARGS, "CL_INVALID_KERNEL_ARGS", kOurs},
     Row{CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE", kOurs},

@@ -143,6 +143,23 @@ TEST_F(OpenClFault, DamagedCacheIsCompiledAgain) {
   std::ofstream{cache() / "splash-at-work-1"};
   fs::resize_file(survey, 0);
   expect_mended();
+  // What a power cut leaves: a seal that says nothing, and a program as empty.
+  fs::resize_file(cache() / "splash-sums", 0);
+  fs::resize_file(program, 0);
+  const auto [code, text] = simulate_with_cache();
+  EXPECT_EQ(code, 0) << text;
+}
+
+/// Nothing tells then what is damaged: the first start fails and says so, the next one mends it.
+TEST_F(OpenClFault, ALostSealIsMendedByTheSecondStart) {
+  ASSERT_EQ(simulate_with_cache().code, 0);
+  fs::remove(cache() / "splash-sums");
+  fs::resize_file(last_of(cached("program.bc")), 0);
+  const auto [code, text] = simulate_with_cache();
+  EXPECT_EQ(code, 69) << text;
+  EXPECT_THAT(text, HasSubstr("start again"));
+  EXPECT_EQ(simulate_with_cache().code, 0);
+  EXPECT_THAT(simulate_with_cache().text, Not(HasSubstr("damaged")));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "sim-server/device/cache_seal.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -62,6 +63,41 @@ TEST_F(Seal, TrustsNothingMoreOfASimulatorThatDied) {
   EXPECT_FALSE(has("GH/IJ"));
   EXPECT_TRUE(has("AB/CD"));
   EXPECT_EQ(remove_damaged_programs(folder_), 0) << "it is buried once";
+}
+
+TEST_F(Seal, TrustsNothingMoreWhereTheDeviceFailed) {
+  fill();
+  CacheSeal(folder_).doubt();
+  EXPECT_EQ(remove_damaged_programs(folder_), 2);
+  EXPECT_TRUE(has("AB/CD"));
+}
+
+// What a power cut leaves of a file that was not on the disk yet.
+TEST_F(Seal, ThatLostWhatItSaidIsTrustedInNothing) {
+  fill();
+  write("splash-sums", "");
+  EXPECT_EQ(remove_damaged_programs(folder_), 4);
+}
+
+TEST_F(Seal, IsNotRenewedFromWhatCannotBeRead) {
+  fill();
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  {
+    const CacheSeal seal(folder_);
+    rlimit few = before;
+    few.rlim_cur = static_cast<rlim_t>(dup(0));  // the next free descriptor
+    close(static_cast<int>(few.rlim_cur));
+    // No folder can be listed; then those in it cannot; then their files cannot be read.
+    for (int free = 0; free < 4; ++free, ++few.rlim_cur) {
+      setrlimit(RLIMIT_NOFILE, &few);
+      EXPECT_NO_THROW(seal.renew()) << free;
+      EXPECT_NO_THROW(static_cast<void>(seal.has_new())) << free;
+    }
+    setrlimit(RLIMIT_NOFILE, &before);
+  }
+  EXPECT_EQ(remove_damaged_programs(folder_), 0) << "the old seal is whole";
+  EXPECT_TRUE(has("AB/CD"));
 }
 
 TEST_F(Seal, KnowsWhatWasCompiledSince) {

@@ -24,7 +24,8 @@ TEST(OpenClErrors, AreToldInWords) {
               ThrowsMessage<DeviceError>(
                   AllOf(HasSubstr("clFinish failed: CL_OUT_OF_RESOURCES (-5)"),
                         HasSubstr("lower the scene's particles"), HasSubstr("--list-devices"))));
-  EXPECT_THAT(opencl_error_text("clCreateKernel", -46), HasSubstr("a fault of sim-server"));
+  EXPECT_THAT(opencl_error_text("clCreateKernel", -46), HasSubstr("start again"));
+  EXPECT_THAT(opencl_error_text("clSetKernelArg", -51), HasSubstr("a fault of sim-server"));
   EXPECT_THAT(opencl_error_text("clFinish", -36), HasSubstr("the device was lost"));
   EXPECT_THAT(opencl_error_text("clFinish", -12345), HasSubstr("error (-12345); the device"));
 }
