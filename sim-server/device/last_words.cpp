@@ -49,9 +49,9 @@ std::string sentence(const std::filesystem::path& cache) {
   return "sim-server: OpenCL ended the program, its own words are above. If the disk is full: free "
          "some MiB for compiled kernels in " +
          cache.string() + free +
-         ", or set POCL_CACHE_DIR to another folder. Otherwise delete that folder, and if it "
-         "happens "
-         "again choose another device (--list-devices)\n";
+         ", or set POCL_CACHE_DIR to another folder. If memory is short or limited (ulimit -v): "
+         "give it more. Otherwise delete that folder, and if it happens again choose another "
+         "device (--list-devices)\n";
 }
 
 }  // namespace

@@ -4,6 +4,26 @@
 #include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
+namespace {
+
+/// Calls that may compile. PoCL's compiler is C++ that throws when memory is short, past PoCL's own
+/// locks, for which all that is released on the way up would wait for ever: the program is to end
+/// where it stands (LastWords says why).
+cl_int build(cl_program program, cl_device_id device, const char* options) noexcept {
+  return clBuildProgram(program, 1, &device, options, nullptr, nullptr);
+}
+
+cl_int enqueue(cl_command_queue queue, cl_kernel kernel, std::size_t count,
+               std::size_t group) noexcept {
+  return clEnqueueNDRangeKernel(queue, kernel, 1, nullptr, &count, &group, 0, nullptr, nullptr);
+}
+
+}  // namespace
+
+void Kernel::launch(cl::CommandQueue& queue, std::size_t count, std::size_t group) const {
+  const cl_int error = enqueue(queue(), kernel_(), count, group);
+  if (error != CL_SUCCESS) throw cl::Error(error, "clEnqueueNDRangeKernel");
+}
 
 cl::Program build_program(const Device& device, const std::vector<KernelSource>& sources,
                           const std::vector<std::string>& defines, bool relaxed) {
@@ -17,11 +37,10 @@ cl::Program build_program(const Device& device, const std::vector<KernelSource>&
   for (const std::string& define : defines) options += " -D" + define;
 
   cl::Program program(device.context(), text);
-  try {
-    program.build(device.handle(), options.c_str());
-  } catch (const cl::Error& error) {
+  const cl_int error = build(program(), device.handle()(), options.c_str());
+  if (error != CL_SUCCESS) {
     throw DeviceError("the kernels do not build on " + device.facts().name + " (error " +
-                      std::to_string(error.err()) + "):\n" +
+                      std::to_string(error) + "):\n" +
                       program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle()) +
                       "Choose another device (--list-devices). If a kernel's line is named above, "
                       "please report it; if none is, the disk of $POCL_CACHE_DIR may be full");

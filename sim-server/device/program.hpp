@@ -37,10 +37,12 @@ class Kernel {
     (kernel_.setArg(index++, args), ...);
     const std::size_t group = count >= group_ ? group_ : 1;
     const std::size_t padded = (count + group - 1) / group * group;
-    queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(padded), cl::NDRange(group));
+    launch(queue, padded, group);
   }
 
  private:
+  void launch(cl::CommandQueue& queue, std::size_t count, std::size_t group) const;
+
   cl::Kernel kernel_;
   std::size_t group_ = 64;
 };

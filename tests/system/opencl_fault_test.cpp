@@ -82,6 +82,19 @@ TEST_F(OpenClFault, FullDiskWhileCompilingIsSaid) {
                                       HasSubstr(cache().string()), HasSubstr("POCL_CACHE_DIR")));
 }
 
+/// The compiler throws then, past PoCL's locks: nothing may wait for those.
+TEST_F(OpenClFault, TooLittleMemoryWhileCompilingIsSaid) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take address space of their own";
+#endif
+  Arguments shell{"/bin/sh", "-c", "ulimit -v 400000; exec \"$0\" \"$@\""};
+  const Arguments program = command("sim-server", arguments());
+  shell.insert(shell.end(), program.begin(), program.end());
+  ChildProcess process(shell, {{"POCL_CACHE_DIR", cache().string()}});
+  EXPECT_EQ(process.wait_for_end(120.0), 69) << process.output();
+  EXPECT_THAT(process.output(), HasSubstr("(ulimit -v)"));
+}
+
 /// PoCL aborts where the linker of its compiler fails, and LLVM has taken that signal before.
 TEST_F(OpenClFault, ALinkerThatFailsIsSaid) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
