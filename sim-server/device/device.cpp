@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/device/device.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "sim-server/device/cache.hpp"
 
@@ -16,6 +22,42 @@ struct Found {
   cl::Device handle;
 };
 
+/// Why the library that an .icd file names cannot be loaded; empty: it can be.
+std::string why_not_loaded(const std::filesystem::path& icd) {
+  std::ifstream file(icd);
+  std::string library;
+  if (!(file >> library)) return icd.string() + " cannot be read";
+  void* const loaded = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (loaded != nullptr) {
+    dlclose(loaded);
+    return {};
+  }
+  return icd.string() + " names a platform that cannot be loaded: " + dlerror();
+}
+
+/// One that is installed and not found wants another cure than one that is missing.
+std::string why_no_platform() {
+  const char* chosen = std::getenv("OCL_ICD_VENDORS");
+  const std::filesystem::path folder = chosen == nullptr ? "/etc/OpenCL/vendors" : chosen;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".icd") continue;
+    const std::string reason = why_not_loaded(entry.path());
+    if (!reason.empty()) {
+      return "no OpenCL platform found: " + reason +
+             "; if that is for want of memory or descriptors, raise the limit (ulimit -a shows "
+             "them), else install the platform anew";
+    }
+  }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    return "no OpenCL platform found: " + folder.string() + " cannot be listed: " + error.message();
+  }
+  return "no OpenCL platform found in " + folder.string() +
+         (chosen == nullptr ? "; install one"
+                            : ", which $OCL_ICD_VENDORS names; unset that, or install one") +
+         ", for example: apt install pocl-opencl-icd";
+}
+
 std::vector<cl::Platform> platforms() {
   std::vector<cl::Platform> found;
   try {
@@ -23,15 +65,7 @@ std::vector<cl::Platform> platforms() {
   } catch (const cl::Error&) {
     found.clear();  // no loader entry at all (-1001): answered below like an empty list
   }
-  if (found.empty()) {
-    const char* folder = std::getenv("OCL_ICD_VENDORS");
-    const std::string searched = folder == nullptr ? "/etc/OpenCL/vendors; install one"
-                                                   : std::string(folder) +
-                                                         ", which $OCL_ICD_VENDORS names; "
-                                                         "unset that, or install one";
-    throw std::runtime_error("no OpenCL platform found in " + searched +
-                             ", for example: apt install pocl-opencl-icd");
-  }
+  if (found.empty()) throw std::runtime_error(why_no_platform());
   return found;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <string>
 
@@ -55,6 +56,22 @@ TEST_F(EnvironmentDeathTest, NoPlatformNamesThePackage) {
       },
       ::testing::ExitedWithCode(kRefused),
       "no OpenCL platform found in /nonexistent.*apt install pocl-opencl-icd");
+}
+
+// It is installed: to install it again would not help.
+TEST_F(EnvironmentDeathTest, APlatformThatCannotBeLoadedIsNamedWithTheReason) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "splash-vendors-test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "torn.icd") << "libsplash-torn.so.9\n";
+  EXPECT_EXIT(
+      {
+        setenv("OCL_ICD_VENDORS", folder.c_str(), 1);
+        try_device();
+      },
+      ::testing::ExitedWithCode(kRefused),
+      "no OpenCL platform found: .*torn.icd names a platform that cannot be loaded: "
+      ".*libsplash-torn.so.9");
+  std::filesystem::remove_all(folder);
 }
 
 TEST_F(EnvironmentDeathTest, ASlowSettingIsSaidAndIgnored) {
