@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "protocol/config.hpp"
+#include "protocol/printable.hpp"
 #include "sim-server/scene/gauge_reader.hpp"
 #include "sim-server/scene/mesh/mesh_file.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
@@ -36,11 +37,15 @@ std::filesystem::path find_file(const ConfigMap& map, const std::string& key,
                                 const std::string& name) {
   if (name.empty()) return {};
   std::filesystem::path path = map.folder() / name;
-  if (!std::filesystem::is_regular_file(path)) {
-    throw map.error(key, "there is no file " + path.string() +
-                             " (a relative name begins in the scene's folder)");
-  }
-  return path;
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_regular_file(status)) return path;
+  constexpr std::size_t kShown = 200;  // characters
+  const std::string shown = protocol::printable(path.string(), kShown);
+  const bool found = status.type() != std::filesystem::file_type::not_found;
+  if (found && error) throw map.error(key, shown + " cannot be read: " + error.message());
+  throw map.error(key,
+                  "there is no file " + shown + " (a relative name begins in the scene's folder)");
 }
 
 /// A free body turns about its centre of mass: that becomes its origin, and it rests where the
