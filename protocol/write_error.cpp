@@ -21,6 +21,8 @@ const char* cure(int error) {
     case EPERM:
     case EROFS:
       return "; name a file in a folder that you may write to";
+    case EFBIG:
+      return "; the limit of file sizes is reached ('ulimit -f'): raise it";
     default:
       return "";
   }

@@ -198,6 +198,7 @@ int main(int argc, char** argv) {
   const auto [options, exit_code] = parse_options(argc, argv);
   if (!options) return exit_code;
   std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
+  std::signal(SIGXFSZ, SIG_IGN);  // nor does a file as long as it may be: that is a full disk
   try {
     naming_opencl_errors([&chosen = *options] { run(chosen); });
     return protocol::kExitOk;

@@ -52,12 +52,27 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
       static_cast<unsigned long long>(c.bubbles), static_cast<unsigned long long>(c.cavities));
   std::printf(
       "left out: %llu above every output's band, %llu unheard or out of reach, %llu masked, %llu "
-      "without a voice, %llu out of range\n",
+      "without a voice (%llu of them impacts, %llu cavities), %llu out of range\n",
       static_cast<unsigned long long>(c.dropped_band),
       static_cast<unsigned long long>(c.dropped_unheard),
       static_cast<unsigned long long>(c.dropped_masked),
       static_cast<unsigned long long>(c.dropped_pool) + c.dropped_queue,
+      static_cast<unsigned long long>(c.without_place.impacts),
+      static_cast<unsigned long long>(c.without_place.cavities),
       static_cast<unsigned long long>(c.dropped_refused));
+}
+
+/// Before the file is there: from the log's beginning to its last event everything is rendered.
+void require_renderable(const std::filesystem::path& path,
+                        const std::vector<protocol::LogEntry>& log) {
+  constexpr double kLongest = 7 * 24 * 3600.0;  // [s]
+  if (log.empty() || log.back().seconds <= kLongest) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "its last packet is at %.0f s; at most a week (%.0f s) is rendered, from the log's "
+                "beginning",
+                log.back().seconds, kLongest);
+  throw protocol::Failure(protocol::kExitData, "event log '" + path.string() + "': " + text);
 }
 
 }  // namespace
@@ -65,6 +80,7 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
 void render_log(const Options& options, const Rig& rig) {
   const auto log = protocol::failing_with(protocol::kExitData,
                                           [&] { return protocol::read_log(options.replay); });
+  require_renderable(options.replay, log);
   ReplaySettings settings;
   settings.engine = options.engine;
   settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "protocol/event_log.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"
@@ -155,6 +156,40 @@ TEST(Exit, FullDiskEndsTheRecordingNotTheRun) {
   EXPECT_THAT(synth.text,
               AllOf(HasSubstr("/dev/full: cannot write: No space left on device; free space"),
                     HasSubstr("Playing goes on, the recording ends here")));
+}
+
+// The signal that the kernel sends then would end a program without a word.
+TEST(Exit, AFileAsLongAsItMayBeIsAFullDisk) {
+  const std::string path = temporary_path("limited.wav");
+  Arguments shell{"/bin/sh", "-c", "ulimit -f 64; exec \"$0\" \"$@\""};
+  for (const std::string& word :
+       command("synth-server", {"--rig", rig_path("stereo.yaml"), "--device", "null", "--listen",
+                                "127.0.0.1:0", "--record-audio", path, "--duration", "2"})) {
+    shell.push_back(word);
+  }
+  ChildProcess synth(shell);
+  EXPECT_EQ(synth.wait_for_end(), 74) << synth.output();
+  EXPECT_THAT(synth.output(), AllOf(HasSubstr("the limit of file sizes is reached ('ulimit -f')"),
+                                    HasSubstr("Playing goes on, the recording ends here")));
+  std::filesystem::remove(path);
+}
+
+// Bytes on the disk for each second of it; the old file is not touched.
+TEST(Exit, ALogOfMoreThanAWeekIsNotRendered) {
+  const std::string log = temporary_path("old.osc");
+  const std::string wav = temporary_path("old.wav");
+  protocol::Bubble bubble;
+  bubble.radius = 0.01F;
+  protocol::LogWriter(log).append(4e9, {protocol::to_message(bubble)});
+  std::ofstream(wav) << "as it was";
+  const auto [code, text] = run_program(
+      "synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", log, "--render", wav});
+  EXPECT_EQ(code, 65) << text;
+  EXPECT_THAT(text, AllOf(HasSubstr(log), HasSubstr("4000000000 s"), HasSubstr("604800 s")));
+  std::ifstream kept(wav);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "as it was");
+  std::filesystem::remove(log);
+  std::filesystem::remove(wav);
 }
 
 TEST(Exit, DeviceThatIsNotThereIsUnavailable) {
