@@ -25,7 +25,7 @@ std::string ending_of(const std::string& file) {
 TriangleMesh parse(const std::string& bytes, const std::string& file, double scale) {
   const std::string ending = ending_of(file);
   if (ending == ".stl" && is_binary_stl(bytes)) return parse_binary_stl(bytes, file, scale);
-  if (ending == ".obj") return parse_obj(MeshText(bytes, file, scale));
+  if (ending == ".obj") return parse_obj(MeshText(bytes, file, scale, true));
   if (ending != ".stl") {
     throw protocol::ConfigError({.file = file}, "a mesh's file ends in .obj or .stl");
   }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kFarthest = 100.0;  // [m]
 constexpr std::string_view kSpace = " \t\r";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::vector<std::string_view> words_of(std::string_view line) {
   line = line.substr(0, line.find('#'));
@@ -23,6 +24,14 @@ std::vector<std::string_view> words_of(std::string_view line) {
     begin = line.find_first_not_of(kSpace, end);
   }
   return words;
+}
+
+/// Whether the line goes on in the next one: its backslash is no word.
+bool take_backslash(std::vector<std::string_view>& words) {
+  if (words.empty() || !words.back().ends_with('\\')) return false;
+  words.back().remove_suffix(1);
+  if (words.back().empty()) words.pop_back();
+  return true;
 }
 
 }  // namespace
@@ -40,18 +49,24 @@ std::string quoted(std::string_view word) {
   return "'" + std::string(word.substr(0, 40)) + "'";
 }
 
-MeshText::MeshText(std::string_view text, std::string file, double scale)
-    : rest_(text), file_(std::move(file)), scale_(scale) {}
+MeshText::MeshText(std::string_view text, std::string file, double scale, bool continues)
+    : rest_(text), file_(std::move(file)), scale_(scale), continues_(continues) {
+  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+}
 
 std::optional<MeshLine> MeshText::next() {
+  MeshLine line;
   while (!rest_.empty()) {
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    auto words = words_of(rest_.substr(0, end));
+    const auto words = words_of(rest_.substr(0, end));
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     ++lines_;
-    if (!words.empty()) return MeshLine{lines_, std::move(words)};
+    if (line.words.empty()) line.number = lines_;
+    line.words.insert(line.words.end(), words.begin(), words.end());
+    if (continues_ && take_backslash(line.words)) continue;
+    if (!line.words.empty()) return line;
   }
-  return std::nullopt;
+  return line.words.empty() ? std::nullopt : std::optional(std::move(line));
 }
 
 Vector3 MeshText::place(const MeshLine& line, std::size_t first) const {

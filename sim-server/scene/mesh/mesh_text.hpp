@@ -13,14 +13,16 @@
 namespace splash::sim {
 
 struct MeshLine {
-  int number = 1;                       ///< counted from 1
+  int number = 1;                       ///< of its beginning, counted from 1
   std::vector<std::string_view> words;  ///< without what follows a '#'; at least one
 };
 
 class MeshText {
  public:
-  /// `text` must outlive this. `scale`: of all lengths [m per unit of the file].
-  MeshText(std::string_view text, std::string file, double scale);
+  /// `text` must outlive this. `scale`: of all lengths [m per unit of the file]. `continues`: a
+  /// line that ends with a backslash goes on in the next. A byte order mark at the beginning is
+  /// nothing.
+  MeshText(std::string_view text, std::string file, double scale, bool continues = false);
 
   /// The next line that says anything; none at the end.
   [[nodiscard]] std::optional<MeshLine> next();
@@ -32,6 +34,7 @@ class MeshText {
   std::string_view rest_;
   std::string file_;
   double scale_;
+  bool continues_;
   int lines_ = 0;  ///< so far
 };
 

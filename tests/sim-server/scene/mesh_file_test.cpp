@@ -197,5 +197,25 @@ TEST(WrongBinaryMesh, NamesTheTriangle) {
   }
 }
 
+TEST(MeshFile, MayBeginWithAByteOrderMark) {
+  const TriangleMesh mesh = parse_mesh("\xEF\xBB\xBFv 0 0 0\n" + kObj, "a.obj", 1.0);
+  EXPECT_EQ(mesh.triangles.size(), 4U);
+}
+
+TEST(MeshFile, OfObjMayContinueALineInTheNext) {
+  const std::string text =
+      "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\r\nv 0 0 \\\r\n1\n# no \\\nf 1 2 \\\n3\\\n\nf 1 2 4";
+  const TriangleMesh mesh = parse_mesh(text, "a.obj", 1.0);
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  ASSERT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_EQ(mesh.vertices[3], (Vector3{0.0, 0.0, 1.0}));
+  try {
+    static_cast<void>(parse_mesh("v 0 0 0\nf 1 \\\n1 \\\nx\n", "a.obj", 1.0));
+    FAIL();
+  } catch (const protocol::ConfigError& error) {
+    EXPECT_EQ(error.place().line, 2) << "where it begins";
+  }
+}
+
 }  // namespace
 }  // namespace splash::sim
