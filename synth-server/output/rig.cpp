@@ -11,7 +11,6 @@
 namespace splash::synth {
 namespace {
 
-constexpr int kMaxTiles = 1024;
 constexpr int kMaxChannels = 2048;
 constexpr std::size_t kMaxParts = 64;
 
@@ -24,15 +23,15 @@ constexpr std::size_t kMaxParts = 64;
 }
 
 void check_tiles(const Output& output) {
-  if (output.tiles_x < 1) refuse(output, "tiles_x", output.tiles_x, "must be at least 1");
-  if (output.tiles_y < 1) refuse(output, "tiles_y", output.tiles_y, "must be at least 1");
+  if (output.tiles_x < 1) refuse(output, "tiles.columns", output.tiles_x, "must be at least 1");
+  if (output.tiles_y < 1) refuse(output, "tiles.rows", output.tiles_y, "must be at least 1");
   if (output.tiles_x > kMaxTiles / output.tiles_y) {
-    refuse(output, "tiles_x", output.tiles_x, "an output has at most 1024 tiles");
+    refuse(output, "tiles.columns", output.tiles_x, "an output has at most 1024 tiles");
   }
-  if (!(output.tile_size > 0.0)) refuse(output, "tile_size", output.tile_size, "must be positive");
+  if (!(output.tile_size > 0.0)) refuse(output, "tiles.size", output.tile_size, "must be positive");
   // Half a tile's diagonal is 0.71 of its edge: with less reach, corners would be mute.
   if (!(output.reach >= 0.75 * output.tile_size)) {
-    refuse(output, "reach", output.reach, "must be at least 0.75 of tile_size");
+    refuse(output, "tiles.reach", output.reach, "must be at least 0.75 of tiles.size");
   }
 }
 

@@ -61,6 +61,8 @@ struct Heat {
   double seconds = 5.0;  ///< thermal time constant [s]
 };
 
+inline constexpr int kMaxTiles = 1024;  ///< of one output
+
 struct Output {
   std::string name;
   OutputKind kind = OutputKind::single;

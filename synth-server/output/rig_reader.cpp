@@ -21,6 +21,17 @@ void read_part(const ConfigMap& map, const std::string& key, bool allowed,
   part->read(fields, {}, output);
 }
 
+/// Each within its range, and too many together.
+void check_tile_count(const ConfigMap& map, const Output& output) {
+  if (output.tiles_x <= kMaxTiles / output.tiles_y) return;
+  const int most = kMaxTiles / output.tiles_y;
+  throw map.child("tiles").error("columns", "must be at most " + std::to_string(most) + " with " +
+                                                std::to_string(output.tiles_y) + " rows, got '" +
+                                                std::to_string(output.tiles_x) +
+                                                "': an output has at most " +
+                                                std::to_string(kMaxTiles) + " tiles");
+}
+
 EqualiserSection read_section(const ConfigMap& map) {
   static const std::map<std::string, SectionKind> kKinds = {
       {"peak", SectionKind::peak},
@@ -61,6 +72,7 @@ Output read_output(const ConfigMap& map) {
   entry.kind = kKinds.at(entry.kind_name);
   map.child("band").read(band_fields(), {}, entry.band);
   read_part(map, "tiles", entry.kind == OutputKind::tiles, tile_fields(), entry);
+  if (map.has("tiles")) check_tile_count(map, entry);
   read_part(map, "stereo", entry.kind == OutputKind::stereo, stereo_fields(), entry);
   if (entry.kind != OutputKind::worn && map.has("parts")) {
     throw map.error("parts", "has no meaning for an output that is not worn");

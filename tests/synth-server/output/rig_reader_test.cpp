@@ -110,7 +110,9 @@ INSTANTIATE_TEST_SUITE_P(
                "rig.yaml:3:", "1.05"},
         Broken{kBegin + kWorn + kResponse + "{frequency: [80, 90], level_db: [1]}\n",
                "rig.yaml:3:", "as many"},
-        Broken{kBegin + "    kind: tiles\n    tiles: {reach: 0.1}\n", "rig.yaml:3:", "reach"},
+        Broken{kBegin + "    kind: tiles\n    tiles: {reach: 0.1}\n", "rig.yaml:3:", "tiles.reach"},
+        Broken{kBegin + "    kind: tiles\n    tiles: {rows: 64, columns: 64}\n",
+               "rig.yaml:6:32:", "at most 16 with 64 rows, got '64'"},
         Broken{
             "name: x\noutputs:\n  - name: a\n    kind: single\n    band: {low: 800, high: 750}\n",
             "rig.yaml:3:", "band.high"},
