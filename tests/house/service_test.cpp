@@ -74,6 +74,9 @@ TEST_F(Service, HasThisTreesPaths) {
     EXPECT_THAT(text, HasSubstr("\nType=notify\n"));
     EXPECT_THAT(text, testing::ContainsRegex("\nWatchdogSec=[0-9]+\n"));
     EXPECT_THAT(text, HasSubstr("\nRestart=on-failure\n"));
+    EXPECT_THAT(text, HasSubstr("\nNoNewPrivileges=yes\n"));
+    EXPECT_THAT(text, testing::ContainsRegex("\nRestrictAddressFamilies=.*AF_INET .*\n"));
+    EXPECT_THAT(text, testing::ContainsRegex("\nMemoryMax=[0-9]+%\n"));
   }
 }
 
