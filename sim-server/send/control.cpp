@@ -68,14 +68,16 @@ void ControlServer::take(protocol::Bytes packet, const protocol::Endpoint& from)
   }
   targets_.renew(from);
   const auto level = static_cast<unsigned>(dump_level_);
-  if ((level & 2U) != 0 && actions_.print) actions_.print(to_hexadecimal(packet));
+  if ((level & 2U) != 0) dump(to_hexadecimal(packet), monotonic);
   protocol::ReplyBudget budget(from, packet.size());
   for (const auto& message : decoded.packet.messages) {
-    if ((level & 1U) != 0 && actions_.print) {
-      actions_.print(protocol::to_string(from) + ' ' + to_text(message));
-    }
+    if ((level & 1U) != 0) dump(protocol::to_string(from) + ' ' + to_text(message), monotonic);
     obey({message, from, monotonic, unix_time, budget});
   }
+}
+
+void ControlServer::dump(const std::string& line, double now) {
+  if (actions_.print) dumped_.print(line, now, actions_.print);
 }
 
 void ControlServer::refuse(protocol::Refusal refusal, const protocol::Endpoint& from) {

@@ -18,6 +18,7 @@
 #include "protocol/message.hpp"
 #include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
+#include "protocol/text_limit.hpp"
 #include "protocol/udp_socket.hpp"
 #include "sim-server/send/dump.hpp"
 #include "sim-server/send/rate_limit.hpp"
@@ -80,6 +81,7 @@ class ControlServer {
 
   void listen(const std::stop_token& stop);
   void take(protocol::Bytes packet, const protocol::Endpoint& from);
+  void dump(const std::string& line, double now);
   void refuse(protocol::Refusal refusal, const protocol::Endpoint& from);
   void obey(const Request& request);
   void run(const Request& request);
@@ -107,6 +109,7 @@ class ControlServer {
   RateLimit replies_;
   RateLimit complaints_;
   DumpLevel dump_level_ = DumpLevel::off;
+  protocol::TextLimit dumped_;
   bool complains_ = true;  ///< /error 1
   std::atomic<std::uint64_t> turns_{0};
   mutable std::mutex mutex_;

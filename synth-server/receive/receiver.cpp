@@ -100,16 +100,18 @@ bool Receiver::is_due(double& next) const {
   return true;
 }
 
-void Receiver::dump(protocol::Bytes bytes, const protocol::Endpoint& from) const {
+void Receiver::dump(protocol::Bytes bytes, const protocol::Endpoint& from) {
+  const double now = protocol::monotonic_now();
   const int level = intake_.control().dump_level();
   const std::string head = "osc from " + protocol::to_string(from) + ": ";
   const auto [refusal, packet] = read_packet(bytes);
   if ((level & 1) != 0) {
-    log_(head + (refusal == protocol::Refusal::none
-                     ? to_text(packet)
-                     : "refused: " + std::string(protocol::describe(refusal))));
+    dumped_.print(head + (refusal == protocol::Refusal::none
+                              ? to_text(packet)
+                              : "refused: " + std::string(protocol::describe(refusal))),
+                  now, log_);
   }
-  if ((level & 2) != 0) log_(head + to_hexadecimal(bytes));
+  if ((level & 2) != 0) dumped_.print(head + to_hexadecimal(bytes), now, log_);
 }
 
 void Receiver::send(std::vector<Reply>& replies) {

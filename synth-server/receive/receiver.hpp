@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "protocol/text_limit.hpp"
 #include "protocol/udp_socket.hpp"
 #include "synth-server/receive/intake.hpp"
 
@@ -39,7 +40,7 @@ class Receiver {
   [[nodiscard]] double patience() const noexcept;
   void take(const protocol::UdpSocket::Received& received, std::vector<Reply>& replies);
   void send(std::vector<Reply>& replies);
-  void dump(protocol::Bytes bytes, const protocol::Endpoint& from) const;
+  void dump(protocol::Bytes bytes, const protocol::Endpoint& from);
   /// Whether a line may be said of which the last was due before `next`: once a second at most,
   /// whatever comes, and not at all after /error 0.
   [[nodiscard]] bool is_due(double& next) const;
@@ -50,6 +51,7 @@ class Receiver {
   mutable std::mutex mutex_;  ///< guards intake_; the audio thread never takes it
   Intake intake_;
   std::vector<std::byte> buffer_;
+  protocol::TextLimit dumped_;
   double next_refusal_ = 0.0;     ///< when the next line on one is due [s, monotonic]
   double next_unanswered_ = 0.0;  ///< same
   std::atomic<std::uint64_t> dropped_by_kernel_{0};
