@@ -92,6 +92,8 @@ void Fluid::let_go(const std::vector<FreeBody>& bodies) {
 }
 
 void Fluid::prepare(const Step& step) {
+  if (prepared_) health_.miss();
+  prepared_ = true;
   boundary_.place(device_.queue(), params_buffer_, step);
   sort_particles();
   wake_and_sleep(step);
@@ -100,10 +102,13 @@ void Fluid::prepare(const Step& step) {
 }
 
 void Fluid::advance(const Step& step) {
+  prepared_ = false;
   solver_->accelerate(*this, step);
   integrate(step);
   if (free_) free_->move(*this, step);
-  if (watched_) {
+  if (!watched_) {
+    health_.miss();
+  } else {
     health_.look(device_,
                  {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
                   sleep_.resting(), boundary_.shapes(), boundary_.meshes(), boundary_.steps(),

@@ -191,6 +191,7 @@ class Fluid {
   Kernel survey_;
   Health health_;
   bool watched_ = false;
+  bool prepared_ = false;  ///< and not advanced since
   Buffer<SurveyPart> survey_parts_;
   std::vector<SurveyPart> survey_read_;
 };

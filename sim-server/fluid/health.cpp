@@ -134,9 +134,9 @@ void Health::look(Device& device, const Patient& patient, const Step& step) {
   }
   const auto slot = static_cast<int>(steps_.size());
   steps_.push_back(step.dt);
-  const Look resting = !last_ && slot == 0       ? Look::anew
-                       : steps_.size() >= frame_ ? Look::seen
-                                                 : Look::unseen;
+  const bool anew = missed_ || (!last_ && slot == 0);
+  missed_ = false;
+  const Look resting = anew ? Look::anew : steps_.size() >= frame_ ? Look::seen : Look::unseen;
   check_.run(device.queue(), static_cast<std::size_t>(parts_), patient.params.memory(),
              limits_.memory(), static_cast<int>(checks_), parts_, as_float(step.dt),
              as_float(step.piston), patient.now.position.memory(), patient.now.velocity.memory(),

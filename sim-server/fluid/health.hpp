@@ -109,6 +109,9 @@ class Health {
 
   /// The frame was sound: the next one goes on from its end.
   void accept();
+  /// The particles were sorted in a step that nobody looks at, by gauges, say: what rests now may
+  /// never have been looked at, so the next look is at all.
+  void miss() noexcept { missed_ = true; }
   /// The next state is another one, put there on purpose.
   void forget() noexcept { last_.reset(); }
   /// Something moves so fast that the water it throws may reach the speed limit, or water falls
@@ -129,6 +132,7 @@ class Health {
   int parts_ = 1;
   FaultSet checks_ = kAllFaults;
   bool fast_ = false;
+  bool missed_ = false;
   double longest_step_ = 0.0;  ///< [s]
   std::size_t frame_ = 0;      ///< steps of the frame
   Buffer<HealthLimits> limits_;

@@ -189,6 +189,27 @@ TEST_P(Resting, HarmToSleepersIsSeenBeforeTheFrameEnds) {
   }
 }
 
+// Gauges prepare a step of their own between two frames, which sorts those that moved in the last.
+TEST_P(Resting, IsNoHarmThatGaugesSortBetweenFrames) {
+  put_to_sleep();
+  Fluid& fluid = *water_.fluid;
+  drop_ = 1.0;
+  int asleep = 0;
+  while (height_ > 0.1) {
+    fluid.begin_watch(1);
+    frame();
+    static_cast<void>(fluid.survey());
+    asleep += fluid.survey().asleep;
+    const auto found = fluid.health().diagnosis();
+    ASSERT_FALSE(found) << describe(found->fault) << " at a height of " << height_;
+    fluid.health().accept();
+    fluid.set_bodies(water_.bodies->at(water_.time));
+    fluid.prepare({0.0, 0.0, 0.0, 0, false});
+  }
+  fluid.end_watch();
+  EXPECT_GT(asleep, 1000);
+}
+
 INSTANTIATE_TEST_SUITE_P(Builds, Resting, kBuilds, build_name);
 
 }  // namespace
