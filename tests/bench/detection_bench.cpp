@@ -28,6 +28,7 @@ struct Options {
   fs::path scenes;
   bool quick = false;
   bool list = false;
+  bool truth = false;
   int device = -1;
   Material material;
   fs::path hand;
@@ -91,6 +92,14 @@ void keep_scenes(const fs::path& folder, const std::vector<Case>& cases) {
   }
 }
 
+void show_truth(const Case& item) {
+  for (const Entry& entry : truth_of(item)) {
+    std::printf("    body %zu at %.3f to %.3f s, %.2f m/s down, %.0f mm clear before: %s\n",
+                entry.body, entry.time, entry.until, entry.down, 1.0e3 * entry.clear,
+                entry.wanted ? "wanted" : "allowed");
+  }
+}
+
 class Progress {
  public:
   Progress(std::string what, std::size_t number, std::size_t of)
@@ -124,7 +133,10 @@ void bench(Options options) {
   const std::vector<Case> cases = chosen(options);
   if (!options.scenes.empty()) keep_scenes(options.scenes, cases);
   if (options.list) {
-    for (const Case& item : cases) std::printf("%-10s %s\n", item.sweep.c_str(), item.name.c_str());
+    for (const Case& item : cases) {
+      std::printf("%-10s %s\n", item.sweep.c_str(), item.name.c_str());
+      if (options.truth) show_truth(item);
+    }
     return;
   }
   sim::Device device(options.device);
@@ -151,6 +163,7 @@ int main(int argc, char** argv) {
   app.add_option("--case", options.cases, "Only this case (repeatable)")->type_name("NAME");
   app.add_flag("--quick", options.quick, "A few that stand for all");
   app.add_flag("--list", options.list, "Names sweeps and cases, runs nothing");
+  app.add_flag("--truth", options.truth, "With --list: what each must tell, and may");
   app.add_option("--scenes", options.scenes, "Folder to keep each case in, as a scene file");
   app.add_option("--out", options.out, "Folder for the report")->capture_default_str();
   app.add_option("--walk", walk.file, "TRC file of two feet, in place of the tests' own")

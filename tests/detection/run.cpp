@@ -101,7 +101,9 @@ std::vector<Entry> contacts_of(const std::filesystem::path& file, const sim::Sce
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
       if (scene.bodies[b].name == "foot_" + foot) entry.body = b;
     }
-    if (row >> entry.time && entry.time > 0.0) entries.push_back(entry);
+    if (!(row >> entry.time) || entry.time <= 0.0) continue;
+    entry.until = entry.time;
+    entries.push_back(entry);
   }
   if (entries.empty()) throw std::runtime_error("no contacts in " + file.string());
   return entries;
@@ -114,6 +116,7 @@ std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
   limits.impact_speed = scene.detect.impact_speed;
   std::vector<Entry> all;
   for (std::size_t b = 0; b < paths.size(); ++b) {
+    if (!paths[b]) continue;
     const sim::Shape& shape = scene.bodies[b].shape;
     append(all, item.feet ? steps_of(b, shape, paths[b], level, item.seconds, limits)
                           : entries_of(b, shape, kWhole, paths[b], level, item.seconds, limits));
@@ -121,13 +124,26 @@ std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
   return all;
 }
 
+sim::Scene scene_of(const Case& item) {
+  return sim::parse_scene(item.scene, (scene_folder() / (item.sweep + ".yaml")).string());
+}
+
 }  // namespace
+
+std::vector<Entry> truth_of(const Case& item) {
+  const sim::Scene scene = scene_of(item);
+  const Paths known(scene, item.tracker);
+  std::vector<Path> paths = known.all();
+  for (std::size_t b = 0; b < paths.size(); ++b) {
+    if (known.traces[b]) paths[b] = nullptr;
+  }
+  return truth_of(item, scene, paths, scene.water.front().upper[2]);
+}
 
 Outcome run_case(sim::Device& device, const Case& item,
                  const std::function<void(double)>& progress) {
   const std::clock_t start = std::clock();
-  const sim::Scene scene =
-      sim::parse_scene(item.scene, (scene_folder() / (item.sweep + ".yaml")).string());
+  const sim::Scene scene = scene_of(item);
   const Paths paths(scene, item.tracker);
   sim::Simulation simulation(device, scene, item.tracker);
   Heard heard;

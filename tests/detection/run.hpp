@@ -16,6 +16,9 @@ struct Outcome {
   double processor = 0.0;  ///< time of all cores, with set-up and settling [s]
 };
 
+/// What is true of a case's bodies, but for those that the water moves.
+[[nodiscard]] std::vector<Entry> truth_of(const Case& item);
+
 /// `progress` gets the share done [0, 1].
 [[nodiscard]] Outcome run_case(sim::Device& device, const Case& item,
                                const std::function<void(double)>& progress = {});

@@ -60,7 +60,8 @@ class Judge {
       for (std::size_t k = 0; k < used_.size(); ++k) {
         const sim::DetectedImpact& impact = heard_.found.impacts[k];
         if (static_cast<std::size_t>(impact.body) != entries_[e].body) continue;
-        const double apart = std::abs(impact.time - entries_[e].time);
+        const double apart =
+            std::max({entries_[e].time - impact.time, impact.time - entries_[e].until, 0.0});
         if (apart <= window_of(entries_[e])) pairs.push_back({e, k, apart});
       }
     }

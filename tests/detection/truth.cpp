@@ -24,8 +24,8 @@ constexpr int kPlaces = 17;
 constexpr double kSurelySlow = 0.9;
 constexpr double kSurelyFast = 1.15;
 
-/// What the parts of a foot do within this is one step [s].
-constexpr double kOneStep = 0.15;
+/// Parts of a foot that go in within this of each other are one roll [s].
+constexpr double kRoll = 0.03;
 constexpr Part kHeel = {0.0, 1.0 / 6.0};
 
 /// Places in body axes of which one is the lowest, however the body is turned [m].
@@ -122,7 +122,7 @@ std::vector<Entry> entries_of(std::size_t body, const Shape& shape, const Part& 
       const sim::BodyState state = path(below);
       const Vector3 arm = underside.at(state) - state.position;
       const Vector3 velocity = state.velocity + sim::cross(state.spin, arm);
-      Entry entry = {body, below, -velocity[2], clear, false};
+      Entry entry = {body, below, below, -velocity[2], clear, false};
       if (entry.down >= kSurelySlow * limits.impact_speed) {
         entry.wanted =
             entry.down >= kSurelyFast * limits.impact_speed && entry.clear >= limits.clear;
@@ -149,10 +149,13 @@ std::vector<Entry> steps_of(std::size_t body, const Shape& shape, const Path& pa
   }
   std::sort(others.begin(), others.end(),
             [](const Entry& a, const Entry& b) { return a.time < b.time; });
-  // Of those that belong together the last: the forefoot.
-  for (std::size_t k = 0; k < others.size(); ++k) {
-    const bool last = k + 1 == others.size() || others[k + 1].time - others[k].time > kOneStep;
-    if (last) steps.push_back(others[k]);
+  for (const Entry& entry : others) {
+    Entry& last = steps.empty() ? steps.emplace_back(entry) : steps.back();
+    if (!last.wanted && entry.time - last.until <= kRoll) {
+      last.until = entry.time;
+    } else {
+      steps.push_back(entry);
+    }
   }
   return steps;
 }

@@ -29,6 +29,7 @@ using Path = std::function<sim::BodyState(double)>;
 struct Entry {
   std::size_t body = 0;
   double time = 0.0;    ///< [s]
+  double until = 0.0;   ///< may be told until then: parts that roll in one after the other [s]
   double down = 0.0;    ///< speed of its lowest point [m/s]
   double clear = 0.0;   ///< how far it had been above the level since the last time [m]
   bool wanted = false;  ///< must be told once; else it may be
@@ -46,8 +47,8 @@ struct Limits {
                                             const Part& part, const Path& path, double level,
                                             double end, const Limits& limits);
 
-/// Of a foot: its heel's entries are wanted, what its other parts do within 0.15 s of each other
-/// may be told once.
+/// Of a foot: its heel's entries are wanted; where other parts roll in, less than 30 ms after each
+/// other, one may be told.
 [[nodiscard]] std::vector<Entry> steps_of(std::size_t body, const sim::Shape& shape,
                                           const Path& path, double level, double end,
                                           const Limits& limits);

@@ -74,11 +74,13 @@ TEST(Truth, AsksNothingOfSlowBodiesNorOfThoseThatHardlyLeave) {
 
 TEST(Truth, OfAFootIsItsHeelAndAllowsItsOtherParts) {
   // The heel (-x) comes down first.
-  const auto steps = steps_of(0, hand(), falling(0.45, 0.5, -30.0), kLevel, 1.0, {});
+  const auto steps = steps_of(0, hand(), falling(0.45, 1.0, -30.0), kLevel, 1.0, {});
   ASSERT_THAT(steps, SizeIs(2));
   EXPECT_TRUE(steps[0].wanted);
   EXPECT_FALSE(steps[1].wanted);
   EXPECT_LT(steps[0].time, steps[1].time);
+  EXPECT_EQ(steps[0].until, steps[0].time);
+  EXPECT_GT(steps[1].until, steps[1].time + 0.05);  // it rolls in from its heel to its toes
 }
 
 sim::DetectedImpact impact(double time, double approach, double z = kLevel, int body = 0) {
