@@ -42,6 +42,8 @@ std::vector<TimedEvent> number_events(const Detections& found, const Simulation&
     event.body = impact.body;
     event.speed = static_cast<float>(impact.speed);
     event.approach = static_cast<float>(impact.approach);
+    event.momentum = static_cast<float>(impact.momentum);
+    event.rise = static_cast<float>(impact.rise);
     event.position = as_place(impact.position);
     events.push_back({event, impact.time});
   }

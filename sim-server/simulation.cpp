@@ -50,7 +50,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
       fluid_(make_fluid(device, scene_, bodies_, holding_)),
-      detector_(fluid_, bodies_.points(), scene_.detect, scene_.seed, !scene_.skip.cavities),
+      detector_(fluid_, sample_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)),
+                scene_.detect, scene_.seed, !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   settle_in(tell);
   fluid_.forget_work();

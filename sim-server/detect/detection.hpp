@@ -11,8 +11,11 @@ namespace splash::sim {
 struct DetectedImpact {
   double time = 0.0;  ///< when the surfaces meet: past, or up to the look-ahead in the future [s]
   int body = 0;
-  double speed = 0.0;                  ///< of the touching point [m/s]
-  double approach = 0.0;               ///< its part into the water [m/s]
+  double speed = 0.0;     ///< of the touching point [m/s]
+  double approach = 0.0;  ///< at which the surfaces close, along the water's normal [m/s]
+  double momentum = 0.0;  ///< given to the water until the blow is strongest [N s]
+  double rise = 0.0;      ///< from the first touch until then [s]
+  double area = 0.0;      ///< of the skin that is wet then, projected onto the surface [m2]
   Vector3 position = {0.0, 0.0, 0.0};  ///< [m]
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sim-server/detect/added_mass.hpp"
 #include "sim-server/fluid/kernel_sources.hpp"
 #include "sim-server/fluid/set_up.hpp"
 
@@ -13,7 +14,7 @@ std::vector<KernelSource> detect();
 
 namespace {
 
-static_assert(sizeof(Touch) == 64);
+static_assert(sizeof(Touch) == 80);
 
 /// Bubbles alive at once: the paper's scenes hold 1 to 6 per cent of the particles.
 std::size_t bubble_room(int particles) {
@@ -27,24 +28,29 @@ cl::Program build(Device& device) {
   return build_program(device, sources, {}, false);
 }
 
-std::vector<BodyPoint> surface_of(const std::vector<BodyPoint>& points) {
-  std::vector<BodyPoint> surface;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(surface),
-               [](const BodyPoint& point) { return point.surface; });
-  return surface;
-}
-
-std::vector<float> skins(const std::vector<BodyPoint>& points) {
-  std::vector<float> places;
-  for (const BodyPoint& point : points) {
-    for (const double part : point.skin) places.push_back(static_cast<float>(part));
+std::vector<float> places(const std::vector<SkinPoint>& skin) {
+  std::vector<float> all;
+  for (const SkinPoint& point : skin) {
+    for (const double part : point.place) all.push_back(static_cast<float>(part));
   }
-  return places;
+  return all;
 }
 
-std::vector<int> owners(const std::vector<BodyPoint>& points) {
+/// `seen`: the least distance that they look [m].
+std::vector<float> facings(const std::vector<SkinPoint>& skin, const std::vector<double>& faces,
+                           double seen) {
+  std::vector<float> all;
+  for (const SkinPoint& point : skin) {
+    for (const double part : point.normal) all.push_back(static_cast<float>(part));
+    const double face = faces[static_cast<std::size_t>(point.owner)];
+    all.push_back(static_cast<float>(std::max(reach_of_blow(face), seen)));
+  }
+  return all;
+}
+
+std::vector<int> owners(const std::vector<SkinPoint>& skin) {
   std::vector<int> owners;
-  for (const BodyPoint& point : points) owners.push_back(point.owner);
+  for (const SkinPoint& point : skin) owners.push_back(point.owner);
   return owners;
 }
 
@@ -55,23 +61,25 @@ SurfaceDistance distance_of(const FluidParams& p) {
 
 }  // namespace
 
-Detector::Detector(Fluid& fluid, const std::vector<BodyPoint>& points,
-                   const DetectSettings& settings, int seed, bool search_always)
+Detector::Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const DetectSettings& settings,
+                   int seed, bool search_always)
     : fluid_(fluid),
-      surface_points_(surface_of(points)),
-      skin_(fluid.device(), skins(surface_points_)),
-      owner_(fluid.device(), owners(surface_points_)),
-      touches_(fluid.device(), surface_points_.size()),
-      touches_read_(surface_points_.size()),
+      points_(skin),
+      faces_(faces_of(skin, static_cast<std::size_t>(fluid.boundary().body_count()))),
+      skin_(fluid.device(), places(points_)),
+      facing_(fluid.device(), facings(points_, faces_,
+                                      kSpacingsSeen * static_cast<double>(fluid.params().spacing))),
+      owner_(fluid.device(), owners(points_)),
+      touches_(fluid.device(), points_.size()),
+      touches_read_(points_.size()),
       program_(build(fluid.device())),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
       cavities_(fluid, program_, settings, bubble_room(fluid.params().count), search_always),
-      impacts_(static_cast<std::size_t>(fluid.boundary().body_count()), settings,
-               distance_of(fluid.params())) {}
+      impacts_(faces_, settings, distance_of(fluid.params())) {}
 
 void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
-  if (passes.contacts && !surface_points_.empty()) {
+  if (passes.contacts && !points_.empty()) {
     enqueue_contacts(step);
   } else {
     for (Touch& touch : touches_read_) touch.colour = touch.gx = touch.gy = touch.gz = 0.0F;
@@ -92,11 +100,12 @@ void Detector::rehearse(const Step& step) {
 }
 
 void Detector::enqueue_contacts(const Step& step) {
-  touch_water_.run(fluid_.device().queue(), surface_points_.size(), fluid_.params_buffer().memory(),
+  touch_water_.run(fluid_.device().queue(), points_.size(), fluid_.params_buffer().memory(),
                    fluid_.grid().cell_start(), fluid_.particles().position.memory(),
                    fluid_.particles().velocity.memory(), fluid_.water_density().memory(),
-                   static_cast<int>(surface_points_.size()), skin_.memory(), owner_.memory(),
-                   fluid_.boundary().steps().memory(), step.first_body, touches_.memory());
+                   static_cast<int>(points_.size()), skin_.memory(), facing_.memory(),
+                   owner_.memory(), fluid_.boundary().steps().memory(), step.first_body,
+                   static_cast<float>(step.piston), touches_.memory());
   touches_.enqueue_read(fluid_.device(), touches_read_);
 }
 
@@ -104,7 +113,7 @@ std::vector<SurfacePoint> Detector::surface() const {
   std::vector<SurfacePoint> points;
   points.reserve(touches_read_.size());
   for (std::size_t s = 0; s < touches_read_.size(); ++s) {
-    points.push_back({surface_points_[s].owner, touches_read_[s]});
+    points.push_back({points_[s].owner, points_[s].area, touches_read_[s]});
   }
   return points;
 }

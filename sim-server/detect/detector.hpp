@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim-server/bodies/body_points.hpp"
+#include "sim-server/bodies/skin.hpp"
 #include "sim-server/detect/bubbles.hpp"
 #include "sim-server/detect/cavities.hpp"
 #include "sim-server/detect/impacts.hpp"
@@ -21,9 +21,9 @@ struct Passes {
 
 class Detector {
  public:
-  /// `points`: all body points, in the order given to `fluid`; `search_always`: for cavities even
-  /// where no bubble has enough others around it.
-  Detector(Fluid& fluid, const std::vector<BodyPoint>& points, const DetectSettings& settings,
+  /// `skin`: of all bodies; `search_always`: for cavities even where no bubble has enough others
+  /// around it.
+  Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const DetectSettings& settings,
            int seed, bool search_always = false);
 
   /// Enqueues the search for the state at the beginning of `step`.
@@ -49,8 +49,10 @@ class Detector {
   void enqueue_contacts(const Step& step);
 
   Fluid& fluid_;
-  std::vector<BodyPoint> surface_points_;
-  Buffer<float> skin_;  ///< x y z of each point after the other [m]
+  std::vector<SkinPoint> points_;
+  std::vector<double> faces_;  ///< the largest area that each body shows [m2]
+  Buffer<float> skin_;         ///< x y z of each point after the other [m]
+  Buffer<float> facing_;       ///< of each its normal, and how far ahead it looks [m]
   Buffer<int> owner_;
   Buffer<Touch> touches_;
   std::vector<Touch> touches_read_;

@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "sim-server/detect/added_mass.hpp"
+#include "sim-server/detect/touch_vectors.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 namespace {
@@ -20,67 +25,45 @@ constexpr double kLyingOn = 0.3;
 /// The particle surface is this rough: nearer, body and water touch [spacings].
 constexpr double kTouching = 0.1;
 
-/// Farther from the surface than this, the colour is too faint to tell how far [spacings].
-constexpr double kSpacingsSeen = 1.2;
-
-/// Part that must have left the water [1] of the points that met it, and of all: threads and drops
-/// may hang on the rest.
-constexpr double kShareOut = 0.75;
-
-/// A body that is clear of the water for this long is out of it, wherever it is [s].
+/// Skin that is dry for this long is out of the water, wherever it is [s].
 constexpr double kClearFor = 0.5;
 
-/// A body that comes down by less than this part of its speed slides on the water [1].
-constexpr double kSkimming = 0.1;
-
-/// Least part of a body's own speed at which the surfaces must close [1].
+/// Least part of the body's own speed at which the surfaces must close: water that flees from it or
+/// moves with it is not hit; and least part of the closing speed that must be the body's own, or it
+/// is the water that comes [1].
 constexpr double kShareOfOwn = 0.5;
+constexpr double kOwnShare = 0.3;
 
-/// A body that moves into the water slower than this is at rest: water comes to it [m/s].
-constexpr double kEasing = 0.01;
+/// What gets wet within this time of the first touch is felt as one blow; what takes longer is
+/// eased in [s].
+constexpr double kAtOnce = 0.030;
 
-double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+/// A blow goes on while skin gets wet, with pauses of up to this, or of what it takes to go in by a
+/// spacing [s]. What follows within it is a blow of its own only if it is so many times heavier
+/// [1].
+constexpr double kPause = 0.020;
+constexpr double kHeavier = 4.0;
 
-/// Unit vector into the water.
-Vector3 into_water(const Touch& touch) {
-  const Vector3 g = {static_cast<double>(touch.gx), static_cast<double>(touch.gy),
-                     static_cast<double>(touch.gz)};
-  const double size = std::sqrt(dot(g, g));
-  if (size <= 0.0) return {0.0, 0.0, -1.0};
-  return {g[0] / size, g[1] / size, g[2] / size};
-}
+/// Least part of its largest face that must get wet at once, and the speed at which that face would
+/// give the water as much momentum [1], [m/s].
+constexpr double kLeastFace = 0.05;
+constexpr double kLeastSpeed = 0.005;
 
-Vector3 velocity_of(const Touch& touch) {
-  return {static_cast<double>(touch.u), static_cast<double>(touch.v), static_cast<double>(touch.w)};
-}
+/// Skin that looks at the water by less than this passes along it: cosine.
+constexpr double kFacing = 0.2;
 
-Vector3 water_velocity_of(const Touch& touch) {
-  return {static_cast<double>(touch.water_u), static_cast<double>(touch.water_v),
-          static_cast<double>(touch.water_w)};
-}
+/// Less matter behind the surface is a drop or a sheet [1].
+constexpr float kBacked = 0.25F;
 
-Vector3 position_of(const Touch& touch) {
-  return {static_cast<double>(touch.x), static_cast<double>(touch.y), static_cast<double>(touch.z)};
-}
+/// The wetting is looked at in steps of this part of the time R / u in which a face of the radius R
+/// goes in. The blow is strongest when in one of them the added mass grows nearly as fast as in
+/// any: of a curved body's blow the first part is sharp, what follows is drag.
+constexpr double kStep = 0.1;
+constexpr int kSteps = 20;
+constexpr double kNearly = 0.85;
 
-Vector3 mean_position(const std::vector<SurfacePoint>& points,
-                      const std::vector<std::size_t>& chosen) {
-  Vector3 mean = {0.0, 0.0, 0.0};
-  for (const std::size_t i : chosen) {
-    const Vector3 position = position_of(points[i].touch);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      mean[axis] += position[axis] / static_cast<double>(chosen.size());
-    }
-  }
-  return mean;
-}
-
-Vector3 moved(const Vector3& place, const Vector3& velocity, double seconds) {
-  return {place[0] + seconds * velocity[0], place[1] + seconds * velocity[1],
-          place[2] + seconds * velocity[2]};
-}
+/// Air cushions the blow of a flat face for about this long [s].
+constexpr double kCushion = 0.001;
 
 /// Unit vector into the water under all of the chosen points: that of their summed gradients.
 Vector3 mean_inward(const std::vector<SurfacePoint>& points,
@@ -96,22 +79,32 @@ Vector3 mean_inward(const std::vector<SurfacePoint>& points,
 
 }  // namespace
 
-/// The dry points of a body that are next to meet the water, on average.
+/// The dry skin of a body that is next to meet the water, on average, and what comes of it.
 struct ImpactWatch::Meeting {
   double gap = kNever;                 ///< of the very nearest [m]
   double after = kNever;               ///< time until the surfaces meet [s]
   double approach = 0.0;               ///< of the surfaces to each other [m/s]
   double own = 0.0;                    ///< the body's part of it [m/s]
   double speed = 0.0;                  ///< [m/s]
+  double surface = 0.0;                ///< how far along `inward` the water begins [m]
   Vector3 velocity = {0.0, 0.0, 0.0};  ///< of the foremost point [m/s]
   Vector3 position = {0.0, 0.0, 0.0};
   Vector3 inward = {0.0, 0.0, -1.0};
   std::vector<std::size_t> points;
+  double area = 0.0;              ///< that gets wet until the blow is strongest [m2]
+  double momentum = 0.0;          ///< given to the water until then [N s]
+  double rise = kCushion;         ///< that is so long after the first touch [s]
+  double area_at_once = 0.0;      ///< [m2]
+  double momentum_at_once = 0.0;  ///< [N s]
 };
 
-ImpactWatch::ImpactWatch(std::size_t bodies, const DetectSettings& settings,
+ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
                          const SurfaceDistance& distance)
-    : settings_(settings), distance_(distance), locks_(bodies) {}
+    : faces_(std::move(faces)),
+      settings_(settings),
+      distance_(distance),
+      touching_(std::min(kTouching * distance.spacing(), settings.impact_release / 2.0)),
+      blows_(faces_.size()) {}
 
 std::vector<double> ImpactWatch::gaps_of(const std::vector<SurfacePoint>& points) const {
   const double faintest = distance_.colour_at(kSpacingsSeen * distance_.spacing());
@@ -124,23 +117,37 @@ std::vector<double> ImpactWatch::gaps_of(const std::vector<SurfacePoint>& points
   return gaps;
 }
 
+/// Dry skin that goes towards the water; what lies on a body is carried, not hit.
+bool ImpactWatch::may_meet(std::size_t i, const SurfacePoint& point) const {
+  const Vector3 inward = into_water(point.touch);
+  if (point.touch.ahead < kBacked) return false;
+  if (skin_[i].wet || !skin_[i].withdrawn || inward[2] >= kLyingOn) return false;
+  if (dot(normal_of(point.touch), inward) <= kFacing) return false;
+  // Of a wave it is the way past each other that counts, else the body's own.
+  Vector3 way = velocity_of(point.touch);
+  if (settings_.impact_waves) way = way - water_velocity_of(point.touch);
+  const double closing = dot(way, inward);
+  return closing >= settings_.impact_speed && dot(way, normal_of(point.touch)) >= kFacing * closing;
+}
+
 ImpactWatch::Meeting ImpactWatch::next_meeting(int body, const std::vector<SurfacePoint>& points,
                                                const std::vector<double>& gaps) const {
   Meeting meeting;
-  // Water that lies on a body is carried, not hit.
-  const auto is_candidate = [&](std::size_t i) {
-    return points[i].body == body && !wet_[i] && into_water(points[i].touch)[2] < kLyingOn;
-  };
+  std::vector<std::size_t> candidates;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_candidate(i)) meeting.gap = std::min(meeting.gap, gaps[i]);
+    if (points[i].body != body || gaps[i] == kNever || !may_meet(i, points[i])) continue;
+    candidates.push_back(i);
+    meeting.gap = std::min(meeting.gap, gaps[i]);
   }
-  if (meeting.gap == kNever) return meeting;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_candidate(i) && gaps[i] <= meeting.gap + kTogether * distance_.spacing()) {
-      meeting.points.push_back(i);
-    }
+  for (const std::size_t i : candidates) {
+    if (gaps[i] <= meeting.gap + kTogether * distance_.spacing()) meeting.points.push_back(i);
   }
+  if (meeting.points.empty()) return meeting;
   average(meeting, points, gaps);
+  // The body's own speed alone: the surface breathes and gives way, and comes back. Only a wave
+  // comes by itself.
+  const double closing = settings_.impact_waves ? meeting.approach : meeting.own;
+  if (closing > 0.0) meeting.after = meeting.gap / closing;
   return meeting;
 }
 
@@ -150,116 +157,177 @@ void ImpactWatch::average(Meeting& meeting, const std::vector<SurfacePoint>& poi
   // direction as they see it on average, and the foremost of them meets it first.
   meeting.inward = mean_inward(points, meeting.points);
   const double share = 1.0 / static_cast<double>(meeting.points.size());
-  double surface = 0.0;
   double water = 0.0;
   double foremost = -kNever;
   std::size_t leader = meeting.points.front();
   for (const std::size_t i : meeting.points) {
     const double along = dot(position_of(points[i].touch), meeting.inward);
-    surface += share * (along + gaps[i]);
+    meeting.surface += share * (along + gaps[i]);
     water += share * dot(water_velocity_of(points[i].touch), meeting.inward);
     if (along > foremost) {
       foremost = along;
       leader = i;
     }
   }
-  const Vector3 velocity = velocity_of(points[leader].touch);
-  meeting.gap = surface - foremost;
-  meeting.own = dot(velocity, meeting.inward);
+  meeting.velocity = velocity_of(points[leader].touch);
+  meeting.gap = meeting.surface - foremost;
+  meeting.own = dot(meeting.velocity, meeting.inward);
   meeting.approach = meeting.own - water;
-  meeting.velocity = velocity;
-  meeting.speed = std::sqrt(dot(velocity, velocity));
+  meeting.speed = length(meeting.velocity);
   meeting.position = position_of(points[leader].touch);
-  // The body's own speed alone: the surface breathes and gives way, and comes back.
-  if (meeting.own > 0.0) meeting.after = meeting.gap / meeting.own;
 }
 
-void ImpactWatch::note_who_is_in(double time, const std::vector<SurfacePoint>& points,
-                                 const std::vector<double>& gaps) {
-  wet_.assign(points.size(), false);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (gaps[i] > settings_.impact_release) continue;
-    wet_[i] = true;
-    Lock& lock = locks_[static_cast<std::size_t>(points[i].body)];
-    lock.closed = true;
-    lock.since = lock.wet_at = time;
-    lock.leading.push_back(i);
+/// What gets wet as the body goes on, and the momentum that this gives to the water.
+void ImpactWatch::weigh(Meeting& meeting, const std::vector<SurfacePoint>& points) const {
+  const int body = points[meeting.points.front()].body;
+  const double face = faces_[static_cast<std::size_t>(body)];
+  const double step = kStep * std::sqrt(face / std::numbers::pi) / meeting.approach;
+  // Skin that is too far away to see what is behind the surface relies on what the nearest sees.
+  const double reach = reach_of_blow(face);
+  double backing = 0.0;
+  for (const std::size_t i : meeting.points) {
+    backing += static_cast<double>(points[i].touch.ahead);
   }
-  for (Lock& lock : locks_) lock.entry = mean_position(points, lock.leading);
-}
+  backing /= static_cast<double>(meeting.points.size());
+  std::vector<Wetting> wettings;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Touch& touch = points[i].touch;
+    if (points[i].body != body || skin_[i].wet || !skin_[i].withdrawn) continue;
+    const double facing = dot(normal_of(touch), meeting.inward);
+    const double speed = dot(velocity_of(touch), meeting.inward) + meeting.approach - meeting.own;
+    if (facing <= kFacing || speed <= 0.0) continue;
+    const Vector3 place = position_of(touch);
+    const double depth = dot(place, meeting.inward) - meeting.surface;
+    const double first = std::max(meeting.gap, 0.0) / meeting.approach;
+    wettings.push_back({std::max(-depth / speed - first, 0.0), facing * points[i].area,
+                        -depth > reach / 2.0 ? backing : static_cast<double>(touch.ahead), place});
+  }
+  std::sort(wettings.begin(), wettings.end(),
+            [](const Wetting& a, const Wetting& b) { return a.after < b.after; });
 
-bool ImpactWatch::has_come_out(std::size_t body, const std::vector<SurfacePoint>& points,
-                               const std::vector<double>& gaps, double time) {
-  Lock& lock = locks_[body];
-  const auto is_out = [&](std::size_t i) { return gaps[i] > settings_.impact_release; };
-  const auto enough = [](auto part, auto whole) {
-    return static_cast<double>(part) >= kShareOut * static_cast<double>(whole);
+  Patch at_once;
+  for (const Wetting& skin : wettings) {
+    if (skin.after <= kAtOnce) at_once.add(skin);
+  }
+  meeting.area_at_once = at_once.backed();
+  meeting.momentum_at_once = meeting.approach * at_once.mass();
+
+  struct Stage {
+    double mass = 0.0, area = 0.0, after = 0.0;
   };
-  const auto leading_out = std::count_if(lock.leading.begin(), lock.leading.end(), is_out);
-  if (!enough(leading_out, lock.leading.size())) {
-    lock.wet_at = time;
-    return false;
+  std::vector<Stage> stages(1);
+  Patch patch;
+  auto next = wettings.begin();
+  for (int k = 1; k <= kSteps; ++k) {
+    Stage stage = stages.back();
+    for (; next != wettings.end() && next->after <= k * step; ++next) {
+      patch.add(*next);
+      stage.after = next->after;
+    }
+    stage.mass = patch.mass();
+    stage.area = patch.area();
+    stages.push_back(stage);
   }
-  // In the cavity that it opens, or on the film under its sole, a body is clear of the water and
-  // yet in it: it must also have come back to where it entered.
-  const Vector3 now = mean_position(points, lock.leading);
-  const Vector3 way = {now[0] - lock.entry[0], now[1] - lock.entry[1], now[2] - lock.entry[2]};
-  if (dot(way, lock.inward) < -settings_.impact_release) return true;
-  // The water may have sunk instead; then all of the body stays clear.
-  std::size_t all = 0;
-  std::size_t all_out = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].body != static_cast<int>(body)) continue;
-    ++all;
-    if (is_out(i)) ++all_out;
+  double steepest = 0.0;
+  for (std::size_t k = 1; k < stages.size(); ++k) {
+    steepest = std::max(steepest, stages[k].mass - stages[k - 1].mass);
   }
-  if (!enough(all_out, all)) lock.wet_at = time;
-  return time - lock.wet_at > kClearFor;
-}
-
-void ImpactWatch::open_locks(double time, const std::vector<SurfacePoint>& points,
-                             const std::vector<double>& gaps) {
-  for (std::size_t b = 0; b < locks_.size(); ++b) {
-    if (!locks_[b].closed || time <= locks_[b].since) continue;
-    locks_[b].closed = !has_come_out(b, points, gaps, time);
+  for (std::size_t k = 1; k < stages.size(); ++k) {
+    if (stages[k].mass - stages[k - 1].mass < kNearly * steepest) continue;
+    meeting.momentum = meeting.approach * stages[k].mass;
+    meeting.area = stages[k].area;
+    meeting.rise = std::max(stages[k].after, kCushion);
+    return;
   }
 }
 
-void ImpactWatch::note_wetness(const std::vector<double>& gaps) {
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    if (gaps[i] <= 0.0) wet_[i] = true;
-    if (gaps[i] > settings_.impact_release) wet_[i] = false;
-  }
-}
-
-/// Water that a body carries along or that flees from it is not hit, nor what it skims.
+/// Water that a body carries along or that flees from it is not hit; nor does water that comes to a
+/// body at rest make an impact, unless the scene wants it.
 bool ImpactWatch::is_fast(const Meeting& meeting) const {
-  return meeting.own >= settings_.impact_speed && meeting.own >= kSkimming * meeting.speed &&
-         meeting.approach >= kShareOfOwn * meeting.own;
+  if (settings_.impact_waves) return meeting.approach >= settings_.impact_speed;
+  return meeting.own >= settings_.impact_speed &&
+         meeting.approach >= std::max(kShareOfOwn * meeting.own, settings_.impact_speed / 2.0) &&
+         meeting.own >= kOwnShare * meeting.approach;
+}
+
+/// Whether it has the weight of one.
+bool ImpactWatch::is_blow(const Meeting& meeting, int body) const {
+  const double face = faces_[static_cast<std::size_t>(body)];
+  return meeting.area_at_once >= kLeastFace * face &&
+         meeting.momentum_at_once >= kLeastSpeed * added_mass(face, 1.0);
 }
 
 void ImpactWatch::meet(int body, double time, double frame, const std::vector<SurfacePoint>& points,
                        const std::vector<double>& gaps) {
-  const Meeting meeting = next_meeting(body, points, gaps);
+  Meeting meeting = next_meeting(body, points, gaps);
+  if (meeting.points.empty() || !is_fast(meeting)) return;
   // Touching water gives way to a slow body: when they would have met is known best before.
   const bool touches = meeting.gap <= kTouching * distance_.spacing();
   if (!touches && meeting.after > settings_.impact_lookahead) return;
-  const bool fast = is_fast(meeting);
-  // A body that eases in makes no impact, and none later on while that part of it is in.
-  const bool eases =
-      meeting.gap <= 0.0 && meeting.own > kEasing && meeting.approach >= kShareOfOwn * meeting.own;
-  if (!fast && !eases) return;
-  const double wait = std::max(meeting.after, -frame);
-  Lock& lock = locks_[static_cast<std::size_t>(body)];
-  lock.closed = true;
-  lock.since = lock.wet_at = time + std::max(wait, 0.0);
-  lock.leading = meeting.points;
-  lock.entry = moved(mean_position(points, meeting.points), meeting.velocity, wait);
-  lock.inward = meeting.inward;
-  lock.due.reset();
-  if (fast) {
-    lock.due = {time + wait, body, meeting.speed, meeting.approach,
-                moved(meeting.position, meeting.velocity, wait)};
+  weigh(meeting, points);
+  Blow& blow = blows_[static_cast<std::size_t>(body)];
+  const double touched = time + std::max(meeting.after, -frame);
+  // One that goes on is the same, unless what follows is a heavier one.
+  const bool goes_on = touched <= blow.lasts_until + blow.pause;
+  const bool heavier =
+      touched >= blow.touched + kAtOnce && meeting.momentum_at_once >= kHeavier * blow.momentum;
+  if ((goes_on && !heavier) || !is_blow(meeting, body)) return;
+  blow.touched = blow.lasts_until = touched;
+  blow.momentum = meeting.momentum;
+  blow.pause = std::max(kPause, distance_.spacing() / meeting.approach);
+  blow.surface = meeting.surface;
+  blow.inward = meeting.inward;
+  DetectedImpact impact;
+  impact.time = touched;
+  impact.body = body;
+  impact.speed = meeting.speed;
+  impact.approach = meeting.approach;
+  impact.momentum = meeting.momentum;
+  impact.rise = meeting.rise;
+  impact.area = meeting.area;
+  impact.position = meeting.position + std::max(meeting.after, -frame) * meeting.velocity;
+  blow.due = impact;
+}
+
+void ImpactWatch::note_wetness(double time, double frame, const std::vector<SurfacePoint>& points,
+                               const std::vector<double>& gaps) {
+  std::vector<bool> wetted(faces_.size(), false);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Skin& skin = skin_[i];
+    const Touch& touch = points[i].touch;
+    const double speed = dot(velocity_of(touch), normal_of(touch));
+    skin.way += frame * speed;
+    skin.deepest = std::max(skin.deepest, skin.way);
+    // What passes the water's surface while a blow goes on is part of it, even where the water is
+    // pushed away.
+    const Blow& blow = blows_[static_cast<std::size_t>(points[i].body)];
+    const bool goes_in = time >= blow.touched && time <= blow.lasts_until + blow.pause &&
+                         dot(position_of(touch), blow.inward) >= blow.surface;
+    if (!goes_in && gaps[i] > settings_.impact_release) {
+      skin.dry_for += frame;
+      skin.withdrawn = skin.withdrawn || (skin.wet && !skin.in_water);
+      skin.wet = skin.in_water = false;
+      // In the hollow that it opens skin is dry and yet in the water: it must also have gone back,
+      // or the water must be long gone.
+      skin.withdrawn = skin.withdrawn || skin.dry_for > kClearFor ||
+                       skin.deepest - skin.way >= settings_.impact_release ||
+                       (settings_.impact_waves && skin.dry_for > kPause);
+    } else if (goes_in || gaps[i] <= touching_) {
+      if (!skin.wet && skin.withdrawn && speed >= settings_.impact_speed) {
+        wetted[static_cast<std::size_t>(points[i].body)] = true;
+      }
+      if (!skin.wet) skin.way = skin.deepest = 0.0;
+      skin.wet = true;
+      skin.in_water = skin.in_water || touch.ahead >= kBacked;
+      skin.withdrawn = false;
+      skin.dry_for = 0.0;
+    }
+  }
+  for (std::size_t b = 0; b < blows_.size(); ++b) {
+    const bool goes_on = time <= blows_[b].lasts_until + blows_[b].pause;
+    if (goes_on && wetted[b]) {
+      blows_[b].lasts_until = std::max(blows_[b].lasts_until, time);
+    }
   }
 }
 
@@ -267,22 +335,23 @@ std::vector<DetectedImpact> ImpactWatch::observe(double time, double frame,
                                                  const std::vector<SurfacePoint>& points) {
   const std::vector<double> gaps = gaps_of(points);
   std::vector<DetectedImpact> impacts;
-  if (wet_.size() != points.size()) {
-    note_who_is_in(time, points, gaps);
+  if (skin_.size() != points.size()) {
+    skin_.assign(points.size(), {});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      skin_[i].wet = gaps[i] <= settings_.impact_release;
+      skin_[i].withdrawn = !skin_[i].wet;
+    }
     return impacts;
   }
-  open_locks(time, points, gaps);
-  for (std::size_t b = 0; b < locks_.size(); ++b) {
-    if (!locks_[b].closed) {
-      meet(static_cast<int>(b), time, frame, points, gaps);
-    }
-    std::optional<DetectedImpact>& due = locks_[b].due;
+  for (std::size_t b = 0; b < blows_.size(); ++b) {
+    meet(static_cast<int>(b), time, frame, points, gaps);
+    std::optional<DetectedImpact>& due = blows_[b].due;
     if (due && due->time <= time + settings_.impact_lookahead) {
       impacts.push_back(*due);
       due.reset();
     }
   }
-  note_wetness(gaps);
+  note_wetness(time, frame, points, gaps);
   return impacts;
 }
 

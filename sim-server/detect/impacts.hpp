@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Impacts (paper, section 5.1.2): a surface point of a body comes within the support radius of the
-// water. The support is crossed long before the surfaces meet, so the moment of meeting is
-// predicted from distance and approach speed, and announced a little ahead. A body makes one
-// impact, then none before the part of it that met the water has left it again; water that the body
-// carries along elsewhere does not count.
+// Impacts (paper, section 5.1.2): a body's skin meets the water. The support is crossed long before
+// the surfaces meet, so the moment of meeting is predicted from distance and approach speed, and
+// told a little ahead.
+//
+// What makes a meeting an impact is the momentum that the water takes up: the body drags along an
+// added mass m_a of water, which grows as skin gets wet (von Karman 1929, NACA TN 321),
+//   P = integral of u dm_a,    m_a = rho pi/8 C a^2 b    for a wetted rectangle a <= b
+// of the skin projected onto the water's surface, u being the speed at which the surfaces close. So
+// a drop, a sheet, or the film that a body carries along are none: they have no mass behind them,
+// or no speed. Each point of the skin counts when it comes out of the air into the water, whatever
+// the rest of the body does: heel and ball of a foot meet the water one after the other.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,65 +21,81 @@
 
 namespace splash::sim {
 
-/// A surface point of a body and what it sees of the water; as kernels/body_touch.cl gives it.
+/// A point of a body's skin and what it sees of the water; as kernels/body_touch.cl gives it.
 struct Touch {
   float colour = 0.0F;                                   ///< c_f [1]
   float gx = 0.0F, gy = 0.0F, gz = 0.0F;                 ///< its gradient [1/m]
   float x = 0.0F, y = 0.0F, z = 0.0F;                    ///< of the point [m]
   float u = 0.0F, v = 0.0F, w = 0.0F;                    ///< its velocity [m/s]
   float water_u = 0.0F, water_v = 0.0F, water_w = 0.0F;  ///< the water's mean velocity [m/s]
+  float nx = 0.0F, ny = 0.0F, nz = -1.0F;                ///< unit vector out of the body
+  float ahead = 0.0F;  ///< matter some way along it: 1 in water without end [1]
   float unused[3] = {};
 };
 
 /// With what stays the same of the point.
 struct SurfacePoint {
   int body = 0;
+  double area = 0.0;  ///< of the skin that it stands for [m2]
   Touch touch;
 };
 
+/// Farther from the surface than this, the colour is too faint to tell how far [spacings].
+inline constexpr double kSpacingsSeen = 1.2;
+
 class ImpactWatch {
  public:
-  ImpactWatch(std::size_t bodies, const DetectSettings& settings, const SurfaceDistance& distance);
+  /// `faces`: the largest area that each body shows [m2].
+  ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
+              const SurfaceDistance& distance);
 
-  /// Impacts announced at `time`; `frame`: seconds since the last call; `points`: always the same
-  /// ones in the same order. The first call only notes who is in the water already.
+  /// Impacts told at `time`; `frame`: seconds since the last call; `points`: always the same ones
+  /// in the same order. The first call only notes who is in the water already.
   [[nodiscard]] std::vector<DetectedImpact> observe(double time, double frame,
                                                     const std::vector<SurfacePoint>& points);
 
  private:
-  /// A body in the water, or about to be.
-  struct Lock {
-    bool closed = false;
-    std::optional<DetectedImpact> due;  ///< known, and not yet near enough to be announced
-    double since = 0.0;                 ///< the surfaces meet not before [s]
-    double wet_at = 0.0;                ///< last time at which it was not clear of the water [s]
-    std::vector<std::size_t> leading;   ///< points that met the water
-    Vector3 entry = {0.0, 0.0, 0.0};    ///< mean place of these points when they did [m]
-    Vector3 inward = {0.0, 0.0, -1.0};  ///< unit vector into the water there
+  /// Of a point of the skin.
+  struct Skin {
+    bool wet = false;       ///< met the water and has not left it
+    bool in_water = false;  ///< what wets it is more than a drop or a sheet
+    bool withdrawn = true;  ///< has gone back since, or been dry for long: may meet it again
+    double way = 0.0;       ///< along its normal since it got wet [m]
+    double deepest = 0.0;   ///< the largest of it [m]
+    double dry_for = 0.0;   ///< [s]
+  };
+  /// Of a body: the blow that was told last.
+  struct Blow {
+    double touched = -std::numeric_limits<double>::infinity();      ///< first touch [s]
+    double lasts_until = -std::numeric_limits<double>::infinity();  ///< more skin got wet [s]
+    double momentum = 0.0;                                          ///< [N s]
+    double pause = 0.0;                 ///< after which another one begins [s]
+    double surface = 0.0;               ///< how far along `inward` the water began [m]
+    Vector3 inward = {0.0, 0.0, -1.0};  ///< unit vector into the water
+    std::optional<DetectedImpact> due;  ///< known, and not yet near enough to be told
   };
   struct Meeting;
 
   [[nodiscard]] std::vector<double> gaps_of(const std::vector<SurfacePoint>& points) const;
+  [[nodiscard]] bool may_meet(std::size_t i, const SurfacePoint& point) const;
   [[nodiscard]] Meeting next_meeting(int body, const std::vector<SurfacePoint>& points,
                                      const std::vector<double>& gaps) const;
   static void average(Meeting& meeting, const std::vector<SurfacePoint>& points,
                       const std::vector<double>& gaps);
+  void weigh(Meeting& meeting, const std::vector<SurfacePoint>& points) const;
   [[nodiscard]] bool is_fast(const Meeting& meeting) const;
-  void note_who_is_in(double time, const std::vector<SurfacePoint>& points,
-                      const std::vector<double>& gaps);
-  void open_locks(double time, const std::vector<SurfacePoint>& points,
-                  const std::vector<double>& gaps);
-  [[nodiscard]] bool has_come_out(std::size_t body, const std::vector<SurfacePoint>& points,
-                                  const std::vector<double>& gaps, double time);
-  /// Closes the body's lock if it is about to meet the water.
+  [[nodiscard]] bool is_blow(const Meeting& meeting, int body) const;
   void meet(int body, double time, double frame, const std::vector<SurfacePoint>& points,
             const std::vector<double>& gaps);
-  void note_wetness(const std::vector<double>& gaps);
+  void note_wetness(double time, double frame, const std::vector<SurfacePoint>& points,
+                    const std::vector<double>& gaps);
 
+  std::vector<double> faces_;
   DetectSettings settings_;
   SurfaceDistance distance_;
-  std::vector<Lock> locks_;  ///< of each body
-  std::vector<bool> wet_;    ///< of each point: met the water and has not left it
+  double touching_;  ///< nearer, skin and water touch [m]
+  std::vector<Blow> blows_;
+  std::vector<Skin> skin_;
 };
 
 }  // namespace splash::sim

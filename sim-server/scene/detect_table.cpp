@@ -24,10 +24,16 @@ Fields<D> impact_fields() {
        &D::impact_lookahead},
       {{.key = "impact_release",
         .unit = "m",
-        .meaning = "Gap to the water at which a body may make its next impact.",
+        .meaning = "Skin that went back so far, and whose gap to the water is as large, has left "
+                   "the water and may meet it again.",
         .min = 0.0005,
         .max = 1},
        &D::impact_release},
+      {{.key = "impact_waves",
+        .unit = "",
+        .meaning = "true: water that comes to a body makes an impact, too, like a wave that hits a "
+                   "standing foot; false: only a body that comes to the water does."},
+       &D::impact_waves},
   };
 }
 

@@ -158,7 +158,8 @@ inline constexpr int kFreeBodiesMax = 32;
 struct DetectSettings {
   double impact_speed = 0.05;       ///< a body approaching the water slower makes no impact [m/s]
   double impact_lookahead = 0.015;  ///< an impact is announced this long before it happens [s]
-  double impact_release = 0.006;    ///< gap at which a body may make its next impact [m]
+  double impact_release = 0.006;    ///< way back and gap at which skin has left the water [m]
+  bool impact_waves = false;        ///< water that comes to a body makes an impact, too
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
   double bubble_gradient = 0.25;    ///< least upward colour gradient, in that of a flat surface [1]
   bool bubble_per_particle =

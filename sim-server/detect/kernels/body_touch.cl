@@ -3,6 +3,8 @@
 //   c_f = sum_j V_j W,   its gradient,   and the water's velocity  sum_j V_j W v_j / c_f
 // over particles that belong to a body of water. Spray and the film that a body carries along are
 // no surface that could be hit: their density, without the body's part of it, is lower.
+// And how much matter backs what it may hit: the colour of all water and of the tank's solid at a
+// place as far ahead along its normal as the water is deep that a blow of the whole body moves.
 
 typedef struct {
   float colour;                // c_f [1]
@@ -10,14 +12,45 @@ typedef struct {
   float x, y, z;               // of the point [m]
   float u, v, w;               // its velocity [m/s]
   float water_u, water_v, water_w;  // the water's mean velocity [m/s]
+  float nx, ny, nz;            // unit vector out of the body
+  float ahead;                 // matter there, at most 1: water without end [1]
   float unused[3];
 } Touch;
 
-// `skin`: points of the bodies' true surfaces in body axes; `owner`: which body each belongs to.
+// Matter at a place: colour of all water, and 1 inside walls.
+static float matter_at(constant FluidParams* p, global const int* cell_start,
+                       global const float* position, float piston, float x, float y, float z) {
+  for (int k = 0; k < p->wall_count; ++k) {
+    if (first_lane(wall_distance(p, k, (lanes)(x), (lanes)(y), (lanes)(z), piston)) <= 0.0f) {
+      return 1.0f;
+    }
+  }
+  const int n = p->capacity;
+  const int row = cell_row(p, y, z);
+  const int slice = slice_x(p, x);
+  lanes c = 0.0f;
+  for (int k = 0; k < 9; ++k) {
+    const int2 run = neighbour_run(p, cell_start, row, slice, slice, k);
+    for (int j = run.x; j < run.y; j += LANES) {
+      const lanes dx = x - load_x(position, j, run.y);
+      const lanes dy = y - LOAD(position + n, j);
+      const lanes dz = z - LOAD(position + 2 * n, j);
+      c += kernel_shape(dx * dx + dy * dy + dz * dz, p->inverse_support);
+    }
+  }
+  const float water = p->mass / p->rest_density * p->kernel_norm * total(c);
+  const float walls =
+      first_lane(wall_field(p, (lanes)(x), (lanes)(y), (lanes)(z), piston).share);
+  return fmin(water + walls, 1.0f);
+}
+
+// `skin`: points of the bodies' true surfaces in body axes; `facing`: of each its normal and how
+// far ahead it looks [m]; `owner`: which body each belongs to.
 kernel void touch_water(constant FluidParams* p, global const int* cell_start,
                         global const float* position, global const float* velocity,
                         global const float* density, int points, global const float* skin,
-                        global const int* owner, global const BodyStep* bodies, int first_body,
+                        global const float* facing, global const int* owner,
+                        global const BodyStep* bodies, int first_body, float piston,
                         global Touch* out) {
   const int s = get_global_id(0);
   if (s >= points) return;
@@ -25,6 +58,8 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
   const BodyStep b = bodies[first_body + owner[s]];
   const float3 arm = rotate_by((float3)(skin[3 * s], skin[3 * s + 1], skin[3 * s + 2]), b.qx, b.qy,
                                b.qz, b.qw);
+  const float3 normal = rotate_by((float3)(facing[4 * s], facing[4 * s + 1], facing[4 * s + 2]),
+                                  b.qx, b.qy, b.qz, b.qw);
   const float3 motion = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
   const float x = b.px + arm.x, y = b.py + arm.y, z = b.pz + arm.z;
   const int row = cell_row(p, y, z);
@@ -54,9 +89,12 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
   const float gradient = gradient_norm(p) * volume;
   const float sum = total(c);
   const float share = 1.0f / fmax(sum, TINY);
+  const float far = facing[4 * s + 3];
+  const float ahead = matter_at(p, cell_start, position, piston, x + far * normal.x,
+                                y + far * normal.y, z + far * normal.z);
   const Touch touch = {volume * p->kernel_norm * sum, gradient * total(gx), gradient * total(gy),
                        gradient * total(gz), x, y, z, motion.x, motion.y, motion.z,
-                       share * total(u), share * total(v), share * total(w),
-                       {0.0f, 0.0f, 0.0f}};
+                       share * total(u), share * total(v), share * total(w), normal.x, normal.y,
+                       normal.z, ahead, {0.0f, 0.0f, 0.0f}};
   out[s] = touch;
 }

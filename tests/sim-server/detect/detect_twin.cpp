@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/sim-server/detect/detect_twin.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -43,6 +44,19 @@ TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_de
   }
   if (touch.colour > 0.0) touch.water = (1.0 / touch.colour) * touch.water;
   return touch;
+}
+
+double twin_matter(const FluidState& state, const Vector3& place) {
+  for (int k = 0; k < state.params.wall_count; ++k) {
+    if (wall_distance(state.params, k, place, state.piston) <= 0.0) return 1.0;
+  }
+  const double support = static_cast<double>(state.params.support);
+  double colour = twin_walls(state.params, place, state.piston).share;
+  for (const Vector3& other : state.position) {
+    const double apart = length(place - other);
+    if (apart < support) colour += volume_of_particle(state.params) * kernel_value(apart, support);
+  }
+  return std::min(colour, 1.0);
 }
 
 TwinSum twin_upward(const FluidState& state, const std::vector<Vector3>& bubbles,

@@ -23,6 +23,9 @@ struct TwinTouch {
 [[nodiscard]] TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_density,
                                    const Vector3& place);
 
+/// Matter at a place: colour of all water and of the walls' solid, at most 1; 1 inside a wall [1].
+[[nodiscard]] double twin_matter(const FluidState& state, const Vector3& place);
+
 /// A number, and the sum of the magnitudes of all terms it is the sum of.
 struct TwinSum {
   double value = 0.0;

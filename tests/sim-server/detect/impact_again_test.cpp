@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/sim-server/detect/impact_stories.hpp"
 
@@ -66,7 +67,7 @@ TEST(Again, AfterTheWaterHasLongSunk) {
 
 // One that comes down tilted is led by a few of its points: it stays in its cavity, too.
 TEST(Again, NotInItsOwnCavityWhenTilted) {
-  ImpactWatch watch(1, {}, surface_distance());
+  ImpactWatch watch({kUnderside}, {}, surface_distance());
   int impacts = 0;
   for (int k = 0; k * kFrame < 0.45; ++k) {
     const double time = k * kFrame;
@@ -93,7 +94,7 @@ TEST(Again, NotInItsOwnCavityWhenTilted) {
 
 /// Impacts of a body with a step in its underside, 5 cm high.
 int impacts_of_a_step(const Story& story, double seconds) {
-  ImpactWatch watch(1, {}, surface_distance());
+  ImpactWatch watch({kUnderside}, {}, surface_distance());
   int impacts = 0;
   for (int k = 0; k * kFrame < seconds; ++k) {
     const double time = k * kFrame;
@@ -107,12 +108,46 @@ int impacts_of_a_step(const Story& story, double seconds) {
   return impacts;
 }
 
-// While a part of it is in, the rest makes no impact, however fast: after a plunge, after easing
-// in, and when it began in the water.
-TEST(Again, NotForTheRestOfABodyThatIsPartlyIn) {
-  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.2, -0.02}, {1.0, -0.02}, {1.2, -0.2}}), 1.5), 1);
-  EXPECT_EQ(impacts_of_a_step(path(0.02, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 0);
-  EXPECT_EQ(impacts_of_a_step(path(-0.01, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 0);
+// Each part of a body counts by itself: while the lower half is in, the upper half is heard.
+TEST(Again, ForAnotherPartOfABodyThatIsPartlyIn) {
+  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.2, -0.02}, {1.0, -0.02}, {1.2, -0.2}}), 1.5), 2);
+  EXPECT_EQ(impacts_of_a_step(path(0.02, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 1);
+  EXPECT_EQ(impacts_of_a_step(path(-0.01, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 1);
+}
+
+// Both halves at once are one blow.
+TEST(Again, NotForTheRestOfABlowThatGoesOn) {
+  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.05, -0.2}}), 1.0), 1);  // 6 m/s
+}
+
+// A heel comes out of the water while the ball stays in, and slaps back: it need not rise above
+// anything but the water.
+TEST(Again, ForTheHeelOfAFootThatStaysIn) {
+  ImpactWatch watch({2.0 * kUnderside}, {}, surface_distance());
+  std::vector<double> told;
+  const auto heel = path(-0.02, {{0.3, -0.02}, {0.5, 0.03}, {0.6, -0.02}, {0.9, -0.02}});
+  for (int k = 0; k * kFrame < 1.0; ++k) {
+    const double time = k * kFrame;
+    std::vector<SurfacePoint> points;
+    add_body(points, 0, heel(time));
+    add_body(points, 0, Scenery{.underside = -0.02});
+    for (const DetectedImpact& impact : watch.observe(time, kFrame, points)) {
+      told.push_back(impact.time);
+      EXPECT_NEAR(impact.approach, 0.5, 1.0e-6);
+    }
+  }
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NEAR(told[0], 0.56, 1.0e-3);
+}
+
+// Patting: a palm that leaves the water by 2 cm, four times a second.
+TEST(Again, ForEachPat) {
+  const auto pat = [](double time) {
+    const double turn = 8.0 * 3.14159265 * time;
+    return Scenery{.underside = 0.01 + 0.015 * std::cos(turn),
+                   .speed = -0.015 * 8.0 * 3.14159265 * std::sin(turn)};
+  };
+  EXPECT_EQ(watch(pat, 2.0).size(), 8U);
 }
 
 }  // namespace

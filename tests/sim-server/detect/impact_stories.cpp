@@ -20,6 +20,7 @@ void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {
   for (int k = 0; k < 16; ++k) {
     SurfacePoint point;
     point.body = body;
+    point.area = kUnderside / 16.0;
     const double gap = at.underside - at.level;
     const bool any = at.water && gap < distance.farthest();
     point.touch.colour = any ? static_cast<float>(distance.colour_at(gap)) : 0.0F;
@@ -30,13 +31,14 @@ void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {
     point.touch.u = static_cast<float>(at.drift);
     point.touch.w = static_cast<float>(at.speed);
     point.touch.water_w = any ? static_cast<float>(at.flow) : 0.0F;
+    point.touch.ahead = at.water ? static_cast<float>(at.ahead) : 0.0F;
     points.push_back(point);
   }
 }
 
 std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
                              const DetectSettings& settings) {
-  ImpactWatch watch(bodies.size(), settings, surface_distance());
+  ImpactWatch watch(std::vector<double>(bodies.size(), kUnderside), settings, surface_distance());
   std::vector<Announced> all;
   for (int k = 0; k * kFrame < seconds; ++k) {
     const double time = k * kFrame;

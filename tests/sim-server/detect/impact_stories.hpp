@@ -23,9 +23,13 @@ struct Scenery {
   double flow = 0.0;       ///< of the water, upwards [m/s]
   double drift = 0.0;      ///< of the body, sideways [m/s]
   bool water = true;       ///< any there at all
+  double ahead = 1.0;      ///< matter behind the water's surface: 1 if it is deep [1]
 };
 
-/// 4 x 4 points from (0, 0) to (6 cm, 6 cm).
+/// The area of such an underside [m2].
+inline constexpr double kUnderside = 0.08 * 0.08;
+
+/// 4 x 4 points from (0, 0) to (6 cm, 6 cm), each with 2 cm x 2 cm around it.
 void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at);
 
 struct Announced {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/detect/added_mass.hpp"
 #include "tests/sim-server/detect/impact_stories.hpp"
 
 namespace splash::sim {
@@ -30,6 +31,10 @@ TEST_P(Plunge, IsOneImpactAtItsMomentAndSpeed) {
   EXPECT_NEAR(impact.speed, 1.25 * speed, 1.0e-6);
   EXPECT_NEAR(impact.approach, speed, 1.0e-6);
   EXPECT_EQ(impact.body, 0);
+  // All of the underside at once: the momentum of the water that it drags along.
+  EXPECT_NEAR(impact.momentum, speed * added_mass(kUnderside, 1.0), 0.01 * impact.momentum);
+  EXPECT_NEAR(impact.area, kUnderside, 1.0e-9);
+  EXPECT_NEAR(impact.rise, 0.001, 1.0e-9);
 }
 
 // protocol::Impact: where the surfaces meet, not where the body is when that is told.
@@ -132,15 +137,105 @@ TEST(NoImpact, FromABodyThatRises) {
   EXPECT_TRUE(watch(rise, 0.5).empty());
 }
 
-// A foot that slides along the water, however fast, does not hit it.
-TEST(NoImpact, FromABodyThatSkims) {
-  const auto slide = [](double drift) {
-    return [drift](double time) {
-      return Scenery{.underside = 0.05 - 0.1 * time, .speed = -0.1, .drift = drift};
+// A plate knows the speed along its normal only: a glancing slap is one of that speed.
+TEST(Glancing, SlapsAreThoseOfTheirNormalSpeed) {
+  const auto slap = [](double drift) {
+    return watch(
+        [drift](double time) {
+          return Scenery{.underside = 0.05 - 0.2 * time, .speed = -0.2, .drift = drift};
+        },
+        1.0);
+  };
+  const auto straight = slap(0.0);
+  ASSERT_EQ(straight.size(), 1U);
+  for (const double drift : {1.0, 2.1, 4.0}) {
+    const auto glancing = slap(drift);
+    ASSERT_EQ(glancing.size(), 1U) << drift;
+    EXPECT_NEAR(glancing[0].impact.momentum, straight[0].impact.momentum, 1.0e-6);
+    EXPECT_NEAR(glancing[0].impact.approach, 0.2, 1.0e-6);
+    EXPECT_NEAR(glancing[0].impact.speed, std::hypot(0.2, drift), 1.0e-6);
+  }
+}
+
+TEST(NoImpact, FromABodyThatSlidesAlongTheWater) {
+  const auto slide = [](double time) {
+    return Scenery{.underside = 0.0, .speed = 0.02 * std::sin(20.0 * time), .drift = 3.0};
+  };
+  EXPECT_TRUE(watch(slide, 2.0).empty());
+}
+
+// A drop or a sheet has a surface, but no water behind it; and closes nothing: the plunge that
+// follows is told.
+TEST(NoImpact, OnADropOrASheet) {
+  const auto falls = [](double ahead) {
+    return [ahead](double time) {
+      const double height = 0.3 - 0.3 * time;
+      const bool drop = time < 0.5;  // it hangs 15 cm above the water, and is gone then
+      return Scenery{.underside = height,
+                     .speed = -0.3,
+                     .level = drop ? 0.2 : 0.0,
+                     .ahead = drop ? ahead : 1.0};
     };
   };
-  EXPECT_TRUE(watch(slide(4.0), 1.0).empty());
-  EXPECT_EQ(watch(slide(0.1), 1.0).size(), 1U);
+  for (const double ahead : {0.0, 0.03}) {
+    const auto all = watch(falls(ahead), 1.5);
+    ASSERT_EQ(all.size(), 1U) << ahead;
+    EXPECT_NEAR(all[0].impact.time, 1.0, 1.0e-3);
+  }
+  const auto deep = watch(falls(1.0), 0.5);
+  ASSERT_EQ(deep.size(), 1U) << "the surface of deep water is one";
+  EXPECT_NEAR(deep[0].impact.time, 1.0 / 3.0, 1.0e-3);
+}
+
+// Momentum grows with the speed, and no speed counts but that of the surfaces to each other.
+TEST(Momentum, IsThatOfTheClosingSpeed) {
+  const auto meet = [](double own, double flow) {
+    return watch(
+        [own, flow](double time) {
+          return Scenery{.underside = 0.05 - own * time,
+                         .speed = -own,
+                         .level = flow * (time - 0.05 / own),
+                         .flow = flow};
+        },
+        0.5);
+  };
+  for (const double flow : {-0.2, 0.0, 0.2}) {
+    const auto all = meet(0.5, flow);
+    ASSERT_EQ(all.size(), 1U) << flow;
+    EXPECT_NEAR(all[0].impact.momentum, (0.5 + flow) * added_mass(kUnderside, 1.0), 1.0e-6);
+  }
+}
+
+// DNV-RP-C205: one side of a plate a wide and b long, as a part of pi rho a^2 b / 8.
+TEST(AddedMass, IsThatOfThePlatesTable) {
+  const double table[][2] = {{1.0, 0.579},  {1.25, 0.642}, {2.0, 0.757},
+                             {3.17, 0.840}, {5.0, 0.897},  {10.0, 0.947}};
+  for (const auto& [aspect, coefficient] : table) {
+    const double width = 0.1;
+    const double plate = 1000.0 * 3.14159265 / 8.0 * width * width * (aspect * width);
+    EXPECT_NEAR(added_mass(width * width * aspect, aspect), coefficient * plate, 0.015 * plate)
+        << aspect;
+  }
+}
+
+/// A standing body, and waves that leave it and come back.
+Scenery wave(double time) {
+  const double turn = 2.0 * time;
+  return {.underside = 0.0, .level = 0.1 * std::cos(turn), .flow = -0.2 * std::sin(turn)};
+}
+
+TEST(Waves, MakeImpactsWhereTheSceneWantsThem) {
+  DetectSettings settings;
+  EXPECT_TRUE(watch(wave, 10.0, settings).empty());
+  settings.impact_waves = true;
+  const auto all = watch(wave, 10.0, settings);
+  ASSERT_EQ(all.size(), 3U) << "at three quarters of each turn";
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double turn = 3.14159265 * (1.5 + 2.0 * static_cast<double>(k));
+    EXPECT_NEAR(all[k].impact.time, turn / 2.0, 0.01);
+    EXPECT_NEAR(all[k].impact.approach, 0.2, 0.02);
+    EXPECT_EQ(all[k].impact.speed, 0.0);
+  }
 }
 
 TEST(NoImpact, WithoutWater) {

@@ -16,6 +16,8 @@ namespace {
 constexpr double kBound = 2.0e-5;
 constexpr double kRim = 1.0e-8;
 
+constexpr double kFar = 0.03;  ///< how far ahead the points look [m]
+
 /// Where a body is, as the kernel reads it; no box.
 BodyStep as_step(const BodyState& body) {
   const auto f = [](double x) { return static_cast<float>(x); };
@@ -33,6 +35,7 @@ struct Skins {
   std::vector<Vector3> places;
   std::vector<int> owner;
   std::vector<BodyState> bodies;
+  std::vector<Vector3> normals;
 };
 
 /// Runs the kernel for bodies of the second of two steps; the first has them elsewhere.
@@ -43,9 +46,15 @@ std::vector<Touch> touch(Water& water, const Skins& skins) {
   for (const Vector3& place : skins.places) {
     for (const double part : place) parts.push_back(static_cast<float>(part));
   }
+  std::vector<float> facings;
+  for (const Vector3& normal : skins.normals) {
+    for (const double part : normal) facings.push_back(static_cast<float>(part));
+    facings.push_back(static_cast<float>(kFar));
+  }
   std::vector<BodyStep> steps(skins.bodies.size(), as_step({{0.1, 0.2, 0.1}}));
   for (const BodyState& body : skins.bodies) steps.push_back(as_step(body));
   const Buffer<float> skin(device, parts);
+  const Buffer<float> facing(device, facings);
   const Buffer<int> owner(device, skins.owner);
   const Buffer<BodyStep> bodies(device, steps);
   const Buffer<Touch> out(device, skins.places.size());
@@ -53,8 +62,9 @@ std::vector<Touch> touch(Water& water, const Skins& skins) {
   kernel.run(device.queue(), skins.places.size(), fluid.params_buffer().memory(),
              fluid.grid().cell_start(), fluid.particles().position.memory(),
              fluid.particles().velocity.memory(), fluid.water_density().memory(),
-             static_cast<int>(skins.places.size()), skin.memory(), owner.memory(), bodies.memory(),
-             static_cast<int>(skins.bodies.size()), out.memory());
+             static_cast<int>(skins.places.size()), skin.memory(), facing.memory(), owner.memory(),
+             bodies.memory(), static_cast<int>(skins.bodies.size()),
+             static_cast<float>(water.piston.offset), out.memory());
   return out.read(device, skins.places.size());
 }
 
@@ -65,6 +75,7 @@ Vector3 vector(float x, float y, float z) {
 struct Seen {
   int water = 0;
   int spray = 0;
+  int full = 0, partly = 0, none = 0;  ///< points with so much matter ahead
 };
 
 /// From the place that the kernel says it looked from.
@@ -80,6 +91,13 @@ void expect_twins(const FluidState& state, const std::vector<float>& density, co
     const Vector3 water = vector(touch.water_u, touch.water_v, touch.water_w);
     ASSERT_LT(length(water - twin.water), 3.0e-5);  // of up to 2.6 m/s
   }
+  const Vector3 far =
+      vector(touch.x, touch.y, touch.z) + kFar * vector(touch.nx, touch.ny, touch.nz);
+  const double ahead = twin_matter(state, far);
+  ASSERT_NEAR(static_cast<double>(touch.ahead), ahead, 1.0e-3);
+  seen.full += ahead == 1.0;
+  seen.partly += ahead > 0.1 && ahead < 0.9;
+  seen.none += ahead == 0.0;
   seen.water += twin.seen;
   seen.spray += twin.passed_over;
 }
@@ -89,6 +107,8 @@ void expect_rigid(const Skins& skins, std::size_t i, const Touch& touch) {
   const BodyState& body = skins.bodies[static_cast<std::size_t>(skins.owner[i])];
   const Vector3 arm = rotate(body.rotation, skins.places[i]);
   ASSERT_LT(length(vector(touch.x, touch.y, touch.z) - (body.position + arm)), 2.0e-7);
+  const Vector3 normal = rotate(body.rotation, skins.normals[i]);
+  ASSERT_LT(length(vector(touch.nx, touch.ny, touch.nz) - normal), 1.0e-6);
   ASSERT_LT(length(vector(touch.u, touch.v, touch.w) - (body.velocity + cross(body.spin, arm))),
             2.0e-6);
 }
@@ -98,6 +118,9 @@ Skins wide_bodies() {
   Skins skins;
   skins.places = random_places(201, {-0.25, -0.2, -0.2}, {0.25, 0.2, 0.2}, 72);
   for (int i = 0; i < 201; ++i) skins.owner.push_back(i % 3 == 0 ? 1 : 0);
+  for (const Vector3& way : random_places(201, {-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}, 73)) {
+    skins.normals.push_back((1.0 / length(way)) * way);
+  }
   skins.bodies = {{{0.2, 0.15, 0.12}, from_turn({0.2, -0.4, 0.9}), {0.5, 0, -1}, {3, -2, 5}},
                   {{0.1, 0.1, 0.1}, from_turn({2.0, 0.1, 0.0}), {0, 0.8, 0.1}, {0, 0, -4}}};
   return skins;
@@ -124,6 +147,7 @@ TEST_P(TouchWater, IsTheTwins) {
   }
   EXPECT_GT(seen.water, 1000);
   EXPECT_GT(seen.spray, 1000);
+  for (const int points : {seen.full, seen.partly, seen.none}) EXPECT_GT(points, 20);
 }
 
 // The filter's density is the water's own: a body next to a lone particle makes it no water.
@@ -158,7 +182,8 @@ TEST(LeastDensity, TellsAFilmFromWater) {
     prepare(*water);
   }
   const auto colour_below = [](Water& water) {
-    const Skins skins = {{{0.0, 0.0, 0.0}}, {0}, {{{0.5, 0.5, kBlockBottom - 0.005}}}};
+    const Skins skins = {
+        {{0.0, 0.0, 0.0}}, {0}, {{{0.5, 0.5, kBlockBottom - 0.005}}}, {{0.0, 0.0, 1.0}}};
     return static_cast<double>(touch(water, skins).front().colour);
   };
   EXPECT_EQ(colour_below(film), 0.0);

@@ -25,7 +25,7 @@ int two_frames(int lanes, std::uint32_t frames) {
   settings.bubble_gradient = 0.0;
   settings.bubble_per_particle = true;
   settings.cavity_colour = 0.0;
-  Detector detector(*water.fluid, water.bodies->points(), settings, 1, true);
+  Detector detector(*water.fluid, sample_skins(water.scene.bodies, 0.02), settings, 1, true);
   std::size_t cavities = 0;
   for (std::uint32_t frame = 0; frame <= frames; ++frame) {
     water.step(1.0e-3, [&](Fluid&) { detector.enqueue(water.step_at(1.0e-3), kFrame); });

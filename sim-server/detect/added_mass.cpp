@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/detect/added_mass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace splash::sim {
+namespace {
+
+constexpr double kWater = 1000.0;  // [kg/m3]
+
+}  // namespace
+
+double reach_of_blow(double area) {
+  return 0.36 * std::sqrt(area);
+}
+
+double added_mass(double area, double aspect) {
+  const double narrow = 1.0 / std::max(aspect, 1.0);
+  const double shape = 1.0 / (1.0 + 0.727 * std::pow(narrow, 1.2));
+  const double width = std::sqrt(area * narrow);
+  return kWater * std::numbers::pi / 8.0 * shape * width * area;
+}
+
+void Patch::add(const Wetting& skin) {
+  area_ += skin.area;
+  backed_ += skin.area * skin.ahead;
+  for (std::size_t a = 0; a < 3; ++a) {
+    first_[a] += skin.area * skin.place[a];
+    for (std::size_t b = 0; b < 3; ++b) {
+      second_[a][b] += skin.area * skin.place[a] * skin.place[b];
+    }
+  }
+}
+
+double Patch::aspect() const {
+  double trace = 0.0;
+  double minors = 0.0;
+  const auto variance = [&](std::size_t a, std::size_t b) {
+    return second_[a][b] / area_ - first_[a] * first_[b] / (area_ * area_);
+  };
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t b = (a + 1) % 3;
+    trace += variance(a, a);
+    minors += variance(a, a) * variance(b, b) - variance(a, b) * variance(a, b);
+  }
+  const double root = std::sqrt(std::max(trace * trace / 4.0 - minors, 0.0));
+  const double least = trace / 2.0 - root;
+  // A row of points has a width, too.
+  const double longest = trace / 2.0 + root;
+  const double narrowest = area_ * area_ / (144.0 * std::max(longest, 1e-12));
+  return std::sqrt(std::max(longest / std::max({least, narrowest, 1e-12}), 1.0));
+}
+
+}  // namespace splash::sim
