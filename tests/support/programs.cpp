@@ -89,7 +89,7 @@ protocol::Message Daemon::ask(const protocol::Message& command, const std::strin
 }
 
 long number_before(const std::string& text, const std::string& words) {
-  const auto found = text.rfind(" " + words);
+  const auto found = text.find(" " + words);
   if (found == std::string::npos) return -1;
   auto start = found;
   while (start > 0 && std::isdigit(static_cast<unsigned char>(text[start - 1])) != 0) --start;

@@ -60,7 +60,7 @@ class Simulator : public Daemon {
       : Daemon("sim-server", arguments, environment) {}
 };
 
-/// The whole number that stands before the last `words` in `text`; -1: none.
+/// The whole number that stands before the first `words` in `text`; -1: none.
 [[nodiscard]] long number_before(const std::string& text, const std::string& words);
 
 }  // namespace splash::tests
