@@ -20,8 +20,8 @@ constexpr ArgumentRow coordinate(std::string_view name, std::string_view meaning
   return {'f', name, "m", -kReach, kReach, meaning};
 }
 constexpr ArgumentRow component(std::string_view name, std::string_view meaning) {
-  // A little over 1: trackers round.
-  return {'f', name, "1", -1.01, 1.01, meaning};
+  // A little over 1, as its length may be.
+  return {'f', name, "1", -1.1, 1.1, meaning};
 }
 constexpr ArgumentRow text(std::string_view name, std::string_view meaning) {
   return {'s', name, "", 0, 0, meaning};
@@ -93,7 +93,7 @@ constexpr ArgumentRow kBodyPose[] = {
     coordinate("x", "the body's origin"),
     coordinate("y", "to the left of x, seen from above"),
     coordinate("z", "upwards"),
-    component("qx", "unit quaternion, body to world; its length may be off by 1 %"),
+    component("qx", "unit quaternion, body to world; up to 10 % off it is brought to length 1"),
     component("qy", "same"),
     component("qz", "same"),
     component("qw", "same, the real part")};
@@ -157,7 +157,8 @@ constexpr ArgumentRow kSimStatus[] = {
     count_row("cavities", "cavities sent"),
     count_row("late", "frames that overran real time"),
     count_row("unsent", "datagrams the network refused"),
-    count_row("refused", "datagrams stopped by the gate or the address table"),
+    count_row("refused",
+              "datagrams stopped by the gate or the address table, and poses that no body took"),
     count_row("resets", "times the solver had to recover"),
     count_row("skipped", "stages of the step skipped as needless"),
     {'f', "real_time_factor", "1", 0, 1e6, "simulated time in wall time, last second"},

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The order of each message's arguments, written once for both ways; their types and ranges are
 // the address table's.
+#include <cmath>
+
 #include "protocol/address.hpp"
 #include "protocol/message.hpp"
 
 namespace splash::protocol {
 namespace {
+
+constexpr float kLengthError = 0.1F;  // of a quaternion [1]
+constexpr float kRounding = 1.0e-6F;  // of a quaternion of unit length in floats [1]
 
 // Takes the arguments of a message that conforms to its row, one after the other; what is missing
 // at the end is optional and stays as it is.
@@ -124,12 +129,14 @@ std::optional<Frame> to_frame(const Message& message) {
 }
 
 std::optional<BodyPose> to_body_pose(const Message& message) {
-  const auto pose = take<BodyPose>(message);
+  auto pose = take<BodyPose>(message);
   if (!pose) return std::nullopt;
-  // A quaternion far from unit length is no rotation; 1 % is a tracker's rounding.
-  const float square =
-      pose->qx * pose->qx + pose->qy * pose->qy + pose->qz * pose->qz + pose->qw * pose->qw;
-  if (square < 0.99F * 0.99F || square > 1.01F * 1.01F) return std::nullopt;
+  // Trackers round, filter and blend: what is off by little is brought to unit length. Much is no
+  // rotation.
+  const float size = std::hypot(std::hypot(pose->qx, pose->qy), std::hypot(pose->qz, pose->qw));
+  if (size < 1.0F - kLengthError || size > 1.0F + kLengthError) return std::nullopt;
+  if (std::abs(size - 1.0F) < kRounding) return pose;
+  for (float* part : {&pose->qx, &pose->qy, &pose->qz, &pose->qw}) *part /= size;
   return pose;
 }
 

@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "protocol/time_tag.hpp"
+
 namespace splash::protocol {
 namespace {
 
@@ -97,18 +99,30 @@ void apply_options(int descriptor) {
   (void)setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &kWantedBuffer, sizeof kWantedBuffer);
   (void)setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kWantedBuffer, sizeof kWantedBuffer);
   (void)setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+  (void)setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
 }
 
-// Total of datagrams the kernel dropped for a full buffer, when it says so with this one.
-std::optional<std::uint32_t> drop_count(msghdr& header) {
+// What the kernel says of a datagram besides its bytes.
+template <class Value>
+std::optional<Value> said_of(msghdr& header, int type) {
   for (cmsghdr* item = CMSG_FIRSTHDR(&header); item != nullptr; item = CMSG_NXTHDR(&header, item)) {
-    if (item->cmsg_level == SOL_SOCKET && item->cmsg_type == SO_RXQ_OVFL) {
-      std::uint32_t count = 0;
-      std::memcpy(&count, CMSG_DATA(item), sizeof count);
-      return count;
+    if (item->cmsg_level == SOL_SOCKET && item->cmsg_type == type) {
+      Value value{};
+      std::memcpy(&value, CMSG_DATA(item), sizeof value);
+      return value;
     }
   }
   return std::nullopt;
+}
+
+// Since the kernel took a datagram [s]. Its stamp is the system clock's, which may have been set.
+double waited_since(const std::optional<timespec>& stamp) {
+  constexpr double kLongest = 60.0;  // [s]
+  if (!stamp) return 0.0;
+  const double then =
+      static_cast<double>(stamp->tv_sec) + 1e-9 * static_cast<double>(stamp->tv_nsec);
+  const double waited = unix_now() - then;
+  return waited > 0.0 && waited < kLongest ? waited : 0.0;
 }
 
 bool wait_readable(int descriptor, double timeout) {
@@ -192,7 +206,7 @@ std::optional<UdpSocket::Received> UdpSocket::receive(std::byte* buffer, std::si
   if (!wait_readable(descriptor_, timeout)) return std::nullopt;
   sockaddr_in from{};
   iovec block{buffer, capacity};
-  alignas(cmsghdr) std::byte control[64];
+  alignas(cmsghdr) std::byte control[128];
   msghdr header{};
   header.msg_name = &from;
   header.msg_namelen = sizeof from;
@@ -204,9 +218,11 @@ std::optional<UdpSocket::Received> UdpSocket::receive(std::byte* buffer, std::si
   const ssize_t size = recvmsg(descriptor_, &header, MSG_TRUNC | MSG_DONTWAIT);
   if (size < 0) return std::nullopt;
   // The kernel's count has 32 bits: add what it moved by.
-  if (const auto count = drop_count(header))
+  // Total of datagrams dropped for a full buffer.
+  if (const auto count = said_of<std::uint32_t>(header, SO_RXQ_OVFL))
     dropped_ += *count - static_cast<std::uint32_t>(dropped_);
-  return Received{static_cast<std::size_t>(size), to_endpoint(from)};
+  return Received{static_cast<std::size_t>(size), to_endpoint(from),
+                  waited_since(said_of<timespec>(header, SCM_TIMESTAMPNS))};
 }
 
 std::size_t UdpSocket::receive_buffer() const noexcept {

@@ -51,6 +51,7 @@ class UdpSocket {
   struct Received {
     std::size_t size = 0;  ///< real size of the datagram, may exceed what fitted the buffer
     Endpoint from;
+    double waited = 0.0;  ///< it lay in the kernel for so long [s]; 0 where that does not say
   };
   /// Waits up to `timeout` seconds (0: not at all) for one datagram. Interrupted waits return
   /// nothing.

@@ -45,16 +45,6 @@ protocol::UdpSocket open_socket(const Options& options) {
   });
 }
 
-/// Poses of a body that no tracker may move are dropped without a word: the scene said so.
-Keyframe as_keyframe(const protocol::BodyPose& pose) {
-  Keyframe key;
-  key.position = {static_cast<double>(pose.position.x), static_cast<double>(pose.position.y),
-                  static_cast<double>(pose.position.z)};
-  key.rotation = {static_cast<double>(pose.qx), static_cast<double>(pose.qy),
-                  static_cast<double>(pose.qz), static_cast<double>(pose.qw)};
-  return key;
-}
-
 }  // namespace
 
 Server::Server(const Options& options, Simulation& simulation, const std::string& device)
@@ -71,37 +61,24 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       pacer_({.real_time = options.real_time, .slip_limit = kSlipLimit}),
       overload_({.has_gauges = gauges_.has_value()}),
       target_status_(options.targets),
+      poses_(simulation),
+      line_pace_(kLinePeriod),
       clock_answers_(socket_, targets_, print_line),
       control_(protocol::failing_with(protocol::kExitUnavailable, [&] {
-        return ControlServer({.listen = options_.listen, .allowed = options_.allow},
-                             {.pose = [this](const protocol::BodyPose& pose,
-                                             double arrival) { take_pose(pose, arrival); },
-                              .status =
-                                  [this] {
-                                    const std::lock_guard lock(status_mutex_);
-                                    return status_;
-                                  },
-                              .quit = [this] { quit_ = true; },
-                              .print = print_line},
-                             targets_);
+        return ControlServer(
+            {.listen = options_.listen, .allowed = options_.allow},
+            {.pose = [this](const protocol::BodyPose& pose,
+                            const PoseMoment& moment) { poses_.take(pose, moment); },
+             .status =
+                 [this] {
+                   const std::lock_guard lock(status_mutex_);
+                   status_.refused = poses_.refused();
+                   return status_;
+                 },
+             .quit = [this] { quit_ = true; },
+             .print = print_line},
+            targets_);
       })) {}
-
-void Server::take_pose(const protocol::BodyPose& pose, double arrival) {
-  LiveMotion* body = simulation_.live_body(pose.body);
-  if (body == nullptr) return;
-  const Keyframe key = as_keyframe(pose);
-  // Refused poses leave the body where its last good ones take it.
-  const PoseRefusal refusal = body->push(key.position, key.rotation, arrival - origin_.load());
-  if (refusal == PoseRefusal::none) return;
-  ++refused_poses_;
-  if (arrival < next_refusal_) return;
-  next_refusal_ = arrival + kMishapPeriod;
-  const auto index = static_cast<std::size_t>(pose.body);
-  std::fprintf(stderr, "sim-server: a pose of body '%s' was refused: %s (%llu refused so far)\n",
-               simulation_.scene().bodies[index].name.c_str(),
-               std::string(describe(refusal)).c_str(),
-               static_cast<unsigned long long>(refused_poses_.load()));
-}
 
 bool Server::is_over() const {
   return quit_ || (options_.duration > 0.0 && simulation_.seconds() >= options_.duration - 1e-9);
@@ -112,16 +89,15 @@ void Server::run(const std::function<bool()>& ended) {
   pacer_.start(simulation_.seconds());
   started_ = protocol::monotonic_now();
   next_line_ = started_ + kLinePeriod;
-  origin_ = started_ - simulation_.seconds();
   note_gauges();
   while (!ended() && !is_over()) {
     const double before = simulation_.seconds();
     const double begin = protocol::monotonic_now();
+    simulation_.set_origin(pacer_.origin());
     const FrameResult frame = simulation_.advance();
     const double computed = protocol::monotonic_now();
     pacer_.wait_until(frame.seconds);
     const double due = protocol::monotonic_now();
-    origin_ = due - frame.seconds;
     send(frame);
     note_gauges();
     note_status(frame);
@@ -213,9 +189,13 @@ void Server::reopen() {
 }
 
 void Server::note_status(const FrameResult& frame) {
-  const double wall = std::max(protocol::monotonic_now() - started_, 1e-9);
   const SendCounts& sent = sender_.counts();
   const RunTotals& totals = simulation_.totals();
+  const SkipTotals& skipped = totals.skipped;
+  const double now = protocol::monotonic_now();
+  pace_.note(now, frame.seconds, totals.steps);
+  line_pace_.note(now, frame.seconds, totals.steps);
+  const std::uint64_t unsent_now = unsent();
   const std::lock_guard lock(status_mutex_);
   status_.particles = static_cast<std::uint64_t>(simulation_.particles());
   status_.steps = static_cast<std::uint64_t>(totals.steps);
@@ -223,13 +203,20 @@ void Server::note_status(const FrameResult& frame) {
   status_.bubbles = sent.bubbles;
   status_.cavities = sent.cavities;
   status_.late = pacer_.counts().behind;
-  status_.unsent = sent.invalid + totals.bubbles_dropped;
+  status_.unsent = unsent_now;
   status_.resets = totals.retried + totals.calmed + totals.resets;
-  status_.real_time_factor = static_cast<float>(frame.seconds / wall);
-  status_.steps_per_second = static_cast<float>(static_cast<double>(totals.steps) / wall);
+  status_.skipped = skipped.idle + skipped.contacts + skipped.bubbles + skipped.cavities;
+  status_.real_time_factor = static_cast<float>(pace_.real_time_factor());
+  status_.steps_per_second = static_cast<float>(pace_.steps_per_second());
   status_.density_error = static_cast<float>(frame.survey.mean_excess);
   status_.bubble_particles = totals.bubbles_alive;
   status_.thinned = totals.air.thinned;
+}
+
+std::uint64_t Server::unsent() const {
+  std::uint64_t sum = 0;
+  for (const Target& target : targets_.list()) sum += target.failed;
+  return sum;
 }
 
 void Server::note_gauges() {
@@ -243,13 +230,11 @@ void Server::note_gauges() {
 void Server::print_progress() {
   const double now = protocol::monotonic_now();
   next_line_ = now + kLinePeriod;
-  const double wall = std::max(now - started_, 1e-9);
   const SendCounts& sent = sender_.counts();
   std::printf(
       "%7.1f s  %6.0f steps/s  real time x %.2f  impacts %llu  bubbles %llu  cavities %llu\n",
-      simulation_.seconds(), static_cast<double>(simulation_.totals().steps) / wall,
-      simulation_.seconds() / wall, static_cast<unsigned long long>(sent.impacts),
-      static_cast<unsigned long long>(sent.bubbles),
+      simulation_.seconds(), line_pace_.steps_per_second(), line_pace_.real_time_factor(),
+      static_cast<unsigned long long>(sent.impacts), static_cast<unsigned long long>(sent.bubbles),
       static_cast<unsigned long long>(sent.cavities));
   std::fflush(stdout);
 }
@@ -260,10 +245,16 @@ RunReport Server::finish() {
   RunReport report = report_on(simulation_, sender_.counts(), pacer_.counts(), overload_);
   report.device = device_;
   report.wall_seconds = wall_seconds_;
-  for (const Target& target : targets_.list()) report.send_failures += target.failed;
+  report.send_failures = unsent();
   report.late = target_status_.late();
   report.lost = target_status_.lost();
-  report.refused_poses = refused_poses_;
+  const ControlCounts wire = control_.counts();
+  report.refused_poses = poses_.refusals(wire);
+  for (std::size_t i = 1; i < wire.refused.size(); ++i) {
+    const auto reason = static_cast<protocol::Refusal>(i);
+    if (wire.refused[i] == 0) continue;
+    report.refused_datagrams.emplace_back(protocol::describe(reason), wire.refused[i]);
+  }
   return report;
 }
 

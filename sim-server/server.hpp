@@ -14,10 +14,12 @@
 #include "sim-server/numbered_events.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/overload.hpp"
+#include "sim-server/pose_intake.hpp"
 #include "sim-server/send/clock_answers.hpp"
 #include "sim-server/send/control.hpp"
 #include "sim-server/send/event_sender.hpp"
 #include "sim-server/send/pacer.hpp"
+#include "sim-server/send/recent_pace.hpp"
 #include "sim-server/send/report.hpp"
 #include "sim-server/send/target_status.hpp"
 #include "sim-server/simulation.hpp"
@@ -50,11 +52,11 @@ class Server {
   [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 
  private:
-  void take_pose(const protocol::BodyPose& pose, double arrival);
   /// On stderr, not more often than once a second.
   void say(const Mishap& mishap);
   void send(const FrameResult& frame);
   void note_status(const FrameResult& frame);
+  [[nodiscard]] std::uint64_t unsent() const;
   void note_gauges();
   /// What a frame cost; more gives way, or less.
   void note_load(double seconds, double spent);
@@ -78,9 +80,9 @@ class Server {
   TargetStatus target_status_;
   EventIds ids_;
   std::atomic<bool> quit_ = false;
-  std::atomic<double> origin_ = 0.0;  ///< monotonic time of simulated second 0 [s]
-  std::atomic<std::uint64_t> refused_poses_ = 0;
-  double next_refusal_ = 0.0;  ///< monotonic; the control thread's own [s]
+  PoseIntake poses_;
+  RecentPace pace_;       ///< for /status
+  RecentPace line_pace_;  ///< for the lines on the state
   std::mutex status_mutex_;
   protocol::SimStatus status_;
   std::uint64_t turns_seen_ = 0;

@@ -143,6 +143,11 @@ std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
 }
 
 FrameResult Simulation::advance() {
+  for (LiveMotion* body : live_) {
+    if (body != nullptr) {
+      body->begin({seconds_, origin_ + seconds_, 1.0 / scene_.serve.frame_rate});
+    }
+  }
   std::optional<Mishap> mishap;
   while (true) {
     const FrameSteps steps =

@@ -63,6 +63,8 @@ class Simulation {
   /// Simulates one frame: some equal steps, the detectors in the last one. What is not sound is
   /// done again or given up (Recovery); nothing of it is told.
   [[nodiscard]] FrameResult advance();
+  /// Our clock when simulated time was 0, as of the next frame [s]: what poses are stamped by.
+  void set_origin(double origin) noexcept { origin_ = origin; }
   /// Steps are this many times as long as the scene wants, from the next frame on [1].
   void set_stretch(double stretch) noexcept { stretch_ = stretch; }
   /// Goes on from `water`, which a simulation of the same scene had at `seconds`; bubbles are lost.
@@ -132,6 +134,7 @@ class Simulation {
   double contact_step_ = 0.0;  ///< no step is longer (bodies/contact_step.hpp) [s]
   double thrown_until_ = 0.0;  ///< water may be as fast as it can be [s]
   double stretch_ = 1.0;       ///< of all steps [1]
+  double origin_ = 0.0;        ///< our clock when simulated time was 0 [s]
   Recovery recovery_;
   Checkpoint sound_;  ///< the end of the last sound frame
   Snapshot start_;    ///< when time began

@@ -132,6 +132,7 @@ struct MotionSettings {
   double start = 0.0;                  ///< csv, trc: seconds of the recording that are skipped
   GapKind gap = GapKind::bridge;       ///< osc
   double gap_limit = 0.025;            ///< osc, bridge: so long the body goes on as it moved [s]
+  double delay_limit = 0.030;          ///< osc: uneven poses are played up to so much later [s]
   double density = 0.0;                ///< free [kg/m3]; 0: from `mass`
   double mass = 0.0;                   ///< free [kg]; 0: from `density`
   Vector3 velocity = {0.0, 0.0, 0.0};  ///< free: when time begins [m/s]

@@ -12,6 +12,7 @@
 #include "sim-server/scene/mesh/mesh_file.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/mesh/soundness.hpp"
+#include "sim-server/scene/pace.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_rules.hpp"
@@ -84,6 +85,10 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
     if (!keyframes.empty() && keyframe.time <= keyframes.back().time) {
       throw map.error("time", "is not later than that of the keyframe before");
     }
+    if (!keyframes.empty()) {
+      const std::string fast = too_fast(keyframes.back(), keyframe, kScriptedPace);
+      if (!fast.empty()) throw map.error("time", fast + " since the keyframe before");
+    }
     keyframes.push_back(keyframe);
   }
   return keyframes;
@@ -92,11 +97,12 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
 /// A key that this kind of motion does not use is a mistake, not a no-op.
 void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
   static const std::map<std::string, std::set<std::string>> kUsedBy = {
-      {"keyframes", {"script"}}, {"smooth", {"script"}},    {"repeat", {"script", "csv", "trc"}},
-      {"file", {"csv", "trc"}},  {"markers", {"trc"}},      {"sole", {"trc"}},
-      {"start", {"csv", "trc"}}, {"gap", {"osc"}},          {"gap_limit", {"osc"}},
-      {"density", {"free"}},     {"mass", {"free"}},        {"velocity", {"free"}},
-      {"spin", {"free"}},        {"restitution", {"free"}}, {"friction", {"free"}}};
+      {"keyframes", {"script"}}, {"smooth", {"script"}}, {"repeat", {"script", "csv", "trc"}},
+      {"file", {"csv", "trc"}},  {"markers", {"trc"}},   {"sole", {"trc"}},
+      {"start", {"csv", "trc"}}, {"gap", {"osc"}},       {"gap_limit", {"osc"}},
+      {"delay_limit", {"osc"}},  {"density", {"free"}},  {"mass", {"free"}},
+      {"velocity", {"free"}},    {"spin", {"free"}},     {"restitution", {"free"}},
+      {"friction", {"free"}}};
   for (const auto& [key, kinds] : kUsedBy) {
     if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
     throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name);

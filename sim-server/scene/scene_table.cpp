@@ -224,17 +224,24 @@ Fields<MotionEntry> live_fields() {
       {{.key = "gap",
         .unit = "",
         .meaning = "osc: what the body does between poses and when they stay out: bridge, goes on "
-                   "as it moved for gap_limit, then slows to a stop within 0.05 s; hold, stays at "
-                   "the last pose.",
+                   "as it moved for gap_limit, then slows to a stop within 0.05 s; hold, is played "
+                   "a pose later, so that it never goes beyond the last one, and stays there.",
         .choices = {"bridge", "hold"}},
        &M::gap_name},
       {{.key = "gap_limit",
         .unit = "s",
-        .meaning = "osc, gap bridge: for how long the body goes on as it moved. Longer than the "
-                   "time between two poses, or it stops and goes.",
+        .meaning = "osc, gap bridge: for how long the body goes on as it moved; two and a half "
+                   "times the time between two poses where that is longer, up to 0.25 s.",
         .min = 0,
         .max = 1},
        &M::gap_limit},
+      {{.key = "delay_limit",
+        .unit = "s",
+        .meaning = "osc: poses that arrive unevenly are played later by as much as evens nine of "
+                   "ten of them out, but by no more than this; 0: always at once.",
+        .min = 0,
+        .max = 0.5},
+       &M::delay_limit},
   };
 }
 

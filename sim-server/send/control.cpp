@@ -17,6 +17,12 @@ constexpr double kLookForStop = 0.1;  // [s]
 /// Somewhat more than a legal datagram, so that a longer one is known as such.
 constexpr std::size_t kBuffer = protocol::kMaxDatagram + 4;
 
+/// "At once" and nothing at all, as some libraries write it, are no moments.
+std::optional<double> sent_at(const std::optional<protocol::TimeTag>& tag) {
+  if (!tag || tag->value <= protocol::kImmediately.value) return std::nullopt;
+  return protocol::to_unix_seconds(*tag);
+}
+
 }  // namespace
 
 ControlServer::ControlServer(const ControlSettings& settings, ControlActions actions,
@@ -49,13 +55,15 @@ void ControlServer::listen(const std::stop_token& stop) {
       counts_.dropped = socket_.dropped_by_kernel();
     }
     const auto size = std::min(received->size, buffer.size());
-    take(protocol::Bytes(buffer).first(size), received->from);
+    take(protocol::Bytes(buffer).first(size), *received);
   }
 }
 
-void ControlServer::take(protocol::Bytes packet, const protocol::Endpoint& from) {
-  const double monotonic = protocol::monotonic_now();
-  const double unix_time = protocol::unix_now();
+void ControlServer::take(protocol::Bytes packet, const protocol::UdpSocket::Received& received) {
+  const protocol::Endpoint& from = received.from;
+  // A busy or stopped program looks late: the kernel knows when it came.
+  arrival_ = std::max(arrival_, protocol::monotonic_now() - received.waited);
+  const double unix_time = protocol::unix_now() - received.waited;
   if (!is_allowed(from)) {
     count(&ControlCounts::not_allowed);
     complain(from, "not heard: this host is not among the allowed ones");
@@ -68,11 +76,11 @@ void ControlServer::take(protocol::Bytes packet, const protocol::Endpoint& from)
   }
   targets_.renew(from);
   const auto level = static_cast<unsigned>(dump_level_);
-  if ((level & 2U) != 0) dump(to_hexadecimal(packet), monotonic);
+  if ((level & 2U) != 0) dump(to_hexadecimal(packet), arrival_);
   protocol::ReplyBudget budget(from, packet.size());
   for (const auto& message : decoded.packet.messages) {
-    if ((level & 1U) != 0) dump(protocol::to_string(from) + ' ' + to_text(message), monotonic);
-    obey({message, from, monotonic, unix_time, budget});
+    if ((level & 1U) != 0) dump(protocol::to_string(from) + ' ' + to_text(message), arrival_);
+    obey({message, from, arrival_, unix_time, sent_at(decoded.packet.time), budget});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -32,12 +33,17 @@ struct ControlSettings {
   std::vector<std::uint32_t> allowed = {};
 };
 
+/// When a pose came, and the time tag of its bundle, if that says when it was taken.
+struct PoseMoment {
+  double arrival = 0.0;             ///< monotonic [s]
+  std::optional<double> sent = {};  ///< Unix time by the sender's clock [s]
+};
+
 /// What the program does on request. All are called on the control's thread, `pose` for each pose
 /// as it arrives; they must be quick. Empty ones are refused with /fail.
 struct ControlActions {
-  /// `arrival`: monotonic [s].
-  std::function<void(const protocol::BodyPose& pose, double arrival)> pose = {};
-  /// The program's numbers; the refused datagrams are filled in here.
+  std::function<void(const protocol::BodyPose& pose, const PoseMoment& moment)> pose = {};
+  /// The program's numbers; the refused datagrams and messages are added here.
   std::function<protocol::SimStatus()> status = {};
   std::function<void()> quit = {};
   std::function<void(const std::string& line)> print = {};  ///< /dumpOSC and /error write here
@@ -49,8 +55,10 @@ struct ControlCounts {
   std::uint64_t replies = 0;      ///< sent
   std::uint64_t not_allowed = 0;  ///< from a host that is not heard; never answered
   std::array<std::uint64_t, static_cast<std::size_t>(protocol::Refusal::count_)> refused = {};
-  std::uint64_t failed = 0;   ///< messages that were not obeyed; answered by /fail
-  std::uint64_t unasked = 0;  ///< replies and events, which the simulator has no use for
+  std::uint64_t malformed_poses = 0;  ///< poses of other types or out of range; part of `failed`
+  std::uint64_t no_rotations = 0;     ///< poses whose quaternion is no unit; part of `failed`
+  std::uint64_t failed = 0;           ///< messages that were not obeyed; answered by /fail
+  std::uint64_t unasked = 0;          ///< replies and events, which the simulator has no use for
   /// Replies over the limit (RateLimit) or longer than their question (protocol::ReplyBudget).
   std::uint64_t withheld = 0;
   std::uint64_t dropped = 0;  ///< by the kernel, its buffer full
@@ -73,14 +81,15 @@ class ControlServer {
   struct Request {
     const protocol::Message& message;
     protocol::Endpoint from;
-    double monotonic = 0.0;  ///< of arrival [s]
-    double unix_time = 0.0;  ///< of arrival [s]
+    double monotonic = 0.0;      ///< of arrival [s]
+    double unix_time = 0.0;      ///< of arrival [s]
+    std::optional<double> sent;  ///< time tag of its bundle, Unix time [s]
     protocol::ReplyBudget& budget;
   };
   struct Command;  ///< an address and what it does, see control_commands.cpp
 
   void listen(const std::stop_token& stop);
-  void take(protocol::Bytes packet, const protocol::Endpoint& from);
+  void take(protocol::Bytes packet, const protocol::UdpSocket::Received& received);
   void dump(const std::string& line, double now);
   void refuse(protocol::Refusal refusal, const protocol::Endpoint& from);
   void obey(const Request& request);
@@ -111,6 +120,7 @@ class ControlServer {
   DumpLevel dump_level_ = DumpLevel::off;
   protocol::TextLimit dumped_;
   bool complains_ = true;  ///< /error 1
+  double arrival_ = 0.0;   ///< of the last datagram, monotonic [s]
   std::atomic<std::uint64_t> turns_{0};
   mutable std::mutex mutex_;
   ControlCounts counts_;  ///< under mutex_

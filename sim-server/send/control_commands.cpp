@@ -68,6 +68,7 @@ void ControlServer::run(const Request& request) {
       fail(request, Command::unknown(address));
     }
   } else if (const auto reason = protocol::violation(request.message)) {
+    if (command->run == &ControlServer::body_pose) count(&ControlCounts::malformed_poses);
     fail(request, *reason);
   } else {
     (this->*command->run)(request);
@@ -95,11 +96,12 @@ void ControlServer::fail(const Request& request, const std::string& reason) {
 void ControlServer::body_pose(const Request& request) {
   const auto pose = protocol::to_body_pose(request.message);
   if (!pose) {
-    fail(request, "the quaternion's length is not 1 within 1 %");
+    count(&ControlCounts::no_rotations);
+    fail(request, "the quaternion's length is not 1 within 10 %");
   } else if (!actions_.pose) {
     fail(request, "no body of this scene is moved over OSC");
   } else {
-    actions_.pose(*pose, request.monotonic);
+    actions_.pose(*pose, {request.monotonic, request.sent});
     count(&ControlCounts::poses);
   }
 }
@@ -111,7 +113,7 @@ void ControlServer::status(const Request& request) {
   }
   auto status = actions_.status();
   const auto seen = counts();
-  status.refused = std::accumulate(seen.refused.begin(), seen.refused.end(), seen.failed);
+  status.refused += std::accumulate(seen.refused.begin(), seen.refused.end(), seen.failed);
   reply(request, protocol::to_message(status));
 }
 

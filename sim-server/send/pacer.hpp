@@ -44,6 +44,8 @@ class Pacer {
   /// Time slips when behind by more than this [s].
   void set_slip_limit(double seconds) noexcept { settings_.slip_limit = seconds; }
 
+  /// Our monotonic clock when simulated second 0 was, slips included [s]. It never runs back.
+  [[nodiscard]] double origin() const noexcept { return origin_; }
   /// Unix time at which simulated second 0 was, slips included [s]: what FrameTime wants. Read it
   /// for each frame, since slips and corrections of the system clock move it.
   [[nodiscard]] double unix_origin() const;

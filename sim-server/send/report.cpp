@@ -8,6 +8,7 @@
 #include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -30,6 +31,12 @@ Json known_or_null(const std::optional<std::uint64_t>& value) {
 
 double per(double amount, double of) {
   return of > 0.0 ? amount / of : std::numeric_limits<double>::quiet_NaN();
+}
+
+Json by_name(const NamedCounts& counts) {
+  Json json = Json::object();
+  for (const auto& [name, count] : counts) json[name] = count;
+  return json;
 }
 
 Json iterations_of(const SolveTotals& solve) {
@@ -63,6 +70,11 @@ void write_text(const std::filesystem::path& file_path, const std::filesystem::p
 }
 
 }  // namespace
+
+std::uint64_t sum_of(const NamedCounts& counts) noexcept {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const auto& entry) { return sum + entry.second; });
+}
 
 double SolveTotals::mean() const noexcept {
   return per(static_cast<double>(iterations), static_cast<double>(solves));
@@ -114,7 +126,9 @@ std::string to_json(const RunReport& report) {
       {"idle_frames", report.idle_frames},       {"contact_passes", report.without_contacts},
       {"bubble_passes", report.without_bubbles}, {"cavity_searches", report.without_cavities},
       {"kernel_parts", report.kernel_parts},     {"asleep", finite_or_null(report.asleep)}};
-  json["refused_poses"] = report.refused_poses;
+  json["refused_poses"] = sum_of(report.refused_poses);
+  json["refused"] = {{"poses", by_name(report.refused_poses)},
+                     {"datagrams", by_name(report.refused_datagrams)}};
   json["resets"] = report.resets;
   json["retried_frames"] = report.retried;
   json["calmed_frames"] = report.calmed;
@@ -169,6 +183,13 @@ std::string summary(const RunReport& report) {
        << " frames " << report.idle_frames << " idle, " << report.without_contacts
        << " without contacts, " << report.without_bubbles << " without bubbles, "
        << report.without_cavities << " without cavities\n";
+  if (const auto refused = sum_of(report.refused_poses); refused > 0) {
+    text << "poses     " << refused << " refused:";
+    for (const auto& [name, count] : report.refused_poses) {
+      if (count > 0) text << ' ' << name << ' ' << count;
+    }
+    text << '\n';
+  }
   text << "pacing    " << report.behind << " of " << report.frames << " frames behind, "
        << std::setprecision(3) << report.slipped_seconds << " s slipped, " << report.resets
        << " resets, " << report.calmed << " frames given up, " << report.retried << " retried\n";

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace splash::sim {
 
@@ -34,6 +36,10 @@ struct AirReport {
   double mean_particles = 0.0;     ///< bubble particles alive, in particles of water, mean [1]
   double largest_particles = 0.0;  ///< same, largest [1]
 };
+
+/// How often something happened, by the name of its reason.
+using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
+[[nodiscard]] std::uint64_t sum_of(const NamedCounts& counts) noexcept;
 
 struct RunReport {
   std::string device;
@@ -66,7 +72,8 @@ struct RunReport {
   std::uint64_t without_cavities = 0;  ///< same for cavities
   int kernel_parts = 0;                ///< that the kernels were built without
   double asleep = 0.0;                 ///< share of the particles that slept, on average [1]
-  std::uint64_t refused_poses = 0;     ///< of trackers: no numbers, impossible speeds, late ones
+  NamedCounts refused_poses;           ///< of trackers, by reason
+  NamedCounts refused_datagrams;       ///< at the gate, by reason
   std::uint64_t retried = 0;           ///< frames that went well only with shorter steps
   std::uint64_t calmed = 0;            ///< frames given up, and the water around a fault stopped
   std::uint64_t resets = 0;            ///< times the fluid had to be set up anew

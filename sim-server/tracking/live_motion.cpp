@@ -10,171 +10,153 @@ namespace splash::sim {
 
 namespace {
 
-constexpr double kBlend = 0.035;      // a wrong prediction is gone after this [s]
-constexpr double kWindow = 0.040;     // velocities are fitted to the poses of this time [s]
-constexpr double kLeastStep = 0.010;  // poses closer in time are late or early arrivals [s]
-constexpr std::size_t kKept = 256;    // stretches kept for questions about the past
+constexpr double kFades = 0.012;  ///< a wrong prediction fades out with this time constant [s]
+/// What is wrong by more is no prediction any more: the body is put where it is [m, rad].
+constexpr double kFarOff = 0.10;
+constexpr double kTurnedOff = 1.0;
+/// A frame may play so much more of the poses than its own length [s]; after a longer stall the
+/// body is where it is now.
+constexpr double kCatchesUp = 0.100;
+/// The delay follows the lateness of the poses by these parts of the time that passes [1].
+constexpr double kRises = 0.05;
+constexpr double kFalls = 0.02;
+constexpr double kCoasts = 2.5;  ///< periods
+/// Poses without tags that come so near to each other were held up together [s].
+constexpr double kInstant = 0.0015;
+constexpr double kChanges = 0.008;   ///< [s]
+constexpr double kLongPeriod = 0.1;  ///< slower poses are single ones [s]
 
-/// 1 - (3 u^2 - 2 u^3) on [0, 1] and its derivative: from one to zero without a corner.
+/// 1 - (3 u^2 - 2 u^3) on [0, 1]: from one to zero without a corner.
 double falling(double u) {
   return u >= 1.0 ? 0.0 : 1.0 - u * u * (3.0 - 2.0 * u);
-}
-double falling_slope(double u) {
-  return u >= 1.0 ? 0.0 : -6.0 * u * (1.0 - u);
-}
-
-bool finite(const Vector3& v) {
-  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
 }  // namespace
 
-std::string_view describe(PoseRefusal refusal) noexcept {
-  switch (refusal) {
-    case PoseRefusal::none:
-      return "accepted";
-    case PoseRefusal::not_finite:
-      return "a number is not finite";
-    case PoseRefusal::no_rotation:
-      return "the quaternion's length is zero";
-    case PoseRefusal::too_far:
-      return "the place is beyond the limit";
-    case PoseRefusal::too_fast:
-      return "the speed is beyond the limit";
-    case PoseRefusal::time_ran_back:
-      return "it arrived before the pose before it";
-  }
-  return "unknown";
-}
-
-LiveMotion::LiveMotion(const Keyframe& rest, const LiveLimits& limits, const LiveGap& gap)
-    : rest_(rest), limits_(limits), gap_(gap) {
+LiveMotion::LiveMotion(const Keyframe& rest, const LiveLimits& limits, const LiveGap& gap,
+                       double delay_limit)
+    : rest_(rest), gap_(gap), delay_limit_(delay_limit), gate_(limits) {
   rest_.rotation = unit(rest_.rotation);
 }
 
-double LiveMotion::speed_left(double dt) const {
-  if (dt < gap_.coast) return 1.0;
-  return gap_.fade > 0.0 ? falling((dt - gap_.coast) / gap_.fade) : 0.0;
+double LiveMotion::speed_left(double dt, double coast) const {
+  if (dt < coast) return 1.0;
+  return gap_.fade > 0.0 ? falling((dt - coast) / gap_.fade) : 0.0;
 }
 
-double LiveMotion::way_gone(double dt) const {
-  if (dt <= gap_.coast || gap_.fade <= 0.0) return std::min(dt, gap_.coast);
-  const double u = std::min((dt - gap_.coast) / gap_.fade, 1.0);
-  return gap_.coast + gap_.fade * u * (1.0 - u * u * (1.0 - 0.5 * u));
+double LiveMotion::way_gone(double dt, double coast) const {
+  if (dt <= coast || gap_.fade <= 0.0) return std::min(dt, coast);
+  const double u = std::min((dt - coast) / gap_.fade, 1.0);
+  return coast + gap_.fade * u * (1.0 - u * u * (1.0 - 0.5 * u));
 }
 
-BodyState LiveMotion::state(const Stretch& s, double time) const {
-  const double dt = std::max(time - s.time, 0.0);
-  const double left = speed_left(dt);
-  const double gone = way_gone(dt);
-  const double wrong = falling(dt / kBlend);
-  const double wrong_slope = falling_slope(dt / kBlend) / kBlend;
-  BodyState state;
-  state.position = s.position + gone * s.velocity + wrong * s.offset;
-  state.velocity = left * s.velocity + wrong_slope * s.offset;
-  const Quaternion correction = from_turn(wrong * s.turn_offset);
-  state.rotation = unit(compose(correction, compose(from_turn(gone * s.spin), s.rotation)));
-  state.spin = wrong_slope * s.turn_offset + rotate(correction, left * s.spin);
+BodyState LiveMotion::played(const Plan& plan, double moment) const {
+  if (!plan.seen) return {rest_.position, rest_.rotation, {}, {}};
+  if (moment < plan.first) {
+    const BodyState first = plan.fit.at(plan.first);
+    return {first.position, first.rotation, {}, {}};
+  }
+  if (moment <= plan.last) return plan.fit.at(moment);
+  BodyState state = plan.fit.at(plan.last);
+  // A change of speed goes on for a moment, and is not believed for longer.
+  const BodyState ahead = plan.fit.at(plan.last + std::min(moment - plan.last, kChanges));
+  state.velocity = ahead.velocity;
+  state.spin = ahead.spin;
+  const double dt = moment - plan.last;
+  const double gone = way_gone(dt, plan.coast);
+  const double left = speed_left(dt, plan.coast);
+  state.position = state.position + gone * state.velocity;
+  state.rotation = unit(compose(from_turn(gone * state.spin), state.rotation));
+  state.velocity = left * state.velocity;
+  state.spin = left * state.spin;
   return state;
 }
 
-BodyState LiveMotion::predict(double time) const {
-  if (stretches_.empty()) return {rest_.position, rest_.rotation, {}, {}};
-  if (std::isnan(time)) return state(stretches_.back(), stretches_.back().time);
-  const auto after =
-      std::upper_bound(stretches_.begin(), stretches_.end(), time,
-                       [](double t, const Stretch& stretch) { return t < stretch.time; });
-  if (after != stretches_.begin()) return state(*(after - 1), time);
-  // Before the first pose that is known.
-  const BodyState first = state(stretches_.front(), stretches_.front().time);
-  return {first.position, first.rotation, {}, {}};
+BodyState LiveMotion::state(const Plan& plan, double seconds) const {
+  const double dt = std::isfinite(seconds) ? std::max(seconds - plan.seconds, 0.0) : 0.0;
+  BodyState state = played(plan, plan.start + plan.rate * dt);
+  const double wrong = std::exp(-dt / kFades);
+  state.position = state.position + wrong * plan.offset;
+  state.rotation = unit(compose(from_turn(wrong * plan.turn_offset), state.rotation));
+  return state;
 }
 
 BodyState LiveMotion::at(double seconds) const {
-  const std::scoped_lock lock(mutex_);
-  return predict(seconds);
+  return state(plan_, seconds);
 }
 
-PoseRefusal LiveMotion::check(const Vector3& position, const Quaternion& rotation,
-                              double arrival) const {
-  const bool numbers = finite(position) && std::isfinite(arrival) &&
-                       std::all_of(rotation.begin(), rotation.end(),
-                                   [](double part) { return std::isfinite(part); });
-  if (!numbers) return PoseRefusal::not_finite;
-  const double size =
-      std::hypot(std::hypot(rotation[0], rotation[1]), std::hypot(rotation[2], rotation[3]));
-  if (size < 1.0e-3 || !std::isfinite(size)) return PoseRefusal::no_rotation;
-  for (const double part : position) {
-    if (std::abs(part) > limits_.place) return PoseRefusal::too_far;
-  }
-  if (stretches_.empty()) return PoseRefusal::none;
-  const Stretch& last = stretches_.back();
-  if (arrival < last.time) return PoseRefusal::time_ran_back;
-  const double dt = std::max(arrival - last.time, kLeastStep);
-  const double turn = length(to_turn(compose(unit(rotation), inverse(last.rotation))));
-  const bool fast =
-      length(position - last.position) > limits_.speed * dt || turn > limits_.spin * dt;
-  return fast ? PoseRefusal::too_fast : PoseRefusal::none;
-}
-
-PoseRefusal LiveMotion::push(const Vector3& position, const Quaternion& rotation, double arrival) {
+PoseRefusal LiveMotion::push(const Vector3& position, const Quaternion& rotation,
+                             const PoseStamp& stamp) {
   const std::scoped_lock lock(mutex_);
-  const PoseRefusal refusal = check(position, rotation, arrival);
+  const bool times =
+      std::isfinite(stamp.arrival) && std::isfinite(stamp.sent.value_or(stamp.arrival));
+  if (!times) return PoseRefusal::not_finite;
+  const PoseRefusal refusal = gate_.look_at(position, rotation);
   if (refusal != PoseRefusal::none) return refusal;
-  Stretch next{arrival, position, unit(rotation), {}, {}, {}, {}};
-  set_offsets(next);
-  // Two poses in one instant: the later one counts.
-  if (!stretches_.empty() && stretches_.back().time >= arrival) stretches_.pop_back();
-  set_velocities(next);
-  stretches_.push_back(next);
-  if (stretches_.size() > kKept) stretches_.pop_front();
-  return PoseRefusal::none;
+  if (clock_.is_before(stamp.arrival)) return PoseRefusal::time_ran_back;
+  const double taken = clock_.taken(stamp);
+  return gate_.take({taken, position, unit(rotation)}, clock_.doubt(), clock_.scatter(),
+                    stamp.sent ? 0.0 : kInstant);
 }
 
-void LiveMotion::set_offsets(Stretch& next) const {
-  if (stretches_.empty()) return;
-  const BodyState guess = predict(next.time);
-  next.offset = guess.position - next.position;
-  next.turn_offset = to_turn(compose(guess.rotation, inverse(next.rotation)));
-  // The fade's steepest part is 1.5 times its mean. A body found elsewhere after a long silence is
-  // put there at once instead of being drawn through the water.
-  const double speed = 1.5 * length(next.offset) / kBlend;
-  const double spin = 1.5 * length(next.turn_offset) / kBlend;
-  if (speed > limits_.speed || spin > limits_.spin) {
+/// The moment that is played never runs back. Where simulated time slipped, or the delay shrinks,
+/// a frame plays more than its own length.
+void LiveMotion::set_time(Plan& next, const PlayedFrame& frame, double lateness,
+                          double period) const {
+  const double hold = gap_.hold ? period + frame.length : 0.0;
+  const double wanted = std::clamp(lateness, 0.0, delay_limit_) + hold;
+  const double passed = std::max(frame.wall - wall_, 0.0);
+  next.delay = !plan_.seen ? wanted
+                           : plan_.delay + std::clamp(wanted - plan_.delay, -kFalls * passed,
+                                                      kRises * passed);
+  const double end = frame.wall + frame.length - next.delay;
+  const double before = plan_.start + plan_.rate * (frame.seconds - plan_.seconds);
+  const bool goes_on = plan_.seen && frame.length > 0.0 && frame.seconds >= plan_.seconds &&
+                       end - before <= frame.length + kCatchesUp;
+  next.seconds = frame.seconds;
+  next.start = goes_on ? before : end - frame.length;
+  next.rate = goes_on ? std::max(end - before, 0.0) / frame.length : 1.0;
+}
+
+void LiveMotion::set_offsets(Plan& next, bool jumped) const {
+  const double before = plan_.start + plan_.rate * (next.seconds - plan_.seconds);
+  if (jumped || !plan_.seen || next.start != before) return;
+  const BodyState old = state(plan_, next.seconds);
+  const BodyState now = played(next, next.start);
+  next.offset = old.position - now.position;
+  next.turn_offset = to_turn(compose(old.rotation, inverse(now.rotation)));
+  if (length(next.offset) > kFarOff || length(next.turn_offset) > kTurnedOff) {
     next.offset = {};
     next.turn_offset = {};
   }
 }
 
-/// The line of least squares through the poses of the last moments: arrival jitter of single
-/// packets averages out.
-void LiveMotion::set_velocities(Stretch& next) const {
-  auto first = stretches_.end();
-  while (first != stretches_.begin() && (first - 1)->time >= next.time - kWindow) --first;
-  if (first == stretches_.end()) return;
-  const double count = static_cast<double>(stretches_.end() - first) + 1.0;
-  double mean_time = next.time;
-  for (auto it = first; it != stretches_.end(); ++it) mean_time += it->time;
-  mean_time /= count;
-  double square = 0.0;
-  Vector3 way = {};
-  Vector3 turn = {};
-  const auto add = [&](const Stretch& s) {
-    const double t = s.time - mean_time;
-    square += t * t;
-    way = way + t * (s.position - next.position);
-    turn = turn + t * to_turn(compose(s.rotation, inverse(next.rotation)));
-  };
-  for (auto it = first; it != stretches_.end(); ++it) add(*it);
-  add(next);
-  // Poses that came (almost) at once say nothing about a speed.
-  if (square < 0.5 * kLeastStep * kLeastStep) {
-    next.velocity = stretches_.back().velocity;
-    next.spin = stretches_.back().spin;
-    return;
+void LiveMotion::begin(const PlayedFrame& frame) {
+  Plan next;
+  bool jumped = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    const std::vector<TimedPose>& poses = gate_.poses();
+    if (poses.empty()) return;
+    const double period = gate_.period();
+    next.seen = true;
+    next.first = poses.front().time;
+    next.last = poses.back().time;
+    next.coast = gap_.coast;
+    if (!gap_.hold && period < kLongPeriod) next.coast = std::max(gap_.coast, kCoasts * period);
+    set_time(next, frame, clock_.lateness(), period);
+    const double middle = next.start + 0.5 * next.rate * frame.length;
+    const BodyState now = state(plan_, frame.seconds);
+    next.fit = PoseFit(poses, std::clamp(middle, next.first, next.last),
+                       {.period = period,
+                        .doubt = clock_.doubt(),
+                        .speed = length(now.velocity),
+                        .spin = length(now.spin)});
+    jumped = gate_.has_jumped();
   }
-  next.velocity = (1.0 / square) * way;
-  next.spin = (1.0 / square) * turn;
+  set_offsets(next, jumped);
+  plan_ = next;
+  wall_ = frame.wall;
 }
 
 }  // namespace splash::sim

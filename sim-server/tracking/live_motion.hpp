@@ -1,79 +1,87 @@
 // SPDX-License-Identifier: MIT
-// A body that a tracker moves while the simulation runs: poses come when they come, the state is
-// asked for at any time in between. Position and turn never jump with a new pose: what the
-// prediction was wrong by fades out (dead reckoning), and without poses the body slows to a stop.
+// A body that a tracker moves while the simulation runs. Poses are kept by the moment they were
+// taken at on the clock on the wall; each frame plays a piece of them. Simulated time may slip
+// behind that clock: the pieces then are longer than the frame, but the speeds that are told are
+// those on the wall.
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <mutex>
-#include <string_view>
+#include <vector>
 
 #include "sim-server/tracking/motion.hpp"
+#include "sim-server/tracking/pose_clock.hpp"
+#include "sim-server/tracking/pose_fit.hpp"
+#include "sim-server/tracking/pose_gate.hpp"
 
 namespace splash::sim {
 
-enum class PoseRefusal : std::uint8_t {
-  none,
-  not_finite,     ///< a number is NaN or infinite
-  no_rotation,    ///< the quaternion's length is (almost) zero
-  too_far,        ///< a place beyond the limit
-  too_fast,       ///< a speed or spin beyond the limit since the pose before
-  time_ran_back,  ///< arrived before the pose before
-};
-[[nodiscard]] std::string_view describe(PoseRefusal refusal) noexcept;
-
-struct LiveLimits {
-  double place = 100.0;  ///< any coordinate [m]
-  double speed = 20.0;   ///< [m/s]; the fastest sprint's foot
-  double spin = 100.0;   ///< [rad/s]
-};
-
-/// Without a new pose a body goes on at full speed for `coast` and takes `fade` to stop; both zero:
-/// it stays where it was seen.
+/// What a body does without a new pose: it goes on at full speed for `coast`, or for two and a half
+/// times the time between two poses where that is longer, and takes `fade` to stop. `hold`: it is
+/// played a pose later, so that it never goes beyond one, and stays at the last.
 struct LiveGap {
   double coast = 0.025;  ///< [s]
   double fade = 0.050;   ///< [s]
+  bool hold = false;
 };
 
-/// `push` and `at` may be called from different threads.
+/// A piece of time, on both clocks.
+struct PlayedFrame {
+  double seconds = 0.0;  ///< simulated time at its start [s]
+  double wall = 0.0;     ///< our clock then [s]
+  double length = 0.0;   ///< simulated [s]
+};
+
+/// `push` may be called from another thread than the rest.
 class LiveMotion : public Motion {
  public:
-  explicit LiveMotion(const Keyframe& rest, const LiveLimits& limits = {}, const LiveGap& gap = {});
+  /// `delay_limit`: poses that arrive unevenly are played later by as much as evens them out, but
+  /// by no more [s].
+  explicit LiveMotion(const Keyframe& rest, const LiveLimits& limits = {}, const LiveGap& gap = {},
+                      double delay_limit = 0.030);
 
-  /// A pose that arrived at `arrival` seconds on the clock of `at`. Quaternions need not have
-  /// unit length.
-  PoseRefusal push(const Vector3& position, const Quaternion& rotation, double arrival);
+  /// Quaternions need not have unit length.
+  PoseRefusal push(const Vector3& position, const Quaternion& rotation, const PoseStamp& stamp);
+  /// What came until now is what `at` knows until the next frame begins.
+  void begin(const PlayedFrame& frame);
   [[nodiscard]] BodyState at(double seconds) const override;
 
+  /// How much later than they could be the poses are played [s].
+  [[nodiscard]] double delay() const noexcept { return plan_.delay; }
+
  private:
-  /// From one pose until the next: the motion goes on as it was, and stops.
-  struct Stretch {
-    double time = 0.0;
-    Vector3 position = {};
-    Quaternion rotation = {0.0, 0.0, 0.0, 1.0};
-    Vector3 velocity = {};
-    Vector3 spin = {};         ///< in the world [rad/s]
-    Vector3 offset = {};       ///< prediction minus pose, fades out [m]
-    Vector3 turn_offset = {};  ///< the same for the rotation, in the world [rad]
+  /// How a frame is played.
+  struct Plan {
+    bool seen = false;     ///< any pose; else the body is at rest
+    double seconds = 0.0;  ///< simulated time at the frame's start [s]
+    double start = 0.0;    ///< moment of the poses then [s]
+    double rate = 1.0;     ///< of that moment in simulated time [1]
+    double first = 0.0;    ///< moment of the oldest pose that is known [s]
+    double last = 0.0;     ///< of the newest [s]
+    double coast = 0.0;    ///< [s]
+    double delay = 0.0;    ///< [s]
+    PoseFit fit;
+    Vector3 offset = {};       ///< of the frame before less this one, fades out [m]
+    Vector3 turn_offset = {};  ///< the same of the rotation, in the world [rad]
   };
 
-  /// Share of the velocity left `dt` after a pose, and the time it has been going on at full speed
-  /// instead.
-  [[nodiscard]] double speed_left(double dt) const;
-  [[nodiscard]] double way_gone(double dt) const;
-  [[nodiscard]] BodyState state(const Stretch& stretch, double time) const;
-  [[nodiscard]] BodyState predict(double time) const;
-  [[nodiscard]] PoseRefusal check(const Vector3& position, const Quaternion& rotation,
-                                  double arrival) const;
-  void set_velocities(Stretch& next) const;
-  void set_offsets(Stretch& next) const;
+  /// Share of the velocity left `dt` after the last pose, and the time it has been going on at full
+  /// speed instead.
+  [[nodiscard]] double speed_left(double dt, double coast) const;
+  [[nodiscard]] double way_gone(double dt, double coast) const;
+  [[nodiscard]] BodyState played(const Plan& plan, double moment) const;
+  [[nodiscard]] BodyState state(const Plan& plan, double seconds) const;
+  void set_time(Plan& next, const PlayedFrame& frame, double lateness, double period) const;
+  void set_offsets(Plan& next, bool jumped) const;
 
   Keyframe rest_;
-  LiveLimits limits_;
   LiveGap gap_;
-  mutable std::mutex mutex_;
-  std::deque<Stretch> stretches_;
+  double delay_limit_;
+  Plan plan_;
+  double wall_ = 0.0;  ///< when the last frame began [s]
+  std::mutex mutex_;
+  PoseClock clock_;  ///< under mutex_
+  PoseGate gate_;    ///< same
 };
 
 }  // namespace splash::sim

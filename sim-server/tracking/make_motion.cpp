@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/tracking/make_motion.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "protocol/config.hpp"
+#include "sim-server/scene/pace.hpp"
 #include "sim-server/tracking/free_motion.hpp"
 #include "sim-server/tracking/live_motion.hpp"
 #include "sim-server/tracking/marker_motion.hpp"
@@ -27,6 +29,28 @@ std::unique_ptr<Motion> with_names(const BodySettings& body, const std::filesyst
   }
 }
 
+/// Of the frame at `time`, which the recording has.
+int line_of(const MarkerRecording& recording, double time) {
+  const auto& times = recording.times;
+  const auto frame = std::lower_bound(times.begin(), times.end(), time) - times.begin();
+  return recording.lines[static_cast<std::size_t>(frame)];
+}
+
+/// Markers that were mistaken for one another turn a body over within a frame.
+void check_pace(const BodySettings& body, const std::filesystem::path& file,
+                const MarkerRecording& recording, const std::vector<Keyframe>& poses) {
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const std::string fast = too_fast(poses[i - 1], poses[i], kRecordedPace);
+    if (fast.empty()) continue;
+    const int before = line_of(recording, poses[i - 1].time);
+    const int line = line_of(recording, poses[i].time);
+    throw protocol::ConfigError(
+        protocol::Place{.file = file.string(), .line = line, .column = 1},
+        "body '" + body.name + "': " + fast + ": its markers in one of the frames of lines " +
+            std::to_string(before) + " and " + std::to_string(line) + " or a time is wrong");
+  }
+}
+
 std::unique_ptr<Motion> from_markers(const BodySettings& body, const std::filesystem::path& file) {
   if (file.empty()) {
     throw std::invalid_argument(
@@ -36,12 +60,13 @@ std::unique_ptr<Motion> from_markers(const BodySettings& body, const std::filesy
   const MarkerRecording recording = read_markers(file);
   const auto& motion = body.motion;
   auto poses = marker_poses(recording, motion.markers, body.shape, motion.sole);
+  check_pace(body, file, recording, poses);
   return std::make_unique<PathMotion>(std::move(poses), Between::through, motion.repeat,
                                       recording.times.front() + motion.start);
 }
 
 LiveGap gap_of(const MotionSettings& motion) {
-  if (motion.gap == GapKind::hold) return {.coast = 0.0, .fade = 0.0};
+  if (motion.gap == GapKind::hold) return {.coast = 0.0, .fade = 0.0, .hold = true};
   return {.coast = motion.gap_limit};
 }
 
@@ -68,7 +93,8 @@ std::unique_ptr<Motion> make_motion(const BodySettings& body,
       return with_names(body, file, [&] { return from_markers(body, file); });
     }
     case MotionKind::osc:
-      return std::make_unique<LiveMotion>(body.rest, LiveLimits{}, gap_of(motion));
+      return std::make_unique<LiveMotion>(body.rest, LiveLimits{}, gap_of(motion),
+                                          motion.delay_limit);
     case MotionKind::free:
       return std::make_unique<FreeMotion>(
           BodyState{body.rest.position, body.rest.rotation, motion.velocity, motion.spin});

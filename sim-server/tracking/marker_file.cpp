@@ -24,7 +24,6 @@ constexpr double kLargestPlace = 100.0;  // m
 struct Header {
   double rate = 0.0;
   std::size_t frames = 0;
-  std::size_t markers = 0;
   double metres = 1.0;  ///< per unit of the file
 };
 
@@ -55,7 +54,6 @@ Header read_header(const TextTable& table) {
   header.rate = table.number(kValueLine, rate, "DataRate", 1.0e5);
   if (header.rate <= 0.0) throw table.error(kValueLine, rate.column, "DataRate is not above zero");
   header.frames = read_count(table, value("NumFrames"), "NumFrames");
-  header.markers = read_count(table, value("NumMarkers"), "NumMarkers");
   const Cell unit = value("Units");
   if (!kUnits.contains(unit.text)) {
     throw table.error(kValueLine, unit.column,
@@ -65,29 +63,28 @@ Header read_header(const TextTable& table) {
   return header;
 }
 
-/// Names stand over the first of each marker's three columns.
-std::vector<std::string> read_names(const TextTable& table, const Header& header) {
+/// Names stand over the first of each marker's three columns. The line of axes may go on beyond
+/// the last name.
+std::vector<std::string> read_names(const TextTable& table) {
   const auto cells = table.cells(kNameLine, '\t');
   if (cells.size() < 2 || cells[0].text != "Frame#" || cells[1].text != "Time") {
     throw table.error(kNameLine, 1, "the line of marker names begins with Frame# and Time");
   }
   std::vector<std::string> names;
   for (std::size_t i = 2; i < cells.size(); ++i) {
-    const bool place_of_name = (i - 2) % 3 == 0;
     if (cells[i].text.empty()) continue;
-    if (!place_of_name || names.size() != (i - 2) / 3) {
+    if ((i - 2) % 3 != 0) {
       throw table.error(kNameLine, cells[i].column, "marker names stand three columns apart");
     }
+    names.resize((i - 2) / 3);
     names.emplace_back(cells[i].text);
-    if (std::count(names.begin(), names.end(), names.back()) > 1) {
-      throw table.error(kNameLine, cells[i].column, "marker '" + names.back() + "' comes twice");
-    }
   }
-  if (names.size() != header.markers) {
-    throw table.error(kNameLine, 1,
-                      "there are " + std::to_string(names.size()) +
-                          " marker names, NumMarkers is " + std::to_string(header.markers));
-  }
+  if (names.empty()) throw table.error(kNameLine, 1, "there is no marker name");
+  const auto axes = table.cells(kAxisLine, '\t');
+  const auto last =
+      std::find_if(axes.rbegin(), axes.rend(), [](const Cell& cell) { return !cell.text.empty(); });
+  const auto columns = static_cast<std::size_t>(axes.rend() - last);
+  if (columns > 2) names.resize(std::max(names.size(), (columns - 2) / 3));
   return names;
 }
 
@@ -123,6 +120,7 @@ void read_frame(const TextTable& table, std::size_t line, double metres, MarkerR
     throw table.error(line, cells[1].column, "the time is not later than that of the frame before");
   }
   out.times.push_back(time);
+  out.lines.push_back(static_cast<int>(line) + 1);
   auto& frame = out.frames.emplace_back();
   for (std::size_t i = 0; i < out.names.size(); ++i) {
     frame.push_back(read_marker(table, line, &cells[2 + 3 * i], out.names[i], metres));
@@ -145,7 +143,7 @@ void restore_times(MarkerRecording& recording) {
 MarkerRecording read_table(const TextTable& table) {
   const Header header = read_header(table);
   MarkerRecording recording{
-      .rate = header.rate, .names = read_names(table, header), .times = {}, .frames = {}};
+      .rate = header.rate, .names = read_names(table), .times = {}, .lines = {}, .frames = {}};
   if (table.line(kAxisLine).find("X1") == std::string_view::npos) {
     throw table.error(kAxisLine, 1, "the line of axes (X1 Y1 Z1 ...) is missing");
   }

@@ -23,6 +23,10 @@ class BodyMarkers {
     for (const std::string& name : names) {
       const auto found = std::find(recording.names.begin(), recording.names.end(), name);
       if (found == recording.names.end()) throw std::invalid_argument(unknown(name));
+      if (std::count(recording.names.begin(), recording.names.end(), name) > 1) {
+        throw std::invalid_argument("the recording has more than one marker '" + name +
+                                    "': name others, or rename one");
+      }
       columns_.push_back(static_cast<std::size_t>(found - recording.names.begin()));
     }
   }
@@ -54,7 +58,9 @@ class BodyMarkers {
  private:
   [[nodiscard]] std::string unknown(const std::string& name) const {
     std::string text = "the recording has no marker '" + name + "'; it has";
-    for (const std::string& known : recording_.names) text += " " + known;
+    for (const std::string& known : recording_.names) {
+      if (!known.empty()) text += " " + known;
+    }
     return text;
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim-server/scene/pace.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/tracking/text_table.hpp"
 
@@ -27,7 +28,7 @@ void check_header(const TextTable& table, std::size_t line) {
 }
 
 Keyframe read_row(const TextTable& table, std::size_t line) {
-  constexpr double kLengthError = 0.01;
+  constexpr double kLengthError = 0.1;
   const auto cells = table.cells(line, ',');
   if (cells.size() != kColumns.size()) {
     throw table.error(line, cells.back().column,
@@ -40,13 +41,14 @@ Keyframe read_row(const TextTable& table, std::size_t line) {
   const double size = std::hypot(std::hypot(v[4], v[5]), std::hypot(v[6], v[7]));
   if (std::abs(size - 1.0) > kLengthError) {
     throw table.error(line, cells[4].column,
-                      "the quaternion's length is " + std::to_string(size) + ", not 1 within 0.01");
+                      "the quaternion's length is " + std::to_string(size) + ", not 1 within 0.1");
   }
   return {v[0], {v[1], v[2], v[3]}, unit({v[4], v[5], v[6], v[7]})};
 }
 
 std::vector<Keyframe> read_table(const TextTable& table) {
   std::vector<Keyframe> poses;
+  std::size_t last_line = 0;
   bool header = false;
   for (std::size_t line = 0; line < table.lines(); ++line) {
     if (table.line(line).empty() || table.line(line).front() == '#') continue;
@@ -59,6 +61,15 @@ std::vector<Keyframe> read_table(const TextTable& table) {
     if (!poses.empty() && pose.time <= poses.back().time) {
       throw table.error(line, 1, "the time is not later than that of the pose before");
     }
+    if (!poses.empty()) {
+      const std::string fast = too_fast(poses.back(), pose, kRecordedPace);
+      if (!fast.empty()) {
+        throw table.error(line, 1,
+                          fast + ": one of the poses of lines " + std::to_string(last_line + 1) +
+                              " and " + std::to_string(line + 1) + " or its time is wrong");
+      }
+    }
+    last_line = line;
     poses.push_back(pose);
   }
   if (poses.empty()) throw table.error(table.lines(), 1, "there is no pose in the file");

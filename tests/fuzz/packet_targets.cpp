@@ -46,7 +46,7 @@ void check_message(const Message& message) {
   check_taken(to_event(message), message);
   check_taken(to_frame(message), message);
   const auto pose = to_body_pose(message);
-  if (pose) promise(to_message(*pose) == message, "a pose does not survive being read");
+  if (pose) promise(to_body_pose(to_message(*pose)) == pose, "a pose changes when read again");
   if (const auto status = to_synth_status(message)) promise(!violation(message), "bad status");
   if (const auto status = to_sim_status(message)) promise(!violation(message), "bad status");
 }

@@ -195,5 +195,17 @@ TEST(EventMessage, AQuaternionThatIsNoRotationIsRefused) {
   EXPECT_FALSE(to_body_pose(to_message(pose)));
 }
 
+TEST(EventMessage, AQuaternionThatIsALittleOffIsBroughtToUnitLength) {
+  for (const float size : {0.91F, 0.98F, 1.02F, 1.09F}) {
+    const auto pose =
+        to_body_pose(to_message(BodyPose{1, {}, 0.0F, 0.6F * size, 0.0F, 0.8F * size}));
+    ASSERT_TRUE(pose) << size;
+    EXPECT_NEAR(pose->qy, 0.6F, 1.0e-6F);
+    EXPECT_NEAR(pose->qw, 0.8F, 1.0e-6F);
+  }
+  EXPECT_TRUE(to_body_pose(to_message(BodyPose{1, {}, 0.0F, 0.0F, 0.0F, 1.09F})));
+  EXPECT_FALSE(to_body_pose(to_message(BodyPose{1, {}, 0.0F, 0.0F, 0.0F, 0.89F})));
+}
+
 }  // namespace
 }  // namespace splash::protocol::test

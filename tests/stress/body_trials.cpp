@@ -60,7 +60,7 @@ Drive jumping(double way) {
     const bool down = (++count / 5) % 2 == 1;
     const double jump = way * static_cast<double>(s.fluid().params().spacing);
     const double z = std::max(0.24 - (down ? jump : 0.0), 0.07);
-    static_cast<void>(s.live_body(0)->push({0.2, 0.2, z}, {0, 0, 0, 1}, s.seconds()));
+    static_cast<void>(s.live_body(0)->push({0.2, 0.2, z}, {0, 0, 0, 1}, {s.seconds(), {}}));
   };
 }
 
@@ -70,7 +70,7 @@ Drive with_gaps() {
     const double t = s.seconds();
     if (std::fmod(t, 0.3) < 0.11) return;
     static_cast<void>(
-        s.live_body(0)->push({0.2, 0.2, 0.25 + 0.12 * std::cos(8.0 * t)}, {0, 0, 0, 1}, t));
+        s.live_body(0)->push({0.2, 0.2, 0.25 + 0.12 * std::cos(8.0 * t)}, {0, 0, 0, 1}, {t, {}}));
   };
 }
 
@@ -88,8 +88,9 @@ Drive nonsense() {
          {{t, {0.2, 0.2, 0.2}, {0, kNaN, 0, 1}}, kNaN},
          {{t, {0.2, 0.2, 0.2 + 0.05 * std::sin(9.0 * t)}, {0, 0, 0, 1}}, t}}};
     const auto& [pose, time] = poses[static_cast<std::size_t>(k++) % poses.size()];
-    static_cast<void>(body.push(pose.position, pose.rotation, time));
-    static_cast<void>(body.push(pose.position, pose.rotation, time));  // and the same stamp again
+    static_cast<void>(body.push(pose.position, pose.rotation, {time, {}}));
+    static_cast<void>(
+        body.push(pose.position, pose.rotation, {time, {}}));  // and the same stamp again
   };
 }
 
@@ -160,22 +161,22 @@ void add_squeezes(std::vector<Trial>& all) {
 }
 
 void add_reported_bodies(std::vector<Trial>& all) {
-  all.push_back(
-      {.name = "a body appears in the water",
-       .seconds = 0.6,
-       .speed = 5.0,
-       .harmed = true,
-       .scene =
-           [](double s) {
-             return with(basin(s), {tracked(ball({0.2, 0.2, 5.0}, 0.16))});
-           },
-       .drive =
-           [] {
-             return [](Simulation& s) {
-               if (s.seconds() < 0.1) return;
-               static_cast<void>(s.live_body(0)->push({0.2, 0.2, 0.1}, {0, 0, 0, 1}, s.seconds()));
-             };
-           }});
+  all.push_back({.name = "a body appears in the water",
+                 .seconds = 0.6,
+                 .speed = 5.0,
+                 .harmed = true,
+                 .scene =
+                     [](double s) {
+                       return with(basin(s), {tracked(ball({0.2, 0.2, 5.0}, 0.16))});
+                     },
+                 .drive =
+                     [] {
+                       return [](Simulation& s) {
+                         if (s.seconds() < 0.1) return;
+                         static_cast<void>(s.live_body(0)->push({0.2, 0.2, 0.1}, {0, 0, 0, 1},
+                                                                {s.seconds(), {}}));
+                       };
+                     }});
   all.push_back(
       {.name = "spikes of a body's speed", .seconds = 0.6, .speed = 20.0, .scene = [](double s) {
          std::vector<std::pair<double, Vector3>> way = {{0.0, {0.2, 0.2, 0.2}}};

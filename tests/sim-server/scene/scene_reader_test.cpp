@@ -230,6 +230,8 @@ const std::vector<Mistake> kMistakes = {
      "0.9]}\n        - {time: 1.0, position: [0.5, 0.5, 0.3], "
      "rotation: [0.0, 0.0, 0.6, 0.6]}\n",
      "", "18:", "at least one"},
+    {"scripted_too_fast", "{time: 1.0, position: [0.5, 0.5, 0.3]",
+     "{time: 1.0e-6, position: [0.5, 0.5, 0.3]", "21:", "600000 m/s, beyond the limit of 100"},
     {"free_without_mass", "    rest: {position: [0.2, 0.2, 0.2]}\n",
      "    rest: {position: [0.2, 0.2, 0.2]}\n    motion: {kind: free}\n",
      "25:", "one of 'density' and 'mass'"},

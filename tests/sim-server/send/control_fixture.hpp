@@ -19,7 +19,7 @@ namespace splash::test {
 
 struct TakenPose {
   protocol::BodyPose pose;
-  double arrival = 0.0;  ///< monotonic [s]
+  sim::PoseMoment moment;
 };
 
 class ControlFixture : public testing::Test {
@@ -29,11 +29,13 @@ class ControlFixture : public testing::Test {
   void start(const sim::ControlSettings& settings) {
     server_.reset();
     sim::ControlActions actions;
-    actions.pose = [this](const protocol::BodyPose& pose, double arrival) {
+    actions.pose = [this](const protocol::BodyPose& pose, const sim::PoseMoment& moment) {
       const std::lock_guard lock(mutex_);
-      poses_.push_back({pose, arrival});
+      poses_.push_back({pose, moment});
     };
-    actions.status = [] { return protocol::SimStatus{.particles = 15000, .steps = 42}; };
+    actions.status = [] {
+      return protocol::SimStatus{.particles = 15000, .steps = 42, .refused = 1000};
+    };
     actions.quit = [this] {
       const std::lock_guard lock(mutex_);
       ++quits_;

@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <variant>
+#include <vector>
 
 #include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
@@ -37,9 +40,48 @@ TEST_F(Control, PassesPosesOnWithTheirArrival) {
   const double after = protocol::monotonic_now();
   ASSERT_EQ(poses().size(), 1U);
   EXPECT_EQ(poses()[0].pose, kPose);
-  EXPECT_GE(poses()[0].arrival, before);
-  EXPECT_LE(poses()[0].arrival, after);
+  EXPECT_GE(poses()[0].moment.arrival, before - 1.0e-3) << "the kernel's clock is another one";
+  EXPECT_LE(poses()[0].moment.arrival, after);
+  EXPECT_FALSE(poses()[0].moment.sent.has_value());
   EXPECT_EQ(server_->counts().poses, 1U);
+}
+
+TEST_F(Control, PassesTheTimeTagOfAPosesBundleOn) {
+  const double sent = 1.0e9 + 0.125;
+  const auto bundle = [](protocol::TimeTag tag) {
+    return protocol::encode(tag, {protocol::to_message(kPose)});
+  };
+  peer_.send(server_->local(), bundle(protocol::to_time_tag(sent)));
+  peer_.send(server_->local(), bundle(protocol::kImmediately));
+  peer_.send(server_->local(), bundle({0}));
+  settle();
+  ASSERT_EQ(poses().size(), 3U);
+  ASSERT_TRUE(poses()[0].moment.sent.has_value());
+  EXPECT_NEAR(*poses()[0].moment.sent, sent, 1.0e-6);
+  EXPECT_FALSE(poses()[1].moment.sent.has_value()) << "at once is no moment";
+  EXPECT_FALSE(poses()[2].moment.sent.has_value()) << "nor is nothing";
+}
+
+// The thread that listens is busy printing while they come.
+TEST_F(Control, APoseCameWhenTheKernelTookIt) {
+  server_ = nullptr;
+  std::vector<double> arrivals;
+  sim::ControlActions actions;
+  actions.pose = [&](const protocol::BodyPose&, const PoseMoment& moment) {
+    arrivals.push_back(moment.arrival);
+    if (arrivals.size() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  };
+  sim::ControlServer server({.listen = {}}, actions, targets_);
+  const double first = protocol::monotonic_now();
+  peer_.send(server.local(), protocol::to_message(kPose));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const double second = protocol::monotonic_now();
+  peer_.send(server.local(), protocol::to_message(kPose));
+  peer_.send(server.local(), Message{"/sync", {1}});
+  ASSERT_EQ(peer_.message().address, "/synced");
+  ASSERT_EQ(arrivals.size(), 2U);
+  EXPECT_NEAR(arrivals[0], first, 0.02);
+  EXPECT_NEAR(arrivals[1], second, 0.02);
 }
 
 TEST_F(Control, TakesPosesFromBundlesInTheirOrder) {
@@ -55,9 +97,14 @@ TEST_F(Control, TakesPosesFromBundlesInTheirOrder) {
 
 TEST_F(Control, RefusesAPoseThatIsNoRotation) {
   auto stretched = kPose;
-  stretched.qw = 0.9F;
+  stretched.qw = 1.0F;
   EXPECT_THAT(reason(ask(protocol::to_message(stretched))), HasSubstr("quaternion"));
+  stretched.position.x = 2000.0F;
+  EXPECT_THAT(reason(ask(protocol::to_message(stretched))), HasSubstr("allowed -1000 to 1000"));
   EXPECT_TRUE(poses().empty());
+  EXPECT_EQ(server_->counts().no_rotations, 1U);
+  EXPECT_EQ(server_->counts().malformed_poses, 1U);
+  EXPECT_EQ(server_->counts().failed, 2U);
 }
 
 TEST_F(Control, AnswersStatusWithItsRefusals) {
@@ -66,7 +113,7 @@ TEST_F(Control, AnswersStatusWithItsRefusals) {
   ASSERT_TRUE(status.has_value());
   EXPECT_EQ(status->particles, 15000U);
   EXPECT_EQ(status->steps, 42U);
-  EXPECT_EQ(status->refused, 1U);
+  EXPECT_EQ(status->refused, 1001U) << "what the program refused, and the gate";
 }
 
 TEST_F(Control, AnswersVersionSyncAndClearSched) {

@@ -44,7 +44,8 @@ RunReport example() {
   report.resets = 1;
   report.retried = 5;
   report.calmed = 2;
-  report.refused_poses = 9;
+  report.refused_poses = {{"too_fast", 2}, {"outlier", 7}, {"no_body", 0}};
+  report.refused_datagrams = {{"padding is not zero", 4}};
   report.slow_seconds = 1.5;
   return report;
 }
@@ -77,6 +78,9 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(read.at("retried_frames"), 5);
   EXPECT_EQ(read.at("calmed_frames"), 2);
   EXPECT_EQ(read.at("refused_poses"), 9);
+  EXPECT_EQ(read.at("refused").at("poses"),
+            (json{{"too_fast", 2}, {"outlier", 7}, {"no_body", 0}}));
+  EXPECT_EQ(read.at("refused").at("datagrams"), (json{{"padding is not zero", 4}}));
   EXPECT_DOUBLE_EQ(read.at("overload").at("slow_seconds"), 1.5);
 }
 
@@ -146,7 +150,8 @@ TEST(Report, SummaryTellsThePersonTheSame) {
        {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25", "300 steps/s",
         "3 impacts, 120 bubbles, 2 cavities", "lost 7",
         "12.50 l entrapped, 12.00 l told, 17 bubbles over the budget", "6.00 % at most",
-        "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried"}) {
+        "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried",
+        "9 refused: too_fast 2 outlier 7\n"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   auto report = example();

@@ -8,6 +8,7 @@
 #include "protocol/config.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/tracking/live_motion.hpp"
+#include "tests/sim-server/tracking/marker_text.hpp"
 
 namespace splash::sim {
 namespace {
@@ -55,13 +56,15 @@ TEST(MakeMotion, OscBodiesBridgeOrHoldGapsAsTheSceneSays) {
     const auto motion = make_motion(settings, {});
     auto& live = dynamic_cast<LiveMotion&>(*motion);
     for (int i = 0; i < 30; ++i) {
-      static_cast<void>(live.push({i / 60.0, 0.0, 1.0}, {0, 0, 0, 1}, i / 60.0));
+      static_cast<void>(live.push({i / 60.0, 0.0, 1.0}, {0, 0, 0, 1}, {i / 60.0, {}}));
     }
+    live.begin({9.0, 9.0, 0.01});
     return live.at(9.0).position[0] - 29 / 60.0;
   };
   EXPECT_NEAR(beyond(GapKind::bridge, 0.3), 0.325, 0.003);
-  EXPECT_NEAR(beyond(GapKind::bridge, 0.025), 0.05, 0.003);
-  EXPECT_EQ(beyond(GapKind::hold, 0.3), 0.0);
+  EXPECT_NEAR(beyond(GapKind::bridge, 0.025), 2.5 / 60.0 + 0.025, 0.003)
+      << "two and a half times what is between two poses";
+  EXPECT_NEAR(beyond(GapKind::hold, 0.3), 0.0, 1e-3);
 }
 
 TEST(MakeMotion, ScriptsAreSmoothOrStraight) {
@@ -85,6 +88,25 @@ TEST(MakeMotion, MarkersComeFromTheTrackersFile) {
   settings.motion.start = 99.0;
   EXPECT_THAT(refusal(settings, kWalk), HasSubstr("the recording ends at 2.5"));
   EXPECT_THAT(refusal(settings, "/nowhere/walk.trc"), HasSubstr("/nowhere/walk.trc"));
+}
+
+TEST(MakeMotion, OfTwoMarkersOfOneNameNoneIsTaken) {
+  const test::MarkerText text("Heel\t\t\tToe\t\t\tSide\t\t\tToe", 3, 0.3);
+  BodySettings settings = body(MotionKind::trc);
+  settings.motion.markers = {"Heel", "Toe", "Side"};
+  EXPECT_THAT(refusal(settings, text.path()), HasSubstr("more than one marker 'Toe'"));
+}
+
+TEST(MakeMotion, MarkersThatNoBodyCanFollowAreToldByTheirLines) {
+  BodySettings settings = body(MotionKind::trc);
+  settings.motion.markers = {"Heel", "Toe", "Side"};
+  const std::string names = "Heel\t\t\tToe\t\t\tSide\t\t\tSide.Mean";
+  EXPECT_EQ(refusal(settings, test::MarkerText(names, 5, 0.3).path()), "");
+  const test::MarkerText text(names, 5, 0.5);
+  EXPECT_THAT(refusal(settings, text.path()),
+              HasSubstr(text.path().string() + ":9:1: error: body 'probe': 0.5 m in 0.02 s is 25 "
+                                               "m/s, beyond the limit of 20: its markers in one of "
+                                               "the frames of lines 8 and 9"));
 }
 
 TEST(MakeMotion, StartSkipsTheRecording) {

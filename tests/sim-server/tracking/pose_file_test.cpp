@@ -16,7 +16,7 @@ TEST(PoseFile, ReadsPosesAndSkipsRemarks) {
   const auto poses = parse_poses("# a remark\n" + kHeader +
                                      "0.0, 1, 2, 3, 0, 0, 0, 1\r\n"
                                      "\n"
-                                     "0.5,1.5,-2e-1,3,0,0,0.999,0\n",
+                                     "0.5,1.5,-2e-1,3,0,0,0.92,0\n",
                                  "hand.csv");
   ASSERT_EQ(poses.size(), 2U);
   EXPECT_EQ(poses[0].position, (Vector3{1.0, 2.0, 3.0}));
@@ -55,6 +55,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"no_unit", kHeader + "0,1,2,3,0,0,0,0.5\n", "2:9: error: the quaternion's length"},
         Mistake{"same_time", kHeader + "0,1,2,3,0,0,0,1\n0,1,2,3,0,0,0,1\n",
                 "3:1: error: the time"},
+        // Across the tank in a billionth of a second, and what a capture's jitter makes of 5 mm.
+        Mistake{"no_time", kHeader + "0,0,0,.5,0,0,0,1\n1e-9,0,0,-.5,0,0,0,1\n",
+                "3:1: error: 1 m in 1e-09 s is 1e+09 m/s, beyond the limit of 20: one of the poses "
+                "of lines 2 and 3"},
+        Mistake{"jitter", kHeader + "0,0,0,0,0,0,0,1\n# a remark\n1e-4,0,0,.005,0,0,0,1\n",
+                "4:1: error: 0.005 m in 0.0001 s is 50 m/s"},
+        Mistake{"no_time_to_turn", kHeader + "0,0,0,0,0,0,0,1\n.01,0,0,0,0,0,1,0\n",
+                "3:1: error: 3.14159 rad in 0.01 s is 314.159 rad/s"},
         Mistake{"trailing_letters", kHeader + "0,1,2m,3,0,0,0,1\n", "2:5: error: y is '2m'"}),
     [](const auto& mistake) { return mistake.param.name; });
 
