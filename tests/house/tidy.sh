@@ -1,37 +1,108 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too
-# (twice as long). A unit found clean is not read again until it, a header of ours or the rules
-# change. Arguments: the source tree, the build folder.
+# (twice as long). Reading the system headers takes most of the time, so units with the same options
+# are joined into one and read together; if clang-tidy finds fault with those, each is read alone.
+# A unit found clean is not read again until it, a header of ours or the rules change. Arguments:
+# the source tree, the build folder.
 set -euo pipefail
 cd "$1"
 build=$2
 clean=$build/tidy-clean
-mkdir -p "$clean"
+joined=$build/tidy-joined
+readonly kMost=12  # units read together
+rm -rf "$joined"
+mkdir -p "$clean" "$joined"
 
 rules=$(clang-tidy --version
-  cat .clang-tidy tests/.clang-tidy "$build/compile_commands.json"
+  cat .clang-tidy tests/.clang-tidy
   find protocol sim-server synth-server pd-patches tests \( -name '*.hpp' -o -name '*.h' \) \
     -exec cat {} +)
 rules=$(sha256sum <<<"$rules")
 
-check() {  # one source: silent when clean
-  local key output
-  key=$clean/$({ echo "$rules"; echo "$1"; cat "$1"; } | sha256sum | cut -d' ' -f1)
-  [[ ! -e $key ]] || return 0
-  if output=$(clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option -p "$build" "$1" 2>&1); then
-    touch "$key"
+units=$(paste -d'\t' \
+  <(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$build/compile_commands.json") \
+  <(sed -n 's/^ *"command": "[^ ]*\( [^ ]*c++\)\{0,1\} \(.*\) -o [^ ]* -c .*/\2/p' \
+      "$build/compile_commands.json") |
+  grep -F "$1/" | grep -vF "$build/" | grep -v "^$1/${SPLASH_TIDY_ALL-tests}/" | sort -u -k1,1)
+[[ -n $units ]] || { echo "no sources of $1 in $build/compile_commands.json" >&2; exit 1; }
+
+key_of() {  # options, source: the mark that the unit is clean
+  local digest
+  digest=$({ echo "$rules"; echo "$@"; cat "$2"; } | sha256sum)
+  printf '%s/%s' "$clean" "${digest%% *}"
+}
+
+read_alone() {  # options, source: silent when clean
+  local output
+  if output=$(clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option -p "$build" "$2" 2>&1); then
+    touch "$(key_of "$@")"
   else
     printf '%s\n' "$output" | grep -v 'warnings generated\|^Suppressed\|^Use -header-filter' || true
     return 1
   fi
 }
-export -f check
-export build clean rules
 
-mapfile -t sources <<<"$(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$build/compile_commands.json" |
-  grep -F "$1/" | grep -vF "$build/" | grep -vF "$1/${SPLASH_TIDY_ALL-tests}/" | sort -u)"
-[[ -n ${sources[0]} ]] || { echo "no sources of $1 in $build/compile_commands.json" >&2; exit 1; }
+# Units read as one text; what each includes again is no duplicate.
+read_together() {  # options, sources
+  local options=$1 words source text failed=0
+  read -ra words <<<"${options//\\\"/\"}"
+  shift
+  text=$(mktemp "$joined/XXXXXX.cpp")
+  for source in "$@"; do printf '#line 1 "%s"\n%s\n' "$source" "$(<"$source")"; done >"$text"
+  if (($# > 1)) && clang-tidy --quiet --config-file=.clang-tidy \
+      --checks=-readability-duplicate-include --extra-arg=-Wno-unknown-warning-option \
+      "$text" -- "${words[@]}" &>"$text.log"; then
+    for source in "$@"; do touch "$(key_of "$options" "$source")"; done
+  else
+    for source in "$@"; do read_alone "$options" "$source" || failed=1; done
+  fi
+  return "$failed"
+}
+export -f key_of read_alone read_together
+export build clean joined rules
+
+# Lines "source, options" -> lines "options, sources": units that define no name twice together;
+# tests, which have rules of their own, one by one.
+join_units() {
+  awk -F'\t' -v most="$kMost" '
+    function find_names(file,   line, words, count) {
+      split("", names)
+      while ((getline line <file) > 0) {
+        sub(/^\[\[[a-z]*\]\] /, "", line)
+        if (line !~ /^[A-Za-z]/ || line ~ /^(template|namespace|using namespace|extern)/) continue
+        sub(/[[({=;].*/, "", line)
+        count = split(line, words, " ")
+        if (words[count] !~ /::/) names[words[count]] = 1
+      }
+      close(file)
+    }
+    function fits(group,   name) {
+      if ($1 ~ /\/tests\// || options[group] != $2 || size[group] >= most) return 0
+      for (name in names) if ((group, name) in taken) return 0
+      return 1
+    }
+    {
+      find_names($1)
+      for (group = 1; group <= groups && !fits(group); ++group) {}
+      if (group > groups) { groups = group; options[group] = $2 }
+      for (name in names) taken[group, name] = 1
+      sources[group] = sources[group] "\t" $1
+      ++size[group]
+    }
+    END { for (group = 1; group <= groups; ++group) print options[group] sources[group] }'
+}
+
+fresh=$(while IFS=$'\t' read -r source options; do
+  [[ -e $(key_of "$options" "$source") ]] || printf '%s\t%s\n' "$source" "$options"
+done <<<"$units")
+# Each group runs in a shell of its own, one per core.
 # shellcheck disable=SC2016  # the inner shell expands it
-printf '%s\0' "${sources[@]}" | xargs -0 -P "$(nproc)" -n 1 bash -c 'check "$1"' _
-echo "${#sources[@]} translation units"
+[[ -z $fresh ]] || join_units <<<"$fresh" | tr '\n' '\0' | xargs -0 -P "$(nproc)" -n 1 bash -c '
+  IFS=$'"'\t'"' read -ra words <<<"$1"; read_together "${words[@]}"' _
+
+repeated=$(cut -f1 <<<"$units" | while read -r source; do
+  sed -n "s|^#include.*|$source: & a second time|p" "$source" | sort | uniq -d
+done)
+[[ -z $repeated ]] || { printf '%s\n' "$repeated"; exit 1; }
+wc -l <<<"$units" | sed 's/$/ translation units/'
