@@ -37,7 +37,7 @@ Fields<D> impact_fields() {
   };
 }
 
-Fields<D> bubble_fields() {
+Fields<D> entrainment_fields() {
   return {
       {{.key = "bubble_speed",
         .unit = "m/s",
@@ -71,8 +71,7 @@ Fields<D> bubble_fields() {
       {{.key = "bubbles_per_second",
         .unit = "1/s",
         .meaning = "So many bubbles are told at most; a frame may also use what the last 50 ms "
-                   "left. Where "
-                   "more air is entrapped it is told in larger ones.",
+                   "left. Where more air is entrapped it is told in larger ones.",
         .min = 1,
         .max = 1'000'000},
        &D::bubbles_per_second},
@@ -82,6 +81,11 @@ Fields<D> bubble_fields() {
         .min = 0.01,
         .max = 60},
        &D::bubble_life},
+  };
+}
+
+Fields<D> bubble_size_fields() {
+  return {
       {{.key = "radius_min",
         .unit = "m",
         .meaning = "Smallest bubble radius.",
@@ -170,7 +174,7 @@ Fields<D> cavity_fields() {
 const Fields<DetectSettings>& detect_fields() {
   static const Fields<D> kFields = [] {
     Fields<D> all = impact_fields();
-    for (const auto& part : {bubble_fields(), cavity_fields()}) {
+    for (const auto& part : {entrainment_fields(), bubble_size_fields(), cavity_fields()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
