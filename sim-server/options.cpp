@@ -8,6 +8,7 @@
 #include "protocol/control.hpp"
 #include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/refuse_nan.hpp"
 #include "protocol/unknown_option.hpp"
 
 namespace splash::sim {
@@ -30,6 +31,7 @@ void add_scene(CLI::App& app, Options& options) {
   app.add_option("--duration", options.duration,
                  "End after so many simulated seconds (default: never)")
       ->check(CLI::Range(0.0, 1e9))
+      ->check(protocol::refuse_nan)
       ->type_name("S");
 }
 

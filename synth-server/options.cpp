@@ -2,12 +2,14 @@
 #include "synth-server/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 
 #include "protocol/control.hpp"
 #include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/refuse_nan.hpp"
 #include "protocol/unknown_option.hpp"
 #include "synth-server/voice_options.hpp"
 
@@ -74,20 +76,24 @@ void add_playing(CLI::App& app, Options& options, Texts& texts) {
                  "Added to each time tag; 0 for a simulator whose tags lie ahead (default: 1.5 "
                  "blocks, 5 ms or more)")
       ->check(CLI::Range(0.0, 1000.0))
+      ->check(protocol::refuse_nan)
       ->type_name("MS");
   app.add_option("--late-ms", texts.late_ms,
                  "What is later than this is dropped, what is less late plays at once")
       ->check(CLI::Range(0.0, 10000.0))
+      ->check(protocol::refuse_nan)
       ->type_name("MS")
       ->capture_default_str();
   app.add_option("--horizon-ms", texts.horizon_ms,
                  "What is further ahead than this has a wrong clock and plays by its arrival")
       ->check(CLI::Range(100.0, 60000.0))
+      ->check(protocol::refuse_nan)
       ->type_name("MS")
       ->capture_default_str();
   app.add_flag("--muted", options.muted, "Silent until /mute 0 comes");
   app.add_option("--duration", options.duration, "End after so many seconds (default: never)")
       ->check(CLI::Range(0.0, 1e9))
+      ->check(protocol::refuse_nan)
       ->type_name("S");
   app.add_flag("--verbose", options.verbose, "A line on the state every second");
 }
@@ -100,6 +106,12 @@ void check(const Options& options) {
   if (!options.replay.empty() && !options.record_audio.empty()) {
     throw std::invalid_argument(
         "--record-audio is for live playing: --render is the replay's file");
+  }
+  std::error_code missing;
+  if (!options.render.empty() &&
+      std::filesystem::equivalent(options.replay, options.render, missing)) {
+    throw std::invalid_argument("--render would overwrite " + options.replay.string() +
+                                ", the log that --replay reads: name another file");
   }
 }
 

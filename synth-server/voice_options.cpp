@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/voice_options.hpp"
 
+#include "protocol/refuse_nan.hpp"
+
 namespace splash::synth {
 
 void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
@@ -15,10 +17,12 @@ void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
   app.add_option("--water-level", engine.water_level,
                  "z of the surface, for the depths of physical bubbles (default: they lie at it)")
       ->check(CLI::Range(-1e6, 1e6))
+      ->check(protocol::refuse_nan)
       ->type_name("M");
   app.add_option("--impact-exponent", engine.impact_exponent,
                  "An impact's amplitude grows with its speed to this power")
       ->check(CLI::Range(0.0, 6.0))
+      ->check(protocol::refuse_nan)
       ->type_name("N")
       ->capture_default_str();
   app.add_option("--precision", texts.precision,

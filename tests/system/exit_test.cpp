@@ -86,6 +86,7 @@ TEST(Exit, WrongOptionsAreUsage) {
     const auto [code, text] = run_program(name, {"--listen", "nohost.invalid:1", "--scene", "x"});
     EXPECT_EQ(code, 64) << name;
     EXPECT_EQ(run_program(name, {"--duration", "soon"}).code, 64) << name;
+    EXPECT_EQ(run_program(name, {"--duration", "nan"}).code, 64) << name;
     EXPECT_EQ(run_program(name, {"--help"}).code, 0) << name;
     EXPECT_EQ(run_program(name, {"--version"}).code, 0) << name;
   }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "protocol/exit_codes.hpp"
 
 namespace splash::synth {
@@ -54,6 +57,17 @@ TEST(Options, ChooseHowVoicesSound) {
   EXPECT_TRUE(engine.skip_out_of_band);
 }
 
+TEST(Options, RefuseToRenderOverTheLog) {
+  const auto log = std::filesystem::path(testing::TempDir()) / "options-test.osc";
+  std::ofstream(log) << "events";
+  const std::string other = (log.parent_path() / "." / log.filename()).string();
+  const auto parsed = parse({"--rig", "x", "--replay", log.c_str(), "--render", other.c_str()});
+  EXPECT_FALSE(parsed.options) << "the same file by another name";
+  EXPECT_EQ(parsed.exit_code, protocol::kExitUsage);
+  std::filesystem::remove(log);
+  EXPECT_TRUE(parse({"--rig", "x", "--replay", log.c_str(), "--render", other.c_str()}).options);
+}
+
 TEST(Options, RefuseNonsenseAsUsage) {
   for (const std::vector<const char*>& bad : std::vector<std::vector<const char*>>{
            {},
@@ -72,6 +86,11 @@ TEST(Options, RefuseNonsenseAsUsage) {
            {"--rig", "x", "--no-skip", "all"},
            {"--rig", "x", "--api", "oss"},
            {"--rig", "x", "--late-ms", "-1"},
+           {"--rig", "x", "--late-ms", "nan"},
+           {"--rig", "x", "--latency-ms", "-NaN"},
+           {"--rig", "x", "--horizon-ms", "nan"},
+           {"--rig", "x", "--water-level", "nan"},
+           {"--rig", "x", "--impact-exponent", "nan(1)"},
            {"--rig", "x", "--replay", "a", "--render", "b", "--record-audio", "c"}}) {
     const auto parsed = parse(bad);
     EXPECT_FALSE(parsed.options);
