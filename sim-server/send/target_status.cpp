@@ -23,11 +23,22 @@ std::uint64_t moved(std::uint64_t before, std::uint64_t now) {
   return now >= before ? now - before : now;
 }
 
+std::string nobody_at(const protocol::Endpoint& target) {
+  const std::string where = protocol::to_string(target);
+  return "nobody answers at " + where +
+         (is_loopback(target)
+              ? ": start synth-server or a Pd patch there"
+              : ": a synth-server there needs --listen 0.0.0.0:" + std::to_string(target.port) +
+                    " and --allow with this host, "
+                    "and no firewall before that UDP port");
+}
+
 }  // namespace
 
 TargetStatus::TargetStatus(const std::vector<protocol::Endpoint>& targets,
-                           std::function<double()> clock)
-    : clock_(std::move(clock)), socket_(sending_endpoint(targets)) {
+                           std::function<double()> clock,
+                           std::function<void(const std::string&)> say)
+    : clock_(std::move(clock)), say_(std::move(say)), socket_(sending_endpoint(targets)) {
   for (const auto& target : targets) {
     const bool known = std::any_of(answers_.begin(), answers_.end(),
                                    [&](const auto& answer) { return answer.target == target; });
@@ -55,6 +66,7 @@ void TargetStatus::ask() {
   const auto here = build_message(question);
   const auto afar = build_message(protocol::filled_up(question, protocol::kFilledQuestion));
   for (auto& answer : answers_) {
+    if (answer.awaited && ++answer.missed == kMissed) say_(nobody_at(answer.target));
     answer.awaited = true;
     // Refused by the kernel or lost on the way: both show as a missing answer.
     static_cast<void>(socket_.send_to(answer.target, is_loopback(answer.target) ? here : afar));
@@ -83,18 +95,25 @@ void TargetStatus::drain(double timeout) {
 }
 
 void TargetStatus::take(protocol::Bytes packet, const protocol::Endpoint& from) {
-  const auto answer = std::find_if(answers_.begin(), answers_.end(),
-                                   [&](const auto& known) { return known.target == from; });
-  if (answer == answers_.end()) return;
   const auto decoded = protocol::decode(packet);
   if (decoded.packet.messages.empty()) return;  // refused, or nothing said
   const auto status = protocol::to_synth_status(decoded.packet.messages.front());
   if (!status) return;
+  const auto answer = std::find_if(answers_.begin(), answers_.end(),
+                                   [&](const auto& known) { return known.target == from; });
+  if (answer == answers_.end()) {  // Pd answers from another port: it is there, no more is believed
+    for (auto& known : answers_) {
+      if (known.target.address == from.address) known.missed = 0;
+    }
+    return;
+  }
   if (!beginning_) {
     const auto before = answer->last.value_or(protocol::SynthStatus{});
     answer->late += moved(before.late, status->late);
     answer->lost += moved(before.lost, status->lost);
   }
+  if (answer->missed >= kMissed) say_(protocol::to_string(answer->target) + " answers");
+  answer->missed = 0;
   answer->last = *status;
   answer->awaited = false;
   ++answer->answers;

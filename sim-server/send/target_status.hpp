@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "protocol/status.hpp"
@@ -21,15 +22,21 @@ struct TargetAnswer {
   std::uint64_t lost = 0;                          ///< bundles it missed
   std::uint64_t answers = 0;
   bool awaited = false;  ///< asked and not yet answered
+  int missed = 0;        ///< questions in a row that nobody answered
 };
 
 class TargetStatus {
  public:
   static constexpr double kPeriod = 1.0;  ///< between questions [s]
 
-  /// `clock`: monotonic [s].
-  explicit TargetStatus(const std::vector<protocol::Endpoint>& targets,
-                        std::function<double()> clock = protocol::monotonic_now);
+  static constexpr int kMissed = 2;  ///< so many unanswered questions are told
+
+  /// `clock`: monotonic [s]. `say`: gets one line when a target falls silent, and when it answers
+  /// again.
+  explicit TargetStatus(
+      const std::vector<protocol::Endpoint>& targets,
+      std::function<double()> clock = protocol::monotonic_now,
+      std::function<void(const std::string&)> say = [](const std::string&) {});
 
   /// Before the first event: what the targets count now is not this run's. Waits for their
   /// answers up to `timeout` [s]; who is silent is taken to start from zero later.
@@ -53,6 +60,7 @@ class TargetStatus {
   [[nodiscard]] std::optional<std::uint64_t> sum(std::uint64_t TargetAnswer::*counter) const;
 
   std::function<double()> clock_;
+  std::function<void(const std::string&)> say_;
   protocol::UdpSocket socket_;
   std::vector<TargetAnswer> answers_;
   double next_question_ = 0.0;  ///< monotonic [s]
