@@ -173,6 +173,12 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/impact", Direction::to_synth, "A body met the water's surface", kImpact},
     {"/bubble", Direction::to_synth, "A pocket of air was entrapped", kBubble},
     {"/cavity", Direction::to_synth, "The cavity behind a body closed", kCavity},
+    {"/leave",
+     Direction::to_synth,
+     "Behind /frame in a sender's last bundle: what was sent sounds to its end, and nothing more "
+     "is "
+     "waited for",
+     {}},
     {"/body/pose", Direction::to_sim, "Pose of a tracked body", kBodyPose},
     {"/force", Direction::subscribers, "Force and torque of the water on a body", kForce},
     {"/notify", Direction::to_both, "Subscribes the sender to streams; answered by /done", kNotify},

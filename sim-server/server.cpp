@@ -241,6 +241,7 @@ void Server::print_progress() {
 }
 
 RunReport Server::finish() {
+  sender_.leave();
   keep_going([this] { sender_.close(simulation_.seconds()); }, [this] { sender_.stop_logging(); });
   target_status_.finish(kAnswerTimeout);
   RunReport report = report_on(simulation_, sender_.counts(), pacer_.counts(), overload_);

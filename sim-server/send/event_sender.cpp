@@ -101,6 +101,15 @@ void EventSender::idle() {
   say_frame(now);
 }
 
+void EventSender::leave() {
+  const double now = read_clock();
+  const double time = std::max(wire_.last_time, now);
+  auto messages = tell(wire_, {}, time - now, time);
+  messages.push_back({"/leave", {}});
+  transmit(time, messages);
+  ++counts_.heartbeats;
+}
+
 void EventSender::close(double end_seconds) {
   if (log_ == nullptr) return;
   const double end = std::max({end_seconds, last_moment_, logged_.last_time});

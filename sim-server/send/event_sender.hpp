@@ -57,6 +57,8 @@ class EventSender {
   /// Says /frame when nothing was said for kHeartbeatPeriod. The log has no heartbeats: they
   /// depend on the wall clock.
   void idle();
+  /// The last bundle: receivers play what they have instead of falling silent when no more comes.
+  void leave();
   /// Ends the log with a /frame at `end_seconds` or at the last event's moment, the later one.
   void close(double end_seconds);
   /// The log takes nothing more.

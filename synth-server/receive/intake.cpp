@@ -104,7 +104,9 @@ protocol::Arrival Intake::welcome(const protocol::Frame& frame, Sender& sender, 
 }
 
 void Intake::route(const protocol::Message& message, const Timing& timing, Visit& visit) {
-  if (is_event(message.address) || message.address == "/frame") {
+  if (message.address == "/leave") {
+    leave(message, visit.from);
+  } else if (is_event(message.address) || message.address == "/frame") {
     if (const auto event = protocol::to_event(message)) return play(*event, timing);
     if (protocol::violation(message)) ++counters_.out_of_table;
   } else if (is_reply(message)) {
@@ -116,6 +118,17 @@ void Intake::route(const protocol::Message& message, const Timing& timing, Visit
                     status(), visit.replies);
   } else {
     ++counters_.forbidden;
+  }
+}
+
+/// Unlike a sender that is lost, one that takes its leave has nothing cut off.
+void Intake::leave(const protocol::Message& message, const protocol::Endpoint& from) {
+  Sender* sender = senders_.find(from);
+  if (protocol::violation(message)) {
+    ++counters_.out_of_table;
+  } else if (sender != nullptr && sender->present) {
+    sender->present = false;
+    if (!senders_.anybody_present()) ++counters_.departures;
   }
 }
 

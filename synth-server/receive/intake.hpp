@@ -29,7 +29,7 @@ struct IntakeCounters {
   std::uint64_t clock_steps = 0;   ///< times this host's clock was set
   std::uint64_t sender_steps = 0;  ///< times a sender's clock was set, or ours against it
   std::uint64_t corrected = 0;     ///< bundles whose sender's clock was off
-  std::uint64_t departures = 0;    ///< times the last sender went silent
+  std::uint64_t departures = 0;    ///< times the last sender went silent or took its leave
   std::array<std::uint64_t, static_cast<std::size_t>(protocol::Refusal::count_)> refusals{};
   SequenceTotals sequence;  ///< lost, duplicates, reordered: bundles
 };
@@ -75,6 +75,7 @@ class Intake {
   protocol::Arrival welcome(const protocol::Frame& frame, Sender& sender, double arrival);
   void route(const protocol::Message& message, const Timing& timing, Visit& visit);
   void play(const protocol::Event& event, const Timing& timing);
+  void leave(const protocol::Message& message, const protocol::Endpoint& from);
   void take_pong(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
   void ask_clock(Sender& sender, Visit& visit);
   void push(Command::Kind kind);

@@ -146,6 +146,20 @@ TEST_F(IntakeTest, SilencesWhenTheSenderIsGoneAndResumes) {
   EXPECT_EQ(intake_.counters().departures, 1U);
 }
 
+TEST_F(IntakeTest, LetsTheEventsOfOneThatTakesItsLeaveSoundToTheirEnd) {
+  send(protocol::encode(tag(now_), {frame(1, 0), bubble(0)}));
+  send(protocol::encode(tag(now_), {frame(1, 1), {"/leave", {}}}));
+  EXPECT_FALSE(intake_.sender_present());
+  EXPECT_EQ(intake_.counters().departures, 1U);
+  (void)commands();
+  now_ += 10.0 * kLease;
+  intake_.tick(now_);
+  EXPECT_TRUE(commands().empty()) << "no silence";
+  send(protocol::encode(tag(now_), {frame(1, 1), {"/leave", {}}}));  // twice on the wire
+  EXPECT_EQ(intake_.counters().departures, 1U);
+  EXPECT_EQ(intake_.counters().out_of_table, 0U);
+}
+
 TEST_F(IntakeTest, AFloodThatNobodyTakesLeavesRoomForSilence) {
   send(protocol::encode(tag(now_), {frame(1, 0), bubble(0)}));
   for (std::size_t id = 1; id < 2 * kCommandCapacity; ++id) {
