@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Ctrl-C in a terminal reaches the launcher, which ends both programs in peace.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "protocol/event_log.hpp"
+#include "tests/support/programs.hpp"
+
+namespace splash::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// The launcher in a terminal of its own, over programs that are built.
+class Terminal {
+ public:
+  explicit Terminal(const std::string& arguments) : tools_(temporary_path("launcher-tools")) {
+    fs::create_directories(tools_);
+    std::ofstream(tools_ / "cmake") << "#!/bin/sh\n";
+    fs::permissions(tools_ / "cmake", fs::perms::owner_all);
+    const std::string line = "PATH='" + tools_.string() + "':$PATH exec " + SPLASH_SOURCE_DIR +
+                             "/splash --no-install --build-dir '" + SPLASH_BINARY_DIR + "/..' " +
+                             arguments;
+    child_ = forkpty(&master_, nullptr, nullptr, nullptr);
+    if (child_ == 0) {
+      execl("/bin/bash", "bash", "-c", line.c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  ~Terminal() {
+    if (!ended_) {
+      kill(child_, SIGTERM);
+      wait_for_end();
+    }
+    close(master_);
+    fs::remove_all(tools_);
+  }
+
+  bool wait_for_text(const std::string& text) {
+    while (text_.find(text) == std::string::npos) {
+      if (!read_more()) return false;
+    }
+    return true;
+  }
+  void press_ctrl_c() const { EXPECT_EQ(write(master_, "\x03", 1), 1); }
+  int wait_for_end() {
+    while (read_more()) {
+    }
+    int status = 0;
+    waitpid(child_, &status, 0);
+    ended_ = true;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  bool read_more() {
+    char bytes[4096];
+    const ssize_t count = read(master_, bytes, sizeof bytes);
+    if (count > 0) text_.append(bytes, static_cast<std::size_t>(count));
+    return count > 0;
+  }
+
+  fs::path tools_;
+  std::string text_;
+  int master_ = -1;
+  pid_t child_ = -1;
+  bool ended_ = false;
+};
+
+TEST(LauncherEnding, CtrlCLetsBothProgramsCloseTheirFiles) {
+  const std::string log = temporary_path("ctrl-c.osc");
+  const std::string report = temporary_path("ctrl-c.json");
+  Terminal terminal("run basin -- --record " + log + " --report " + report);
+  ASSERT_TRUE(terminal.wait_for_text("real time x")) << terminal.text();
+  terminal.press_ctrl_c();
+  EXPECT_EQ(terminal.wait_for_end(), 130) << terminal.text();
+
+  EXPECT_THAT(terminal.text(), HasSubstr("pacing ")) << "the simulator's closing words";
+  const auto entries = protocol::read_log(log);
+  ASSERT_FALSE(entries.empty());
+  EXPECT_TRUE(protocol::to_frame(entries.back().messages.at(0))) << "a /frame closes the log";
+  const auto told = nlohmann::json::parse(std::ifstream(report));
+  EXPECT_NEAR(entries.back().seconds, told["simulated_seconds"].get<double>(), 0.1);
+
+  std::ifstream file(std::string(SPLASH_SOURCE_DIR) + "/out/synth.log");
+  const std::string synth{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  EXPECT_THAT(synth, testing::ContainsRegex("ran [0-9.]+ s: played"));
+  EXPECT_THAT(synth, HasSubstr(" 1 departures")) << "the simulator said that it leaves";
+  fs::remove(log);
+  fs::remove(report);
+}
+
+}  // namespace
+}  // namespace splash::tests
