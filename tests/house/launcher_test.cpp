@@ -124,9 +124,27 @@ TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
   EXPECT_EQ(launch("demo --no-instal").exit_code, 64);
   EXPECT_EQ(run_command(std::string(SPLASH_SOURCE_DIR) + "/splash test --filter").exit_code, 64);
   EXPECT_EQ(launch("run").exit_code, 64);
-  const CommandResult bench = launch("bench fauts");  // before anything is installed or built
-  EXPECT_EQ(bench.exit_code, 66);
-  EXPECT_THAT(bench.output, AllOf(HasSubstr("'fauts'"), HasSubstr(" faults ")));
+  EXPECT_EQ(launch("demo --duration 4").exit_code, 64) << "the demo has its own";
+}
+
+TEST_F(Launcher, ChecksNamesBeforeAnythingIsInstalledOrBuilt) {
+  const auto suggests = [this](const std::string& arguments, int code, const std::string& name) {
+    const CommandResult result = launch(arguments);
+    EXPECT_EQ(result.exit_code, code) << arguments;
+    EXPECT_THAT(result.output, HasSubstr("did you mean " + name + "?")) << arguments;
+  };
+  suggests("dmeo", 64, "demo");
+  suggests("run poool", 66, "pool");
+  suggests("run pool --rig tile36", 66, "tiles36");
+  suggests("demo --rig stero", 66, "stereo");
+  suggests("service baisn", 66, "basin");
+  suggests("bench fauts", 66, "faults");
+  EXPECT_THAT(launch("run aquarium").output,
+              AllOf(HasSubstr("there are: basin beach"), Not(HasSubstr("did you mean"))));
+  const CommandResult benches = launch("bench");
+  EXPECT_EQ(benches.exit_code, 0);
+  EXPECT_THAT(benches.output, HasSubstr(" faults "));
+  EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
 TEST_F(Launcher, HelpAndVersionNeedNothing) {

@@ -84,7 +84,7 @@ class Terminal {
 TEST(LauncherEnding, CtrlCLetsBothProgramsCloseTheirFiles) {
   const std::string log = temporary_path("ctrl-c.osc");
   const std::string report = temporary_path("ctrl-c.json");
-  Terminal terminal("run basin -- --record " + log + " --report " + report);
+  Terminal terminal("run basin --record " + log + " --report " + report);
   ASSERT_TRUE(terminal.wait_for_text("real time x")) << terminal.text();
   terminal.press_ctrl_c();
   EXPECT_EQ(terminal.wait_for_end(), 130) << terminal.text();
