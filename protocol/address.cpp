@@ -175,9 +175,7 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/cavity", Direction::to_synth, "The cavity behind a body closed", kCavity},
     {"/leave",
      Direction::to_synth,
-     "Behind /frame in a sender's last bundle: what was sent sounds to its end, and nothing more "
-     "is "
-     "waited for",
+     "Behind a sender's last /frame: what was sent sounds to its end, and no more is waited for",
      {}},
     {"/body/pose", Direction::to_sim, "Pose of a tracked body", kBodyPose},
     {"/force", Direction::subscribers, "Force and torque of the water on a body", kForce},
