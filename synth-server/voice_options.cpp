@@ -20,7 +20,7 @@ void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
       ->check(protocol::refuse_nan)
       ->type_name("M");
   app.add_option("--impact-exponent", engine.impact_exponent,
-                 "An impact's amplitude grows with its speed to this power")
+                 "An impact's amplitude grows with its speed into the water to this power")
       ->check(CLI::Range(0.0, 6.0))
       ->check(protocol::refuse_nan)
       ->type_name("N")

@@ -31,7 +31,8 @@ bool renderable(const protocol::Vec3& place) noexcept {
 }
 
 bool renderable(const protocol::Impact& impact) noexcept {
-  return within(static_cast<double>(impact.speed), 0.0, kMostSpeed) && renderable(impact.position);
+  return within(static_cast<double>(impact.approach), 0.0, kMostSpeed) &&
+         renderable(impact.position);
 }
 
 template <class BubbleOrCavity>

@@ -36,7 +36,7 @@ struct EngineSettings {
   bool literal_chirp = true;  ///< paper: sin(2 pi t f(t)) as printed; false: f is integrated
   double water_level = kNoWaterLevel;  ///< physical: z of the surface, for depths [m]
   double impact_gain = 5.0e-4;         ///< amplitude of an impact at 1 m/s [m]
-  double impact_exponent = 3.0;        ///< amplitude ~ speed^exponent; paper section 5.1.2
+  double impact_exponent = 3.0;        ///< amplitude ~ approach^exponent; paper section 5.1.2
   unsigned components = kAllComponents;
   Precision precision = Precision::exact;
   InstructionSet instructions = InstructionSet::best;

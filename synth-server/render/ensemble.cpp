@@ -37,7 +37,7 @@ void Ensemble::start(const protocol::Event& event, std::int64_t sample) noexcept
 
 Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
                                        std::int64_t sample) noexcept {
-  const double amplitude = impact_amplitude(static_cast<double>(impact.speed),
+  const double amplitude = impact_amplitude(static_cast<double>(impact.approach),
                                             settings_.impact_gain, settings_.impact_exponent);
   const Routing::Reach reach = routing_.route({impact.position, impact.body, 0.0}, routes_);
   const VoiceLife life = impact_life(amplitude, settings_.sample_rate, reach.floor);

@@ -18,7 +18,8 @@ inline constexpr double kImpactFrequency = 420.0;  ///< w0 [Hz]; paper section 6
 /// release, and the burst keeps the character of noise. The paper gives no value.
 inline constexpr double kImpactQ = 5.0;
 
-/// `speed` [m/s], `gain` [m] at 1 m/s. `A` is the signal's standard deviation at the envelope's
+/// `speed`: normal to the water [m/s], since what slides along it gives it next to nothing; `gain`
+/// [m] at 1 m/s. `A` is the signal's standard deviation at the envelope's
 /// top.
 [[nodiscard]] double impact_amplitude(double speed, double gain, double exponent) noexcept;
 

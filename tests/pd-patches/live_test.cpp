@@ -48,7 +48,7 @@ protocol::Event event_at(int number, float offset_ms) {
 
 double amplitude(const protocol::Event& event) {
   if (const auto* impact = std::get_if<protocol::Impact>(&event)) {
-    return 5e-4 * std::pow(static_cast<double>(impact->speed), 3.0);
+    return 5e-4 * std::pow(static_cast<double>(impact->approach), 3.0);
   }
   const auto product = [](const auto& e) {
     return static_cast<double>(e.radius) * static_cast<double>(e.epsilon);

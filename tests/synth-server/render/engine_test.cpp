@@ -139,6 +139,18 @@ TEST(Engine, RendersAnImpactLouderWithTheCubeOfItsSpeed) {
   EXPECT_NEAR(slope, 3.0, 0.001);
 }
 
+TEST(Engine, RendersAGlancingSlapByItsSpeedIntoTheWater) {
+  const auto rendered = [](float speed, float approach) {
+    Engine engine(open_rig(), file_settings());
+    protocol::Impact slap = impact(speed, 4);
+    slap.approach = approach;
+    engine.schedule({slap, 0});
+    return render(engine, 4800);
+  };
+  EXPECT_EQ(rendered(2.1F, 0.6F), rendered(0.6F, 0.6F));
+  EXPECT_NE(rendered(2.1F, 0.6F), rendered(2.1F, 2.1F));
+}
+
 TEST(Engine, KeepsBodiesApart) {
   Rig rig = open_rig();
   rig.outputs.push_back(rig.outputs.front());

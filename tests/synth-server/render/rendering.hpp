@@ -54,6 +54,7 @@ inline protocol::Impact impact(float speed, std::int32_t id = 0, protocol::Vec3 
   event.id = id;
   event.body = 0;
   event.speed = speed;
+  event.approach = speed;
   event.position = place;
   return event;
 }
