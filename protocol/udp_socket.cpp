@@ -138,6 +138,9 @@ bool wait_readable(int descriptor, double timeout) {
 
 Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port) {
   if (text.empty()) throw bad_endpoint(text, "it is empty");
+  if (text.find_first_not_of("0123456789") == std::string::npos) {
+    return {resolve(text, ""), parse_port(text, text)};
+  }
   const auto colon = text.find(':');
   if (colon == std::string::npos) return {resolve(text, text), default_port};
   if (text.find(':', colon + 1) != std::string::npos) {

@@ -26,7 +26,7 @@ struct Endpoint {
   return endpoint.address >> 24U == 127U;
 }
 
-/// "host:port", ":port" or "host" -> Endpoint; names are resolved.
+/// "host:port", ":port", "port" or "host" -> Endpoint; names are resolved.
 /// Throws std::invalid_argument with the text, the cause and an example.
 [[nodiscard]] Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port);
 /// The same for the value of an option, which the exception names, too.

@@ -91,7 +91,7 @@ TEST(UdpSocket, IsBoundToLoopbackOnly) {
     ++found;
     EXPECT_EQ(address.substr(0, 8), "0100007F");
   }
-  EXPECT_EQ(found, 1);
+  EXPECT_GE(found, 1) << "while other sockets come and go the kernel may list one twice";
 }
 
 TEST(UdpSocket, CountsWhatTheKernelDropped) {
@@ -135,6 +135,8 @@ TEST(UdpSocket, AFailedSendIsToldNotThrown) {
 TEST(Endpoint, ReadsHostAndPort) {
   EXPECT_EQ(parse_endpoint("127.0.0.1:57310", 1), (Endpoint{0x7f000001U, 57310}));
   EXPECT_EQ(parse_endpoint(":9000", 1), (Endpoint{0x7f000001U, 9000}));
+  EXPECT_EQ(parse_endpoint("58110", 1), (Endpoint{0x7f000001U, 58110})) << "no IPv4 number";
+  EXPECT_THROW((void)parse_endpoint("65536", 1), std::invalid_argument);
   EXPECT_EQ(parse_endpoint("192.168.1.20", 57310), (Endpoint{0xc0a80114U, 57310}));
   EXPECT_EQ(parse_endpoint("localhost:0", 1), (Endpoint{0x7f000001U, 0}));
   EXPECT_EQ(parse_endpoint("0.0.0.0:5", 1), (Endpoint{0U, 5}));
