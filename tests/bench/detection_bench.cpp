@@ -39,7 +39,7 @@ struct Options {
 /// The walk that the tests have, and one of its feet upside down as a hand.
 Walk own_walk() {
   Walk walk;
-  walk.file = kSource / "tests" / "data" / "walk_feet.trc";
+  walk.file = kSource / "configs" / "scenes" / "walk.trc";
   for (const char* place :
        {"Heel", "Toe.Tip", "Toe.Lat", "Toe.Med", "Midfoot.Sup", "Midfoot.Lat"}) {
     walk.left.push_back(std::string("L.") + place);

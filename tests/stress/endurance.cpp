@@ -176,7 +176,7 @@ sim::Scene built_in_scene(const std::string& name, const Endurance& wanted) {
     // A walk ends elsewhere than it begins.
     body.motion.repeat = kind == sim::MotionKind::script || kind == sim::MotionKind::csv;
     if (kind == sim::MotionKind::trc && body.motion.file.empty()) {
-      body.motion.file = std::filesystem::path(SPLASH_SOURCE_DIR) / "tests/data/walk_feet.trc";
+      body.motion.file = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/scenes/walk.trc";
     }
   }
   return scene;

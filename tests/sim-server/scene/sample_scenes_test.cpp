@@ -33,7 +33,7 @@ class SampleScene : public ::testing::TestWithParam<std::string> {
   std::vector<std::unique_ptr<Motion>> motions_ = [this] {
     std::vector<std::unique_ptr<Motion>> motions;
     for (const auto& body : scene_.bodies) {
-      motions.push_back(make_motion(body, kSource / "tests" / "data" / "walk_feet.trc"));
+      motions.push_back(make_motion(body, kSource / "configs" / "scenes" / "walk.trc"));
     }
     return motions;
   }();

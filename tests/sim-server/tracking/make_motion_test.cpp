@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::filesystem::path kWalk =
-    std::filesystem::path(SPLASH_SOURCE_DIR) / "tests" / "data" / "walk_feet.trc";
+    std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes" / "walk.trc";
 
 BodySettings body(MotionKind kind) {
   BodySettings settings;

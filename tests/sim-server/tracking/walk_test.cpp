@@ -20,7 +20,7 @@ namespace splash::sim {
 namespace {
 
 const std::filesystem::path kSource = SPLASH_SOURCE_DIR;
-const std::filesystem::path kWalk = kSource / "tests" / "data" / "walk_feet.trc";
+const std::filesystem::path kWalk = kSource / "configs" / "scenes" / "walk.trc";
 constexpr double kTwoFrames = 2.0 / 60.0;  // s
 constexpr double kEnd = 2.5;               // of the recording [s]
 
