@@ -20,9 +20,13 @@ Vector3 standing_wave(const Scene& scene, const Vector3& place) {
   const double k = scene.flow.mode * pi / size[0];
   const double depth = water_depth(scene);
   const double omega = std::sqrt(std::hypot(g[0], g[1], g[2]) * k * std::tanh(k * depth));
-  const double scale = scene.flow.amplitude * omega / std::sinh(k * depth);
-  return {-scale * std::cosh(k * x[2]) * std::sin(k * x[0]), 0.0,
-          scale * std::sinh(k * x[2]) * std::cos(k * x[0])};
+  // cosh(kz) / sinh(kH) and sinh(kz) / sinh(kH), of which a short wave in deep water overflows
+  // both.
+  const double scale = scene.flow.amplitude * omega * std::exp(k * (x[2] - depth)) /
+                       (1.0 - std::exp(-2.0 * k * depth));
+  const double below = std::exp(-2.0 * k * x[2]);
+  return {-scale * (1.0 + below) * std::sin(k * x[0]), 0.0,
+          scale * (1.0 - below) * std::cos(k * x[0])};
 }
 
 Vector3 vortex(const Scene& scene, const Vector3& place) {

@@ -69,6 +69,20 @@ TEST(Flow, OfAWaveCarriesItsCrestToItsAmplitude) {
   EXPECT_NEAR(initial_velocity(scene, {0.0, 0.4, 0.7})[2], -0.02 * omega, 1e-12);
 }
 
+// Far from the floor the orbits of deep water: cosh(kH) is beyond what a double holds.
+TEST(Flow, OfAShortWaveInDeepWaterIsFinite) {
+  Scene scene = basin(FlowKind::standing_wave);
+  scene.tank = {{0.0, 0.0, 0.0}, {0.2, 0.2, 3.5}};
+  scene.water = {{{0.0, 0.0, 0.0}, {0.2, 0.2, 3.0}}};
+  scene.flow.mode = 100;
+  const double k = 500.0 * M_PI;
+  const double omega = std::sqrt(9.81 * k);
+  const Vector3 top = initial_velocity(scene, {0.001, 0.1, 2.999});
+  EXPECT_NEAR(top[0], -0.02 * omega * std::exp(-k * 0.001) * std::sin(k * 0.001), 1e-9);
+  EXPECT_NEAR(top[2], 0.02 * omega * std::exp(-k * 0.001) * std::cos(k * 0.001), 1e-9);
+  EXPECT_EQ(initial_velocity(scene, {0.001, 0.1, 0.1})[2], 0.0);
+}
+
 TEST(Flow, OfAStrainStretchesFromItsCentre) {
   const Vector3 v = initial_velocity(basin(FlowKind::strain), {0.2, 0.9, 0.6});
   EXPECT_NEAR(v[0], 0.4, 1e-12);
