@@ -152,6 +152,8 @@ struct BodySettings {
 [[nodiscard]] inline bool is_free(const BodySettings& body) noexcept {
   return body.motion.kind == MotionKind::free;
 }
+/// The wire numbers bodies from 0 to 255.
+inline constexpr std::size_t kBodiesMax = 256;
 /// So many bodies may be free at most.
 inline constexpr int kFreeBodiesMax = 32;
 

@@ -181,6 +181,11 @@ void read_bodies(const ConfigMap& map, Scene& scene) {
   int free = 0;
   for (const ConfigMap& entry : map.list("bodies")) {
     scene.bodies.push_back(read_body(entry, particle_spacing(scene)));
+    if (scene.bodies.size() > kBodiesMax) {
+      throw entry.error("name", "this is body " + std::to_string(scene.bodies.size()) +
+                                    ", and events tell of " + std::to_string(kBodiesMax) +
+                                    " at most");
+    }
     if (is_free(scene.bodies.back()) && ++free > kFreeBodiesMax) {
       throw entry.error("motion", "more than " + std::to_string(kFreeBodiesMax) +
                                       " bodies are free: each of them costs every step");

@@ -161,6 +161,27 @@ TEST_P(SceneMistake, IsRefusedWithPlaceAndReason) {
   }
 }
 
+TEST(SceneReader, RefusesBodiesThatNoEventCanTellOf) {
+  std::string text = kGood;
+  const auto end = text.find("detect:");
+  std::string posts;
+  for (int i = 2; i < 256; ++i) {
+    posts += "  - {name: post" + std::to_string(i) +
+             ", shape: {size: [0.1, 0.1, 0.1]}, rest: {position: [0.2, 0.2, 0.2]}}\n";
+  }
+  text.insert(end, posts);
+  EXPECT_EQ(parse_scene(text, "small.yaml").bodies.size(), 256U);
+  text.insert(
+      end,
+      "  - {name: one_more, shape: {size: [0.1, 0.1, 0.1]}, rest: {position: [0.2, 0.2, 0.2]}}\n");
+  try {
+    (void)parse_scene(text, "small.yaml");
+    FAIL() << "events of the last body could not be sent";
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), HasSubstr("body 257, and events tell of 256 at most"));
+  }
+}
+
 TEST(SceneReader, ReadsFreeBodies) {
   std::string text = kGood;
   const std::string fixed = "    shape: {size: [0.1, 0.1, 0.4], rocker: 0.02, flat: 0.5}\n";
