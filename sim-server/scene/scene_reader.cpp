@@ -190,6 +190,10 @@ void read_bodies(const ConfigMap& map, Scene& scene) {
       throw entry.error("motion", "more than " + std::to_string(kFreeBodiesMax) +
                                       " bodies are free: each of them costs every step");
     }
+    // A mesh has the axes of its file, whose origin may be anywhere.
+    if (is_free(scene.bodies.back()) && scene.bodies.back().shape.kind != ShapeKind::mesh) {
+      check_place(entry, scene.bodies.back().rest.position, scene.tank);
+    }
     const std::string& name = scene.bodies.back().name;
     if (!names.insert(name).second) {
       throw entry.error("name", "there is another body named '" + name + "'");

@@ -151,6 +151,17 @@ void check_free(const ConfigMap& map, const MotionSettings& motion) {
                   "a free motion needs one of 'density' and 'mass'");
 }
 
+void check_place(const ConfigMap& body, const Vector3& place, const Tank& tank) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool above = i == 2 && place[i] > tank.lower[i];  // it may fall in from there
+    if (above || (place[i] > tank.lower[i] && place[i] < tank.upper[i])) continue;
+    throw body.error("rest", std::string("a free body starts between the tank's walls, but ") +
+                                 kAxes[i] + " is " + text(place[i]) +
+                                 ", where the tank goes from " + text(tank.lower[i]) + " to " +
+                                 text(tank.upper[i]));
+  }
+}
+
 void check_detect(const ConfigMap& map, const DetectSettings& d) {
   check_order(map, "radius_min", d.radius_min, "radius_max", d.radius_max);
   check_order(map, "epsilon_min", d.epsilon_min, "epsilon_max", d.epsilon_max);

@@ -253,6 +253,12 @@ const std::vector<Mistake> kMistakes = {
      "", "18:", "at least one"},
     {"scripted_too_fast", "{time: 1.0, position: [0.5, 0.5, 0.3]",
      "{time: 1.0e-6, position: [0.5, 0.5, 0.3]", "21:", "600000 m/s, beyond the limit of 100"},
+    {"free_beyond_a_wall",
+     "    shape: {size: [0.1, 0.1, 0.4], rocker: 0.02, flat: 0.5}\n"
+     "    rest: {position: [0.2, 0.2, 0.2]}\n",
+     "    shape: {size: [0.1, 0.1, 0.4]}\n"
+     "    rest: {position: [0.2, 1.5, 0.2]}\n    motion: {kind: free, density: 600}\n",
+     "24:", "y is 1.5, where the tank goes from 0 to 1"},
     {"free_without_mass", "    rest: {position: [0.2, 0.2, 0.2]}\n",
      "    rest: {position: [0.2, 0.2, 0.2]}\n    motion: {kind: free}\n",
      "25:", "one of 'density' and 'mass'"},
