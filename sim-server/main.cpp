@@ -2,6 +2,7 @@
 // sim-server: from the command line to an exit code.
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -66,6 +67,17 @@ void print_devices() {
 Scene load_scene(const std::filesystem::path& path) {
   protocol::require_readable("--scene", path);
   return read_scene(path);
+}
+
+/// A recording that moves nothing was meant for another scene.
+void require_use(const std::filesystem::path& tracker, const Scene& scene) {
+  const bool used = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& body) {
+    return body.motion.kind == MotionKind::trc;
+  });
+  if (tracker.empty() || used) return;
+  throw protocol::Failure(protocol::kExitUsage, "--tracker " + tracker.string() +
+                                                    " moves nothing: no body of the scene '" +
+                                                    scene.name + "' has a motion of kind trc");
 }
 
 /// Nobody is to wait for kernels only to be told that the port is taken.
@@ -164,6 +176,7 @@ void run(const Options& options) {
   if (options.list_devices) return print_devices();
   protocol::ServiceNotice service;
   const Scene scene = load_scene(options.scene);
+  require_use(options.tracker, scene);
   require_free(options.listen);
   const double start = protocol::monotonic_now();
   const std::filesystem::path cache =

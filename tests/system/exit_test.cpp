@@ -33,6 +33,13 @@ TEST(Exit, UnknownSceneKeyIsNamedWithItsPlace) {
                           HasSubstr("repaet"), HasSubstr("repeat")));
 }
 
+TEST(Exit, ARecordingThatMovesNothingIsAMistake) {
+  const SmallScene scene(tracked());
+  const auto [code, text] = simulate(scene, {"--tracker", "/nope.trc"});
+  EXPECT_EQ(code, 64);
+  EXPECT_THAT(text, HasSubstr("--tracker /nope.trc moves nothing: no body of the scene"));
+}
+
 // Minutes of silence would look like a hang.
 TEST(Exit, SaysWhatTakesLongBeforeItBegins) {
   const SmallScene small("{kind: fixed}");
