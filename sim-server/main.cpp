@@ -69,7 +69,7 @@ Scene load_scene(const std::filesystem::path& path) {
   return read_scene(path);
 }
 
-/// A recording that moves nothing was meant for another scene.
+/// A recording that no body uses was meant for another scene.
 void require_use(const std::filesystem::path& tracker, const Scene& scene) {
   const bool used = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& body) {
     return body.motion.kind == MotionKind::trc;

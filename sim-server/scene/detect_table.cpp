@@ -70,8 +70,8 @@ Fields<D> entrainment_fields() {
        &D::bubble_air},
       {{.key = "bubbles_per_second",
         .unit = "1/s",
-        .meaning = "So many bubbles are told at most; a frame may also use what the last 50 ms "
-                   "left. Where more air is entrapped it is told in larger ones.",
+        .meaning = "At most this many bubbles are sent; a frame may also use what the last 50 ms "
+                   "left over. More entrapped air than that is sent as fewer, larger bubbles.",
         .min = 1,
         .max = 1'000'000},
        &D::bubbles_per_second},

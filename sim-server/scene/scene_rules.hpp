@@ -20,7 +20,7 @@ void check_gauge(const protocol::ConfigMap& map, const GaugeSettings& gauge, con
 void check_shape(const protocol::ConfigMap& map, const Shape& shape);
 /// Of a free motion: density or mass, one of them.
 void check_free(const protocol::ConfigMap& map, const MotionSettings& motion);
-/// A free body starts between the tank's walls; one whose motion is told may be anywhere.
+/// A free body must start between the tank's walls; a body with a prescribed motion need not.
 void check_place(const protocol::ConfigMap& body, const Vector3& place, const Tank& tank);
 void check_detect(const protocol::ConfigMap& map, const DetectSettings& detect);
 /// Steps no longer than the solver's water stands at a speed of sound that is given.

@@ -101,7 +101,8 @@ void TargetStatus::take(protocol::Bytes packet, const protocol::Endpoint& from) 
   if (!status) return;
   const auto answer = std::find_if(answers_.begin(), answers_.end(),
                                    [&](const auto& known) { return known.target == from; });
-  if (answer == answers_.end()) {  // Pd answers from another port: it is there, no more is believed
+  if (answer ==
+      answers_.end()) {  // Pd replies from another port: it runs, but its counters are not used
     for (auto& known : answers_) {
       if (known.target.address == from.address) known.missed = 0;
     }

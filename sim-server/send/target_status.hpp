@@ -22,14 +22,15 @@ struct TargetAnswer {
   std::uint64_t lost = 0;                          ///< bundles it missed
   std::uint64_t answers = 0;
   bool awaited = false;  ///< asked and not yet answered
-  int missed = 0;        ///< questions in a row that nobody answered
+  int missed = 0;        ///< requests in a row without an answer
 };
 
 class TargetStatus {
  public:
   static constexpr double kPeriod = 1.0;  ///< between questions [s]
 
-  static constexpr int kMissed = 2;  ///< so many unanswered questions are told
+  /// A target is reported as silent after this many requests in a row without an answer.
+  static constexpr int kMissed = 2;
 
   /// `clock`: monotonic [s]. `say`: gets one line when a target falls silent, and when it answers
   /// again.

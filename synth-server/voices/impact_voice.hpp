@@ -18,9 +18,8 @@ inline constexpr double kImpactFrequency = 420.0;  ///< w0 [Hz]; paper section 6
 /// release, and the burst keeps the character of noise. The paper gives no value.
 inline constexpr double kImpactQ = 5.0;
 
-/// `speed`: normal to the water [m/s], since what slides along it gives it next to nothing; `gain`
-/// [m] at 1 m/s. `A` is the signal's standard deviation at the envelope's
-/// top.
+/// `speed`: its component normal to the water's surface [m/s]; sliding along it transfers almost no
+/// momentum. `gain`: A at 1 m/s [m]. A is the signal's standard deviation at the envelope's top.
 [[nodiscard]] double impact_amplitude(double speed, double gain, double exponent) noexcept;
 
 class ImpactVoice {

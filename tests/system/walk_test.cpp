@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A recorded walk through the water: an impact for each foot contact that the force plates beside
-// the cameras saw, and next to none else.
+// the cameras saw, and few others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ constexpr double kTwoFrames = 2.0 / 60.0;  ///< of the tracker [s]
 /// Of the water's surface: as in the plunge, a tenth of a spacing. A foot that glides in at a tenth
 /// of a metre per second takes 13 ms over it [m].
 constexpr double kRoughness = 0.1 * 0.0158;
-constexpr std::size_t kMostDragged = 3;
+/// False impacts that are accepted: "What it cannot do" in sim-server/detect/README.md.
+constexpr std::size_t kMostFalse = 3;
 constexpr double kEnd = 2.5;  ///< of the recording [s]
 
 struct Contact {
@@ -74,9 +75,7 @@ TEST(Walk, EachFootContactOfTheForcePlatesIsOneImpact) {
                 1e3 * (first->time - contact.seconds));
     EXPECT_EQ(std::erase_if(impacts, is_its), 1U) << contact.foot << " at " << contact.seconds;
   }
-  // The belt drags the standing foot through the water, at 1.1 m/s: its heel may hit what it piles
-  // up. A floor that stays in place drags no foot.
-  EXPECT_LE(impacts.size(), kMostDragged);
+  EXPECT_LE(impacts.size(), kMostFalse);
   EXPECT_EQ(simulation.totals().resets, 0U);
 }
 

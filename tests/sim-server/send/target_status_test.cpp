@@ -57,11 +57,11 @@ TEST_F(TargetStatusTest, SilenceIsNotZero) {
   EXPECT_EQ(status.lost(), std::nullopt);
 }
 
-TEST_F(TargetStatusTest, TellsOnceThatNobodyAnswersAndThatSomebodyDoesAgain) {
-  std::vector<std::string> told;
+TEST_F(TargetStatusTest, ReportsOnceThatATargetIsSilentAndThatItAnswersAgain) {
+  std::vector<std::string> lines;
   TargetStatus status(
       {synth.endpoint()}, [this] { return now; },
-      [&](const std::string& line) { told.push_back(line); });
+      [&](const std::string& line) { lines.push_back(line); });
   const auto poll_after_a_second = [&] {
     now += 1.1;
     status.poll();
@@ -69,14 +69,14 @@ TEST_F(TargetStatusTest, TellsOnceThatNobodyAnswersAndThatSomebodyDoesAgain) {
   const std::string where = protocol::to_string(synth.endpoint());
   status.poll();
   poll_after_a_second();
-  EXPECT_TRUE(told.empty()) << "one answer may be lost on the way";
+  EXPECT_TRUE(lines.empty()) << "one answer may be lost on the way";
   for (int i = 0; i < 5; ++i) poll_after_a_second();
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0], "nobody answers at " + where + ": start synth-server or a Pd patch there");
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0], "nobody answers at " + where + ": start synth-server or a Pd patch there");
   answer(synth, {.voices = 1});
   status.poll();
-  ASSERT_EQ(told.size(), 2U);
-  EXPECT_EQ(told[1], where + " answers");
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[1], where + " answers");
 }
 
 TEST_F(TargetStatusTest, WhatWasCountedBeforeTheRunIsNotTheRuns) {
