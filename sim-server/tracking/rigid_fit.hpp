@@ -14,9 +14,9 @@ struct RigidFit {
   double residual = 0.0;                       ///< root of the mean square of what is left [m]
 };
 
-/// Kabsch 1976 by singular values, with the determinant's correction of Umeyama 1991: never a
-/// reflection. Throws std::invalid_argument: fewer than three points, sets of unlike size, or
-/// points (almost) on one line, which leave a turn about it open.
+/// By unit quaternions (Horn 1987, J. Opt. Soc. Am. A 4, 629), so that it is never a reflection.
+/// Throws std::invalid_argument: fewer than three points, sets of unlike size, or points (almost)
+/// on one line, which leave a turn about it open.
 [[nodiscard]] RigidFit fit_rigid(std::span<const Vector3> reference,
                                  std::span<const Vector3> measured);
 /// Whether the points are enough for a fit: three or more, not on a line.
