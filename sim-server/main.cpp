@@ -11,7 +11,7 @@
 
 #include "protocol/config.hpp"
 #include "protocol/failure.hpp"
-#include "protocol/input_file.hpp"
+#include "protocol/config_file.hpp"
 #include "protocol/service_notice.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
@@ -64,9 +64,8 @@ void print_devices() {
   for (const auto& device : devices) std::printf("%s\n", describe(device).c_str());
 }
 
-Scene load_scene(const std::filesystem::path& path) {
-  protocol::require_readable("--scene", path);
-  return read_scene(path);
+Scene load_scene(const std::filesystem::path& wanted) {
+  return read_scene(protocol::find_config("--scene", "scenes", wanted));
 }
 
 /// A recording that no body uses was meant for another scene.

@@ -23,8 +23,9 @@ struct Texts {
 };
 
 void add_scene(CLI::App& app, Options& options) {
-  app.add_option("--scene", options.scene, "What to simulate: a scene file (configs/scenes)")
-      ->type_name("FILE");
+  app.add_option("--scene", options.scene,
+                 "What to simulate: a scene by its name (basin, pool, ...) or its file")
+      ->type_name("NAME|FILE");
   app.add_option("--tracker", options.tracker,
                  "Recorded markers (TRC) that move the scene's bodies of motion kind trc")
       ->type_name("FILE.trc");
@@ -68,7 +69,7 @@ void check(const Options& options) {
   if (options.list_devices) return;
   if (options.scene.empty()) {
     throw std::invalid_argument(
-        "--scene is missing: name a scene file, e.g. configs/scenes/basin.yaml");
+        "--scene is missing: a name such as basin or pool, or a scene file");
   }
 }
 

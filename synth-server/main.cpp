@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 
+#include "protocol/config_file.hpp"
 #include "protocol/failure.hpp"
 #include "protocol/input_file.hpp"
 #include "protocol/service_notice.hpp"
@@ -94,8 +95,8 @@ void print_devices(const std::string& api) {
   }
 }
 
-Rig load_rig(const std::filesystem::path& path) {
-  protocol::require_readable("--rig", path);
+Rig load_rig(const std::filesystem::path& wanted) {
+  const std::filesystem::path path = protocol::find_config("--rig", "rigs", wanted);
   return protocol::failing_with(protocol::kExitConfig, [&] { return read_rig(path); });
 }
 

@@ -27,8 +27,9 @@ struct Texts {
 };
 
 void add_sources(CLI::App& app, Options& options, Texts& texts) {
-  app.add_option("--rig", options.rig, "What to drive: a rig file (configs/rigs)")
-      ->type_name("FILE");
+  app.add_option("--rig", options.rig,
+                 "What to drive: a rig by its name (stereo, tiles36, ...) or its file")
+      ->type_name("NAME|FILE");
   app.add_option("--listen", texts.listen,
                  "Address and port for events and control; 0.0.0.0 for other hosts")
       ->type_name("HOST:PORT")
@@ -101,7 +102,8 @@ void add_playing(CLI::App& app, Options& options, Texts& texts) {
 void check(const Options& options) {
   if (options.list_devices) return;
   if (options.rig.empty()) {
-    throw std::invalid_argument("--rig is missing: name a rig file, e.g. configs/rigs/stereo.yaml");
+    throw std::invalid_argument(
+        "--rig is missing: a name such as stereo or tiles36, or a rig file");
   }
   if (!options.replay.empty() && !options.record_audio.empty()) {
     throw std::invalid_argument(
