@@ -88,7 +88,7 @@ void play(const Options& options, Server& server, protocol::ServiceNotice& servi
 void print_devices(const std::string& api) {
   const auto devices =
       protocol::failing_with(protocol::kExitUnavailable, [&] { return list_devices(api); });
-  if (devices.empty()) std::printf("no sound device with outputs\n");
+  if (devices.empty()) std::printf("%s\n", why_no_device(api).c_str());
   for (const auto& device : devices) {
     std::printf("%s: '%s', %d outputs, prefers %d Hz%s\n", device.api.c_str(), device.name.c_str(),
                 device.channels, device.preferred_rate, device.is_default ? ", default" : "");

@@ -23,8 +23,9 @@ OpenedOutput open_output(const Options& options, int channels,
       throw;
     } catch (const DeviceError& error) {
       missing = error.what();
-      log(missing + ". Nothing will be heard until there is one; events are played to the null " +
-          "output" + (options.record_audio.empty() ? "" : " and recorded"));
+      log(missing + ". Until then nothing is heard: events are rendered by the clock" +
+          (options.record_audio.empty() ? "" : " and recorded") +
+          ", and the device is taken as soon as it can be");
     }
   }
   const int rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;

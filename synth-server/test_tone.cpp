@@ -53,17 +53,36 @@ bool wait(const timespec& time, const sigset_t& signals) {
   return sigtimedwait(&signals, nullptr, &time) <= 0;
 }
 
-void play_each(TestTone& tone, const std::vector<int>& channels,
+/// What to look at when a transducer stays still.
+void say_what_to_try(const Options& options, const AudioFormat& format) {
+  if (format.api == "null") {
+    std::printf("%s\n", options.device == "null"
+                            ? "nothing was heard: --device null plays to nobody"
+                            : "nothing was heard: there is no sound device, see above");
+    return;
+  }
+  std::printf(
+      "heard nothing? The tones are soft, at a tenth of the ceiling: turn up the amplifier and the "
+      "device's own level (alsamixer, pavucontrol); another device: --list-devices, then --device "
+      "NAME%s\n",
+      format.api == "jack" ? "; what each port leads to: jack_lsp -c" : "");
+}
+
+/// False when a signal came first.
+bool play_each(TestTone& tone, const std::vector<int>& channels,
                const std::vector<std::string>& names, const sigset_t& signals) {
+  bool ended = false;
   for (const int c : channels) {
     std::printf("tone: %d %s, %.0f Hz\n", c + 1, names[static_cast<std::size_t>(c)].c_str(),
                 tone.frequency(c));
     std::fflush(stdout);
     tone.choose(c);
-    if (!wait(kOneTone, signals)) break;
+    ended = !wait(kOneTone, signals);
+    if (ended) break;
   }
   tone.choose(TestTone::kNone);
   (void)wait(kFading, signals);
+  return !ended;
 }
 
 }  // namespace
@@ -132,7 +151,7 @@ void play_test_tone(const Options& options, const Rig& rig, const sigset_t& sign
   TestTone tone(rig, format.sample_rate);
   Tapped tapped(tone, recorder.get());
   opened.output->start(tapped);
-  play_each(tone, wanted, names, signals);
+  if (play_each(tone, wanted, names, signals)) say_what_to_try(options, format);
   opened.output->stop();
   if (recorder == nullptr) return;
   recorder->finish();

@@ -104,8 +104,12 @@ std::vector<Found> find_devices() {
 Found choose(int index) {
   auto found = find_devices();
   if (index < -1 || index >= static_cast<int>(found.size())) {
-    throw std::runtime_error("device " + std::to_string(index) + " asked for, but there are only " +
-                             std::to_string(found.size()) + " (see --list-devices)");
+    std::string text = "--device " + std::to_string(index) + ": there is no such OpenCL device; ";
+    text += found.size() == 1 ? "there is only " : "there are ";
+    for (const Found& device : found) {
+      text += (device.facts.index == 0 ? "" : "; ") + describe(device.facts);
+    }
+    throw std::runtime_error(text);
   }
   if (index >= 0) return found[static_cast<std::size_t>(index)];
   const auto better = [](const Found& a, const Found& b) {

@@ -27,7 +27,11 @@ std::string nobody_at(const protocol::Endpoint& target) {
   const std::string where = protocol::to_string(target);
   return "nobody answers at " + where +
          (is_loopback(target)
-              ? ": start synth-server or a Pd patch there"
+              ? ": start synth-server or a Pd patch there" +
+                    (target.port == protocol::kSynthPort
+                         ? std::string()
+                         : "; unless told otherwise both listen on port " +
+                               std::to_string(protocol::kSynthPort))
               : ": a synth-server there needs --listen 0.0.0.0:" + std::to_string(target.port) +
                     " and --allow with this host, "
                     "and no firewall before that UDP port");

@@ -28,9 +28,32 @@ std::vector<DeviceDescription> list_devices(const std::string& api) {
   return found;
 }
 
-std::size_t choose_device(const std::vector<DeviceDescription>& devices,
-                          const std::string& wanted) {
-  if (devices.empty()) throw DeviceError("there is no sound device with outputs");
+std::string why_no_device(const std::string& api) {
+  if (api == "jack") {
+    return "no JACK server is running for this user: start one, with 'jackd -d alsa' (package "
+           "jackd2), or use PipeWire's by starting this program with pw-jack (package "
+           "pipewire-jack)";
+  }
+  if (api == "pulse") {
+    return "no PulseAudio server answers: start one, with 'pulseaudio --start' (package "
+           "pulseaudio), or PipeWire's (package pipewire-pulse)";
+  }
+  if (api == "alsa") {
+    return "ALSA has no sound card that this user may open: 'aplay -l' (package alsa-utils) lists "
+           "the cards, and membership in the group audio opens them";
+  }
+  return "there is no sound device: no JACK server is running, no PulseAudio or PipeWire server, "
+         "and ALSA has no card that this user may open; 'jackd -d alsa' (package jackd2) or "
+         "'pulseaudio --start' (package pulseaudio) starts a server on a card that 'aplay -l' "
+         "(package alsa-utils) lists";
+}
+
+std::size_t choose_device(const std::vector<DeviceDescription>& devices, const std::string& wanted,
+                          const std::string& api) {
+  if (devices.empty()) {
+    throw DeviceError((wanted.empty() ? std::string() : "there is no device '" + wanted + "': ") +
+                      why_no_device(api));
+  }
   std::vector<std::size_t> partial;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     if (wanted.empty() ? devices[i].is_default : devices[i].name == wanted) return i;

@@ -41,9 +41,13 @@ class UnknownDevice : public DeviceError {
 /// Throws UnknownDevice when there is no such API.
 [[nodiscard]] std::vector<DeviceDescription> list_devices(const std::string& api);
 
-/// Position in `devices` of the one that `wanted` names (exactly, else by a part that only one
-/// has), or of the default for "". Throws UnknownDevice listing the names, DeviceError for none.
+/// Why `api` ("": any) has no device, and what gives it one.
+[[nodiscard]] std::string why_no_device(const std::string& api);
+
+/// Position in `devices`, those of `api`, of the one that `wanted` names (exactly, else by a part
+/// that only one has), or of the default for "". Throws UnknownDevice listing the names,
+/// DeviceError for none.
 [[nodiscard]] std::size_t choose_device(const std::vector<DeviceDescription>& devices,
-                                        const std::string& wanted);
+                                        const std::string& wanted, const std::string& api);
 
 }  // namespace splash::synth

@@ -83,7 +83,10 @@ std::string DeviceWatch::fault(Clock::time_point now) {
   const duration<double> blocks(static_cast<double>(kBlocksOfPatience * format.block) /
                                 format.sample_rate);
   if (now - progress_.moved > settings_.patience && now - progress_.moved > blocks) {
-    return "has stopped asking for sound";
+    return "has stopped asking for sound" +
+           std::string(format.api == "jack"    ? " (has the JACK server ended?)"
+                       : format.api == "pulse" ? " (has its server ended?)"
+                                               : " (is it still plugged in?)");
   }
   if (now - progress_.span_start < kRacingSpan) return {};
   const double asked = static_cast<double>(frames - progress_.span_frames);
@@ -95,7 +98,8 @@ std::string DeviceWatch::fault(Clock::time_point now) {
 
 void DeviceWatch::stand_in(const std::string& why) {
   ++losses_;
-  report_(title(output_->format()) + ' ' + why + ": going on without it until it is back");
+  report_(title(output_->format()) + ' ' + why +
+          ": nothing is heard until it is back; going on without it");
   const int block = output_->format().block;
   exchange(std::make_unique<NullOutput>(needed_.channels, needed_.sample_rate, block));
   standing_in_ = true;

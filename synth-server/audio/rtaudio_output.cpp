@@ -48,8 +48,17 @@ Found find(const DeviceChoice& choice) {
   }
   std::vector<DeviceDescription> all;
   for (const auto& device : devices) all.push_back(device.description);
-  const std::size_t chosen = choose_device(all, choice.device);
+  const std::size_t chosen = choose_device(all, choice.device, choice.api);
   return {std::move(audios[listed_by[chosen]]), devices[chosen]};
+}
+
+/// A JACK server has one rate, and no other program can change it.
+void require_rate(const DeviceDescription& device, int wanted) {
+  if (device.api != "jack" || wanted == 0 || wanted == device.preferred_rate) return;
+  throw DeviceError(
+      "jack device '" + device.name + "' runs at " + std::to_string(device.preferred_rate) +
+      " Hz, and --sample-rate asks for " + std::to_string(wanted) +
+      " Hz: leave --sample-rate out, or start the JACK server with -r " + std::to_string(wanted));
 }
 
 }  // namespace
@@ -139,6 +148,7 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
                       " output channels, the rig needs " + std::to_string(choice.channels) +
                       "; choose another device (--list-devices) or rig");
   }
+  require_rate(chosen, choice.sample_rate);
   std::vector<std::string> ports = port_names(chosen.api, chosen.name, choice.channels);
   stream_->audio = std::move(found.audio);
   const int rate = choice.sample_rate != 0 ? choice.sample_rate : chosen.preferred_rate;
@@ -152,7 +162,8 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
     rtaudio_port::open(*stream_->audio, opening);
   } catch (const DeviceError& error) {
     throw DeviceError(title + " cannot be opened at " + std::to_string(rate) + " Hz (it prefers " +
-                      std::to_string(chosen.preferred_rate) + "): " + error.what());
+                      std::to_string(chosen.preferred_rate) + "): " + error.what() +
+                      (choice.sample_rate != 0 ? "; leave --sample-rate out" : ""));
   }
   stream_->channels.resize(static_cast<std::size_t>(choice.channels));
   stream_->format = {

@@ -16,15 +16,15 @@ const std::vector<DeviceDescription> kDevices = {
 };
 
 TEST(ChooseDevice, FindsByNameByPartAndByDefault) {
-  EXPECT_EQ(choose_device(kDevices, "system"), 0U);
-  EXPECT_EQ(choose_device(kDevices, "UMC404"), 2U);
-  EXPECT_EQ(choose_device(kDevices, ""), 1U);
+  EXPECT_EQ(choose_device(kDevices, "system", ""), 0U);
+  EXPECT_EQ(choose_device(kDevices, "UMC404", ""), 2U);
+  EXPECT_EQ(choose_device(kDevices, "", ""), 1U);
 }
 
 TEST(ChooseDevice, ListsTheNamesWhenItCannotTell) {
   for (const char* wanted : {"UMC", "Fireface"}) {
     try {
-      (void)choose_device(kDevices, wanted);
+      (void)choose_device(kDevices, wanted, "");
       FAIL() << wanted;
     } catch (const UnknownDevice& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(wanted));
@@ -35,12 +35,21 @@ TEST(ChooseDevice, ListsTheNamesWhenItCannotTell) {
 
 TEST(ChooseDevice, HavingNoneIsNotTheUsersFault) {
   try {
-    (void)choose_device({}, "system");
+    (void)choose_device({}, "system", "jack");
     FAIL();
   } catch (const UnknownDevice&) {
     FAIL() << "waiting may help";
-  } catch (const DeviceError&) {
+  } catch (const DeviceError& error) {
+    EXPECT_THAT(error.what(),
+                testing::StartsWith("there is no device 'system': no JACK server is running"));
   }
+}
+
+TEST(ChooseDevice, EachApiNamesWhatToStart) {
+  EXPECT_THAT(why_no_device("jack"), testing::HasSubstr("jackd -d alsa"));
+  EXPECT_THAT(why_no_device("pulse"), testing::HasSubstr("pulseaudio --start"));
+  EXPECT_THAT(why_no_device("alsa"), testing::HasSubstr("aplay -l"));
+  EXPECT_THAT(why_no_device(""), testing::HasSubstr("there is no sound device: no JACK server"));
 }
 
 TEST(ListDevices, RefusesAnApiThatIsNotThere) {

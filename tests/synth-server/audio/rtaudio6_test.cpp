@@ -101,9 +101,17 @@ TEST_F(RtAudio6, ErrorCodesBecomeSentences) {
   EXPECT_THROW(output.start(ramp), DeviceError);
 }
 
+TEST_F(RtAudio6, ARateThatIsRefusedSaysHowToDoWithoutIt) {
+  RtAudio::stage().open_answer = RTAUDIO_SYSTEM_ERROR;
+  DeviceChoice wanted = choice("");
+  wanted.sample_rate = 8000;
+  EXPECT_THAT(refusal(wanted), testing::EndsWith("leave --sample-rate out"));
+  EXPECT_THAT(refusal(choice("")), testing::Not(testing::HasSubstr("--sample-rate")));
+}
+
 TEST_F(RtAudio6, DevicesThatGoWhileTheyAreLookedAt) {
   RtAudio::stage().devices.clear();
-  EXPECT_THAT(refusal(choice("")), testing::HasSubstr("no sound device"));
+  EXPECT_THAT(refusal(choice("")), testing::HasSubstr("ALSA has no sound card"));
   RtAudio::stage().devices = {{140, "", 0, false, 0}};  // what is left of one that was unplugged
   EXPECT_TRUE(list_devices("alsa").empty());
 }

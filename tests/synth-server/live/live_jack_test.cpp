@@ -160,6 +160,35 @@ TEST(LiveJack, SaysThatADeviceHasTooFewChannels) {
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("output: none"));
 }
 
+TEST(LiveJack, SaysThatTheServerHasAnotherRate) {
+  const JackServer server(server_name("rate"), 2, kPeriod);
+  const auto [code, text] = tests::run_program(
+      "synth-server", {"--rig", rig_path("stereo.yaml"), "--listen", "127.0.0.1:0", "--api", "jack",
+                       "--sample-rate", "44100", "--duration", "0.2"});
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(text, testing::HasSubstr("jack device 'system' runs at 48000 Hz, and --sample-rate "
+                                       "asks for 44100 Hz: leave --sample-rate out"));
+}
+
+TEST(LiveJack, WithoutAServerSaysWhatToStart) {
+  const tests::ChildProcess::Environment nowhere = {
+      {"JACK_DEFAULT_SERVER", server_name("nowhere")}};
+  const auto list =
+      tests::run_program("synth-server", {"--list-devices", "--api", "jack"}, 60.0, nowhere);
+  EXPECT_EQ(list.code, 0);
+  EXPECT_THAT(list.text, testing::StartsWith("no JACK server is running"));
+  const auto [code, text] =
+      tests::run_program("synth-server",
+                         {"--rig", rig_path("stereo.yaml"), "--listen", "127.0.0.1:0", "--api",
+                          "jack", "--device", "Fireface", "--duration", "0.2"},
+                         60.0, nowhere);
+  EXPECT_EQ(code, 0) << "one may come";
+  EXPECT_THAT(text, testing::AllOf(testing::HasSubstr(
+                                       "there is no device 'Fireface': no JACK server is "
+                                       "running for this user: start one, with 'jackd -d alsa'"),
+                                   testing::HasSubstr("Until then nothing is heard")));
+}
+
 TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
   const std::string name = server_name("death");
   auto server = std::make_unique<JackServer>(name, kChannels, kPeriod);
@@ -167,6 +196,8 @@ TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
   sleep(0.5);
   server->kill();
   ASSERT_TRUE(synth.process().wait_for_text("has stopped asking for sound", 20.0))
+      << synth.process().output();
+  EXPECT_TRUE(synth.process().wait_for_text("no JACK server is running", 20.0))
       << synth.process().output();
   ASSERT_TRUE(synth.process().running());
   EXPECT_EQ(synth.ask({"/sync", {1}}, "/synced").address, "/synced") << "it still answers";

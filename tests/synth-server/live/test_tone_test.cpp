@@ -61,6 +61,7 @@ TEST(TestTone, RunsFromTheCommandLine) {
                                           "null", "--test-tone", "3", "--record-audio", wav});
   EXPECT_EQ(code, 0) << text;
   EXPECT_THAT(text, testing::HasSubstr("tone: 3 right shoe/heel, 122 Hz"));
+  EXPECT_THAT(text, testing::HasSubstr("nothing was heard: --device null plays to nobody"));
   const tests::Recording recording = tests::read_recording(wav);
   std::filesystem::remove(wav);
   ASSERT_EQ(recording.channels.size(), 4U);
