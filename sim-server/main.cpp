@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <iostream>
 
 #include "protocol/config.hpp"
@@ -20,6 +21,7 @@
 #include "sim-server/device/device.hpp"
 #include "sim-server/device/device_error.hpp"
 #include "sim-server/device/last_words.hpp"
+#include "sim-server/device/program.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -132,6 +134,18 @@ Progress telling_how_it_settles(protocol::ServiceNotice& service) {
       start = last = now;
       done = share;
       service.starting(kPatience);
+/// Whoever waits for kernels sees that something goes on.
+std::function<void(const KernelCount&)> telling_how_far_compiling_is() {
+  constexpr double kPeriod = 1.0;  // [s]
+  return [last = protocol::monotonic_now()](const KernelCount& count) mutable {
+    const double now = protocol::monotonic_now();
+    if (now - last < kPeriod) return;
+    last = now;
+    std::printf("        %d of %d kernels compiled\n", count.ready, count.all);
+    std::fflush(stdout);
+  };
+}
+
     }
     if (now - last < kPeriod) return;
     last = now;
@@ -201,9 +215,11 @@ void run(const Options& options) {
   service.ready(scene.name + ", " + std::to_string(simulation.particles()) + " particles, on " +
                 protocol::to_string(server.local()));
   serve(server, service);
+  tell_of_kernels(telling_how_far_compiling_is());
   seal.renew();
 }
 
+  tell_of_kernels({});
 }  // namespace
 
 int main(int argc, char** argv) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/device/program.hpp"
 
+#include <mutex>
+#include <utility>
+
 #include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
@@ -18,11 +21,38 @@ cl_int enqueue(cl_command_queue queue, cl_kernel kernel, std::size_t count,
   return clEnqueueNDRangeKernel(queue, kernel, 1, nullptr, &count, &group, 0, nullptr, nullptr);
 }
 
+/// Of this process.
+struct Ledger {
+  std::mutex mutex;
+  KernelCount count;
+  std::function<void(const KernelCount&)> told;
+};
+
+Ledger& ledger() {
+  static Ledger the_ledger;
+  return the_ledger;
+}
+
 }  // namespace
 
-void Kernel::launch(cl::CommandQueue& queue, std::size_t count, std::size_t group) const {
+void tell_of_kernels(std::function<void(const KernelCount&)> told) {
+  const std::lock_guard lock(ledger().mutex);
+  ledger().told = std::move(told);
+}
+
+void Kernel::note_made() {
+  const std::lock_guard lock(ledger().mutex);
+  ++ledger().count.all;
+}
+
+void Kernel::launch(cl::CommandQueue& queue, std::size_t count, std::size_t group) {
   const cl_int error = enqueue(queue(), kernel_(), count, group);
   if (error != CL_SUCCESS) throw cl::Error(error, "clEnqueueNDRangeKernel");
+  if (has_run_) return;
+  has_run_ = true;
+  const std::lock_guard lock(ledger().mutex);
+  ++ledger().count.ready;
+  if (ledger().told) ledger().told(ledger().count);
 }
 
 cl::Program build_program(const Device& device, const std::vector<KernelSource>& sources,

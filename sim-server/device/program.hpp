@@ -2,6 +2,7 @@
 // Kernel sources to programs, with build errors that name the kernel's own file and line.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,15 @@ struct KernelSource {
                                         const std::vector<KernelSource>& sources,
                                         const std::vector<std::string>& defines, bool relaxed);
 
+/// OpenCL on CPUs compiles a kernel when it first runs, which takes seconds for all of them.
+struct KernelCount {
+  int all = 0;    ///< made by this process so far
+  int ready = 0;  ///< of these, have run
+};
+/// From now on each kernel's first run calls `told`, in the thread that runs it; {}: nobody is
+/// told.
+void tell_of_kernels(std::function<void(const KernelCount&)> told);
+
 /// A kernel, run over `count` work-items padded to whole groups; kernels return at once for
 /// indices past the end.
 class Kernel {
@@ -29,7 +39,9 @@ class Kernel {
   Kernel() = default;
   /// `group`: work-items handed out together; few when each is worth microseconds.
   Kernel(const cl::Program& program, const std::string& name, std::size_t group = 64)
-      : kernel_(program, name.c_str()), group_(group) {}
+      : kernel_(program, name.c_str()), group_(group) {
+    note_made();
+  }
 
   template <class... Args>
   void run(cl::CommandQueue& queue, std::size_t count, const Args&... args) {
@@ -41,10 +53,12 @@ class Kernel {
   }
 
  private:
-  void launch(cl::CommandQueue& queue, std::size_t count, std::size_t group) const;
+  static void note_made();
+  void launch(cl::CommandQueue& queue, std::size_t count, std::size_t group);
 
   cl::Kernel kernel_;
   std::size_t group_ = 64;
+  bool has_run_ = false;
 };
 
 }  // namespace splash::sim

@@ -36,6 +36,24 @@ TEST(Programs, JoinTheirFilesAndConstants) {
   }
 }
 
+TEST(Programs, TellHowManyOfTheirKernelsHaveRun) {
+  Device device;
+  const cl::Program program = build_program(
+      device, {{"some/two.cl", "kernel void a(int n) {}\nkernel void b(int n) {}\n"}}, {}, false);
+  std::vector<KernelCount> told;
+  Kernel a(program, "a");
+  Kernel b(program, "b");
+  tell_of_kernels([&](const KernelCount& count) { told.push_back(count); });
+  a.run(device.queue(), 1, 1);
+  a.run(device.queue(), 100, 100);
+  b.run(device.queue(), 1, 1);
+  tell_of_kernels({});
+  Kernel(program, "a").run(device.queue(), 1, 1);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[1].ready, told[0].ready + 1);
+  EXPECT_GE(told[0].all, 2);
+}
+
 TEST(Programs, AnErrorNamesItsFileAndLine) {
   const Device device;
   const KernelSource broken = {"some/broken.cl",
