@@ -11,8 +11,8 @@
 #include <iostream>
 
 #include "protocol/config.hpp"
-#include "protocol/failure.hpp"
 #include "protocol/config_file.hpp"
+#include "protocol/failure.hpp"
 #include "protocol/service_notice.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
@@ -87,6 +87,17 @@ void require_free(const protocol::Endpoint& listen) {
                          [&] { static_cast<void>(protocol::UdpSocket(listen)); });
 }
 
+/// What whoever prepares for a scene needs to know of it, as ./splash reads it.
+void describe_scene(const Scene& scene) {
+  const auto& lower = scene.tank.lower;
+  const auto& upper = scene.tank.upper;
+  std::printf("scene   %s: %s\n", scene.name.c_str(), scene.description.c_str());
+  std::printf("tank    from (%g, %g, %g) to (%g, %g, %g) m\n", lower[0], lower[1], lower[2],
+              upper[0], upper[1], upper[2]);
+  std::printf("middle  %g,%g,%g\n", 0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1]),
+              0.5 * (lower[2] + upper[2]));
+}
+
 /// Whoever asks for longer steps is told what they cost.
 void say_price(const Simulation& simulation) {
   Scene usual = simulation.scene();
@@ -123,17 +134,6 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
   std::fflush(stdout);
 }
 
-/// Much water takes minutes to come to rest: nobody is to wonder what is going on, and no service
-/// manager to give up.
-Progress telling_how_it_settles(protocol::ServiceNotice& service) {
-  constexpr double kPeriod = 3.0;     // [s]
-  constexpr double kPatience = 60.0;  // between two words, some steps of four million particles [s]
-  return [&service, start = 0.0, done = 0.0, last = 0.0](double share) mutable {
-    const double now = protocol::monotonic_now();
-    if (done == 0.0) {  // the first step says nothing of the others: kernels are compiled in it
-      start = last = now;
-      done = share;
-      service.starting(kPatience);
 /// Whoever waits for kernels sees that something goes on.
 std::function<void(const KernelCount&)> telling_how_far_compiling_is() {
   constexpr double kPeriod = 1.0;  // [s]
@@ -146,6 +146,17 @@ std::function<void(const KernelCount&)> telling_how_far_compiling_is() {
   };
 }
 
+/// Much water takes minutes to come to rest: nobody is to wonder what is going on, and no service
+/// manager to give up.
+Progress telling_how_it_settles(protocol::ServiceNotice& service) {
+  constexpr double kPeriod = 3.0;     // [s]
+  constexpr double kPatience = 60.0;  // between two words, some steps of four million particles [s]
+  return [&service, start = 0.0, done = 0.0, last = 0.0](double share) mutable {
+    const double now = protocol::monotonic_now();
+    if (done == 0.0) {  // the first step says nothing of the others: kernels are compiled in it
+      start = last = now;
+      done = share;
+      service.starting(kPatience);
     }
     if (now - last < kPeriod) return;
     last = now;
@@ -190,6 +201,7 @@ void run(const Options& options) {
   protocol::ServiceNotice service;
   const Scene scene = load_scene(options.scene);
   require_use(options.tracker, scene);
+  if (options.check) return describe_scene(scene);
   require_free(options.listen);
   const double start = protocol::monotonic_now();
   const std::filesystem::path cache =
@@ -201,11 +213,13 @@ void run(const Options& options) {
   });
   last_words.devices_known();
   std::printf("device  %s\n", describe(device.facts()).c_str());
-  std::printf("compiling kernels (the first start on a machine takes some seconds)\n");
+  std::printf("compiling kernels (some seconds, once for each kind of scene)\n");
   std::fflush(stdout);
+  tell_of_kernels(telling_how_far_compiling_is());
   Simulation simulation = doubting(seal, [&] {
     return Simulation(device, scene, options.tracker, telling_how_it_settles(service));
   });
+  tell_of_kernels({});
   last_words.built();
   const bool compiled = seal.has_new();
   seal.renew();
@@ -215,11 +229,9 @@ void run(const Options& options) {
   service.ready(scene.name + ", " + std::to_string(simulation.particles()) + " particles, on " +
                 protocol::to_string(server.local()));
   serve(server, service);
-  tell_of_kernels(telling_how_far_compiling_is());
   seal.renew();
 }
 
-  tell_of_kernels({});
 }  // namespace
 
 int main(int argc, char** argv) {

@@ -26,6 +26,8 @@ void add_scene(CLI::App& app, Options& options) {
   app.add_option("--scene", options.scene,
                  "What to simulate: a scene by its name (basin, pool, ...) or its file")
       ->type_name("NAME|FILE");
+  app.add_flag("--check", options.check,
+               "Read the scene, say what it is and where its middle lies, and end");
   app.add_option("--tracker", options.tracker,
                  "Recorded markers (TRC) that move the scene's bodies of motion kind trc")
       ->type_name("FILE.trc");

@@ -25,6 +25,7 @@ struct Options {
   double duration = 0.0;         ///< simulated seconds; 0: until it is stopped
   bool real_time = true;
 
+  bool check = false;  ///< say what the scene is, and end
   bool list_devices = false;
   int device = -1;  ///< as --list-devices counts; -1: chosen
 };

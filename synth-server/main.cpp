@@ -114,7 +114,8 @@ sigset_t block_signals() {
 void run(const Options& options) {
   if (options.list_devices) return print_devices(options.api);
   protocol::ServiceNotice service;
-  const Rig rig = load_rig(options.rig);
+  Rig rig = load_rig(options.rig);
+  centre(rig, options.middle);
   if (!options.replay.empty()) {
     protocol::require_readable("--replay", options.replay);
     return render_log(options, rig);

@@ -30,6 +30,13 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--rig", options.rig,
                  "What to drive: a rig by its name (stereo, tiles36, ...) or its file")
       ->type_name("NAME|FILE");
+  app.add_option("--middle", options.middle,
+                 "The scene's middle [m], where loudspeakers that name none of their own are heard "
+                 "from both sides alike; sim-server --check tells it")
+      ->delimiter(',')
+      ->check(CLI::Range(-1000.0, 1000.0))
+      ->check(protocol::refuse_nan)
+      ->type_name("X,Y,Z");
   app.add_option("--listen", texts.listen,
                  "Address and port for events and control; 0.0.0.0 for other hosts")
       ->type_name("HOST:PORT")

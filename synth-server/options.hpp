@@ -2,6 +2,7 @@
 // The command line.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,7 @@ namespace splash::synth {
 
 struct Options {
   std::filesystem::path rig;
+  std::array<double, 3> middle = {0.0, 0.0, 0.0};  ///< of the scene [m]
   protocol::Endpoint listen;
   std::vector<std::uint32_t> allow;  ///< hosts besides loopback that may control (IPv4)
 

@@ -92,6 +92,12 @@ void check_output(const Output& output) {
 
 }  // namespace
 
+void centre(Rig& rig, const std::array<double, 3>& middle) noexcept {
+  for (Output& output : rig.outputs) {
+    if (!output.has_place) output.place = middle;
+  }
+}
+
 int channel_count(const Output& output) noexcept {
   switch (output.kind) {
     case OutputKind::tiles:

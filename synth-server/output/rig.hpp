@@ -74,6 +74,7 @@ struct Output {
   int body = -1;             ///< renders events of this body of the scene only; -1: of all
   /// tiles: lower corner of tile 0; stereo: middle between the loudspeakers [m].
   std::array<double, 3> place = {0.0, 0.0, 0.0};
+  bool has_place = true;     ///< stereo: false where the file names no middle: the scene's it is
   int tiles_x = 6;           ///< tiles: columns, along +x
   int tiles_y = 6;           ///< tiles: rows, along +y
   double tile_size = 0.305;  ///< tiles: edge of a tile [m]; paper section 6: 30.5 cm
@@ -100,6 +101,9 @@ struct Rig {
 /// One name per channel, for lists and port maps: "floor/tile/07", "hand", "left shoe/heel".
 /// Tiles are numbered from the lower corner along +x, then row by row along +y.
 [[nodiscard]] std::vector<std::string> channel_names(const Rig& rig);
+
+/// Puts loudspeakers that name no middle of their own around the scene's, `middle` [m].
+void centre(Rig& rig, const std::array<double, 3>& middle) noexcept;
 
 /// Throws std::invalid_argument with output, key, value and limit when a rig cannot be rendered.
 void check(const Rig& rig);

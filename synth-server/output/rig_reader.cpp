@@ -74,6 +74,10 @@ Output read_output(const ConfigMap& map) {
   read_part(map, "tiles", entry.kind == OutputKind::tiles, tile_fields(), entry);
   if (map.has("tiles")) check_tile_count(map, entry);
   read_part(map, "stereo", entry.kind == OutputKind::stereo, stereo_fields(), entry);
+  if (entry.kind == OutputKind::stereo) {
+    const std::optional<ConfigMap> stereo = map.optional_child("stereo");
+    entry.has_place = stereo && stereo->has("middle");
+  }
   if (entry.kind != OutputKind::worn && map.has("parts")) {
     throw map.error("parts", "has no meaning for an output that is not worn");
   }

@@ -109,7 +109,10 @@ std::vector<Field<Output>> tile_fields() {
 }
 
 std::vector<Field<Output>> stereo_fields() {
-  return {{{.key = "middle", .unit = "m", .meaning = "point heard from both sides alike"},
+  return {{{.key = "middle",
+            .unit = "m",
+            .meaning = "point heard from both sides alike; left out: the scene's middle, as "
+                       "--middle tells it"},
            &Output::place},
           {{.key = "width",
             .unit = "m",

@@ -45,6 +45,26 @@ TEST(ShippedRigs, HandheldAndStereoAndBoth) {
   EXPECT_DOUBLE_EQ(both.outputs.at(1).band.high, 20000.0);
 }
 
+TEST(ShippedRigs, LoudspeakersStandAroundTheScenesMiddle) {
+  for (const char* name : {"stereo", "handheld+stereo"}) {
+    Rig rig = shipped(name);
+    centre(rig, {0.915, 0.5, 0.25});
+    EXPECT_EQ(rig.outputs.back().place, (std::array<double, 3>{0.915, 0.5, 0.25})) << name;
+  }
+  Rig floor = shipped("tiles36");
+  centre(floor, {0.915, 0.5, 0.25});
+  EXPECT_EQ(floor.outputs.at(0).place, (std::array<double, 3>{0.0, 0.0, 0.0}));
+}
+
+TEST(ShippedRigs, AMiddleOfTheRigsOwnIsKept) {
+  Rig rig = parse_rig(
+      "name: r\noutputs:\n  - {name: s, kind: stereo, band: {low: 20, high: 750}, "
+      "stereo: {middle: [0.0, 0.0, 0.0]}}\n",
+      "r.yaml");
+  centre(rig, {0.915, 0.5, 0.25});
+  EXPECT_EQ(rig.outputs.at(0).place, (std::array<double, 3>{0.0, 0.0, 0.0}));
+}
+
 TEST(ShippedRigs, ShoesGoByTheirFootAndAGloveByItsHand) {
   const Rig shoes = shipped("shoes");
   EXPECT_EQ(channel_names(shoes), (std::vector<std::string>{"left shoe/heel", "left shoe/toe",
