@@ -52,6 +52,13 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
       app.add_option("--render", options.render, "The replay's WAV file")->type_name("WAV");
   replay->needs(render);
   render->needs(replay);
+  app.add_option("--fade-in", options.fade_in,
+                 "With --render: the file opens within so many seconds, as live sound does in 2")
+      ->needs(render)
+      ->check(CLI::Range(0.0, 60.0))
+      ->check(protocol::refuse_nan)
+      ->type_name("S")
+      ->capture_default_str();
   app.add_flag("--stems", options.stems,
                "With --render: also WAV-impacts, WAV-bubbles and WAV-cavities")
       ->needs(render);
@@ -69,6 +76,11 @@ void add_output(CLI::App& app, Options& options) {
       ->type_name("all|N");
   app.add_option("--record-audio", options.record_audio, "Also write the live output to this file")
       ->type_name("WAV");
+  app.add_option(
+         "--record-events", options.record_events,
+         "Also write the events to this log, each at the moment at which its sound started: "
+         "--replay renders the same sound again")
+      ->type_name("LOG");
   app.add_option("--sample-rate", options.sample_rate,
                  "Samples per second (default: the device's, 48000 without one)")
       ->check(CLI::Range(8000, 384000))
@@ -115,6 +127,9 @@ void check(const Options& options) {
   if (!options.replay.empty() && !options.record_audio.empty()) {
     throw std::invalid_argument(
         "--record-audio is for live playing: --render is the replay's file");
+  }
+  if (!options.replay.empty() && !options.record_events.empty()) {
+    throw std::invalid_argument("--record-events is for live playing: --replay reads a log");
   }
   std::error_code missing;
   if (!options.render.empty() &&

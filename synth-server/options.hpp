@@ -22,15 +22,17 @@ struct Options {
 
   std::filesystem::path replay;  ///< a log; empty: play live
   std::filesystem::path render;  ///< the WAV file of a replay
+  double fade_in = 0.0;          ///< of the file [s]
   bool stems = false;            ///< also one file for each of the three components
 
   bool list_devices = false;
-  std::string test_tone;               ///< a channel's number or "all"; empty: play events
-  std::string device;                  ///< empty: the default one
-  std::string api;                     ///< empty: the first that has a device
-  std::filesystem::path record_audio;  ///< the live output; empty: not recorded
-  int sample_rate = 0;                 ///< [Hz]; 0: the device's, 48000 without one
-  int block = 256;                     ///< wanted frames per callback
+  std::string test_tone;                ///< a channel's number or "all"; empty: play events
+  std::string device;                   ///< empty: the default one
+  std::string api;                      ///< empty: the first that has a device
+  std::filesystem::path record_audio;   ///< the live output; empty: not recorded
+  std::filesystem::path record_events;  ///< what started when, as a log; empty: not recorded
+  int sample_rate = 0;                  ///< [Hz]; 0: the device's, 48000 without one
+  int block = 256;                      ///< wanted frames per callback
 
   double latency = -1.0;       ///< added to each event's moment [s]; negative: by the block
   double late_window = 0.050;  ///< [s]

@@ -83,6 +83,7 @@ void render_log(const Options& options, const Rig& rig) {
   require_renderable(options.replay, log);
   ReplaySettings settings;
   settings.engine = options.engine;
+  settings.fade_in = options.fade_in;
   settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
   const auto report = protocol::failing_with(
       protocol::kExitIo, [&] { return render_to(options.render, log, rig, settings); });

@@ -49,7 +49,7 @@ Server::Server(const Options& options, const Rig& rig)
   format_ = opened.output->format();
   warn_of_latency(format_);
   protocol::failing_with(protocol::kExitIo, [&] { start_recorder(); });
-  playing_ = make_playing(format_.sample_rate, recorder_.get());
+  playing_ = make_playing(format_.sample_rate, recorder_.get(), event_recorder_.get());
   started_ = protocol::monotonic_now();
   protocol::failing_with(protocol::kExitUnavailable, [&] { start_output(std::move(opened)); });
   start_receiver(std::move(socket));
@@ -61,21 +61,23 @@ Server::~Server() {
   output_.reset();  // before what it calls
 }
 
-std::unique_ptr<Server::Playing> Server::make_playing(int sample_rate, Recorder* recorder) {
+std::unique_ptr<Server::Playing> Server::make_playing(int sample_rate, Recorder* recorder,
+                                                      StartWatch* watch) {
   PlayerSettings settings;
   settings.sample_rate = sample_rate;
   settings.max_block = kMaxBlock;
   settings.muted = muted_;
   settings.schedule = {options_.latency, options_.late_window, options_.horizon};
-  return std::make_unique<Playing>(rig_, engine_settings(options_, sample_rate), queue_, recorder,
-                                   settings);
+  EngineSettings engine = engine_settings(options_, sample_rate);
+  engine.watch = watch;
+  return std::make_unique<Playing>(rig_, engine, queue_, recorder, settings);
 }
 
 BlockSource& Server::adapt(const AudioFormat& format) {
   log("the device now runs at " + std::to_string(format.sample_rate) +
       " Hz: what sounded is gone, counts begin anew" +
-      (recorder_ != nullptr ? ", and the recording ends here" : ""));
-  auto next = make_playing(format.sample_rate, nullptr);
+      (recorder_ != nullptr || event_recorder_ != nullptr ? ", and the recording ends here" : ""));
+  auto next = make_playing(format.sample_rate, nullptr, nullptr);
   const std::lock_guard lock(mutex_);
   playing_ = std::move(next);
   return playing_->player;
@@ -93,6 +95,9 @@ void Server::start_output(OpenedOutput opened) {
 }
 
 void Server::start_recorder() {
+  if (!options_.record_events.empty()) {
+    event_recorder_ = std::make_unique<EventRecorder>(options_.record_events, format_.sample_rate);
+  }
   if (options_.record_audio.empty()) return;
   recording_ =
       std::make_unique<WavFile>(options_.record_audio, format_.channels, format_.sample_rate);
@@ -253,7 +258,17 @@ void Server::finish() {
       recording_->close();
     });
   }
+  if (event_recorder_ != nullptr) {
+    event_recorder_->finish();
+    if (!event_recorder_->error().empty()) {
+      throw protocol::Failure(protocol::kExitIo, event_recorder_->error());
+    }
+  }
   std::printf("%s", summary(all).c_str());
+  if (event_recorder_ != nullptr && event_recorder_->lost() != 0) {
+    std::printf("recording: %llu events are missing, the disk was too slow\n",
+                static_cast<unsigned long long>(event_recorder_->lost()));
+  }
   if (recorder_ != nullptr && recorder_->lost_frames() != 0) {
     std::printf("recording: %llu frames are missing, the disk was too slow\n",
                 static_cast<unsigned long long>(recorder_->lost_frames()));

@@ -11,6 +11,7 @@
 
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"
+#include "synth-server/event_recorder.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/output/wav_file.hpp"
@@ -56,7 +57,9 @@ class Server {
             Recorder* recorder, const PlayerSettings& player_settings);
   };
 
-  [[nodiscard]] std::unique_ptr<Playing> make_playing(int sample_rate, Recorder* recorder);
+  /// `recorder` and `watch` may be null.
+  [[nodiscard]] std::unique_ptr<Playing> make_playing(int sample_rate, Recorder* recorder,
+                                                      StartWatch* watch);
   /// The device came back at another rate.
   BlockSource& adapt(const AudioFormat& format);
   void start_output(OpenedOutput opened);
@@ -81,6 +84,7 @@ class Server {
   std::unique_ptr<WavFile> recording_;
   std::atomic<bool> renew_recording_{false};
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<EventRecorder> event_recorder_;
   mutable std::mutex mutex_;  ///< guards playing_; the audio thread never takes it
   std::unique_ptr<Playing> playing_;
   std::uint64_t blocks_seen_ = 0;

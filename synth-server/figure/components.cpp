@@ -2,76 +2,86 @@
 #include "synth-server/figure/components.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "synth-server/figure/wav_reader.hpp"
 
 namespace splash::synth {
 namespace {
 
-using Stems = std::array<WavSignal, 3>;
-
-void require_equal_shape(const Stems& stems) {
-  for (const WavSignal& stem : stems) {
-    if (stem.sample_rate != stems[0].sample_rate ||
-        stem.channels.size() != stems[0].channels.size()) {
-      throw std::runtime_error(
-          "the three components differ: " + std::to_string(stem.channels.size()) + " channels at " +
-          std::to_string(stem.sample_rate) + " Hz against " +
-          std::to_string(stems[0].channels.size()) + " at " + std::to_string(stems[0].sample_rate) +
-          " Hz; render all three with the same rig");
+void require_equal_shape(const std::vector<WavSignal>& parts) {
+  for (const WavSignal& part : parts) {
+    if (part.sample_rate != parts[0].sample_rate ||
+        part.channels.size() != parts[0].channels.size()) {
+      throw std::runtime_error("the files differ: " + std::to_string(part.channels.size()) +
+                               " channels at " + std::to_string(part.sample_rate) + " Hz against " +
+                               std::to_string(parts[0].channels.size()) + " at " +
+                               std::to_string(parts[0].sample_rate) +
+                               " Hz; render all of them with the same rig and sample rate");
     }
   }
 }
 
-double energy(const Stems& stems, std::size_t channel) {
-  double total = 0.0;
-  for (std::size_t i = 0; i < stems[0].frames(); ++i) {
-    double sample = 0.0;
-    for (const WavSignal& stem : stems) sample += static_cast<double>(stem.channels[channel][i]);
-    total += sample * sample;
+std::vector<float> sum(const Components& components) {
+  std::vector<float> total(components.impact.size());
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    total[i] = components.impact[i] + components.bubble[i] + components.cavity[i];
   }
   return total;
 }
 
-std::size_t loudest_channel(const Stems& stems) {
-  std::size_t best = 0;
-  double most = -1.0;
-  for (std::size_t c = 0; c < stems[0].channels.size(); ++c) {
-    const double here = energy(stems, c);
-    if (here > most) {
-      most = here;
-      best = c;
-    }
+double energy(const std::vector<float>& signal) {
+  double total = 0.0;
+  for (const float sample : signal) {
+    total += static_cast<double>(sample) * static_cast<double>(sample);
   }
-  return best;
+  return total;
+}
+
+/// `parts`: impact, bubble, cavity, and what was played where that is known.
+Components channel_of(const std::vector<WavSignal>& parts, std::size_t channel) {
+  return {parts[0].sample_rate,
+          0.0,
+          static_cast<int>(channel) + 1,
+          parts[0].channels[channel],
+          parts[1].channels[channel],
+          parts[2].channels[channel],
+          parts.size() > 3 ? parts[3].channels[channel] : std::vector<float>()};
 }
 
 }  // namespace
 
-std::vector<float> Components::sum() const {
-  std::vector<float> total(impact.size());
-  for (std::size_t i = 0; i < total.size(); ++i) total[i] = impact[i] + bubble[i] + cavity[i];
-  return total;
+std::vector<float> Components::signal() const {
+  return played.empty() ? sum(*this) : played;
 }
 
-Components read_components(const std::filesystem::path& impact, const std::filesystem::path& bubble,
-                           const std::filesystem::path& cavity) {
-  Stems stems = {read_wav(impact), read_wav(bubble), read_wav(cavity)};
-  require_equal_shape(stems);
+Components read_components(const ComponentFiles& files) {
+  std::vector<WavSignal> parts = {read_wav(files.impact), read_wav(files.bubble),
+                                  read_wav(files.cavity)};
   std::size_t frames = 0;
-  for (const WavSignal& stem : stems) frames = std::max(frames, stem.frames());
-  if (frames == 0) throw std::runtime_error(impact.string() + ": the components hold no sample");
-  for (WavSignal& stem : stems) {
-    for (std::vector<float>& channel : stem.channels) channel.resize(frames, 0.0F);
+  for (const WavSignal& part : parts) frames = std::max(frames, part.frames());
+  if (!files.played.empty()) {
+    parts.push_back(read_wav(files.played));
+    frames = parts.back().frames();
   }
-  const std::size_t channel = loudest_channel(stems);
-  return {stems[0].sample_rate,          0.0,
-          static_cast<int>(channel) + 1, stems[0].channels[channel],
-          stems[1].channels[channel],    stems[2].channels[channel]};
+  require_equal_shape(parts);
+  if (frames == 0) throw std::runtime_error(files.impact.string() + ": the files hold no sample");
+  Components loudest;
+  double most = -1.0;
+  for (WavSignal& part : parts) {
+    for (std::vector<float>& channel : part.channels) channel.resize(frames, 0.0F);
+  }
+  for (std::size_t c = 0; c < parts[0].channels.size(); ++c) {
+    Components here = channel_of(parts, c);
+    const double strength = energy(here.signal());
+    if (strength <= most) continue;
+    most = strength;
+    loudest = std::move(here);
+  }
+  return loudest;
 }
 
 Components cut(const Components& whole, double from, double to) {
@@ -85,12 +95,14 @@ Components cut(const Components& whole, double from, double to) {
                              std::to_string(whole.duration()) + " s");
   }
   const auto part = [&](const std::vector<float>& samples) {
+    if (samples.empty()) return samples;
     return std::vector<float>(samples.begin() + static_cast<std::ptrdiff_t>(first),
                               samples.begin() + static_cast<std::ptrdiff_t>(last));
   };
   return {whole.sample_rate,  whole.start + first / whole.sample_rate,
           whole.channel,      part(whole.impact),
-          part(whole.bubble), part(whole.cavity)};
+          part(whole.bubble), part(whole.cavity),
+          part(whole.played)};
 }
 
 }  // namespace splash::synth

@@ -17,17 +17,17 @@ constexpr int kBadData = 65;
 constexpr int kUnavailable = 69;
 
 struct Options {
-  std::string impact;
-  std::string bubble;
-  std::string cavity;
+  splash::synth::ComponentFiles files;
   std::string out;
   splash::synth::FigureSettings figure;
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("--impact", options.impact, "WAV file of the impacts")->required();
-  app.add_option("--bubble", options.bubble, "WAV file of the bubbles")->required();
-  app.add_option("--cavity", options.cavity, "WAV file of the cavities")->required();
+  app.add_option("--impact", options.files.impact, "WAV file of the impacts")->required();
+  app.add_option("--bubble", options.files.bubble, "WAV file of the bubbles")->required();
+  app.add_option("--cavity", options.files.cavity, "WAV file of the cavities")->required();
+  app.add_option("--played", options.files.played,
+                 "WAV file of what was played: the picture is of it, the components lie over it");
   app.add_option("--out", options.out, "PNG file to write")->required();
   app.add_option("--title", options.figure.title, "headline")->capture_default_str();
   app.add_option("--from", options.figure.from, "first moment to draw [s]")->capture_default_str();
@@ -41,8 +41,7 @@ void declare(CLI::App& app, Options& options) {
 }
 
 void draw(const Options& options) {
-  const splash::synth::Components components =
-      splash::synth::read_components(options.impact, options.bubble, options.cavity);
+  const splash::synth::Components components = splash::synth::read_components(options.files);
   splash::synth::draw_plunge(components, options.figure, options.out);
 }
 

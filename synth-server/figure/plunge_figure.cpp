@@ -15,6 +15,11 @@
 namespace splash::synth {
 namespace {
 
+/// What a plunge looks like in the paper's Figure 3.
+constexpr std::string_view kCaption =
+    "Each plunge: first the impact, a short burst at all frequencies; then bubbles, brief and the "
+    "smaller the higher; then the cavity, one long low tone that rises.";
+
 constexpr std::size_t kPlotColumns = 1280;  // width of the plots in the picture [pixels]
 
 // Colours that people with colour blindness tell apart: Okabe and Ito 2008.
@@ -26,6 +31,7 @@ set minussign
 impact_colour = "#d55e00"
 bubble_colour = "#0072b2"
 cavity_colour = "#009e73"
+played_colour = "#c3c8d0"
 ink = "#30343b"
 set border 3 linecolor rgb ink linewidth 0.9
 set tics nomirror out scale 0.6 textcolor rgb ink
@@ -43,10 +49,12 @@ set format x ""
 set format y "%g"
 set yrange [-peak:peak]
 set grid ytics linecolor rgb "#cbd0d8" linewidth 0.6
-set key at screen 0.915,0.9525 right center horizontal Left reverse samplen 1.1 width 1 \
+set key at screen 0.915,0.9215 right center horizontal Left reverse samplen 1.1 width 1 \
   textcolor rgb ink
 set style fill solid 0.62 noborder
-plot "impact.dat" using 1:2:3 with filledcurves linecolor rgb impact_colour title "impact", \
+plot "played.dat" using 1:(played ? $2 : 1/0):3 with filledcurves linecolor rgb played_colour \
+       title (played ? "played" : ""), \
+     "impact.dat" using 1:2:3 with filledcurves linecolor rgb impact_colour title "impact", \
      1/0 with filledcurves y=0 linecolor rgb bubble_colour title "bubbles", \
      "cavity.dat" using 1:2:3 with filledcurves linecolor rgb cavity_colour title "cavity", \
      "bubble.dat" using 1:2:3 with filledcurves linecolor rgb bubble_colour notitle, \
@@ -65,7 +73,8 @@ unset key
 unset grid
 set style fill solid 1
 set tmargin at screen 0.560
-set bmargin at screen 0.080
+set bmargin at screen 0.115
+set label 3 caption at screen 0.075, 0.022 left font ",13" textcolor rgb "#6b7280"
 set border 15
 set format x "%g"
 set xlabel "time  [s]" offset 0,0.2 textcolor rgb ink
@@ -75,7 +84,7 @@ set ytics ("10" 1, "20" log10(20), "50" log10(50), "100" 2, "200" log10(200), "5
   "1000" 3, "2000" log10(2000), "5000" log10(5000), "10000" 4, "20000" log10(20000))
 set cbrange [top_db-range_db:top_db]
 set cblabel "level  [dB, full-scale sine = 0]" offset 1,0 textcolor rgb ink
-set colorbox user origin screen 0.928,0.080 size screen 0.013,0.480 noborder
+set colorbox user origin screen 0.928,0.115 size screen 0.013,0.445 noborder
 set cbtics out scale 0.4
 set palette defined (0 "#000004", 1 "#2c115f", 2 "#721f81", 3 "#b73779", 4 "#f1605d", \
   5 "#feb078", 6 "#fcfdbf")
@@ -111,7 +120,8 @@ std::string quoted(const std::string& text) {
 
 float peak_of(const Components& components) {
   float peak = 0.0F;
-  for (const auto* part : {&components.impact, &components.bubble, &components.cavity}) {
+  for (const auto* part :
+       {&components.impact, &components.bubble, &components.cavity, &components.played}) {
     for (const float sample : *part) peak = std::max(peak, std::abs(sample));
   }
   return peak;
@@ -122,6 +132,7 @@ void write_data(const std::filesystem::path& folder, const Components& component
   write_envelope(folder / "impact.dat", components.impact, components);
   write_envelope(folder / "bubble.dat", components.bubble, components);
   write_envelope(folder / "cavity.dat", components.cavity, components);
+  write_envelope(folder / "played.dat", components.signal(), components);
   write_spectrogram(folder / "spectrogram.bin", spectrum);
 }
 
@@ -141,6 +152,8 @@ std::string variables(const Components& components, const FigureSettings& settin
   std::ostringstream text;
   text << "figure_title = " << quoted(settings.title) << '\n'
        << "subtitle = " << quoted(subtitle(components)) << '\n'
+       << "caption = " << quoted(std::string(kCaption)) << '\n'
+       << "played = " << (components.played.empty() ? 0 : 1) << '\n'
        << "peak = " << std::max(1.08F * peak_of(components), 1e-6F) << '\n'
        << "lowest = " << settings.lowest << "\nhighest = " << settings.highest << '\n'
        << "columns = " << spectrum.columns << "\nrows = " << spectrum.rows << '\n'
@@ -175,7 +188,7 @@ void draw_plunge(const Components& components, const FigureSettings& settings,
   spectrum_settings.highest = settings.highest;
   spectrum_settings.columns = kPlotColumns;
   const Spectrogram spectrum =
-      spectrogram(components.sum(), components.sample_rate, spectrum_settings);
+      spectrogram(components.signal(), components.sample_rate, spectrum_settings);
   const ScratchFolder folder;
   write_data(folder.path(), part, spectrum);
   const std::filesystem::path script = folder.path() / "plunge.gp";

@@ -77,6 +77,7 @@ void Engine::State::render_piece(float* const* channels, int done, int count) no
     const EventQueue::Waiting next = queue.pop();
     const std::int64_t sample = std::max(next.sample, clock);
     if (next.sample < clock) counts.late.add();
+    if (settings.watch != nullptr) settings.watch->started({next.event, sample});
     ensemble.start(next.event, sample);
   }
   ensemble.mix(clock, end, mix);

@@ -28,6 +28,15 @@ struct TimedEvent {
   std::int64_t sample = 0;
 };
 
+/// Is told of each event at the sample at which it starts, from the rendering thread.
+class StartWatch {
+ public:
+  virtual void started(const TimedEvent& event) noexcept = 0;
+
+ protected:
+  ~StartWatch() = default;
+};
+
 struct EngineSettings {
   double sample_rate = 48000.0;  ///< [Hz], 8000 to 384000
   int max_block = 4096;          ///< most frames of one render call, 1 to 65536
@@ -49,6 +58,7 @@ struct EngineSettings {
   bool skip_unfelt = true;       ///< end voices 20 dB below the threshold that the rig states
   bool skip_masked = true;       ///< leave out what louder bubbles cover, see render/masking.hpp
   double mask_from = 0.5;        ///< the latter only while this part of max_voices sounds, 0 to 1
+  StartWatch* watch = nullptr;   ///< may be null; outlives the engine
 };
 
 /// Every method but counters() and silence() belongs to one thread, the rendering one.

@@ -89,7 +89,7 @@ ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
   }
   ReplayReport report;
   EngineSettings engine_settings = settings.engine;
-  engine_settings.start_ramp = 0.0;
+  engine_settings.start_ramp = settings.fade_in;
   engine_settings.max_block = settings.block;
   const double rate = engine_settings.sample_rate;
   Engine engine(rig, engine_settings);

@@ -13,7 +13,8 @@
 namespace splash::synth {
 
 struct ReplaySettings {
-  EngineSettings engine;  ///< its start_ramp is ignored: a file begins open
+  EngineSettings engine;  ///< its start_ramp is ignored for fade_in
+  double fade_in = 0.0;   ///< of the first samples [s]; 0: a file begins open
   double tail = 2.0;      ///< rendered after the last event, the last 20 ms fading out [s]
   int block = 512;        ///< frames per call of the sink
 };

@@ -22,12 +22,26 @@ TEST(Components, KeepTheChannelThatWasHitAndFillShortFiles) {
     return folder / name;
   };
   const Components components =
-      read_components(stereo("i.wav", {0.0F, 0.5F, 0.0F, 0.25F}), stereo("b.wav", {0.1F, 0.0F}),
-                      stereo("c.wav", {0.0F, 0.0F, 0.0F, 0.5F, 0.0F, 0.125F}));
+      read_components({stereo("i.wav", {0.0F, 0.5F, 0.0F, 0.25F}),
+                       stereo("b.wav", {0.1F, 0.0F}),
+                       stereo("c.wav", {0.0F, 0.0F, 0.0F, 0.5F, 0.0F, 0.125F}),
+                       {}});
   EXPECT_EQ(components.channel, 2);
   EXPECT_THAT(components.impact, ElementsAre(0.5F, 0.25F, 0.0F));
   EXPECT_THAT(components.bubble, ElementsAre(0.0F, 0.0F, 0.0F));
-  EXPECT_THAT(components.sum(), ElementsAre(0.5F, 0.75F, 0.125F));
+  EXPECT_THAT(components.signal(), ElementsAre(0.5F, 0.75F, 0.125F));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Components, WhatWasPlayedIsTheSignalAndSaysHowLongItLasts) {
+  const std::filesystem::path folder = testing::fresh_folder("components-played");
+  testing::write_mono(folder / "part.wav", 1000, {0.25F, 0.25F, 0.25F, 0.25F});
+  testing::write_mono(folder / "played.wav", 1000, {0.5F, -0.5F, 0.125F});
+  const auto part = folder / "part.wav";
+  const Components components = read_components({part, part, part, folder / "played.wav"});
+  EXPECT_THAT(components.signal(), ElementsAre(0.5F, -0.5F, 0.125F));
+  EXPECT_THAT(components.bubble, ElementsAre(0.25F, 0.25F, 0.25F));
+  EXPECT_THAT(cut(components, 0.001, 0.002).signal(), ElementsAre(-0.5F));
   std::filesystem::remove_all(folder);
 }
 
@@ -35,8 +49,11 @@ TEST(Components, RefuseFilesOfDifferentRates) {
   const std::filesystem::path folder = testing::fresh_folder("components-rates");
   testing::write_mono(folder / "a.wav", 48000, {0.5F});
   testing::write_mono(folder / "b.wav", 44100, {0.5F});
-  EXPECT_THAT([&] { read_components(folder / "a.wav", folder / "a.wav", folder / "b.wav"); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("the three components differ")));
+  EXPECT_THAT(
+      [&] {
+        read_components({folder / "a.wav", folder / "a.wav", folder / "b.wav", {}});
+      },
+      ThrowsMessage<std::runtime_error>(HasSubstr("the files differ")));
   std::filesystem::remove_all(folder);
 }
 

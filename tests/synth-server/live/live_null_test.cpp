@@ -99,6 +99,46 @@ TEST_F(LiveNull, PlaysTimeTagsExactToTheSample) {
   }
 }
 
+// What is told of what was played gives the same sound again, whenever it came and on whatever
+// machine: the picture of a recording shows its components by it.
+TEST_F(LiveNull, WhatItSaysThatItStartedRendersToTheSameSound) {
+  const std::string log = temporary_path("started.osc");
+  const std::string again = temporary_path("again.wav");
+  {
+    auto live = arguments();
+    live.insert(live.end(), {"--record-events", log, "--middle=0.5,0,0"});
+    Synth synth(live);
+    for (int i = 0; i < 12; ++i) {
+      synth.send(protocol::encode(
+          protocol::to_time_tag(protocol::unix_now() + 0.05),
+          {bubble(2 * i, 0.02F), protocol::to_message(protocol::Impact{
+                                     2 * i + 1, 0, 2.0F, 1.5F, {0.3F, 0.0F, 0.0F}, 7.0F})}));
+      sleep(0.23);
+    }
+    await_sound(0.5);
+    synth.process().signal(SIGTERM);
+    ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  }
+  const auto [code, text] =
+      tests::run_program("synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", log,
+                                          "--render", again, "--middle=0.5,0,0", "--fade-in", "2"});
+  ASSERT_EQ(code, 0) << text;
+  EXPECT_THAT(text, testing::HasSubstr("played 12 impacts, 12 bubbles"));
+  const Recording played = tests::read_recording(wav_);
+  const Recording rendered = tests::read_recording(again);
+  std::filesystem::remove(log);
+  std::filesystem::remove(again);
+  ASSERT_GT(peak(played.channels[0]), 0.01F);
+  const std::size_t common =  // both end with a fade
+      std::min(played.channels[0].size(), rendered.channels[0].size()) - kRate / 20;
+  for (const std::size_t channel : {0U, 1U}) {
+    for (std::size_t i = 0; i < common; ++i) {
+      ASSERT_NEAR(played.channels[channel][i], rendered.channels[channel][i], 1e-6F)
+          << "sample " << i;
+    }
+  }
+}
+
 TEST_F(LiveNull, IsSilentWhileTheSenderIsGoneAndComesBack) {
   Synth synth(arguments());
   sleep(kOpening);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/event_recorder.hpp"
+
+#include <chrono>
+#include <exception>
+#include <variant>
+
+#include "protocol/message.hpp"
+
+namespace splash::synth {
+namespace {
+
+constexpr auto kPause = std::chrono::milliseconds(20);
+
+}  // namespace
+
+EventRecorder::EventRecorder(const std::filesystem::path& path, int sample_rate)
+    : log_(path), sample_rate_(sample_rate), thread_([this] { run(); }) {}
+
+EventRecorder::~EventRecorder() {
+  finish();
+}
+
+void EventRecorder::started(const TimedEvent& event) noexcept {
+  if (!queue_.push(event)) ++lost_;
+}
+
+void EventRecorder::write(const TimedEvent& event) {
+  if (!error_.empty()) return;  // keep the queue empty
+  protocol::Event told = event.event;
+  std::visit([](auto& kind) { kind.offset_ms = 0.0F; }, told);
+  try {
+    log_.append(static_cast<double>(event.sample) / sample_rate_, {protocol::to_message(told)});
+  } catch (const std::exception& error) {
+    error_ = error.what();
+  }
+}
+
+void EventRecorder::run() {
+  for (;;) {
+    const bool last = finishing_;
+    queue_.consume_all([this](const TimedEvent& event) { write(event); });
+    if (last) return;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+void EventRecorder::finish() {
+  finishing_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace splash::synth
