@@ -47,10 +47,12 @@ class Launcher : public testing::Test {
   }
   fs::path build() const { return folder_ / "build"; }
 
-  std::string apt_calls() const {
-    std::ifstream in(folder_ / "apt");
+  static std::string text_of(const fs::path& path) {
+    std::ifstream in(path);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
+  std::string apt_calls() const { return text_of(folder_ / "apt"); }
+  fs::path synth_call() const { return folder_ / "synth-call"; }
 
  private:
   fs::path folder_ =
@@ -147,9 +149,66 @@ TEST_F(Launcher, ChecksNamesBeforeAnythingIsInstalledOrBuilt) {
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
+TEST_F(Launcher, TellsTheSynthWhereTheScenesMiddleLies) {
+  fs::create_directories(build() / "bin");
+  for (const char* name : {"apt-get", "cmake"}) write_program(name, "exit 0");
+  write_program("build/bin/sim-server",
+                "case \"$*\" in *--check*) echo 'middle  0.915,0.5,0.25';; esac");
+  write_program("build/bin/synth-server",
+                "echo \"$@\" >'" + synth_call().string() + "'; echo 'listening: here'; sleep 60");
+  const CommandResult right = launch("run pool --out '" + (build() / "out").string() + "'");
+  EXPECT_EQ(right.exit_code, 0) << right.output;
+  EXPECT_THAT(text_of(synth_call()), HasSubstr("/stereo.yaml --listen 127.0.0.1:573"));
+  EXPECT_THAT(text_of(synth_call()), HasSubstr(" --middle=0.915,0.5,0.25\n"));
+
+  fs::remove(synth_call());
+  write_program("build/bin/sim-server", "echo 'pool.yaml:3:1: wrong' >&2; exit 78");
+  const CommandResult wrong = launch("run pool --out '" + (build() / "out").string() + "'");
+  EXPECT_EQ(wrong.exit_code, 78);
+  EXPECT_THAT(wrong.output, HasSubstr("pool.yaml:3:1: wrong"));
+  EXPECT_FALSE(fs::exists(synth_call())) << "a wrong scene is told before anything starts";
+}
+
 TEST_F(Launcher, HelpAndVersionNeedNothing) {
   EXPECT_EQ(launch("--help").exit_code, 0);
   EXPECT_THAT(launch("--version").output, HasSubstr("splash 0."));
+  EXPECT_THAT(apt_calls(), IsEmpty());
+}
+
+TEST_F(Launcher, HelpOnACommandListsWhatThereIs) {
+  for (const char* line : {"run --help", "help run", "run pool -h"}) {
+    const CommandResult help = launch(line);
+    EXPECT_EQ(help.exit_code, 0) << line;
+    EXPECT_THAT(help.output,
+                AllOf(HasSubstr("./splash run SCENE"),
+                      testing::ContainsRegex("\n  pool +two feet step in place in 20 cm of water"),
+                      testing::ContainsRegex("\n  tiles36 +floor of 6 x 6 tiles"),
+                      testing::ContainsRegex("\n  --duration S +end after"),
+                      HasSubstr("Behind -- stands whatever else sim-server takes")))
+        << line;
+  }
+  EXPECT_THAT(launch("demo --help").output,
+              AllOf(HasSubstr("  stereo "), HasSubstr("--out DIR"), Not(HasSubstr("  pool "))));
+  EXPECT_THAT(launch("bench --help").output,
+              testing::ContainsRegex("\n  validation +Runs the validation cases"));
+  EXPECT_THAT(launch("help test").output, HasSubstr("--filter REGEX"));
+  for (const char* name : {"demo", "run", "service", "test", "bench", "build", "clean", "help"}) {
+    EXPECT_THAT(launch(std::string(name) + " --help").output, HasSubstr(name)) << name;
+    EXPECT_EQ(launch(std::string("help ") + name).exit_code, 0) << name;
+  }
+  EXPECT_THAT(apt_calls(), IsEmpty());
+}
+
+TEST_F(Launcher, WordsThatAreNoCommandsGetTheNearestOne) {
+  EXPECT_THAT(launch("help rnu").output, HasSubstr("did you mean run?"));
+  EXPECT_THAT(launch("list").output, AllOf(HasSubstr("./splash help run lists the scenes"),
+                                           Not(HasSubstr("did you mean test"))));
+  const CommandResult option = launch("run pool --durtion 5");
+  EXPECT_EQ(option.exit_code, 64);
+  EXPECT_THAT(option.output, HasSubstr("did you mean --duration?"));
+  const CommandResult foreign = launch("test --rig stereo");
+  EXPECT_EQ(foreign.exit_code, 64);
+  EXPECT_THAT(foreign.output, HasSubstr("--rig is for demo, run, service"));
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ class Service : public testing::Test {
     write_program(folder_ / "tools" / "cmake");
     write_program(folder_ / "tools" / "dpkg-query");
     for (const char* name : {"sim-server", "synth-server"}) write_program(build() / "bin" / name);
+    std::ofstream(build() / "bin" / "sim-server")
+        << "#!/bin/sh\necho \"scene   $2\"; echo 'middle  0.915,0.5,0.25'\n";
     std::ofstream(folder_ / "tools" / "dpkg-query")
         << "#!/bin/sh\n"
         << "sed -n 's/^\\([a-z0-9+.-]*\\) *| .*/ii \\1/p' '" << SPLASH_SOURCE_DIR << "/splash'\n";
@@ -50,6 +52,7 @@ class Service : public testing::Test {
                        "/splash service " + arguments + " --no-install --build-dir '" +
                        build().string() + "'");
   }
+  [[nodiscard]] fs::path own(const std::string& kind) const { return folder_ / "splash" / kind; }
   [[nodiscard]] fs::path unit(const std::string& name) const {
     return folder_ / "systemd" / "user" / (name + ".service");
   }
@@ -68,7 +71,8 @@ TEST_F(Service, HasThisTreesPaths) {
   const std::string configs = std::string(SPLASH_SOURCE_DIR) + "/configs/";
   EXPECT_THAT(sim, HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
                              "scenes/pool.yaml\" --target 127.0.0.1:57310\n"));
-  EXPECT_THAT(synth, HasSubstr("/bin/synth-server\" --rig \"" + configs + "rigs/tiles36.yaml\""));
+  EXPECT_THAT(synth, HasSubstr("/bin/synth-server\" --rig \"" + configs +
+                               "rigs/tiles36.yaml\" --middle=0.915,0.5,0.25 "));
   for (const std::string& text : {sim, synth}) {
     EXPECT_THAT(text, Not(testing::ContainsRegex("@[A-Z]+@")));
     EXPECT_THAT(text, HasSubstr("\nType=notify\n"));
@@ -94,6 +98,17 @@ TEST_F(Service, IsWhatSystemdTakes) {
   EXPECT_THAT(run_command(verify + unit("splash-sim").string() + "' 2>&1").output,
               HasSubstr("WatchdogSecs"))
       << "it does look";
+}
+
+TEST_F(Service, FindsOnesOwnScenesAndRigsByName) {
+  fs::create_directories(own("scenes"));
+  fs::create_directories(own("rigs"));
+  std::ofstream(own("scenes") / "pond.yaml") << "name: pond\ndescription: frogs\n";
+  std::ofstream(own("rigs") / "stereo.yaml") << "name: mine\n";
+  ASSERT_EQ(launch("pond --rig stereo").exit_code, 0);
+  EXPECT_THAT(read_text(unit("splash-sim")), HasSubstr((own("scenes") / "pond.yaml").string()));
+  EXPECT_THAT(read_text(unit("splash-synth")), HasSubstr((own("rigs") / "stereo.yaml").string()));
+  EXPECT_THAT(launch("--help").output, testing::ContainsRegex("\n  pond +frogs\n"));
 }
 
 TEST_F(Service, KnowsItsScenesAndRigs) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C in a terminal reaches the launcher, which ends both programs in peace.
+// The launcher with both real programs: what the demo leaves, and Ctrl-C in a terminal, which
+// reaches the launcher alone and ends both programs in peace.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -9,10 +10,13 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
 
 namespace splash::tests {
 namespace {
@@ -98,6 +102,26 @@ TEST(LauncherEnding, CtrlCLetsBothProgramsCloseTheirFiles) {
   EXPECT_THAT(terminal.text(), HasSubstr(" 1 departures")) << "the simulator said that it leaves";
   fs::remove(log);
   fs::remove(report);
+}
+
+// The picture is of the recording, and what it is drawn from is cleared away.
+TEST(LauncherDemo, LeavesSoundLogFiguresAndPicture) {
+  const fs::path folder = temporary_path("demo");
+  Terminal terminal("demo --out '" + folder.string() + "'");
+  EXPECT_EQ(terminal.wait_for_end(), 0) << terminal.text();
+  EXPECT_THAT(terminal.text(), HasSubstr("a picture of demo.wav"));
+  const Recording wav = read_recording((folder / "demo.wav").string());
+  ASSERT_EQ(wav.channels.size(), 2U);
+  EXPECT_GT(peak(wav.channels[0]), 0.01F) << "a hand was heard";
+  std::ifstream png(folder / "demo.png", std::ios::binary);
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(png), {}), testing::StartsWith("\x89PNG"));
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    left.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(left, (std::set<std::string>{"demo.json", "demo.lock", "demo.osc", "demo.png",
+                                         "demo.wav", "sim.log", "synth.log"}));
+  fs::remove_all(folder);
 }
 
 }  // namespace
