@@ -141,7 +141,7 @@ std::function<void(const KernelCount&)> telling_how_far_compiling_is() {
     const double now = protocol::monotonic_now();
     if (now - last < kPeriod) return;
     last = now;
-    std::printf("        %d of %d kernels compiled\n", count.ready, count.all);
+    std::printf("        %d of %d kernels ready\n", count.ready, count.all);
     std::fflush(stdout);
   };
 }

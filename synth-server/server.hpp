@@ -11,7 +11,6 @@
 
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"
-#include "synth-server/event_recorder.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/output/wav_file.hpp"
@@ -19,6 +18,7 @@
 #include "synth-server/player.hpp"
 #include "synth-server/receive/receiver.hpp"
 #include "synth-server/render/engine.hpp"
+#include "synth-server/replay/event_recorder.hpp"
 #include "synth-server/server_text.hpp"
 
 namespace splash::synth {

@@ -64,7 +64,7 @@ const std::vector<Room>& rooms() {
        {}},
       {"synth-server/replay",
        {"protocol/event_log.hpp", "synth-server/render", "synth-server/output"},
-       {}},
+       {"boost/"}},
       {"synth-server/receive", {"protocol"}, {"oscpack/", "boost/"}},
       {"synth-server/audio",
        {"protocol/time_tag.hpp"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the live engine starts, and when, as an event log: rendered again it gives the same sound,
-// whatever network, clocks and load had made of the moments that were meant.
+// What an engine that plays live starts, and when, as an event log: rendered again it gives the
+// same sound, whatever network, clocks and load had made of the moments that were meant.
 #pragma once
 
 #include <atomic>

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/event_recorder.hpp"
+#include "synth-server/replay/event_recorder.hpp"
 
 #include <chrono>
 #include <exception>
 #include <variant>
-
-#include "protocol/message.hpp"
 
 namespace splash::synth {
 namespace {
