@@ -26,6 +26,7 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/server.hpp"
+#include "sim-server/tracking/digging.hpp"
 #include "sim-server/unsettled.hpp"
 
 namespace {
@@ -116,6 +117,12 @@ void say_what_flows(Simulation& simulation) {
   if (!notice.empty()) std::printf("water   %s\n", notice.c_str());
 }
 
+void say_what_digs(const Scene& scene, const std::filesystem::path& tracker) {
+  for (const std::string& notice : digging_notices(scene, tracker)) {
+    std::printf("body    %s\n", notice.c_str());
+  }
+}
+
 void say_hello(Simulation& simulation, const Server& server, double seconds_to_build,
                bool compiled) {
   const Scene& scene = simulation.scene();
@@ -202,6 +209,7 @@ void run(const Options& options) {
   const Scene scene = load_scene(options.scene);
   require_use(options.tracker, scene);
   if (options.check) return describe_scene(scene);
+  say_what_digs(scene, options.tracker);
   require_free(options.listen);
   const double start = protocol::monotonic_now();
   const std::filesystem::path cache =

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "sim-server/scene/mesh/mesh_solid.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 
@@ -108,6 +110,50 @@ Vector3 inertia_of(const Shape& shape, double mass) {
 
 Quaternion principal_axes(const Shape& shape) {
   return shape.kind == ShapeKind::mesh ? shape.mesh->mass.axes : Quaternion{0.0, 0.0, 0.0, 1.0};
+}
+
+namespace {
+
+Vector3 outermost_of(const std::vector<Vector3>& points, const Vector3& direction) {
+  return *std::max_element(points.begin(), points.end(), [&](const Vector3& a, const Vector3& b) {
+    return dot(a, direction) < dot(b, direction);
+  });
+}
+
+/// Corners of a box; where its sole curves, of sixty slices of it.
+std::vector<Vector3> box_corners(const Shape& shape) {
+  const int slices = shape.rocker > 0.0 ? 60 : 1;
+  std::vector<Vector3> corners;
+  for (int i = 0; i <= slices; ++i) {
+    const double x = shape.size[0] * (static_cast<double>(i) / slices - 0.5);
+    const double low = rocker_rise(shape, x) - 0.5 * shape.size[2];
+    for (const double y : {-0.5 * shape.size[1], 0.5 * shape.size[1]}) {
+      corners.push_back({x, y, low});
+      corners.push_back({x, y, 0.5 * shape.size[2]});
+    }
+  }
+  return corners;
+}
+
+}  // namespace
+
+Vector3 outermost(const Shape& shape, const Vector3& direction) {
+  const double across = std::hypot(direction[0], direction[1]);
+  const double radius = 0.5 * shape.size[0];
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return (radius / std::max(length(direction), 1.0e-12)) * direction;
+    case ShapeKind::cylinder: {
+      const double share = radius / std::max(across, 1.0e-12);
+      return {share * direction[0], share * direction[1],
+              std::copysign(0.5 * shape.size[2], direction[2])};
+    }
+    case ShapeKind::mesh:
+      return outermost_of(shape.mesh->surface.vertices, direction);
+    case ShapeKind::box:
+      break;
+  }
+  return outermost_of(box_corners(shape), direction);
 }
 
 Vector3 farthest_of(const Shape& shape) {

@@ -30,6 +30,9 @@ namespace splash::sim {
 /// Turns a body's own axes to those about which its moments of inertia are told.
 [[nodiscard]] Quaternion principal_axes(const Shape& shape);
 
+/// The point of its surface that lies farthest along `direction`; both in the body's axes [m].
+[[nodiscard]] Vector3 outermost(const Shape& shape, const Vector3& direction);
+
 /// How far it reaches from its origin along its own axes, either way [m].
 [[nodiscard]] Vector3 farthest_of(const Shape& shape);
 

@@ -2,6 +2,8 @@
 // Where a body is at a time, whatever moves it.
 #pragma once
 
+#include <vector>
+
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -22,6 +24,9 @@ class Motion {
   /// The largest speed that its centre will ever have, where that is known beforehand, else 0
   /// [m/s].
   [[nodiscard]] virtual double fastest() const { return 0.0; }
+  /// Moments from 0 on that, one after the other, tell its whole way, where that is known
+  /// beforehand [s].
+  [[nodiscard]] virtual std::vector<double> moments() const { return {}; }
 };
 
 }  // namespace splash::sim

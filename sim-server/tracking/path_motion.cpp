@@ -12,6 +12,9 @@ namespace splash::sim {
 
 namespace {
 
+/// A stretch between two poses is looked at in so many parts.
+constexpr int kParts = 4;
+
 /// Slope at a knot between two stretches of lengths h and mean slopes d.
 double slope(Between between, double h0, double d0, double h1, double d1) {
   if (between == Between::through) return (h1 * d0 + h0 * d1) / (h0 + h1);
@@ -105,10 +108,21 @@ BodyState PathMotion::at(double seconds) const {
   return on_path(time);
 }
 
+std::vector<double> PathMotion::moments() const {
+  std::vector<double> moments = {0.0};
+  for (std::size_t k = 1; k < knots_.size(); ++k) {
+    const double from = knots_[k - 1].time;
+    for (int part = 1; part <= kParts; ++part) {
+      const double time = from + (knots_[k].time - from) * part / kParts - start_;
+      if (time > 0.0) moments.push_back(time);
+    }
+  }
+  return moments;
+}
+
 double PathMotion::fastest() const {
   // Between two poses speed is a parabola of time along each axis, or constant: five places in each
   // stretch miss at most a sixteenth of what bends.
-  constexpr int kParts = 4;
   double fastest = 0.0;
   for (std::size_t k = 1; k < knots_.size(); ++k) {
     const Knot& from = knots_[k - 1];

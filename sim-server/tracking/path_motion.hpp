@@ -26,6 +26,7 @@ class PathMotion : public Motion {
 
   [[nodiscard]] BodyState at(double seconds) const override;
   [[nodiscard]] double fastest() const override;
+  [[nodiscard]] std::vector<double> moments() const override;
 
  private:
   struct Knot {
