@@ -58,7 +58,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   if (scene_.gate.present) fluid_.drop_last_wall();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
   if (!free.empty()) fluid_.let_go(free);
-  const double fastest = std::max(start_flow(fluid_, scene_), bodies_.fastest(0.0));
+  const double fastest = std::max(start_flow(fluid_, scene_), fastest_mover(0.0));
   contact_step_ = longest_contact_step(scene_.bodies, length(scene_.fluid.gravity));
   set_largest_step(fastest, std::abs(scene_.fluid.gravity[2]));
   start_ = fluid_.snapshot();
@@ -209,7 +209,7 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   const auto steps = static_cast<int>(plan.size());
   const double detect_time = seconds_ + (steps - 1) * dt;
   const double since = detect_time - detected_at_;
-  const double mover = std::max(bodies_.fastest(seconds_), std::abs(plan.front().piston_speed));
+  const double mover = fastest_mover(seconds_);
   if (mover > kThrows * static_cast<double>(fluid_.params().sound_speed)) {
     thrown_until_ = seconds_ + kFlight;
   }
@@ -253,8 +253,12 @@ void Simulation::keep(const FrameResult& result) {
   totals_.air = detector_.air();
   totals_.mean_excess_sum += survey_.mean_excess;
   totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
-  const double fastest = std::max(survey_.speed, bodies_.fastest(seconds_));
+  const double fastest = std::max(survey_.speed, fastest_mover(seconds_));
   set_largest_step(fastest, survey_.acceleration);
+}
+
+double Simulation::fastest_mover(double seconds) const {
+  return std::max(bodies_.fastest(seconds), std::abs(piston_at(scene_.wave_maker, seconds).speed));
 }
 
 void Simulation::set_largest_step(double fastest, double acceleration) {

@@ -108,6 +108,8 @@ class Simulation {
   /// Of the frame that has been computed, with so many steps.
   [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t steps);
   void keep(const FrameResult& result);
+  /// Of bodies and the piston [m/s].
+  [[nodiscard]] double fastest_mover(double seconds) const;
   void set_largest_step(double fastest, double acceleration);
   void count(const FrameNeeds& needs);
 

@@ -59,7 +59,7 @@ typedef struct {
   int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
                         // is the nearer, -1: none
   int solver;           // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_DIVERGENCE_FREE
-  float wave_speed;     // sqrt(g H) of the deepest water [m/s]
+  float wave_speed;     // of the longest wave, sqrt(g H) of the deepest water [m/s]
   float tolerance;      // divergence-free: mean density error at which a solve is done [1]
   float way;            // divergence-free: as far as anything goes in a step [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];

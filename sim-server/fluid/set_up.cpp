@@ -189,7 +189,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.layer_weight = static_cast<float>(volume / (spacing * spacing));
   p.speed_limit = static_cast<float>(sound);
   p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;
-  p.wave_speed = static_cast<float>(std::sqrt(length(scene.fluid.gravity) * water_depth(scene)));
+  p.wave_speed = static_cast<float>(longest_wave(scene));
   p.tolerance = static_cast<float>(scene.fluid.tolerance);
   p.way = static_cast<float>(kWay * step_factor(scene.fluid));
   const auto walls = tank_walls(scene);

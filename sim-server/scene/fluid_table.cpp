@@ -68,8 +68,9 @@ Fields<F> force_fields() {
         .unit = "m/s",
         .meaning =
             "Speed of sound of the weakly compressible model, and scale of the artificial "
-            "viscosity; left out: from the depth and the speeds of bodies whose motion or "
-            "fall is known beforehand. For one that a tracker moves faster than 0.3 times sound, "
+            "viscosity; left out: from the depth, the pull, and the speeds of the piston and of "
+            "bodies whose motion or fall is known beforehand. For one that a tracker moves faster "
+            "than 0.3 times sound, "
             "which is 13 m/s or more, give it. Four times the speed of the longest wave is the "
             "least.",
         .min = 1,
@@ -109,8 +110,10 @@ Fields<F> force_fields() {
        &F::gravity},
       {{.key = "pull",
         .unit = "1/s",
-        .meaning = "Central field: draws to `pull_centre` as a spring does, with this rate along "
-                   "x y z; the acceleration is -pull^2 times the way from the centre.",
+        .meaning =
+            "Central field: draws to `pull_centre` as a spring does, with this rate along "
+            "x y z; the acceleration is -pull^2 times the way from the centre. Too strong is "
+            "what gives water a speed for which sound has to be faster than 1500 m/s.",
         .min = 0,
         .max = 100,
         .source = "Monaghan & Rafiee 2013"},

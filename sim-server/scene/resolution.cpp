@@ -52,9 +52,32 @@ double block_volume(const Scene& scene, const WaterBlock& block) {
   return area * width;
 }
 
-/// The fastest wave that the depth allows, sqrt(g H) [m/s].
-double longest_wave(const Scene& scene) {
-  return std::sqrt(length(scene.fluid.gravity) * water_depth(scene));
+/// Energy per mass between the places of the block's box where the central field has most and least
+/// of it [J/kg].
+double pull_drop(const FluidSettings& fluid, const WaterBlock& block) {
+  double drop = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double below = block.lower[i] - fluid.pull_centre[i];
+    const double above = block.upper[i] - fluid.pull_centre[i];
+    const double far = std::max(std::abs(below), std::abs(above));
+    const double near = below * above <= 0.0 ? 0.0 : std::min(std::abs(below), std::abs(above));
+    drop += 0.5 * fluid.pull[i] * fluid.pull[i] * (far * far - near * near);
+  }
+  return drop;
+}
+
+/// Square of the speed that the central field gives to what is at rest at `x`, where it is nearest
+/// to the field's centre in the tank [m2/s2].
+double pulled(const Scene& scene, const Vector3& x) {
+  const FluidSettings& fluid = scene.fluid;
+  double most = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double centre = fluid.pull_centre[i];
+    const double near = std::clamp(centre, scene.tank.lower[i], scene.tank.upper[i]) - centre;
+    const double far = x[i] - centre;
+    most += fluid.pull[i] * fluid.pull[i] * std::max(far * far - near * near, 0.0);
+  }
+  return most;
 }
 
 }  // namespace
@@ -108,6 +131,18 @@ double water_depth(const Scene& scene) {
   return deepest;
 }
 
+double longest_wave(const Scene& scene) {
+  double energy = length(scene.fluid.gravity) * water_depth(scene);
+  for (const WaterBlock& block : scene.water) {
+    energy = std::max(energy, pull_drop(scene.fluid, block));
+  }
+  return std::sqrt(energy);
+}
+
+double fastest_piston(const WaveMaker& maker) {
+  return maker.present ? std::numbers::pi * maker.stroke / maker.period : 0.0;
+}
+
 double fastest_fall(const Scene& scene) {
   const Vector3& g = scene.fluid.gravity;
   // Down to the tank's floor, or to a side: what the potential can give, whatever is in between.
@@ -127,9 +162,10 @@ double fastest_fall(const Scene& scene) {
     fastest2 = std::max(fastest2, start * start + gained(body.rest.position));
   }
   for (const WaterBlock& block : scene.water) {
+    double fall2 = pulled(scene, 0.5 * (block.lower + block.upper));
     // Only water that nothing holds falls as a whole: what stands on the floor flows off.
-    if (block.lower[2] <= floor_height(scene, block.lower[0])) continue;
-    fastest2 = std::max(fastest2, gained(block.lower));
+    if (block.lower[2] > floor_height(scene, block.lower[0])) fall2 += gained(block.lower);
+    fastest2 = std::max(fastest2, fall2);
   }
   return std::sqrt(fastest2);
 }
@@ -137,7 +173,7 @@ double fastest_fall(const Scene& scene) {
 double slowest_sound(const Scene& scene) {
   constexpr double kDenser = 1.0 / 16.0;
   const double flow = scene.flow.kind == FlowKind::uniform ? length(scene.flow.velocity) : 0.0;
-  const double fastest = std::max(fastest_fall(scene), flow);
+  const double fastest = std::max({fastest_fall(scene), flow, fastest_piston(scene.wave_maker)});
   return std::max(longest_wave(scene), fastest / std::numbers::sqrt2) / std::sqrt(kDenser);
 }
 
@@ -152,7 +188,8 @@ double scene_sound_speed(const Scene& scene, double fastest_body) {
   constexpr double kRatio = 8.0;
   constexpr double kLeast = 13.0;
   constexpr double kMach = 0.3;
-  const double fastest = std::max(fastest_body, fastest_fall(scene));
+  const double fastest =
+      std::max({fastest_body, fastest_fall(scene), fastest_piston(scene.wave_maker)});
   const double slow = std::max(kRatio * longest_wave(scene), kLeast);
   return std::max(sound_share(scene.fluid) * slow, fastest / kMach);
 }

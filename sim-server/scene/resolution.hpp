@@ -24,17 +24,23 @@ struct WaterColumn {
 [[nodiscard]] WaterColumn water_column(const Scene& scene, const Vector3& place);
 /// Height of the deepest column of water at the start [m].
 [[nodiscard]] double water_depth(const Scene& scene);
+/// The fastest wave that the depth allows, sqrt(g H); in a central field g H is the energy per mass
+/// between a block's places farthest from its centre and nearest to it [m/s].
+[[nodiscard]] double longest_wave(const Scene& scene);
+/// Speed of the wave maker's piston in the middle of its way, pi stroke / period [m/s].
+[[nodiscard]] double fastest_piston(const WaveMaker& maker);
 /// What free bodies, and water that hangs in the air, get at most by falling through the tank, with
-/// the speed that they begin with: sqrt(v^2 + 2 g drop) [m/s]. Nothing is said of what falls
-/// upwards out of the tank, which is open there.
+/// the speed that they begin with, and what a block of water gets by the central field:
+/// sqrt(v^2 + 2 g drop) [m/s]. Nothing is said of what falls upwards out of the tank, which is open
+/// there.
 [[nodiscard]] double fastest_fall(const Scene& scene);
-/// As given, or from the depth, times sound_share, and the speed of the fastest body,
-/// `fastest_body` or one that falls [m/s].
+/// As given, or from the depth, times sound_share, and the speed of what is fastest: the body that
+/// `fastest_body` is of, what falls, or the piston [m/s].
 [[nodiscard]] double scene_sound_speed(const Scene& scene, double fastest_body = 0.0);
 /// The least speed of sound that a scene may name [m/s]: neither its own weight, g H / c^2, nor the
-/// stagnation of what falls (fastest_fall) or of a uniform flow, v^2 / 2 c^2, makes its water
-/// denser by more than a sixteenth. Sound that the scene leaves to us is at least as fast at any
-/// step.
+/// stagnation of what falls (fastest_fall), of a uniform flow or at the piston, v^2 / 2 c^2, makes
+/// its water denser by more than a sixteenth. Sound that the scene leaves to us is at least as fast
+/// at any step.
 [[nodiscard]] double slowest_sound(const Scene& scene);
 /// The most by which steps may exceed the default at one speed of sound, by what still water stands
 /// (sim-server/fluid/README, "How long a step may be") [1].

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/scene/scene_rules.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -183,6 +184,19 @@ void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
 }
 
 void check_sound(const ConfigMap& fluid, const Scene& scene) {
+  constexpr double kOfWater = 1500.0;  // [m/s]
+  Scene unnamed = scene;
+  unnamed.fluid.sound_speed = 0.0;
+  const double wanted = scene_sound_speed(unnamed);
+  if (fluid.has("pull") && wanted > kOfWater) {
+    const double fastest = std::max(longest_wave(scene), fastest_fall(scene));
+    throw fluid.error("pull", "is too strong for where the water is: it would get as fast as " +
+                                  text(std::round(fastest)) +
+                                  " m/s, for which sound would have to be as fast as " +
+                                  text(std::round(wanted)) +
+                                  " m/s, and in water it is no faster than " + text(kOfWater) +
+                                  " m/s; bring pull_centre nearer, or pull less");
+  }
   const double least = slowest_sound(scene);
   const bool unused = scene.fluid.solver != PressureKind::weakly_compressible;
   if (unused || !fluid.has("sound_speed") || scene.fluid.sound_speed >= least) return;

@@ -87,6 +87,36 @@ TEST(Resolution, SoundIsFastEnoughForWhatFalls) {
   EXPECT_NEAR(fastest_fall(scene), 2.0, 1e-9) << "to the left side";
 }
 
+TEST(Resolution, SoundIsFastEnoughForThePiston) {
+  Scene scene = beach();
+  scene.wave_maker = {true, 1.35, 0.2};
+  EXPECT_NEAR(fastest_piston(scene.wave_maker), M_PI * 1.35 / 0.2, 1e-9);
+  EXPECT_NEAR(scene_sound_speed(scene), M_PI * 1.35 / 0.2 / 0.3, 1e-9);
+  EXPECT_NEAR(slowest_sound(scene), M_PI * 1.35 / 0.2 / std::sqrt(2.0) * 4.0, 1e-9);
+  scene.wave_maker = {true, 0.15, 2.0};
+  EXPECT_DOUBLE_EQ(scene_sound_speed(scene), scene_sound_speed(beach()));
+}
+
+// In a central field of rate k the energy per mass is (k r)^2 / 2.
+TEST(Resolution, SoundIsFastEnoughForTheCentralField) {
+  Scene scene = beach();
+  scene.slope.present = false;
+  scene.fluid.gravity = {0.0, 0.0, 0.0};
+  scene.water = {{{0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}}};
+  scene.fluid.pull = {0.0, 0.0, 100.0};
+  scene.fluid.pull_centre = {0.5, 0.5, 0.5};
+  EXPECT_NEAR(longest_wave(scene), std::sqrt(0.5) * 100.0 * 0.1, 1e-9);
+  EXPECT_EQ(fastest_fall(scene), 0.0) << "it is where it is drawn to";
+  EXPECT_NEAR(scene_sound_speed(scene), 8.0 * std::sqrt(0.5) * 10.0, 1e-9);
+  scene.fluid.pull_centre[2] = 0.9;
+  EXPECT_NEAR(longest_wave(scene), std::sqrt(0.5 * (0.25 - 0.09)) * 100.0, 1e-9);
+  EXPECT_NEAR(fastest_fall(scene), 40.0, 1e-9);
+  EXPECT_NEAR(scene_sound_speed(scene), 8.0 * longest_wave(scene), 1e-9);
+  scene.fluid.pull_centre[2] = 2.5;
+  EXPECT_NEAR(fastest_fall(scene), 100.0 * std::sqrt(4.0 - 2.25), 1e-9)
+      << "up to the rim, 1 m high";
+}
+
 TEST(Resolution, DepthIsThatOfAColumn) {
   Scene scene = beach();
   EXPECT_DOUBLE_EQ(water_depth(scene), 0.2) << "the higher block hangs above the floor";

@@ -125,6 +125,21 @@ TEST(SceneReader, AllowsNoSoundThatIsTooSlowForItsWater) {
       << "that has no use for it but for its viscosity";
 }
 
+TEST(SceneReader, AllowsNoPullThatTakesSoundFasterThanWaters) {
+  const auto with = [](const std::string& keys) {
+    std::string text = kGood;
+    return parse_scene(text.insert(text.find("  particles"), keys), "small.yaml").fluid;
+  };
+  EXPECT_DOUBLE_EQ(with("  pull: [100, 0, 0]\n  pull_centre: [0.5, 0, 0]\n").pull[0], 100.0);
+  try {
+    static_cast<void>(with("  pull: [100, 0, 0]\n  pull_centre: [50, 0, 0]\n"));
+    FAIL() << "accepted";
+  } catch (const protocol::ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("'fluid.pull'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("in water it is no faster than 1500 m/s"));
+  }
+}
+
 // By the spacing's rounding they are a billionth more.
 TEST(SceneReader, TakesAsManyParticlesAsItSaysAreAllowed) {
   for (const char* depth : {"0.31", "0.37", "0.41", "0.43", "0.5"}) {
