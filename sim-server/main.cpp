@@ -22,6 +22,7 @@
 #include "sim-server/device/device_error.hpp"
 #include "sim-server/device/last_words.hpp"
 #include "sim-server/device/program.hpp"
+#include "sim-server/missing_water.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -112,9 +113,11 @@ void say_price(const Simulation& simulation) {
       share, 1.0 / (share * share));
 }
 
-void say_what_flows(Simulation& simulation) {
-  const std::string notice = unsettled_water(simulation);
-  if (!notice.empty()) std::printf("water   %s\n", notice.c_str());
+/// Water that is not as the scene says, or does not stay so.
+void say_what_water(Simulation& simulation) {
+  for (const std::string& notice : {missing_water(simulation), unsettled_water(simulation)}) {
+    if (!notice.empty()) std::printf("water   %s\n", notice.c_str());
+  }
 }
 
 void say_what_digs(const Scene& scene, const std::filesystem::path& tracker) {
@@ -130,7 +133,7 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
               scene.name.c_str(), simulation.particles(), 1e3 * particle_spacing(scene),
               scene.bodies.size(), static_cast<double>(simulation.sound_speed()));
   say_price(simulation);
-  say_what_flows(simulation);
+  say_what_water(simulation);
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
               compiled ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());

@@ -15,15 +15,6 @@
 namespace splash::sim {
 namespace {
 
-std::vector<Keyframe> poses_at_start(const Bodies& bodies) {
-  std::vector<Keyframe> poses;
-  for (std::size_t b = 0; b < bodies.count(); ++b) {
-    const BodyState state = bodies.state(b, 0.0);
-    poses.push_back({0.0, state.position, state.rotation});
-  }
-  return poses;
-}
-
 /// What comes to rest is held, whatever holds it.
 std::vector<Holding> wanted_holding(const Scene& scene, std::span<const Keyframe> poses,
                                     const std::vector<Vector3>& particles) {
@@ -57,11 +48,20 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
           support};
 }
 
+std::vector<Keyframe> poses_at_start(const Bodies& bodies) {
+  std::vector<Keyframe> poses;
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    const BodyState state = bodies.state(b, 0.0);
+    poses.push_back({0.0, state.position, state.rotation});
+  }
+  return poses;
+}
+
 Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
                  std::vector<Holding>& holding) {
   const Scene sounding = with_sound(scene, bodies);
   const std::vector<Keyframe> poses = poses_at_start(bodies);
-  const std::vector<Vector3> particles = initial_particles(scene, poses);
+  const std::vector<Vector3> particles = initial_particles(sounding, poses);
   holding = wanted_holding(scene, poses, particles);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
   return {device,   make_params(sounding, particles), settled(sounding, particles, holding),

@@ -20,6 +20,9 @@ namespace splash::sim {
 [[nodiscard]] Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
                                  std::vector<LiveMotion*>& live);
 
+/// Where the bodies are when time begins, one entry each.
+[[nodiscard]] std::vector<Keyframe> poses_at_start(const Bodies& bodies);
+
 /// The scene's water under its own weight, with no particle in a body. `holding` gets one entry a
 /// particle, by its id: which of them are to come to rest and which begin where they are, as the
 /// scene wants it (fluid.settle). Builds all kernels; throws protocol::ConfigError for what the

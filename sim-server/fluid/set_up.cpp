@@ -9,6 +9,7 @@
 
 #include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/fluid/time_step.hpp"
+#include "sim-server/scene/lattice.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 
@@ -24,21 +25,6 @@ constexpr int kSlopeWall = 5;
 WallPlane wall(double nx, double ny, double nz, double offset) {
   return {static_cast<float>(nx), static_cast<float>(ny), static_cast<float>(nz),
           static_cast<float>(offset)};
-}
-
-/// Distance of neighbouring lattice layers along one axis: the spacing, squeezed or stretched so
-/// that whole layers fill the water.
-double layer_distance(const std::vector<Vector3>& particles, std::size_t axis, double spacing) {
-  std::vector<double> places;
-  places.reserve(particles.size());
-  for (const Vector3& x : particles) places.push_back(x[axis]);
-  std::sort(places.begin(), places.end());
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    const double gap = places[i] - places[i - 1];
-    // A wider gap is none between layers, but between drops or blocks.
-    if (gap > 0.5 * spacing) return gap < 1.5 * spacing ? gap : spacing;
-  }
-  return spacing;
 }
 
 /// Cells over the tank and its headroom, with a margin cell on each side.
@@ -68,43 +54,12 @@ bool is_divergence_free(const Scene& scene) {
   return scene.fluid.solver == PressureKind::divergence_free;
 }
 
-bool falls_down(const Scene& scene) {
-  const Vector3& g = scene.fluid.gravity;
-  return g[0] == 0.0 && g[1] == 0.0 && g[2] < 0.0;
-}
-
-/// g / c0^2 [1/m]: relative growth of density per depth; none where nothing compresses.
-double stratification(const Scene& scene) {
-  if (!falls_down(scene) || is_divergence_free(scene)) return 0.0;
-  const double sound = scene_sound_speed(scene);
-  return -scene.fluid.gravity[2] / (sound * sound);
-}
-
-/// Part of its height that the deepest column loses by its own weight; nothing without gravity.
-double compression(const Scene& scene) {
-  return falls_down(scene) ? stratification(scene) * water_depth(scene) / 2.0 : 0.0;
-}
-
 /// To where a particle of a standing column comes by the weight of what is above it.
 double sunk(const Scene& scene, const Vector3& x) {
   const WaterColumn column = water_column(scene, x);
   const double z = x[2] - column.bottom;
   const double above = column.top - x[2];
   return x[2] - stratification(scene) * std::max(z, 0.0) * std::max(above, 0.0) / 2.0;
-}
-
-/// To where a particle of hanging water comes when the block is as dense as at rest: its mass is
-/// larger by the compression, so each edge of the block grows by a third of that.
-Vector3 spread(const Scene& scene, const Vector3& x) {
-  for (const WaterBlock& block : scene.water) {
-    bool inside = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      inside = inside && x[i] >= block.lower[i] && x[i] <= block.upper[i];
-    }
-    const Vector3 middle = 0.5 * (block.lower + block.upper);
-    if (inside) return x + compression(scene) / 3.0 * (x - middle);
-  }
-  return x;
 }
 
 void set_pull(const FluidSettings& fluid, FluidParams& p) {
@@ -149,7 +104,6 @@ std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
   for (std::size_t i = 0; i < particles.size(); ++i) {
     Vector3& x = particles[i];
     const bool hangs = i < holding.size() && holding[i] == Holding::hangs;
-    if (hangs) x = spread(scene, x);
     if (!hangs) x[2] = sunk(scene, x);
   }
   return particles;
@@ -172,10 +126,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
                        ? std::numeric_limits<float>::infinity()
                        : static_cast<float>(kTornDensity * scene.fluid.density);
   p.kernel_norm = static_cast<float>(kernel_norm(support));
-  const Vector3 step = {layer_distance(particles, 0, spacing),
-                        layer_distance(particles, 1, spacing),
-                        layer_distance(particles, 2, spacing)};
-  const double volume = step[0] * step[1] * step[2];
+  const double volume = particle_volume(scene);
   p.mass = static_cast<float>((1.0 + compression(scene)) * scene.fluid.density * volume);
   p.rest_density = static_cast<float>(scene.fluid.density);
   p.sound_speed = static_cast<float>(sound);

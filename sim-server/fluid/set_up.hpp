@@ -17,19 +17,19 @@ namespace splash::sim {
 /// gate.
 [[nodiscard]] std::vector<WallPlane> tank_walls(const Scene& scene);
 
-/// `particles`: their places in the initial lattice [m]. The mass of a particle is such that a
-/// block of the lattice has the density at rest, and more by what the deepest column loses in
-/// height when it settles, its mean compression g H / (2 c0^2): the water stands at the wanted
-/// level, and its outermost particles kSurfaceLoss lower than on the lattice (smoothing.hpp).
+/// For so many `particles`, each of which has the volume of a cell of the lattice
+/// (scene/lattice.hpp). Its mass is such that the lattice has the density at rest, and more by what
+/// the deepest column loses in height when it settles, its mean compression g H / (2 c0^2): the
+/// water stands at the wanted level, and its outermost particles kSurfaceLoss lower than on the
+/// lattice (smoothing.hpp).
 [[nodiscard]] FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles);
 
 /// The particles as they stand under their own weight: density grows with depth as the state
 /// equation asks, rho = rho0 (1 + g (H - z) / c0^2), so nothing falls in the first steps and the
 /// surface stays where the scene wants it. To first order z becomes z - g z (H - z) / (2 c0^2),
 /// with z from the floor, or from the bottom of a column that stands higher. What hangs, as
-/// `holding` says of each particle (all are held without it), weighs on nothing: it is spread
-/// about the middle of its block until it has the density at rest. Needs gravity along -z; any
-/// other leaves the lattice as it is.
+/// `holding` says of each particle (all are held without it), weighs on nothing and stays where it
+/// is. Needs gravity along -z; any other leaves the lattice as it is.
 [[nodiscard]] std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
                                            const std::vector<Holding>& holding = {});
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "sim-server/scene/holding.hpp"
+#include "sim-server/scene/lattice.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
@@ -15,80 +16,207 @@ namespace splash::sim {
 
 namespace {
 
-using Counts = std::array<int, 3>;
-
-Vector3 edges(const WaterBlock& block) {
-  return block.upper - block.lower;
-}
-
-/// How far a lattice is from a cube of side `spacing` per particle: the number of particles counts
-/// most, as it sets the mass of each, then the same spacing along every axis.
-double lattice_cost(const Vector3& edge, const Counts& counts, double spacing) {
-  constexpr double kNumberWeight = 30.0;
-  double volume = 0.0;
-  double shape = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double stretch = std::log(edge[i] / counts[i] / spacing);
-    volume += stretch;
-    shape += stretch * stretch;
+/// Places in a cell, in its edges, that tell how much of it is water: a lattice of rank one whose
+/// points have 256 different places along each axis, so that a flat face is known to a 256th
+/// (Sloan & Joe 1994, Lattice Methods for Multiple Integration).
+constexpr int kSamples = 256;
+Vector3 sample(int i) {
+  constexpr std::array<int, 3> kGenerator = {1, 83, 189};
+  Vector3 place = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    place[axis] = (i * kGenerator[axis] % kSamples + 0.5) / kSamples;
   }
-  return kNumberWeight * volume * volume + shape;
+  return place;
 }
 
-/// Whole numbers on both sides of `count`, none below one.
-std::array<int, 2> around(double count) {
-  const int below = std::max(1, static_cast<int>(std::floor(count)));
-  return {below, below + 1};
-}
+/// A particle needs so much of a cell around it free of solids [1].
+constexpr double kRoom = 0.5;
+/// Layers, at most, of what lies on top of a block.
+constexpr int kMostOnTop = 8;
+/// By rounding a layer may seem to end so much above the level [of its height].
+constexpr double kRounding = 1.0e-9;
 
-/// Layers along each axis that fill the block. What rounding a thin axis takes or gives, the next
-/// longer one makes up for, so that the number of particles is kept.
-Counts lattice(const Vector3& edge, double spacing) {
-  std::array<std::size_t, 3> axis = {0, 1, 2};
-  std::sort(axis.begin(), axis.end(),
-            [&](std::size_t a, std::size_t b) { return edge[a] < edge[b]; });
-  const auto [thin, middle, wide] = axis;
-  const double volume = spacing * spacing * spacing;
-  Counts best = {};
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const int thin_count : around(edge[thin] / spacing)) {
-    const double thin_step = edge[thin] / thin_count;
-    for (const int middle_count : around(edge[middle] / std::sqrt(volume / thin_step))) {
-      const double area = thin_step * edge[middle] / middle_count;
-      for (const int wide_count : around(edge[wide] * area / volume)) {
-        Counts counts;
-        counts[thin] = thin_count;
-        counts[middle] = middle_count;
-        counts[wide] = wide_count;
-        const double cost = lattice_cost(edge, counts, spacing);
-        if (cost < lowest) best = counts;
-        lowest = std::min(cost, lowest);
+/// What is solid: bodies, the tank's walls and its floor.
+class Solids {
+ public:
+  Solids(const Scene& scene, std::span<const Keyframe> poses) : scene_(scene), poses_(poses) {}
+
+  /// Bodies that may be nearer than this [m].
+  [[nodiscard]] std::vector<std::size_t> near(const Vector3& x, double reach) const {
+    std::vector<std::size_t> bodies;
+    for (std::size_t b = 0; b < poses_.size(); ++b) {
+      if (distance_to(scene_.bodies[b].shape, in_body(b, x)) < reach) bodies.push_back(b);
+    }
+    return bodies;
+  }
+
+  /// `bodies`: those that may be there.
+  [[nodiscard]] bool at(const Vector3& x, const std::vector<std::size_t>& bodies) const {
+    const Tank& tank = scene_.tank;
+    if (x[0] < tank.lower[0] || x[0] > tank.upper[0]) return true;
+    if (x[1] < tank.lower[1] || x[1] > tank.upper[1]) return true;
+    if (x[2] < floor_height(scene_, x[0])) return true;
+    return std::any_of(bodies.begin(), bodies.end(), [&](std::size_t b) {
+      return is_inside(scene_.bodies[b].shape, in_body(b, x));
+    });
+  }
+
+ private:
+  [[nodiscard]] Vector3 in_body(std::size_t b, const Vector3& x) const {
+    return rotate(inverse(poses_[b].rotation), x - poses_[b].position);
+  }
+
+  const Scene& scene_;
+  std::span<const Keyframe> poses_;
+};
+
+/// Of a cell of the lattice.
+struct Cell {
+  double water = 0.0;   ///< part of it that is water [1]
+  Vector3 middle = {};  ///< of that water [m]
+  bool has_room = false;
+};
+
+/// Fills one block.
+class Filling {
+ public:
+  Filling(const Scene& scene, std::span<const Keyframe> poses, std::size_t block,
+          const Lattice& lattice)
+      : scene_(scene),
+        block_(scene.water[block]),
+        lattice_(lattice),
+        solids_(scene, poses),
+        reach_(0.5 *
+               length(lattice.step + Vector3{0.0, 0.0, scene.slope.gradient * lattice.step[0]})),
+        stratification_(stratification(scene)),
+        per_cell_(lattice.cell() / particle_volume(scene) / (1.0 + compression(scene))) {
+    const Vector3 middle = 0.5 * (block_.lower + block_.upper);
+    const bool in_air = block_.lower[2] > floor_height(scene, block_.upper[0]);
+    hangs_ = in_air && how_held(scene, poses, {middle}).front() == Holding::hangs;
+  }
+
+  BlockWater fill(std::vector<Vector3>& out) {
+    double cells = 0.0;      // of water
+    double particles = 0.0;  // that are wanted
+    double due = 0.0;        // of them, and not yet there
+    const std::size_t before = out.size();
+    for (int k = 0; k < lattice_.counts[2]; ++k) {
+      for (int j = 0; j < lattice_.counts[1]; ++j) {
+        for (int i = 0; i < lattice_.counts[0]; ++i) {
+          const Cell cell = look_at({i, j, k});
+          const double share = cell.water * weight(cell.middle);
+          cells += cell.water;
+          particles += share;
+          due += share;
+          if (due < 0.5 || !cell.has_room) continue;
+          out.push_back(cell.middle);
+          due -= 1.0;
+        }
       }
     }
+    for (int layer = 0; due >= 0.5 && layer < kMostOnTop; ++layer) put_on_top(layer, due, out);
+    const double wanted = cells * lattice_.cell();
+    const auto there = static_cast<double>(out.size() - before);
+    return {wanted, particles > 0.0 ? wanted * there / particles : 0.0};
   }
-  return best;
-}
 
-/// Appends one block. On the slope each column of particles begins half a layer above it, so that
-/// none is too close to the floor and the water's volume is kept within half a layer.
-void fill(const Scene& scene, const WaterBlock& block, double spacing, std::vector<Vector3>& out) {
-  const Vector3 edge = edges(block);
-  const Counts counts = lattice(edge, spacing);
-  const double dx = edge[0] / counts[0];
-  const double dy = edge[1] / counts[1];
-  const double dz = edge[2] / counts[2];
-  for (int k = 0; k < counts[2]; ++k) {
-    for (int j = 0; j < counts[1]; ++j) {
-      for (int i = 0; i < counts[0]; ++i) {
-        const double x = block.lower[0] + (i + 0.5) * dx;
-        const double bottom = std::max(block.lower[2], floor_height(scene, x));
-        if (k >= std::lround((block.upper[2] - bottom) / dz)) continue;
-        const Vector3 place = {x, block.lower[1] + (j + 0.5) * dy, bottom + (k + 0.5) * dz};
-        if (is_filled(block, place)) out.push_back(place);
+ private:
+  using Index = std::array<int, 3>;
+
+  /// Where `share`, in its edges, of a cell is [m]. Rows follow the floor.
+  [[nodiscard]] Vector3 place(const Index& index, const Vector3& share) const {
+    Vector3 x = block_.lower;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      x[axis] += (index[axis] + share[axis]) * lattice_.step[axis];
+    }
+    x[2] = std::max(block_.lower[2], floor_height(scene_, x[0])) +
+           (index[2] + share[2]) * lattice_.step[2];
+    return x;
+  }
+
+  /// How many particles a cell of the column there is filled with, if all of it is water [1].
+  [[nodiscard]] double weight(const Vector3& x) const {
+    if (hangs_) return per_cell_;
+    const WaterColumn column = water_column(scene_, x);
+    return per_cell_ * (1.0 + stratification_ * (column.top - column.bottom) / 2.0);
+  }
+
+  [[nodiscard]] Cell look_at(const Index& index) const {
+    const Vector3 middle = place(index, {0.5, 0.5, 0.5});
+    const std::vector<std::size_t> bodies = solids_.near(middle, reach_);
+    const bool is_cut = place(index, {1.0, 1.0, 1.0 - kRounding})[2] > block_.upper[2];
+    if (bodies.empty() && !is_cut && block_.form == WaterForm::box) return {1.0, middle, true};
+    Cell cell;
+    int wet = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      const Vector3 x = place(index, sample(i));
+      if (x[2] > block_.upper[2] || !is_filled(block_, x) || solids_.at(x, bodies)) continue;
+      cell.middle = cell.middle + x;
+      ++wet;
+    }
+    if (wet == 0) return cell;
+    cell.middle = (1.0 / wet) * cell.middle;
+    cell.water = static_cast<double>(wet) / kSamples;
+    cell.has_room = has_room(cell.middle);
+    return cell;
+  }
+
+  /// Whether enough of the cell around a place is free of solids.
+  [[nodiscard]] bool has_room(const Vector3& x) const {
+    const std::vector<std::size_t> bodies = solids_.near(x, reach_);
+    int free = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      Vector3 there = sample(i);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        there[axis] = x[axis] + (there[axis] - 0.5) * lattice_.step[axis];
+      }
+      free += !solids_.at(there, bodies);
+    }
+    return free >= kRoom * kSamples;
+  }
+
+  /// Of what is `due`, as much as a layer above the block's level takes, evenly.
+  void put_on_top(int layer, double& due, std::vector<Vector3>& out) const {
+    std::vector<Vector3> free;
+    for (int j = 0; j < lattice_.counts[1]; ++j) {
+      for (int i = 0; i < lattice_.counts[0]; ++i) {
+        Vector3 x = place({i, j, 0}, {0.5, 0.5, 0.5});
+        if (x[2] > block_.upper[2]) continue;
+        x[2] = block_.upper[2] + (layer + 0.5) * lattice_.step[2];
+        if (has_room(x) && !is_in_another(x)) free.push_back(x);
       }
     }
+    const double each =
+        std::min(1.0, due / static_cast<double>(std::max<std::size_t>(free.size(), 1)));
+    double share = 0.0;
+    for (const Vector3& x : free) {
+      share += each;
+      if (share < 0.5) continue;
+      out.push_back(x);
+      share -= 1.0;
+      due -= 1.0;
+    }
   }
-}
+
+  [[nodiscard]] bool is_in_another(const Vector3& x) const {
+    return std::any_of(scene_.water.begin(), scene_.water.end(), [&](const WaterBlock& block) {
+      if (&block == &block_) return false;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (x[axis] < block.lower[axis] || x[axis] > block.upper[axis]) return false;
+      }
+      return true;
+    });
+  }
+
+  const Scene& scene_;
+  const WaterBlock& block_;
+  Lattice lattice_;
+  Solids solids_;
+  double reach_;  ///< nothing of a cell is farther from its middle, nor of one around it [m]
+  double stratification_;
+  double per_cell_;  ///< particles whose water at rest, without weight, a cell takes [1]
+  bool hangs_ = false;
+};
 
 }  // namespace
 
@@ -103,13 +231,16 @@ bool is_filled(const WaterBlock& block, const Vector3& place) {
   return std::hypot(share[0], share[1], share[2]) <= 1.0;
 }
 
-bool is_displaced(const Scene& scene, std::span<const Keyframe> poses, const Vector3& place,
-                  double spacing) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Vector3 local = rotate(inverse(poses[i].rotation), place - poses[i].position);
-    if (distance_to(scene.bodies[i].shape, local) < 0.5 * spacing) return true;
+InitialWater initial_water(const Scene& scene, std::span<const Keyframe> poses) {
+  if (poses.size() != scene.bodies.size()) {
+    throw std::invalid_argument("initial_water: one pose for each body");
   }
-  return false;
+  const std::vector<Lattice> rows = lattices(scene);
+  InitialWater water;
+  for (std::size_t b = 0; b < scene.water.size(); ++b) {
+    water.blocks.push_back(Filling(scene, poses, b, rows[b]).fill(water.particles));
+  }
+  return water;
 }
 
 std::vector<Vector3> initial_particles(const Scene& scene) {
@@ -119,16 +250,7 @@ std::vector<Vector3> initial_particles(const Scene& scene) {
 }
 
 std::vector<Vector3> initial_particles(const Scene& scene, std::span<const Keyframe> poses) {
-  if (poses.size() != scene.bodies.size()) {
-    throw std::invalid_argument("initial_particles: one pose for each body");
-  }
-  const double spacing = particle_spacing(scene);
-  std::vector<Vector3> particles;
-  for (const auto& block : scene.water) fill(scene, block, spacing, particles);
-  std::erase_if(particles, [&](const Vector3& particle) {
-    return is_displaced(scene, poses, particle, spacing);
-  });
-  return particles;
+  return initial_water(scene, poses).particles;
 }
 
 }  // namespace splash::sim

@@ -12,16 +12,32 @@ namespace splash::sim {
 /// Whether a place of the block's box is inside its form.
 [[nodiscard]] bool is_filled(const WaterBlock& block, const Vector3& place);
 
-/// Whether a body at one of `poses` displaces a particle there: it is nearer than half a `spacing`
-/// to its surface, or inside [m].
-[[nodiscard]] bool is_displaced(const Scene& scene, std::span<const Keyframe> poses,
-                                const Vector3& place, double spacing);
+/// How much water of one block a scene wants, and how much of it there is [m3].
+struct BlockWater {
+  double wanted = 0.0;
+  double there = 0.0;
+};
 
-/// Centres of the particles: a lattice per block of water that fills its box exactly, half a
-/// spacing from its sides and above the slope, without those outside a round form and those that a
-/// body displaces. `poses` are the
-/// bodies' at the start (their times are ignored), one each; without them bodies are where
-/// `rest` says. The order is fixed: x fastest, then y, then z.
+struct InitialWater {
+  std::vector<Vector3> particles;  ///< their middles [m], block after block
+  std::vector<BlockWater> blocks;  ///< one each
+};
+
+/// The water with the bodies at `poses` (their times are ignored), one each. A block's volume is
+/// that of its form above the floor and the slope, less what bodies displace of it; the block gets
+/// as many particles as that volume asks for, to half a particle.
+///
+/// Each cell of its lattice (scene/lattice.hpp) gets as many particles, one or none, as the water
+/// in it is parts of a particle's, and what rounding leaves goes on to the next cell (error
+/// diffusion: Floyd & Steinberg 1976): so the number is right around each body, too. Rows
+/// follow the slope; a particle is in the middle of the water of its cell. Gaps that have no room
+/// for half a particle get none: it lies on top of its block instead.
+///
+/// Water that stands is denser below (compression, scene/resolution.hpp): so each column gets as
+/// many particles as its weight asks for. The order is fixed: x fastest, then y, then z.
+[[nodiscard]] InitialWater initial_water(const Scene& scene, std::span<const Keyframe> poses);
+
+/// Its particles; without `poses` bodies are where `rest` says.
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene);
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene,
                                                      std::span<const Keyframe> poses);

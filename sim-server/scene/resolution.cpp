@@ -194,6 +194,18 @@ double scene_sound_speed(const Scene& scene, double fastest_body) {
   return std::max(sound_share(scene.fluid) * slow, fastest / kMach);
 }
 
+double stratification(const Scene& scene) {
+  const Vector3& g = scene.fluid.gravity;
+  const bool falls_down = g[0] == 0.0 && g[1] == 0.0 && g[2] < 0.0;
+  if (!falls_down || scene.fluid.solver == PressureKind::divergence_free) return 0.0;
+  const double sound = scene_sound_speed(scene);
+  return -g[2] / (sound * sound);
+}
+
+double compression(const Scene& scene) {
+  return stratification(scene) * water_depth(scene) / 2.0;
+}
+
 double longest_step_factor(PressureKind solver) noexcept {
   // Measured by the trials and maps of tests/stress: the state equation's water is calm to 1.15
   // and no longer at 1.2 around a sunken ball; the other solver passes all of them at 2.

@@ -42,6 +42,11 @@ struct WaterColumn {
 /// its water denser by more than a sixteenth. Sound that the scene leaves to us is at least as fast
 /// at any step.
 [[nodiscard]] double slowest_sound(const Scene& scene);
+/// g / c0^2: relative growth of density per depth in water that stands; none where nothing
+/// compresses or gravity is not along -z [1/m].
+[[nodiscard]] double stratification(const Scene& scene);
+/// Part of its height that the deepest column loses by its own weight, its mean compression [1].
+[[nodiscard]] double compression(const Scene& scene);
 /// The most by which steps may exceed the default at one speed of sound, by what still water stands
 /// (sim-server/fluid/README, "How long a step may be") [1].
 [[nodiscard]] double longest_step_factor(PressureKind solver) noexcept;

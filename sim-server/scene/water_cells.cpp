@@ -8,6 +8,7 @@
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 namespace {
@@ -31,6 +32,16 @@ bool is_water(const WaterBlock& block, const Vector3& x, double width) {
     if (x[i] < grown.lower[i] || x[i] > grown.upper[i]) return false;
   }
   return is_filled(grown, x);
+}
+
+/// Whether a body displaces water there: it is nearer than half a cell to its surface, or inside.
+bool is_displaced(const Scene& scene, std::span<const Keyframe> poses, const Vector3& x,
+                  double width) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Vector3 local = rotate(inverse(poses[i].rotation), x - poses[i].position);
+    if (distance_to(scene.bodies[i].shape, local) < 0.5 * width) return true;
+  }
+  return false;
 }
 
 Matter matter_at(const Scene& scene, std::span<const Keyframe> poses, const Vector3& x,

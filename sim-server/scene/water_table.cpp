@@ -15,7 +15,9 @@ const Fields<WaterEntry>& water_fields() {
        &WaterEntry::lower},
       {{.key = "upper",
         .unit = "m",
-        .meaning = "Opposite corner; its z is the water's level.",
+        .meaning = "Opposite corner; its z is the water's level when time begins, with the bodies "
+                   "where they are then: what they displace of the box is not filled with water. A "
+                   "free body that sinks deeper or rises then moves the level, as any other does.",
         .min = -100,
         .max = 100,
         .required = true},
