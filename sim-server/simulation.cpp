@@ -8,9 +8,8 @@
 
 #include "sim-server/bodies/contact_step.hpp"
 #include "sim-server/bodies/mass.hpp"
-#include "sim-server/fluid/pack.hpp"
+#include "sim-server/come_to_rest.hpp"
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/fluid/settle.hpp"
 #include "sim-server/free_body_watch.hpp"
 #include "sim-server/rescue.hpp"
 #include "sim-server/scene/resolution.hpp"
@@ -24,19 +23,6 @@ namespace {
 /// are some times as fast as what makes them [1]. It flies for so long [s].
 constexpr double kThrows = 1.0 / 8.0;
 constexpr double kFlight = 1.0;
-
-/// The lattice is no stable packing: the water finds a better one in the first second, and would
-/// be heard doing so. What something holds is given this long before time begins [s].
-constexpr double kSettleSeconds = 1.0;
-
-/// Of each particle whether it is held in one of these ways.
-std::vector<bool> flagged(const std::vector<Holding>& holding, bool flows, bool hangs) {
-  std::vector<bool> flags(holding.size());
-  std::transform(holding.begin(), holding.end(), flags.begin(), [&](Holding how) {
-    return (flows && how == Holding::flows) || (hangs && how == Holding::hangs);
-  });
-  return flags;
-}
 
 SleepRule sleep_rule(const Scene& scene) {
   return {scene.skip.sleep_speed,
@@ -53,9 +39,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
       detector_(fluid_, sample_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)),
                 scene_.detect, scene_.seed, !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
-  settle_in(tell);
+  come_to_rest(fluid_, scene_, bodies_, holding_, tell);
   fluid_.forget_work();
-  if (scene_.gate.present) fluid_.drop_last_wall();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
   if (!free.empty()) fluid_.let_go(free);
   const double fastest = std::max(start_flow(fluid_, scene_), fastest_mover(0.0));
@@ -68,39 +53,6 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
   rehearse();
-}
-
-void Simulation::settle_in(const Progress& tell) {
-  const std::vector<BodyStep> bodies = at_rest(bodies_.at(0.0));
-  const PistonState piston = piston_at(scene_.wave_maker, 0.0);
-  double dt = largest_time_step(fluid_.params(), bodies_.fastest(0.0),
-                                std::abs(scene_.fluid.gravity[2]), step_factor(scene_.fluid));
-  pack(fluid_, bodies, piston.offset, dt, flagged(holding_, false, true),
-       static_cast<std::uint32_t>(scene_.seed));
-  const Snapshot packed = fluid_.snapshot();
-  Mould mould(fluid_, flagged(holding_, true, true));
-  std::optional<Diagnosis> wrong;
-  for (int k = 0; k <= Recovery::kTries; ++k) {
-    settle(fluid_, bodies, piston.offset, kSettleSeconds, dt, tell, &mould);
-    const Step step = {dt, piston.offset, 0.0, 0};
-    fluid_.begin_watch(1);
-    fluid_.prepare(step);
-    fluid_.advance(step);
-    static_cast<void>(fluid_.survey());
-    fluid_.end_watch();
-    wrong = fluid_.health().diagnosis();
-    mould.put_back();
-    fluid_.still();
-    if (!wrong) return;
-    fluid_.restore(packed);
-    dt /= 2.0;
-  }
-  sound_.keep(fluid_.device(), state());
-  const Mishap mishap = examine(*wrong, dt);
-  throw std::runtime_error("the water of scene '" + scene_.name +
-                           "' does not come to rest before it begins, not even with steps an "
-                           "eighth as long: " +
-                           describe_fault(mishap));
 }
 
 // OpenCL on CPUs compiles a kernel when it first runs. On a machine's first start that takes

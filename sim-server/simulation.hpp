@@ -56,7 +56,8 @@ class Simulation {
  public:
   /// `tracker`: a marker file that replaces the scene's, or empty. Builds all kernels and lets the
   /// water settle, whose progress it can `tell`. Throws protocol::ConfigError for what the scene
-  /// says wrong, std::runtime_error for the device.
+  /// says wrong, protocol::Failure for water that does not come to rest, std::runtime_error for the
+  /// device.
   Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
              const Progress& tell = {});
 
@@ -114,7 +115,6 @@ class Simulation {
   void count(const FrameNeeds& needs);
 
   [[nodiscard]] std::vector<cl::Buffer> state() const;
-  void settle_in(const Progress& tell);
   /// Computes a frame with all that a splash needs, and takes it back.
   void rehearse();
   /// Takes the state back to the last sound one, and notes what was wrong.

@@ -206,11 +206,6 @@ void Fluid::give_weight() {
   params_buffer_.write(device_, std::span<const FluidParams>(&params_, 1));
 }
 
-void Fluid::drop_last_wall() {
-  --params_.wall_count;
-  params_buffer_.write(device_, std::span<const FluidParams>(&params_, 1));
-}
-
 void Fluid::enqueue_survey() {
   survey_.run(device_.queue(), kParts, params_buffer_.memory(), kParts, sorted_.position.memory(),
               sorted_.velocity.memory(), acceleration_.memory(), density_.memory(),

@@ -109,8 +109,6 @@ class Fluid {
   /// and it does not pull. Both wait.
   void take_weight();
   void give_weight();
-  /// Takes away the last wall, which a gate is; waits.
-  void drop_last_wall();
 
   /// Enqueues the survey; its result is there once the queue is finished.
   void enqueue_survey();

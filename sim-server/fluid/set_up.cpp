@@ -91,11 +91,12 @@ std::vector<WallPlane> tank_walls(const Scene& scene) {
     walls.push_back(wall(-scene.slope.gradient * scale, 0.0, scale,
                          (a[2] - scene.slope.gradient * scene.slope.foot) * scale));
   }
-  if (scene.gate.present) {
-    const double side = scene.gate.water_left ? -1.0 : 1.0;
-    walls.push_back(wall(side, 0, 0, side * scene.gate.x));
-  }
   return walls;
+}
+
+WallPlane gate_wall(const Gate& gate, bool left) {
+  const double side = left ? -1.0 : 1.0;
+  return wall(side, 0, 0, side * gate.x);
 }
 
 std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,

@@ -13,9 +13,10 @@ namespace splash::sim {
 /// Support of the smoothing kernel in a scene [m].
 [[nodiscard]] double scene_support(const Scene& scene);
 
-/// Walls: the floor first, then the sides (smallest x first: the piston), then the slope, then the
-/// gate.
+/// Walls: the floor first, then the sides (smallest x first: the piston), then the slope.
 [[nodiscard]] std::vector<WallPlane> tank_walls(const Scene& scene);
+/// The gate, for the water to its `left`, at smaller x, or to its right.
+[[nodiscard]] WallPlane gate_wall(const Gate& gate, bool left);
 
 /// For so many `particles`, each of which has the volume of a cell of the lattice
 /// (scene/lattice.hpp). Its mass is such that the lattice has the density at rest, and more by what

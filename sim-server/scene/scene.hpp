@@ -76,11 +76,10 @@ struct WaterBlock {
   WaterForm form = WaterForm::box;  ///< cylinder: along y
 };
 
-/// A wall across the tank at `x` that holds the water back until time begins.
+/// A wall across the tank at `x` that keeps the water on either side of it until time begins.
 struct Gate {
   bool present = false;
-  double x = 0.0;          ///< [m]
-  bool water_left = true;  ///< the water is at smaller x
+  double x = 0.0;  ///< [m]
 };
 
 enum class FlowKind { none, uniform, strain, standing_wave, vortex };

@@ -82,7 +82,7 @@ std::string scene_reference() {
          section("### `wave_maker` (optional): the wall at the smallest x is a piston",
                  wave_maker_fields()) +
          section("### `water`: a list", water_fields()) +
-         section("### `gate` (optional): a wall that holds the water back until time begins",
+         section("### `gate` (optional): a wall that keeps water back until time begins",
                  gate_fields()) +
          section("### `flow` (optional): how the water moves when time begins", flow_fields()) +
          section("### `bodies`: a list", body_fields()) +

@@ -103,12 +103,11 @@ void check_gate(const ConfigMap& map, const Scene& scene) {
                              text(scene.tank.lower[0]) + " to " + text(scene.tank.upper[0]));
   }
   for (const WaterBlock& block : scene.water) {
-    const bool held =
-        gate.water_left ? block.upper[0] <= gate.x + kTouch : block.lower[0] >= gate.x - kTouch;
-    if (held) continue;
+    const bool is_beside = block.upper[0] <= gate.x + kTouch || block.lower[0] >= gate.x - kTouch;
+    if (is_beside) continue;
     throw map.error("x", "the gate at " + text(gate.x) + " stands in the water, a block of which " +
                              "goes from x = " + text(block.lower[0]) + " to " +
-                             text(block.upper[0]));
+                             text(block.upper[0]) + "; water on both sides of it is two blocks");
   }
 }
 

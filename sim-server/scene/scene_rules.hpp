@@ -13,7 +13,7 @@ void check_slope(const protocol::ConfigMap& map, const Slope& slope, const Tank&
 void check_wave_maker(const protocol::ConfigMap& map, const WaveMaker& maker, const Tank& tank);
 /// `scene` holds the tank, the slope and the blocks before it in the file.
 void check_water(const protocol::ConfigMap& map, const WaterBlock& block, const Scene& scene);
-/// All water on one side of it, and no wave maker there.
+/// No block of water on both sides of it, and no wave maker there.
 void check_gate(const protocol::ConfigMap& map, const Scene& scene);
 /// Inside the tank, or a region with a volume.
 void check_gauge(const protocol::ConfigMap& map, const GaugeSettings& gauge, const Tank& tank);

@@ -20,8 +20,11 @@ bool is_outside(const Scene& scene, const Vector3& x) {
   const Tank& tank = scene.tank;
   if (x[0] < tank.lower[0] || x[0] > tank.upper[0]) return true;
   if (x[1] < tank.lower[1] || x[1] > tank.upper[1]) return true;
-  if (x[2] < floor_height(scene, x[0])) return true;
-  return scene.gate.present && (x[0] > scene.gate.x) == scene.gate.water_left;
+  return x[2] < floor_height(scene, x[0]);
+}
+
+bool is_gate_between(const Gate& gate, const Vector3& a, const Vector3& b) {
+  return gate.present && (a[0] < gate.x) != (b[0] < gate.x);
 }
 
 bool is_water(const WaterBlock& block, const Vector3& x, double width) {
@@ -47,15 +50,18 @@ bool is_displaced(const Scene& scene, std::span<const Keyframe> poses, const Vec
 Matter matter_at(const Scene& scene, std::span<const Keyframe> poses, const Vector3& x,
                  double width) {
   if (is_outside(scene, x) || is_displaced(scene, poses, x, width)) return Matter::solid;
-  const bool wet = std::any_of(scene.water.begin(), scene.water.end(),
-                               [&](const WaterBlock& block) { return is_water(block, x, width); });
+  const bool wet =
+      std::any_of(scene.water.begin(), scene.water.end(), [&](const WaterBlock& block) {
+        return !is_gate_between(scene.gate, x, 0.5 * (block.lower + block.upper)) &&
+               is_water(block, x, width);
+      });
   return wet ? Matter::water : Matter::air;
 }
 
 }  // namespace
 
 WaterCells::WaterCells(const Scene& scene, std::span<const Keyframe> poses)
-    : width_(particle_spacing(scene)) {
+    : width_(particle_spacing(scene)), gate_(scene.gate) {
   Vector3 upper = {};
   for (std::size_t i = 0; i < 3; ++i) {
     lower_[i] = std::numeric_limits<double>::infinity();
@@ -92,6 +98,9 @@ Vector3 WaterCells::middle(std::int64_t cell) const {
 
 std::array<std::int64_t, 6> WaterCells::beside(std::int64_t cell) const {
   const Index here = index_of(cell);
+  const auto behind_gate = [&](std::int64_t other) {
+    return other != kNone && is_gate_between(gate_, middle(cell), middle(other));
+  };
   std::array<std::int64_t, 6> cells = {};
   for (std::size_t i = 0; i < 3; ++i) {
     Index there = here;
@@ -100,6 +109,7 @@ std::array<std::int64_t, 6> WaterCells::beside(std::int64_t cell) const {
     there[i] = here[i] + 1;
     cells[2 * i + 1] = number(there);
   }
+  std::replace_if(cells.begin(), cells.end(), behind_gate, kNone);
   return cells;
 }
 
@@ -114,6 +124,7 @@ std::int64_t WaterCells::water_near(const Vector3& place) const {
     const std::int64_t cell =
         number({base[0] + k % 3 - 1, base[1] + k / 3 % 3 - 1, base[2] + k / 9 - 1});
     if (cell == kNone || at(cell) != Matter::water) continue;
+    if (is_gate_between(gate_, place, middle(cell))) continue;
     const double distance = length(place - middle(cell));
     if (distance < least) nearest = cell;
     least = std::min(least, distance);

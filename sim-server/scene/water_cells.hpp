@@ -14,8 +14,9 @@ namespace splash::sim {
 enum class Matter : std::uint8_t { air, water, solid };
 
 /// Cells around all water and some to each side. What a cell is, its middle says: solid outside the
-/// tank, in the slope, beyond the gate and where a body displaces water; else water in a block that
-/// reaches half a cell farther on all sides, so that blocks that almost touch do touch; else air.
+/// tank, in the slope and where a body displaces water; else water in a block that reaches half a
+/// cell farther on all sides, but not through the gate, so that blocks that almost touch do touch;
+/// else air.
 class WaterCells {
  public:
   /// `poses` of the bodies, one each; their times are ignored.
@@ -30,9 +31,10 @@ class WaterCells {
   }
   /// Its middle [m].
   [[nodiscard]] Vector3 middle(std::int64_t cell) const;
-  /// The cells that share a face with this one.
+  /// The cells that share a face with this one; the gate keeps cells apart.
   [[nodiscard]] std::array<std::int64_t, 6> beside(std::int64_t cell) const;
-  /// The cell of water whose middle is nearest to a place, of those around it; or kNone.
+  /// The cell of water whose middle is nearest to a place, of those around it on its side of the
+  /// gate; or kNone.
   [[nodiscard]] std::int64_t water_near(const Vector3& place) const;
 
  private:
@@ -43,6 +45,7 @@ class WaterCells {
   Index counts_ = {};
   Vector3 lower_ = {};
   double width_ = 0.0;  ///< of a cell: a particle spacing [m]
+  Gate gate_;
   std::vector<Matter> matter_;
 };
 

@@ -46,7 +46,6 @@ void read_water(const ConfigMap& map, Scene& scene) {
   if (const auto gate = map.optional_child("gate")) {
     gate->read(gate_fields(), {}, scene.gate);
     scene.gate.present = true;
-    scene.gate.water_left = scene.water.front().lower[0] < scene.gate.x;
     check_gate(*gate, scene);
   }
 }

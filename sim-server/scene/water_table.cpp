@@ -35,7 +35,7 @@ const Fields<Gate>& gate_fields() {
   static const Fields<Gate> kFields = {
       {{.key = "x",
         .unit = "m",
-        .meaning = "Where it stands across the tank; all water is on one side of it.",
+        .meaning = "Where it stands across the tank; each block of water is on one side of it.",
         .min = -100,
         .max = 100,
         .required = true},

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Pistons and central fields as fast and as strong as a scene may ask for: sound is fast enough for
-// them, so no frame is given up.
+// them, so no frame is given up; and water that never comes to rest is the scene's mistake.
 #include <gtest/gtest.h>
 
+#include "protocol/failure.hpp"
+#include "sim-server/come_to_rest.hpp"
+#include "sim-server/fluid/set_up.hpp"
+#include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation.hpp"
 
@@ -44,6 +48,31 @@ TEST(FastWater, ComesToRestUnderAStrongPull) {
       "water:\n"
       "  - {lower: [0, 0, 0], upper: [0.5, 0.5, 0.3]}\n",
       0.02);
+}
+
+// Each particle is thirty times as heavy as its place has room for.
+TEST(FastWater, ThatDoesNotComeToRestIsAMistakeOfTheScene) {
+  Device device;
+  const Scene scene = parse_scene(
+      "fluid: {spacing: 0.05}\n"
+      "tank: {lower: [0, 0, 0], upper: [0.5, 0.5, 0.6]}\n"
+      "water:\n"
+      "  - {lower: [0, 0, 0], upper: [0.5, 0.5, 0.3]}\n",
+      "heavy.yaml");
+  const std::vector<Vector3> particles = initial_particles(scene);
+  FluidParams params = make_params(scene, particles);
+  params.mass *= 30.0F;
+  Fluid fluid(device, params, particles, {}, {});
+  const Bodies none({}, {}, scene_support(scene));
+  try {
+    come_to_rest(fluid, scene, none, std::vector<Holding>(particles.size(), Holding::held), {});
+    FAIL() << "at rest";
+  } catch (const protocol::Failure& failure) {
+    EXPECT_EQ(failure.code(), protocol::kExitConfig);
+    EXPECT_NE(std::string(failure.what()).find("does not come to rest before it begins"),
+              std::string::npos);
+    EXPECT_NE(std::string(failure.what()).find("fluid.pull"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -35,7 +35,6 @@ TEST(GaugeReader, ReadsWhatIsWritten) {
   EXPECT_EQ(scene.water[0].form, WaterForm::cylinder);
   EXPECT_EQ(scene.water[1].form, WaterForm::sphere);
   EXPECT_TRUE(scene.gate.present);
-  EXPECT_FALSE(scene.gate.water_left);
   EXPECT_EQ(scene.flow.kind, FlowKind::strain);
   EXPECT_DOUBLE_EQ(scene.flow.rate, 3.0);
   EXPECT_DOUBLE_EQ(scene.gauges.rate, 50.0);

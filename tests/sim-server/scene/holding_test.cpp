@@ -67,8 +67,12 @@ TEST(Holding, GapsAndStepsBelowTheSpacingDoNotCount) {
 TEST(Holding, ADamNeedsAGateOrABody) {
   EXPECT_EQ(kinds(tank({kDam})), kFlows);
   Scene gated = tank({kDam});
-  gated.gate = {true, 0.4, true};
+  gated.gate = {true, 0.4};
   EXPECT_EQ(kinds(gated), kHeld);
+  gated.water.push_back({{0.4, 0.0, 0.0}, {1.0, 0.5, 0.1}});
+  EXPECT_EQ(kinds(gated), kHeld) << "so does the bed on its other side";
+  gated.water[1].upper[0] = 0.7;
+  EXPECT_EQ(kinds(gated), Kinds({Holding::held, Holding::flows})) << "if a wall ends it";
   Scene walled = tank({kDam});
   add_box(walled, {0.01, 0.5, 0.5}, {0.405, 0.25, 0.25});
   EXPECT_EQ(kinds(walled), kHeld) << "a board thinner than a spacing";
