@@ -175,15 +175,19 @@ class Filling {
     return free >= kRoom * kSamples;
   }
 
-  /// Of what is `due`, as much as a layer above the block's level takes, evenly.
+  /// Of what is `due`, as much as a layer above the block's level takes, evenly; nothing where a
+  /// layer below it is not free.
   void put_on_top(int layer, double& due, std::vector<Vector3>& out) const {
     std::vector<Vector3> free;
     for (int j = 0; j < lattice_.counts[1]; ++j) {
       for (int i = 0; i < lattice_.counts[0]; ++i) {
         Vector3 x = place({i, j, 0}, {0.5, 0.5, 0.5});
-        if (x[2] > block_.upper[2]) continue;
-        x[2] = block_.upper[2] + (layer + 0.5) * lattice_.step[2];
-        if (has_room(x) && !is_in_another(x)) free.push_back(x);
+        bool is_free = x[2] <= block_.upper[2];
+        for (int k = 0; k <= layer && is_free; ++k) {
+          x[2] = block_.upper[2] + (k + 0.5) * lattice_.step[2];
+          is_free = has_room(x) && !is_in_another(x);
+        }
+        if (is_free) free.push_back(x);
       }
     }
     const double each =
