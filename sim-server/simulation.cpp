@@ -42,7 +42,9 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   come_to_rest(fluid_, scene_, bodies_, holding_, tell);
   fluid_.forget_work();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
-  if (!free.empty()) fluid_.let_go(free);
+  if (!free.empty()) {
+    fluid_.let_go(free, film_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)));
+  }
   const double fastest = std::max(start_flow(fluid_, scene_), fastest_mover(0.0));
   contact_step_ = longest_contact_step(scene_.bodies, length(scene_.fluid.gravity));
   set_largest_step(fastest, std::abs(scene_.fluid.gravity[2]));

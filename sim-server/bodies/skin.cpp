@@ -175,6 +175,34 @@ std::vector<SkinPoint> sample_skins(const std::vector<BodySettings>& bodies,
   return all;
 }
 
+std::vector<SkinFace> film_skin(const Shape& shape, int owner, double particle_spacing) {
+  const auto skin = sample_skin(shape, owner, particle_spacing);
+  Vector3 open = {0.0, 0.0, 0.0};
+  double area = 0.0;
+  for (const SkinPoint& point : skin) {
+    open = open + point.area * point.normal;
+    area += point.area;
+  }
+  std::vector<SkinFace> faces;
+  double volume = 0.0;
+  for (const SkinPoint& point : skin) {
+    faces.push_back({point.place, point.area * (point.normal - (1.0 / area) * open), owner});
+    volume += dot(faces.back().place, faces.back().area) / 3.0;
+  }
+  for (SkinFace& face : faces) face.area = (volume_of(shape) / volume) * face.area;
+  return faces;
+}
+
+std::vector<SkinFace> film_skins(const std::vector<BodySettings>& bodies, double particle_spacing) {
+  std::vector<SkinFace> all;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!is_free(bodies[b])) continue;
+    const auto faces = film_skin(bodies[b].shape, static_cast<int>(b), particle_spacing);
+    all.insert(all.end(), faces.begin(), faces.end());
+  }
+  return all;
+}
+
 std::vector<double> faces_of(const std::vector<SkinPoint>& skin, std::size_t bodies) {
   std::vector<Vector3> shown(bodies, Vector3{0.0, 0.0, 0.0});
   for (const SkinPoint& point : skin) {

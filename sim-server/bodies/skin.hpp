@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim-server/fluid/boundary_point.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -24,6 +25,15 @@ struct SkinPoint {
 /// or as much as it takes for no more than about 4,000.
 [[nodiscard]] std::vector<SkinPoint> sample_skins(const std::vector<BodySettings>& bodies,
                                                   double particle_spacing);
+
+/// The skin that a film presses on (fluid/kernels/body_film.cl): its areas close, and enclose the
+/// volume of the shape.
+[[nodiscard]] std::vector<SkinFace> film_skin(const Shape& shape, int owner,
+                                              double particle_spacing);
+
+/// Of all bodies that the water moves.
+[[nodiscard]] std::vector<SkinFace> film_skins(const std::vector<BodySettings>& bodies,
+                                               double particle_spacing);
 
 /// The largest area that each body shows along one of its own axes [m2].
 [[nodiscard]] std::vector<double> faces_of(const std::vector<SkinPoint>& skin, std::size_t bodies);

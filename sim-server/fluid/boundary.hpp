@@ -44,6 +44,8 @@ class Boundary {
   [[nodiscard]] const Buffer<float>& meshes() const noexcept { return meshes_; }
   /// Where the bodies are in all steps of the frame, and how many entries set_steps gave.
   [[nodiscard]] const Buffer<BodyStep>& steps() const noexcept { return steps_; }
+  /// As set_steps gave them: free bodies are there in the frame's first step only.
+  [[nodiscard]] const std::vector<BodyStep>& given_steps() const noexcept { return uploaded_; }
   [[nodiscard]] int step_entries() const noexcept { return static_cast<int>(uploaded_.size()); }
 
  private:

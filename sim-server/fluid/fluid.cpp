@@ -86,9 +86,9 @@ void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
   boundary_.set_steps(device_, steps);
 }
 
-void Fluid::let_go(const std::vector<FreeBody>& bodies) {
+void Fluid::let_go(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin) {
   boundary_.let_go(device_, bodies);
-  free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies);
+  free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies, skin);
 }
 
 void Fluid::prepare(const Step& step) {
@@ -127,6 +127,7 @@ std::vector<cl::Buffer> Fluid::state() const {
                                  sorted_.id.memory(), knit_.memory()};
   const std::vector<cl::Buffer> kept = solver_->kept();
   all.insert(all.end(), kept.begin(), kept.end());
+  if (free_) all.push_back(free_->films().kept());
   return all;
 }
 
@@ -260,6 +261,7 @@ void Fluid::restore(const Snapshot& snapshot) {
   sorted_.id.write(device_, snapshot.id);
   knit_.write(device_, snapshot.knit);
   solver_->restore_pressure(device_, snapshot.pressure);
+  if (free_) free_->films().forget(device_);
   health_.forget();
   sleep_.wake(device_);
 }

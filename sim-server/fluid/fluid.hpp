@@ -80,8 +80,8 @@ class Fluid {
   void set_bodies(const std::vector<BodyStep>& steps);
 
   /// From now on the water moves these of its bodies; until then they go where set_bodies says.
-  /// set_bodies then says where they begin a frame. At least one; waits.
-  void let_go(const std::vector<FreeBody>& bodies);
+  /// set_bodies then says where they begin a frame. At least one; `skin`: of them. Waits.
+  void let_go(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
   /// Null while no body is free.
   [[nodiscard]] FreeBodies* free_bodies() noexcept { return free_.get(); }
 

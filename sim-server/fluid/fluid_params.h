@@ -129,6 +129,9 @@ typedef struct {
 #define SPLASH_PUSH_ENTRIES 27
 // Room for each free body's contacts with walls and other bodies, and for one of them
 // (kernels/contact.h).
+// What each part sums of a body's film (kernels/body_film.cl): of its rim, and of its push.
+#define SPLASH_RIM_ENTRIES 10
+#define SPLASH_FILM_ENTRIES 8
 #define SPLASH_CONTACTS 96
 #define SPLASH_CONTACT_FLOATS 32
 

@@ -16,7 +16,8 @@ float as_float(double value) {
 }  // namespace
 
 FreeBodies::FreeBodies(Device& device, const FluidParams& params,
-                       const std::vector<std::string>& defines, const std::vector<FreeBody>& bodies)
+                       const std::vector<std::string>& defines, const std::vector<FreeBody>& bodies,
+                       const std::vector<SkinFace>& skin)
     : list_(bodies),
       count_(static_cast<int>(bodies.size())),
       groups_(
@@ -35,6 +36,7 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       no_solve_(device, 1),
       force_read_(6 * bodies.size()) {
   const cl::Program program = build_program(device, free_body_sources(), defines, false);
+  films_ = Films(device, program, bodies, skin);
   const std::size_t group = device.lanes() > 1 ? 4 : 64;
   reach_bodies_ = Kernel(program, "reach_bodies", group);
   weigh_water_ = Kernel(program, "weigh_water", group);
@@ -76,12 +78,16 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
   const cl::Buffer& steps = fluid.boundary().steps().memory();
   const cl::Buffer& places = fluid.particles().position.memory();
   const int k = occasion.iteration;
+  if (occasion.falling > 0.0) {
+    films_.press(fluid, step, {bodies_, *occasion.pressure, reach_, reached_});
+  }
   weigh_water_.run(queue, list_.size() * SPLASH_PUSH_PARTS, params, k, state, count_,
                    as_float(occasion.pushing), as_float(occasion.rubbing), bodies_.memory(), steps,
                    step.first_body, places, occasion.pressure->memory(), reach_.memory(),
                    reached_.memory(), parts_.memory());
   answer_bodies_.run(queue, list_.size(), params, k, state, count_, as_float(occasion.falling),
-                     bodies_.memory(), steps, step.first_body, parts_.memory(), answer_.memory(),
+                     bodies_.memory(), steps, step.first_body, parts_.memory(),
+                     films_.pressed() ? 1 : 0, films_.push().memory(), answer_.memory(),
                      felt_.memory());
   const bool wants_rate = occasion.rate != nullptr;
   carry_water_.run(queue, groups_, params, k, state, count_, as_float(occasion.factor),

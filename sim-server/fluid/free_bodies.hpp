@@ -9,6 +9,7 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
+#include "sim-server/fluid/films.hpp"
 #include "sim-server/fluid/fluid_params.h"
 #include "sim-server/fluid/solve_state.hpp"
 #include "sim-server/fluid/step.hpp"
@@ -27,9 +28,10 @@ struct FreeBodyEnd {
 
 class FreeBodies {
  public:
-  /// `defines`: that its kernels are built with (parts.hpp); `bodies`: at least one.
+  /// `defines`: that its kernels are built with (parts.hpp); `bodies`: at least one; `skin`: of
+  /// these, in any order.
   FreeBodies(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
-             const std::vector<FreeBody>& bodies);
+             const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
 
   /// Finds who is in reach of the bodies, and what they do to each other at these velocities;
   /// `response`: of densities to pressures (kernels/pressure_response.cl), the density otherwise.
@@ -60,6 +62,7 @@ class FreeBodies {
   /// Once the queue is finished: one for each, after the last step.
   [[nodiscard]] std::vector<FreeBodyEnd> ends() const;
   [[nodiscard]] const std::vector<FreeBody>& bodies() const noexcept { return list_; }
+  [[nodiscard]] Films& films() noexcept { return films_; }
 
  private:
   std::vector<FreeBody> list_;
@@ -78,6 +81,7 @@ class FreeBodies {
   Buffer<SolveState> no_solve_;
   std::vector<BodyStep> steps_read_;
   std::vector<float> force_read_;
+  Films films_;
   Kernel reach_bodies_;
   Kernel weigh_water_;
   Kernel answer_bodies_;

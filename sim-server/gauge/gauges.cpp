@@ -6,11 +6,13 @@
 #include <limits>
 #include <map>
 
+#include "sim-server/bodies/skin.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/gauge/body_force.hpp"
 #include "sim-server/gauge/cavity.hpp"
 #include "sim-server/gauge/face.hpp"
+#include "sim-server/gauge/film_force.hpp"
 #include "sim-server/gauge/front.hpp"
 #include "sim-server/gauge/height.hpp"
 #include "sim-server/gauge/images.hpp"
@@ -64,25 +66,36 @@ Tank tank_at(const Scene& scene, double seconds) {
   return tank;
 }
 
-void add_body(const GaugeSettings& probe, double seconds, const WaterState& water,
-              const Bodies& bodies, std::vector<double>& row) {
+std::vector<BodyState> states_at(double seconds, const Bodies& bodies) {
+  std::vector<BodyState> states;
+  for (std::size_t b = 0; b < bodies.count(); ++b) states.push_back(bodies.state(b, seconds));
+  return states;
+}
+
+/// Of the water on a body that goes its way.
+BodyForce force_on(std::size_t body, double seconds, const Scene& scene, const WaterState& water,
+                   const Bodies& bodies) {
+  const std::vector<BodyState> states = states_at(seconds, bodies);
+  const auto owner = static_cast<int>(body);
+  const BodyForce pushes = body_force(water, bodies.points(), owner, states[body]);
+  const auto skin = film_skin(scene.bodies[body].shape, owner, water.spacing);
+  const BodyForce film =
+      film_force(water, {scene, tank_at(scene, seconds), states}, bodies.points(), skin, body);
+  return {pushes.force + film.force, pushes.torque + film.torque};
+}
+
+void add_body(const GaugeSettings& probe, double seconds, const Scene& scene,
+              const WaterState& water, const Bodies& bodies, std::vector<double>& row) {
   const BodyState state = bodies.state(probe.body, seconds);
-  const BodyForce force =
-      bodies.is_free(probe.body)
-          ? bodies.force(probe.body)
-          : body_force(water, bodies.points(), static_cast<int>(probe.body), state);
+  const BodyForce force = bodies.is_free(probe.body)
+                              ? bodies.force(probe.body)
+                              : force_on(probe.body, seconds, scene, water, bodies);
   append(row, state.position);
   append(row, state.rotation);
   append(row, state.velocity);
   append(row, state.spin);
   append(row, force.force);
   append(row, force.torque);
-}
-
-std::vector<BodyState> states_at(double seconds, const Bodies& bodies) {
-  std::vector<BodyState> states;
-  for (std::size_t b = 0; b < bodies.count(); ++b) states.push_back(bodies.state(b, seconds));
-  return states;
 }
 
 double pressure(const GaugeSettings& probe, double seconds, const Scene& scene,
@@ -171,7 +184,7 @@ void Gauges::add(const GaugeSettings& probe, double seconds, const WaterState& w
       break;
     }
     case GaugeKind::body:
-      add_body(probe, seconds, water, bodies, row);
+      add_body(probe, seconds, scene_, water, bodies, row);
       break;
     case GaugeKind::energy: {
       const Energies e = energies(water);

@@ -80,13 +80,15 @@ static void add_body(FreeBody f, BodyStep b, float* a) {
   }
 }
 
-// One work-item for each free body. `falling`: of gravity [s]. `answer`: dV, dw. `felt`: what the
+// One work-item for each free body. `falling`: of gravity [s], and of the films' pushes
+// (body_film.cl) where there are any. `answer`: dV, dw. `felt`: what the
 // water gave each body in this step so far, its momentum and angular momentum. The body's speeds in
 // this step change at once.
 kernel void answer_bodies(constant FluidParams* p, int k, global const SolveState* state,
                           int free_count, float falling, constant FreeBody* frees,
                           global BodyStep* bodies, int first_body, global const float* parts,
-                          global float* answer, global float* felt) {
+                          int films, global const float* film, global float* answer,
+                          global float* felt) {
   if (is_done(state, k)) return;
   const int item = get_global_id(0);
   if (item >= free_count) return;
@@ -103,6 +105,9 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
   sum[0] += f.mass * fall.x;
   sum[1] += f.mass * fall.y;
   sum[2] += f.mass * fall.z;
+  for (int e = 0; films && e < 6; ++e) {
+    sum[e] += falling * film[6 * item + e] / (e < 3 ? 1.0f : f.size);
+  }
   add_body(f, b, sum + 6);
   factor_six(sum + 6);
   solve_six(sum + 6, sum);

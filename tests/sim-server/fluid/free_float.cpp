@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim-server/bodies/mass.hpp"
+#include "sim-server/bodies/skin.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -46,7 +47,7 @@ void FreeFloat::start(Device& device) {
                                     std::move(motions), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
   fluid = std::make_unique<Fluid>(device, params, particles, boundary, body_outlines(scene.bodies));
-  fluid->let_go(free_bodies(scene.bodies));
+  fluid->let_go(free_bodies(scene.bodies), film_skins(scene.bodies, scene.fluid.spacing));
   steps = bodies->at(0.0);
   dt = largest_time_step(params, 3.0, 9.81, 1.0);
 }

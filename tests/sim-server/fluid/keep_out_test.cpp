@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim-server/bodies/mass.hpp"
+#include "sim-server/bodies/skin.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -174,7 +175,9 @@ void expect_nobody_through(Device& device, const KernelBuild& build, const Shape
   MotionSettings& motion = water.scene.bodies[0].motion;
   motion.kind = MotionKind::free;
   motion.density = 500.0;
-  if (free) water.fluid->let_go(free_bodies(water.scene.bodies));
+  if (free)
+    water.fluid->let_go(free_bodies(water.scene.bodies),
+                        film_skins(water.scene.bodies, water.scene.fluid.spacing));
   throw_through(water, places, far, kStep);
   water.step(kStep);
   const Snapshot after = water.fluid->snapshot();

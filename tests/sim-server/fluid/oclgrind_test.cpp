@@ -92,8 +92,8 @@ const std::set<std::string> kDetect = {"place_bodies",    "gather_body_volumes",
 
 /// Those of a scene with bodies that the water moves, besides.
 std::set<std::string> with_free_bodies(std::set<std::string> kernels) {
-  kernels.insert({"reach_bodies", "weigh_water", "answer_bodies", "carry_water", "keep_out_of_free",
-                  "move_bodies"});
+  kernels.insert({"reach_bodies", "measure_rims", "press_films", "sum_films", "weigh_water",
+                  "answer_bodies", "carry_water", "keep_out_of_free", "move_bodies"});
   return kernels;
 }
 

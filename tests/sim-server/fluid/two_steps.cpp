@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim-server/bodies/mass.hpp"
+#include "sim-server/bodies/skin.hpp"
 #include "sim-server/fluid/mould.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
@@ -36,7 +37,8 @@ int two_steps(int lanes, bool divergence_free, bool free, int steps) {
       body.motion.kind = MotionKind::free;
       body.motion.density = 300.0;
     }
-    water.fluid->let_go(free_bodies(water.scene.bodies));
+    water.fluid->let_go(free_bodies(water.scene.bodies),
+                        film_skins(water.scene.bodies, water.scene.fluid.spacing));
   }
   water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);
   Mould mould(*water.fluid, every_third(water.particles.size()));

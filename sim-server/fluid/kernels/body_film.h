@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Where films are (body_film.cl): how far a place is from what is not the body, whether it lies
+// between the two, and the faces that a pressure acts on, of the body's skin and of particles.
+
+#define APART 3.0f  // from there on solids have nobody between them [spacings]
+
+typedef struct {
+  lanes held, next;  // distance from solids that go their way, from other free bodies [m]
+  lanes nx, ny, nz;  // normal of the nearest
+} Gap;
+
+// Whether the boxes around two bodies, both grown by the support, overlap.
+static bool reaches_meet(BodyStep a, BodyStep b) {
+  return a.upper_x > b.lower_x && a.lower_x < b.upper_x && a.upper_y > b.lower_y &&
+         a.lower_y < b.upper_y && a.upper_z > b.lower_z && a.lower_z < b.upper_z;
+}
+
+static Gap gap_at(constant FluidParams* p, float piston, constant BodyShape* shapes,
+                  global const float* meshes, global const BodyStep* bodies, int body_count,
+                  int body, lanes x, lanes y, lanes z) {
+  Gap gap = {FAR_AWAY, FAR_AWAY, 0.0f, 0.0f, 0.0f};
+  for (int k = 0; k < p->wall_count; ++k) {
+    const lanes distance = wall_distance(p, k, x, y, z, piston);
+    const lane_flags nearer = distance < gap.held;
+    gap.held = fmin(gap.held, distance);
+    gap.nx = select(gap.nx, (lanes)(p->walls[k].nx), nearer);
+    gap.ny = select(gap.ny, (lanes)(p->walls[k].ny), nearer);
+    gap.nz = select(gap.nz, (lanes)(p->walls[k].nz), nearer);
+  }
+  for (int other = 0; other < body_count; ++other) {
+    if (other == body || !reaches_meet(bodies[body], bodies[other])) continue;
+    const BodyFace face = nearest_face(shapes + other, meshes, bodies + other, 0, 1, x, y, z);
+    const lane_flags nearer = face.distance < fmin(gap.held, gap.next);
+    gap.nx = select(gap.nx, face.nx, nearer);
+    gap.ny = select(gap.ny, face.ny, nearer);
+    gap.nz = select(gap.nz, face.nz, nearer);
+    if (shapes[other].free) {
+      gap.next = fmin(gap.next, face.distance);
+    } else {
+      gap.held = fmin(gap.held, face.distance);
+    }
+  }
+  return gap;
+}
+
+// w_i, of places whose distance from the body is `own`.
+static lanes between(constant FluidParams* p, const BodyFace* own, const Gap* gap) {
+  const lanes apart = own->distance + fmin(gap->held, gap->next);
+  const lanes facing = -(own->nx * gap->nx + own->ny * gap->ny + own->nz * gap->nz);
+  return clamp(2.0f * facing, 0.0f, 1.0f) * clamp(APART - apart / p->spacing, 0.0f, 1.0f);
+}
+
+// Whether anything else is within the support of the box around a body, already grown by it.
+static bool has_neighbour(constant FluidParams* p, float piston, constant BodyShape* shapes,
+                          global const BodyStep* bodies, int body_count, int body) {
+  const BodyStep b = bodies[body];
+  for (int other = 0; other < body_count; ++other) {
+    if (other != body && reaches_meet(b, bodies[other])) return true;
+  }
+  const float3 reach = reach_along_axes(shapes[body], b);
+  for (int k = 0; k < p->wall_count; ++k) {
+    const float3 n = fabs(wall_normal(p, k));
+    if (above_wall(p, k, piston, b, (float3)(0.0f)) < dot(n, reach) + p->support) return true;
+  }
+  return false;
+}
+
+// The skin's faces, in body axes: places and areas, part after part.
+typedef struct {
+  lanes x, y, z, ax, ay, az;  // in the world, from the body's centre [m], [m2]
+} Skin;
+
+static Skin load_skin(global const float* skin, int stride, BodyStep b, int i) {
+  Skin s = {LOAD(skin, i),
+            LOAD(skin + stride, i),
+            LOAD(skin + 2 * stride, i),
+            LOAD(skin + 3 * stride, i),
+            LOAD(skin + 4 * stride, i),
+            LOAD(skin + 5 * stride, i)};
+  turn_lanes(&s.x, &s.y, &s.z, b.qx, b.qy, b.qz, b.qw);
+  turn_lanes(&s.ax, &s.ay, &s.az, b.qx, b.qy, b.qz, b.qw);
+  return s;
+}
+
+// By gravity and the central field at the body's centre, times rho0 [Pa/m].
+static float3 weight_at(constant FluidParams* p, BodyStep b) {
+  return p->rest_density * (float3)(p->gravity_x - p->pull_x * (b.px - p->centre_x),
+                                    p->gravity_y - p->pull_y * (b.py - p->centre_y),
+                                    p->gravity_z - p->pull_z * (b.pz - p->centre_z));
+}
+
+static lanes length_of(lanes x, lanes y, lanes z) {
+  return sqrt(x * x + y * y + z * z);
+}
+
+// m g_i / rho_i^2 of the particles of a group: none of those that do not push the body.
+static Lever areas_of(constant FluidParams* p, const Reach* r, lanes rho) {
+  const lanes g2 = r->gx * r->gx + r->gy * r->gy + r->gz * r->gz;
+  const lanes factor = select((lanes)(0.0f), p->mass / (rho * rho), g2 > 0.0f);
+  const Lever area = {factor * r->gx, factor * r->gy, factor * r->gz};
+  return area;
+}
