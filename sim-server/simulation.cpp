@@ -97,10 +97,11 @@ std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
 }
 
 FrameResult Simulation::advance() {
-  for (LiveMotion* body : live_) {
-    if (body != nullptr) {
-      body->begin({seconds_, origin_ + seconds_, 1.0 / scene_.serve.frame_rate});
-    }
+  for (std::size_t b = 0; b < live_.size(); ++b) {
+    if (live_[b] == nullptr) continue;
+    const BodyState before = bodies_.state(b, seconds_);
+    live_[b]->begin({seconds_, origin_ + seconds_, 1.0 / scene_.serve.frame_rate});
+    bodies_.note_jump(b, before, seconds_);
   }
   std::optional<Mishap> mishap;
   while (true) {

@@ -15,6 +15,12 @@ float as_float(double value) {
   return static_cast<float>(value);
 }
 
+/// The farthest point of a body that appears moves away from its centre so fast, as in a plunge: an
+/// eighth of the slowest sound that scenes have by default, about [m/s].
+constexpr double kAppears = 2.0;
+/// What it begins with [1].
+constexpr double kSeed = 1.0e-3;
+
 /// A body that has been still for so long is at rest [s].
 constexpr double kRest = 1.0;
 
@@ -42,9 +48,11 @@ Bodies::Bodies(std::vector<BodyPoint> points, std::vector<std::unique_ptr<Motion
       motions_(std::move(motions)),
       force_(motions_.size()),
       moved_at_(motions_.size(), 0.0),
+      appeared_at_(motions_.size(), -std::numeric_limits<double>::infinity()),
       reach_(motions_.size(), 0.0),
       support_(support) {
   for (const auto& motion : motions_) free_.push_back(dynamic_cast<FreeMotion*>(motion.get()));
+  for (const auto& motion : motions_) start_.push_back(motion->at(0.0));
   for (const BodyPoint& point : points_) {
     double& reach = reach_[static_cast<std::size_t>(point.owner)];
     reach = std::max(reach, length(point.place));
@@ -102,7 +110,26 @@ std::vector<BodyStep> Bodies::at(double seconds) const {
     step.upper_z += grown;
     step.speed = fastest_point(step);
   }
+  for (std::size_t b = 0; b < steps.size(); ++b) {
+    if (!appears(b, seconds)) continue;
+    const double rate = kAppears / reach_[b];
+    steps[b].lacks = as_float(1.0 - std::max(rate * (seconds - appeared_at_[b]), kSeed));
+    steps[b].grows = as_float(rate);
+    steps[b].speed += as_float(kAppears);
+  }
   return steps;
+}
+
+bool Bodies::appears(std::size_t body, double seconds) const {
+  return kAppears * (seconds - appeared_at_[body]) < (1.0 - kSeed) * reach_[body];
+}
+
+void Bodies::note_jump(std::size_t body, const BodyState& before, double seconds) {
+  const BodyState now = state(body, seconds);
+  const double turn = length(to_turn(compose(now.rotation, inverse(before.rotation))));
+  if (length(now.position - before.position) + turn * reach_[body] > support_) {
+    appeared_at_[body] = seconds;
+  }
 }
 
 double Bodies::fastest_ever() const {
@@ -144,6 +171,7 @@ void Bodies::reset(double seconds) {
     if (motion != nullptr) motion->reset(seconds);
   }
   std::fill(moved_at_.begin(), moved_at_.end(), seconds);
+  for (std::size_t b = 0; b < motions_.size(); ++b) note_jump(b, start_[b], seconds);
 }
 
 bool Bodies::restless(double seconds) const noexcept {
@@ -157,7 +185,8 @@ double Bodies::fastest(double seconds) const {
   double fastest = 0.0;
   for (std::size_t b = 0; b < motions_.size(); ++b) {
     const BodyState s = motions_[b]->at(seconds);
-    fastest = std::max(fastest, length(s.velocity) + length(s.spin) * reach_[b]);
+    const double grows = appears(b, seconds) ? kAppears : 0.0;
+    fastest = std::max(fastest, length(s.velocity) + length(s.spin) * reach_[b] + grows);
   }
   return fastest;
 }

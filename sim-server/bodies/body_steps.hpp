@@ -35,6 +35,9 @@ class Bodies {
   [[nodiscard]] BodyState state(std::size_t body, double seconds) const;
   /// One entry per body at `seconds`, its box grown by the support.
   [[nodiscard]] std::vector<BodyStep> at(double seconds) const;
+  /// A tracker's new poses put a body that was at `before` to where it is at `seconds`: where it
+  /// jumped by more than the support, it grows there from a point on, as fast as in a plunge.
+  void note_jump(std::size_t body, const BodyState& before, double seconds);
   /// The fastest any point of any body moves at `seconds` [m/s].
   [[nodiscard]] double fastest(double seconds) const;
   /// The fastest any body's centre will ever move, of those whose motion is known beforehand [m/s].
@@ -52,7 +55,7 @@ class Bodies {
   void hold(double seconds, bool still);
   /// Stops a free body.
   void still(std::size_t body) noexcept { free_[body]->still(); }
-  /// Free bodies are where they were when time began.
+  /// Free bodies are where they were when time began; the others appear where they have gone since.
   void reset(double seconds);
   /// Whether a free body has moved within the last second: only then it is at rest.
   [[nodiscard]] bool restless(double seconds) const noexcept;
@@ -63,7 +66,12 @@ class Bodies {
   std::vector<FreeMotion*> free_;  ///< of each body, null if it is none
   std::vector<BodyForce> force_;
   std::vector<double> moved_at_;  ///< when it was last seen to move [s]
-  std::vector<double> reach_;     ///< largest distance of a point from its body's centre [m]
+  /// Whether it has not grown to its size yet.
+  [[nodiscard]] bool appears(std::size_t body, double seconds) const;
+
+  std::vector<BodyState> start_;     ///< when time began
+  std::vector<double> appeared_at_;  ///< when it last jumped [s]
+  std::vector<double> reach_;        ///< largest distance of a point from its body's centre [m]
   double support_ = 0.0;
 };
 

@@ -7,7 +7,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(BodyStep) == 20 * sizeof(float));
+static_assert(sizeof(BodyStep) == 22 * sizeof(float));
 static_assert(sizeof(BodyShape) == 17 * sizeof(float));
 
 }  // namespace
@@ -74,7 +74,7 @@ void Boundary::place(cl::CommandQueue& queue, const Buffer<FluidParams>& params,
                     unsorted_.velocity.memory());
   grid_.sort(queue, params, point_count_, unsorted_, sorted_);
   gather_volumes_.run(queue, points, point_count_, sorted_.id.memory(), sample_volume_.memory(),
-                      volume_.memory());
+                      owner_.memory(), steps_.memory(), step.first_body, volume_.memory());
 }
 
 }  // namespace splash::sim

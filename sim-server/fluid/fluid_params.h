@@ -81,6 +81,8 @@ typedef struct {
   float lower_x, lower_y, lower_z;  // box around its points, grown by the support radius [m]
   float upper_x, upper_y, upper_z;
   float speed;                   // of its fastest point, at most [m/s]
+  float lacks;                   // of its size, while it appears (kernels/bodies.h) [1]
+  float grows;                   // by so much of its size [1/s]
 } BodyStep;
 
 // A body slower than this is at rest: trackers tremble [m/s].
@@ -127,11 +129,11 @@ typedef struct {
 // an inertia of 21.
 #define SPLASH_PUSH_PARTS 64
 #define SPLASH_PUSH_ENTRIES 27
-// Room for each free body's contacts with walls and other bodies, and for one of them
-// (kernels/contact.h).
 // What each part sums of a body's film (kernels/body_film.cl): of its rim, and of its push.
 #define SPLASH_RIM_ENTRIES 10
 #define SPLASH_FILM_ENTRIES 8
+// Room for each free body's contacts with walls and other bodies, and for one of them
+// (kernels/contact.h).
 #define SPLASH_CONTACTS 96
 #define SPLASH_CONTACT_FLOATS 32
 

@@ -8,6 +8,10 @@ static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
   return s + qw * t + cross(axis, t);
 }
 
+// A body that a tracker puts into the water grows there out of its centre, alike in all
+// directions, until it has its size: what it drives away has time to go.
+static float size_of(BodyStep b) { return 1.0f - b.lacks; }
+
 // To a body's own axes, and back to the world's.
 static float3 into_body(BodyStep b, float3 v) { return rotate_by(v, -b.qx, -b.qy, -b.qz, b.qw); }
 static float3 out_of_body(BodyStep b, float3 v) { return rotate_by(v, b.qx, b.qy, b.qz, b.qw); }

@@ -19,7 +19,9 @@ static BodyFace nearest_face(constant BodyShape* shapes, global const float* mes
     const BodyStep b = bodies[first_body + k];
     lanes ax = x - b.px, ay = y - b.py, az = z - b.pz;
     turn_lanes(&ax, &ay, &az, -b.qx, -b.qy, -b.qz, b.qw);
-    BodyFace face = face_of(shapes[k], meshes, ax, ay, az);
+    const float size = size_of(b);
+    BodyFace face = face_of(shapes[k], meshes, ax / size, ay / size, az / size);
+    face.distance *= size;
     turn_lanes(&face.nx, &face.ny, &face.nz, b.qx, b.qy, b.qz, b.qw);
     const lane_flags nearer = face.distance < nearest.distance;
     nearest.distance = select(nearest.distance, face.distance, nearer);

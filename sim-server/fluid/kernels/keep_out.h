@@ -43,10 +43,10 @@ static bool entry_of(BodyShape s, global const float* meshes, float kept, float3
 // much its speed along that changed [m/s]. False: it is not so deep.
 static bool leave_body(constant FluidParams* p, BodyShape shape, global const float* meshes,
                        BodyStep b, float3 from, float3* x, float3* v, float3* out, float* stopped) {
-  const float kept = KEPT_DEPTH * p->spacing;
+  const float size = size_of(b), kept = KEPT_DEPTH * p->spacing / size;
   const float3 centre = (float3)(b.px, b.py, b.pz), arm = *x - centre;
-  const float3 end = rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw);
-  const float3 start = rotate_by(from - centre, -b.qx, -b.qy, -b.qz, b.qw);
+  const float3 end = rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw) / size;
+  const float3 start = rotate_by(from - centre, -b.qx, -b.qy, -b.qz, b.qw) / size;
   float excess = depth_inside(shape, meshes, end, out) - kept;
   if (!(excess + length(end - start) > 0.0f)) return false;
   float3 entry, side;
@@ -54,19 +54,20 @@ static bool leave_body(constant FluidParams* p, BodyShape shape, global const fl
   const float turn = dot(side, *out);
   if (!(excess > 0.0f) && !(turn < 0.0f)) return false;
   if (!(turn > 0.0f)) {
-    *x = centre + rotate_by(entry, b.qx, b.qy, b.qz, b.qw);
+    *x = centre + size * rotate_by(entry, b.qx, b.qy, b.qz, b.qw);
     *out = side;
     excess = 0.0f;
   }
   if (is_mesh(shape)) {
     const float3 at = settled_in_mesh(shape, meshes, kept, excess > 0.0f ? end : entry, out);
-    *x = centre + rotate_by(at, b.qx, b.qy, b.qz, b.qw);
+    *x = centre + size * rotate_by(at, b.qx, b.qy, b.qz, b.qw);
     excess = 0.0f;
   }
   *out = rotate_by(*out, b.qx, b.qy, b.qz, b.qw);
-  const float3 skin = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
+  const float3 skin = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm) +
+                      b.grows / size * arm;
   *stopped = -fmin(dot(*v - skin, *out), 0.0f);
-  *x += excess * *out;
+  *x += size * excess * *out;
   *v += *stopped * *out;
   return true;
 }

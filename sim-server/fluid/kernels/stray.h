@@ -68,8 +68,10 @@ static bool put_by_body(constant FluidParams* p, constant BodyShape* shapes,
     const BodyStep b = bodies[first_body + k];
     const float3 arm = l->to - (float3)(b.px, b.py, b.pz);
     float3 out;
+    const float size = size_of(b);
     const float depth =
-        depth_inside(shapes[k], meshes, rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw), &out);
+        size *
+        depth_inside(shapes[k], meshes, rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw) / size, &out);
     if (fabs(depth - KEPT_DEPTH * p->spacing) <= 1.0e-3f * p->spacing + l->rounding) return true;
   }
   return near_bodies(bodies, first_body, body_count, l->to.x, l->to.y, l->to.z) &&

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// A tracker puts a body into the midst of the water from one pose to the next: no frame is given
+// up, none is computed again, and the water stays water, however fine it is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Particles so far apart [mm].
+class AppearingBody : public ::testing::TestWithParam<int> {};
+
+TEST_P(AppearingBody, DrivesTheWaterAway) {
+  Device device;
+  const Scene scene = parse_scene("fluid: {spacing: " + std::to_string(GetParam() / 1000.0) + R"(}
+tank: {lower: [0.0, 0.0, 0.0], upper: [0.24, 0.24, 0.6]}
+water: [{lower: [0.0, 0.0, 0.0], upper: [0.24, 0.24, 0.24]}]
+bodies:
+  - name: ball
+    shape: {kind: sphere, size: [0.1, 0.1, 0.1]}
+    rest: {position: [0.12, 0.12, 0.5]}
+    motion: {kind: osc}
+)",
+                                  "appears.yaml");
+  Simulation simulation(device, scene, {});
+  double densest = 0.0, fastest = 0.0;
+  const Vector3 middle = {0.12, 0.12, 0.12};
+  while (simulation.seconds() < 0.5) {
+    const double now = simulation.seconds();
+    if (now > 0.1) {
+      static_cast<void>(simulation.live_body(0)->push(middle, {0, 0, 0, 1}, {now, {}}));
+    }
+    const FrameResult frame = simulation.advance();
+    ASSERT_FALSE(frame.mishap) << describe(*frame.mishap);
+    densest = std::max(densest, frame.survey.max_excess);
+    fastest = std::max(fastest, frame.survey.speed);
+  }
+  std::printf("density at most %.0f %% too high, water at most %.2f m/s fast\n", 100.0 * densest,
+              fastest);
+  EXPECT_EQ(simulation.totals().retried, 0U);
+  EXPECT_EQ(simulation.totals().calmed + simulation.totals().resets, 0U);
+  EXPECT_LT(densest, 0.45);
+  EXPECT_LT(length(simulation.bodies().state(0, simulation.seconds()).position - middle), 1.0e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Spacings, AppearingBody, ::testing::Values(25, 20, 13, 9));
+
+}  // namespace
+}  // namespace splash::sim
