@@ -70,24 +70,24 @@ std::string_view describe(Fault fault) noexcept {
 }
 
 std::string_view likely_cause(Fault fault) noexcept {
+  constexpr std::string_view kMemory =
+      "memory of the device was overwritten: check the device and its driver";
   switch (fault) {
     case Fault::not_finite:
-      return "the motion has become unstable, or memory was overwritten";
     case Fault::outside:
-      return "the motion has become unstable at a wall, or memory was overwritten";
-    case Fault::speed:
-      return "the motion has become unstable; a body moves too fast for this sound speed (raise "
-             "fluid.sound_speed), or the time step is too long (lower fluid.time_step_factor)";
-    case Fault::density:
-      return "a body presses water against a wall or another body; leave it a way out";
-    case Fault::stray:
     case Fault::lost:
     case Fault::changed:
-      return "memory of the device was overwritten: check the device and its driver";
     case Fault::body:
-      return "the motion has become unstable, or a body was pressed through a wall";
+      return kMemory;
+    case Fault::stray:
+      return "the wave maker is faster than the water can be (make its stroke smaller or its "
+             "period "
+             "longer), or memory of the device was overwritten";
+    case Fault::speed:
+    case Fault::density:
+      return "a body presses water against a wall or another body; leave it a way out";
     case Fault::step:
-      return "the length of the step was computed from a broken state";
+      return "a fault of this program: please report it";
   }
   return "unknown";
 }
