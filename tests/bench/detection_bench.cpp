@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "protocol/time_tag.hpp"
 #include "tests/detection/table.hpp"
@@ -26,6 +27,7 @@ struct Options {
   std::vector<std::string> cases;
   fs::path out = kSource / "out" / "detection";
   fs::path scenes;
+  fs::path readme;
   bool quick = false;
   bool list = false;
   bool truth = false;
@@ -126,6 +128,15 @@ class Progress {
   double shown_ = protocol::monotonic_now();
 };
 
+void update(const fs::path& path, const std::vector<Outcome>& outcomes) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  const std::string updated = with_rows(text.str(), outcomes);
+  std::ofstream file(path);
+  file << updated;
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
 void bench(Options options) {
   complete(options);
   options.material.folder = options.out / "files";
@@ -149,6 +160,7 @@ void bench(Options options) {
     // After every run, so that a run that is broken off leaves what it found.
     write_report(options.out, device.facts().name, outcomes);
   }
+  if (!options.readme.empty()) update(options.readme, outcomes);
   std::printf("\n%s\nreport: %s\n", summary(outcomes).c_str(), (options.out / "report.md").c_str());
 }
 
@@ -165,6 +177,8 @@ int main(int argc, char** argv) {
   app.add_flag("--list", options.list, "Names sweeps and cases, runs nothing");
   app.add_flag("--truth", options.truth, "With --list: what each must tell, and may");
   app.add_option("--scenes", options.scenes, "Folder to keep each case in, as a scene file");
+  app.add_option("--readme", options.readme, "Markdown file whose table gets the rows of this run")
+      ->check(CLI::ExistingFile);
   app.add_option("--out", options.out, "Folder for the report")->capture_default_str();
   app.add_option("--walk", walk.file, "TRC file of two feet, in place of the tests' own")
       ->check(CLI::ExistingFile);

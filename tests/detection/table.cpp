@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace splash::detection {
@@ -12,6 +13,8 @@ namespace {
 const char* const kColumns =
     " | impacts wanted | told | missed | false | moment, ms | approach, % | P / (m_a u) | "
     "cavities of an entry | stray (above) | bubbles | faulty";
+const char* const kBegin = "<!-- begin: detection-bench -->\n";
+const char* const kEnd = "<!-- end: detection-bench -->\n";
 const char* const kRule = " | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | ---";
 
 /// "smallest / median / largest".
@@ -110,12 +113,68 @@ void write_csv(std::ostream& out, const std::vector<Outcome>& outcomes) {
   }
 }
 
+std::string head() {
+  return std::string("| sweep | runs") + kColumns + " |\n| --- | ---" + kRule + " |\n";
+}
+
+/// A sweep is one row; its recordings, which all differ, are a row each.
+std::vector<std::string> rows_of(const std::vector<Outcome>& outcomes) {
+  std::vector<std::string> rows;
+  for (const std::string& sweep : sweeps_of(outcomes)) {
+    std::vector<const Outcome*> scripted;
+    for (const Outcome* outcome : of_sweep(outcomes, sweep)) {
+      if (outcome->item.tracker.empty()) {
+        scripted.push_back(outcome);
+      } else {
+        rows.push_back(row(sweep + ": " + outcome->item.name, {outcome}));
+      }
+    }
+    if (!scripted.empty()) rows.push_back(row(sweep, scripted));
+  }
+  return rows;
+}
+
+/// The first cell of a row.
+std::string name_of(const std::string& row) {
+  return row.substr(0, row.find(" |"));
+}
+
 }  // namespace
 
+std::string with_rows(const std::string& text, const std::vector<Outcome>& outcomes) {
+  const std::size_t begin = text.find(kBegin);
+  const std::size_t end = text.find(kEnd);
+  if (begin == std::string::npos || end == std::string::npos || end < begin) {
+    throw std::runtime_error("no lines " + std::string(kBegin) + "and " + kEnd);
+  }
+  const std::size_t from = begin + std::string(kBegin).size();
+  std::vector<std::string> rows;
+  std::istringstream old(text.substr(from, end - from));
+  for (std::string line; std::getline(old, line);) {
+    if (line.starts_with("| ") && !line.starts_with("| sweep") && !line.starts_with("| ---")) {
+      rows.push_back(line + "\n");
+    }
+  }
+  for (const std::string& row : rows_of(outcomes)) {
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const std::string& other) {
+      return name_of(other) == name_of(row);
+    });
+    if (same == rows.end()) {
+      rows.push_back(row);
+    } else {
+      *same = row;
+    }
+  }
+  std::string table = "\n" + head();
+  for (const std::string& row : rows) table += row;
+  return text.substr(0, from) + table + "\n" + text.substr(end);
+}
+
 std::string summary(const std::vector<Outcome>& outcomes) {
-  std::string text = "| sweep | runs" + std::string(kColumns) + " |\n| --- | ---" + kRule + " |\n";
-  for (const std::string& sweep : sweeps_of(outcomes))
+  std::string text = head();
+  for (const std::string& sweep : sweeps_of(outcomes)) {
     text += row(sweep, of_sweep(outcomes, sweep));
+  }
   return text + row("all", of_sweep(outcomes, ""));
 }
 
