@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+constexpr double kGravity = 9.81;  // [m/s2]
+
 /// Points this near to the first one look at the same water: what they see of it is averaged
 /// [spacings].
 constexpr double kTogether = 0.5;
@@ -47,10 +49,10 @@ constexpr double kHeavier = 4.0;
 /// Least part of its largest face that must get wet at once, and the speed at which that face would
 /// give the water as much momentum [1], [m/s].
 constexpr double kLeastFace = 0.05;
-constexpr double kLeastSpeed = 0.005;
+constexpr double kLeastSpeed = 0.003;
 
 /// Skin that looks at the water by less than this passes along it: cosine.
-constexpr double kFacing = 0.2;
+constexpr double kFacing = 0.5;
 
 /// Less matter behind the surface is a drop or a sheet [1].
 constexpr float kBacked = 0.25F;
@@ -83,8 +85,9 @@ Vector3 mean_inward(const std::vector<SurfacePoint>& points,
 struct ImpactWatch::Meeting {
   double gap = kNever;                 ///< of the very nearest [m]
   double after = kNever;               ///< time until the surfaces meet [s]
-  double approach = 0.0;               ///< of the surfaces to each other [m/s]
+  double approach = 0.0;               ///< speed of a level plate that would press as much [m/s]
   double own = 0.0;                    ///< the body's part of it [m/s]
+  double flow = 0.0;                   ///< of the water along `inward` [m/s]
   double speed = 0.0;                  ///< [m/s]
   double surface = 0.0;                ///< how far along `inward` the water begins [m]
   Vector3 velocity = {0.0, 0.0, 0.0};  ///< of the foremost point [m/s]
@@ -123,11 +126,15 @@ bool ImpactWatch::may_meet(std::size_t i, const SurfacePoint& point) const {
   if (point.touch.ahead < kBacked) return false;
   if (skin_[i].wet || !skin_[i].withdrawn || inward[2] >= kLyingOn) return false;
   if (dot(normal_of(point.touch), inward) <= kFacing) return false;
-  // Of a wave it is the way past each other that counts, else the body's own.
-  Vector3 way = velocity_of(point.touch);
-  if (settings_.impact_waves) way = way - water_velocity_of(point.touch);
-  const double closing = dot(way, inward);
-  return closing >= settings_.impact_speed && dot(way, normal_of(point.touch)) >= kFacing * closing;
+  const Vector3 way = way_of(point.touch);
+  return dot(way, inward) > 0.0 && dot(way, normal_of(point.touch)) >=
+                                       settings_.impact_speed * dot(normal_of(point.touch), inward);
+}
+
+/// Towards the water: of a wave it is the way past each other that counts, else the body's own.
+Vector3 ImpactWatch::way_of(const Touch& touch) const {
+  const Vector3 way = velocity_of(touch);
+  return settings_.impact_waves ? way - water_velocity_of(touch) : way;
 }
 
 ImpactWatch::Meeting ImpactWatch::next_meeting(int body, const std::vector<SurfacePoint>& points,
@@ -146,24 +153,32 @@ ImpactWatch::Meeting ImpactWatch::next_meeting(int body, const std::vector<Surfa
   average(meeting, points, gaps);
   // The body's own speed alone: the surface breathes and gives way, and comes back. Only a wave
   // comes by itself.
-  const double closing = settings_.impact_waves ? meeting.approach : meeting.own;
-  if (closing > 0.0) meeting.after = meeting.gap / closing;
+  const double sinking = dot(meeting.velocity, meeting.inward);
+  const double nears = settings_.impact_waves ? sinking - meeting.flow : sinking;
+  if (nears > 0.0) meeting.after = meeting.gap / nears;
   return meeting;
 }
 
 void ImpactWatch::average(Meeting& meeting, const std::vector<SurfacePoint>& points,
                           const std::vector<double>& gaps) {
   // The water is rough, the body is not: its points agree on one surface, as high along one
-  // direction as they see it on average, and the foremost of them meets it first.
+  // direction as they see it on average, and the foremost of them meets it first. A plate presses
+  // on the water along its normal alone.
   meeting.inward = mean_inward(points, meeting.points);
   const double share = 1.0 / static_cast<double>(meeting.points.size());
-  double water = 0.0;
+  double facing = 0.0;
+  double pressing = 0.0;
+  Vector3 water = {0.0, 0.0, 0.0};
   double foremost = -kNever;
   std::size_t leader = meeting.points.front();
   for (const std::size_t i : meeting.points) {
-    const double along = dot(position_of(points[i].touch), meeting.inward);
+    const Touch& touch = points[i].touch;
+    const double along = dot(position_of(touch), meeting.inward);
     meeting.surface += share * (along + gaps[i]);
-    water += share * dot(water_velocity_of(points[i].touch), meeting.inward);
+    water = water + share * water_velocity_of(touch);
+    facing += std::max(dot(normal_of(touch), meeting.inward), kFacing);
+    pressing += dot(velocity_of(touch), normal_of(touch));
+    meeting.approach += dot(velocity_of(touch) - water_velocity_of(touch), normal_of(touch));
     if (along > foremost) {
       foremost = along;
       leader = i;
@@ -171,8 +186,9 @@ void ImpactWatch::average(Meeting& meeting, const std::vector<SurfacePoint>& poi
   }
   meeting.velocity = velocity_of(points[leader].touch);
   meeting.gap = meeting.surface - foremost;
-  meeting.own = dot(meeting.velocity, meeting.inward);
-  meeting.approach = meeting.own - water;
+  meeting.flow = dot(water, meeting.inward);
+  meeting.own = pressing / facing;
+  meeting.approach /= facing;
   meeting.speed = length(meeting.velocity);
   meeting.position = position_of(points[leader].touch);
 }
@@ -189,16 +205,19 @@ void ImpactWatch::weigh(Meeting& meeting, const std::vector<SurfacePoint>& point
     backing += static_cast<double>(points[i].touch.ahead);
   }
   backing /= static_cast<double>(meeting.points.size());
+  const double sinking = dot(meeting.velocity, meeting.inward) - meeting.flow;
+  const double first = sinking > 0.0 ? std::max(meeting.gap, 0.0) / sinking : 0.0;
   std::vector<Wetting> wettings;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Touch& touch = points[i].touch;
     if (points[i].body != body || skin_[i].wet || !skin_[i].withdrawn) continue;
     const double facing = dot(normal_of(touch), meeting.inward);
-    const double speed = dot(velocity_of(touch), meeting.inward) + meeting.approach - meeting.own;
-    if (facing <= kFacing || speed <= 0.0) continue;
+    const double speed = dot(velocity_of(touch), meeting.inward) - meeting.flow;
+    // Skin that goes back along its normal, like a sole drawn through the water with its toe down,
+    // leaves a hollow behind itself, however fast it sinks.
+    if (facing <= kFacing || speed <= 0.0 || dot(way_of(touch), normal_of(touch)) <= 0.0) continue;
     const Vector3 place = position_of(touch);
     const double depth = dot(place, meeting.inward) - meeting.surface;
-    const double first = std::max(meeting.gap, 0.0) / meeting.approach;
     wettings.push_back({std::max(-depth / speed - first, 0.0), facing * points[i].area,
                         -depth > reach / 2.0 ? backing : static_cast<double>(touch.ahead), place});
   }
@@ -242,12 +261,16 @@ void ImpactWatch::weigh(Meeting& meeting, const std::vector<SurfacePoint>& point
 }
 
 /// Water that a body carries along or that flees from it is not hit; nor does water that comes to a
-/// body at rest make an impact, unless the scene wants it.
+/// body at rest make an impact, unless the scene wants it and it comes as a wave.
 bool ImpactWatch::is_fast(const Meeting& meeting) const {
-  if (settings_.impact_waves) return meeting.approach >= settings_.impact_speed;
-  return meeting.own >= settings_.impact_speed &&
-         meeting.approach >= std::max(kShareOfOwn * meeting.own, settings_.impact_speed / 2.0) &&
-         meeting.own >= kOwnShare * meeting.approach;
+  if (meeting.own >= settings_.impact_speed &&
+      meeting.approach >= std::max(kShareOfOwn * meeting.own, settings_.impact_speed / 2.0) &&
+      meeting.own >= kOwnShare * meeting.approach) {
+    return true;
+  }
+  // Slower, the water rises by its weight, and by no more than its surface is rough.
+  const double wave = std::sqrt(2.0 * kGravity * kTouching * distance_.spacing());
+  return settings_.impact_waves && meeting.approach >= std::max(wave, settings_.impact_speed);
 }
 
 /// Whether it has the weight of one.
@@ -260,7 +283,7 @@ bool ImpactWatch::is_blow(const Meeting& meeting, int body) const {
 void ImpactWatch::meet(int body, double time, double frame, const std::vector<SurfacePoint>& points,
                        const std::vector<double>& gaps) {
   Meeting meeting = next_meeting(body, points, gaps);
-  if (meeting.points.empty() || !is_fast(meeting)) return;
+  if (meeting.points.empty() || meeting.after == kNever || !is_fast(meeting)) return;
   // Touching water gives way to a slow body: when they would have met is known best before.
   const bool touches = meeting.gap <= kTouching * distance_.spacing();
   if (!touches && meeting.after > settings_.impact_lookahead) return;
@@ -274,7 +297,11 @@ void ImpactWatch::meet(int body, double time, double frame, const std::vector<Su
   if ((goes_on && !heavier) || !is_blow(meeting, body)) return;
   blow.touched = blow.lasts_until = touched;
   blow.momentum = meeting.momentum;
-  blow.pause = std::max(kPause, distance_.spacing() / meeting.approach);
+  // A wave passes all of the body.
+  const double passes = settings_.impact_waves
+                            ? std::sqrt(faces_[static_cast<std::size_t>(body)] / std::numbers::pi)
+                            : distance_.spacing();
+  blow.pause = std::max(kPause, passes / meeting.approach);
   blow.surface = meeting.surface;
   blow.inward = meeting.inward;
   DetectedImpact impact;
@@ -310,8 +337,7 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
       // In the hollow that it opens skin is dry and yet in the water: it must also have gone back,
       // or the water must be long gone.
       skin.withdrawn = skin.withdrawn || skin.dry_for > kClearFor ||
-                       skin.deepest - skin.way >= settings_.impact_release ||
-                       (settings_.impact_waves && skin.dry_for > kPause);
+                       skin.deepest - skin.way >= settings_.impact_release;
     } else if (goes_in || gaps[i] <= touching_) {
       if (!skin.wet && skin.withdrawn && speed >= settings_.impact_speed) {
         wetted[static_cast<std::size_t>(points[i].body)] = true;

@@ -6,10 +6,12 @@
 // What makes a meeting an impact is the momentum that the water takes up: the body drags along an
 // added mass m_a of water, which grows as skin gets wet (von Karman 1929, NACA TN 321),
 //   P = integral of u dm_a,    m_a = rho pi/8 C a^2 b    for a wetted rectangle a <= b
-// of the skin projected onto the water's surface, u being the speed at which the surfaces close. So
-// a drop, a sheet, or the film that a body carries along are none: they have no mass behind them,
-// or no speed. Each point of the skin counts when it comes out of the air into the water, whatever
-// the rest of the body does: heel and ball of a foot meet the water one after the other.
+// of the skin projected onto the water's surface, u being the speed at which the surfaces close: a
+// plate presses on water along its normal n alone, so u = (v - v_water).n / (n.inward), and skin
+// that goes back along its normal, however fast it sinks, hits nothing. So a drop, a sheet, or the
+// film that a body carries along are none: they have no mass behind them, or no speed. Each point
+// of the skin counts when it comes out of the air into the water, whatever the rest of the body
+// does: heel and ball of a foot meet the water one after the other.
 #pragma once
 
 #include <limits>
@@ -77,6 +79,7 @@ class ImpactWatch {
   struct Meeting;
 
   [[nodiscard]] std::vector<double> gaps_of(const std::vector<SurfacePoint>& points) const;
+  [[nodiscard]] Vector3 way_of(const Touch& touch) const;
   [[nodiscard]] bool may_meet(std::size_t i, const SurfacePoint& point) const;
   [[nodiscard]] Meeting next_meeting(int body, const std::vector<SurfacePoint>& points,
                                      const std::vector<double>& gaps) const;
