@@ -133,6 +133,19 @@ void add_walks(std::vector<Case>& all, const Material& material) {
   shipped_walk.tracker = plain;
   shipped_walk.truth = walk.contacts;
   all.push_back(shipped_walk);
+  // Splashes are chaotic: other steps and spacings are other runs.
+  for (const char* other : {"time_step_factor: 0.999", "time_step_factor: 0.998",
+                            "time_step_factor: 0.997", "time_step_factor: 0.996"}) {
+    all.push_back(shipped_walk);
+    all.back().name += std::string(", ") + other;
+    all.back().scene =
+        changed(shipped_walk.scene, "fluid:\n", std::string("fluid:\n  ") + other + "\n");
+  }
+  for (const char* other : {"particles: 9000", "particles: 16000"}) {
+    all.push_back(shipped_walk);
+    all.back().name += std::string(", ") + other;
+    all.back().scene = changed(shipped_walk.scene, "particles: 12000", other);
+  }
 }
 
 /// Between the lowest and the highest that its underside is.

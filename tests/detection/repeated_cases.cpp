@@ -36,6 +36,8 @@ Case plunges(const sim::Shape& shape, double degrees, double speed, double pause
   item.scene = basin.scene({body_text("body", shape_text(shape), way.text())});
   item.seconds = way.end();
   item.quick = pause == 0.05;
+  // Without a pause it turns round in the column of water that it has pulled up.
+  if (item.quick) item.pulled = kAbove / speed;
   return item;
 }
 

@@ -111,15 +111,21 @@ std::vector<Entry> contacts_of(const std::filesystem::path& file, const sim::Sce
 
 std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
                             const std::vector<Path>& paths, double level) {
-  if (!item.truth.empty()) return contacts_of(item.truth, scene);
   Limits limits;
   limits.impact_speed = scene.detect.impact_speed;
   std::vector<Entry> all;
+  if (!item.truth.empty()) all = contacts_of(item.truth, scene);
   for (std::size_t b = 0; b < paths.size(); ++b) {
     if (!paths[b]) continue;
     const sim::Shape& shape = scene.bodies[b].shape;
-    append(all, item.feet ? steps_of(b, shape, paths[b], level, item.seconds, limits)
-                          : entries_of(b, shape, kWhole, paths[b], level, item.seconds, limits));
+    std::vector<Entry> mine =
+        item.feet ? steps_of(b, shape, paths[b], level, item.seconds, limits)
+                  : entries_of(b, shape, kWhole, paths[b], level, item.seconds, limits);
+    for (Entry& entry : mine) {
+      entry.wanted = entry.wanted && item.truth.empty();
+      entry.time -= item.pulled;
+    }
+    append(all, mine);
   }
   return all;
 }

@@ -114,9 +114,9 @@ std::vector<Case> scene_cases() {
   std::vector<Case> all = {shipped_case("basin", 10.0, true),  shipped_case("bucket", 9.0, false),
                            shipped_case("ducks", 8.0, false),  shipped_case("boat", 8.0, false),
                            shipped_case("plunge", 3.0, false), shipped_case("pool", 8.0, false),
-                           shipped_case("beach", 8.0, false)};
-  // Crests come every two seconds and hit two feet; the first takes two seconds to arrive.
-  all.back().wishes.waves = Count{2, 12};
+                           shipped_case("beach", 20.0, false)};
+  // Ten crests, one every two seconds, reach two feet; some of the backwash hits their toes.
+  all.back().wishes.waves = Count{18, 36};
   return all;
 }
 

@@ -40,6 +40,8 @@ struct Entry {
 struct Limits {
   double impact_speed = 0.05;  ///< [m/s]
   double clear = 0.005;        ///< what never rose so far above the level may stay silent [m]
+  double momentum = 0.005;     ///< of an impact, by the added mass of the largest face [m/s]
+  double face = 0.05;          ///< of an impact, by the area of the largest face [1]
 };
 
 /// Entries between 0 and `end` [s], each `wanted` or not; what must stay silent is left out.
@@ -47,8 +49,10 @@ struct Limits {
                                             const Part& part, const Path& path, double level,
                                             double end, const Limits& limits);
 
-/// Of a foot: its heel's entries are wanted; where other parts roll in, less than 30 ms after each
-/// other, one may be told.
+/// Of a foot that rolls in: each roll is an entry, told once at any moment of it. Its momentum is
+/// von Karman's, P = sum of u dm_a over the skin that goes down through the level while it moves
+/// outward along its own normal n, u = v.n / (n.down): a plate knows no other speed. What gets wet
+/// within 30 ms after the last is one roll; `down` is P / m_a.
 [[nodiscard]] std::vector<Entry> steps_of(std::size_t body, const sim::Shape& shape,
                                           const Path& path, double level, double end,
                                           const Limits& limits);

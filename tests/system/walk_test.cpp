@@ -25,7 +25,7 @@ constexpr double kTwoFrames = 2.0 / 60.0;  ///< of the tracker [s]
 /// of a metre per second takes 13 ms over it [m].
 constexpr double kRoughness = 0.1 * 0.0158;
 /// False impacts that are accepted: "What it cannot do" in sim-server/detect/README.md.
-constexpr std::size_t kMostFalse = 3;
+constexpr std::size_t kMostFalse = 1;
 constexpr double kEnd = 2.5;  ///< of the recording [s]
 
 struct Contact {

@@ -72,15 +72,51 @@ TEST(Truth, AsksNothingOfSlowBodiesNorOfThoseThatHardlyLeave) {
   }
 }
 
-TEST(Truth, OfAFootIsItsHeelAndAllowsItsOtherParts) {
-  // The heel (-x) comes down first.
+TEST(Truth, OfAFootIsEachRollOfSkinThatPressesOnTheWater) {
+  // The heel (-x) comes down first, the sole follows.
   const auto steps = steps_of(0, hand(), falling(0.45, 1.0, -30.0), kLevel, 1.0, {});
-  ASSERT_THAT(steps, SizeIs(2));
+  ASSERT_THAT(steps, SizeIs(1));
   EXPECT_TRUE(steps[0].wanted);
-  EXPECT_FALSE(steps[1].wanted);
-  EXPECT_LT(steps[0].time, steps[1].time);
-  EXPECT_EQ(steps[0].until, steps[0].time);
-  EXPECT_GT(steps[1].until, steps[1].time + 0.05);  // it rolls in from its heel to its toes
+  const double low = 0.09 * 0.5 + 0.02 * std::sqrt(0.75);
+  EXPECT_NEAR(steps[0].time, 0.15 - low, 0.005);
+  EXPECT_NEAR(steps[0].until - steps[0].time, 0.18 * 0.5, 0.005);
+  EXPECT_NEAR(steps[0].down, 1.0, 1.0e-6);
+}
+
+// A plate that goes down by 1 m/s and along by `along`, toe down by 30 degrees.
+TEST(Truth, OfAFootAsksNothingOfASoleThatGoesBackAlongItsNormal) {
+  const auto steps = [](double along) {
+    const Path down = falling(0.45, 1.0, 30.0);
+    const Path path = [=](double time) {
+      sim::BodyState state = down(time);
+      state.position[0] = along * time;
+      state.velocity[0] = along;
+      return state;
+    };
+    return steps_of(0, hand(), path, kLevel, 0.4, {});
+  };
+  EXPECT_THAT(steps(0.0), SizeIs(1));
+  EXPECT_THAT(steps(3.0), IsEmpty());
+  // Backwards it presses harder: v.n / (n.down) = 1 + tan 30.
+  ASSERT_THAT(steps(-1.0), SizeIs(1));
+  EXPECT_NEAR(steps(-1.0)[0].down, 1.0 + std::sqrt(1.0 / 3.0), 0.01);
+}
+
+// Drawn back by 3 cm under water and pushed on again, it may hit the water in its hollow until it
+// is where it had been.
+TEST(Truth, OfAFootAllowsAnImpactInTheHollowItHasMade) {
+  const Path path = [](double time) {
+    sim::BodyState state;
+    const double back = time < 0.2 ? 0.15 * time : time < 0.3 ? 0.03 - 0.3 * (time - 0.2) : 0.0;
+    state.position[2] = kLevel - 0.1 + back;
+    state.velocity[2] = time < 0.2 ? 0.15 : time < 0.3 ? -0.3 : 0.0;
+    return state;
+  };
+  const auto steps = steps_of(0, hand(), path, kLevel, 0.5, {});
+  ASSERT_THAT(steps, SizeIs(1));
+  EXPECT_FALSE(steps[0].wanted);
+  EXPECT_NEAR(steps[0].time, 0.2, 0.003);
+  EXPECT_NEAR(steps[0].until, 0.3 - 0.005 / 0.3, 0.005);
 }
 
 sim::DetectedImpact impact(double time, double approach, double z = kLevel, int body = 0) {
@@ -194,6 +230,27 @@ TEST_F(Scorer, SumsUpInARow) {
   const std::string table = summary({one, one});
   EXPECT_THAT(table, HasSubstr("| speed | 2 | 2 | 2 | 0 | 2 | +1.0 / +1.0 / +1.0 | "
                                "+10 / +10 / +10 | 1.25 / 1.25 / 1.25 | 0 | 0 (0) | 0 | 2 |"));
+}
+
+TEST_F(Scorer, PutsItsRowsIntoAReadme) {
+  Outcome plunge;
+  plunge.item.sweep = "speed";
+  plunge.score = judged();
+  Outcome walk;
+  walk.item.sweep = "walk";
+  walk.item.name = "5 cm";
+  walk.item.tracker = "walk.trc";
+  const std::string empty =
+      "before\n<!-- begin: detection-bench -->\n<!-- end: detection-bench -->\nafter\n";
+  const std::string both = with_rows(empty, {plunge, walk});
+  EXPECT_THAT(both, HasSubstr("before\n<!-- begin: detection-bench -->\n\n| sweep | runs"));
+  EXPECT_THAT(both, HasSubstr("\n| speed | 1 | 1 | 1 | 0 | 0 |"));
+  EXPECT_THAT(both, HasSubstr("\n| walk: 5 cm | 1 | 0 | 0 | 0 | 0 |"));
+  EXPECT_THAT(both, HasSubstr("|\n\n<!-- end: detection-bench -->\nafter\n"));
+  EXPECT_EQ(with_rows(both, {walk}), both);
+  plunge.score.untrue = 2;
+  EXPECT_THAT(with_rows(both, {plunge}), HasSubstr("\n| speed | 1 | 1 | 1 | 0 | 2 |"));
+  EXPECT_THROW(static_cast<void>(with_rows("no mark", {plunge})), std::runtime_error);
 }
 
 TEST(Recording, IsPlayedOtherwise) {
