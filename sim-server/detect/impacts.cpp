@@ -308,7 +308,7 @@ void ImpactWatch::meet(int body, double time, double frame, const std::vector<Su
   impact.time = touched;
   impact.body = body;
   impact.speed = meeting.speed;
-  impact.approach = meeting.approach;
+  impact.approach = dot(meeting.velocity, meeting.inward) - meeting.flow;
   impact.momentum = meeting.momentum;
   impact.rise = meeting.rise;
   impact.area = meeting.area;

@@ -131,19 +131,21 @@ class Rolls {
 
   void go_on(double time) {
     if (rolls_.empty() || time - rolls_.back().entry.until > kRoll) {
-      rolls_.push_back({{body_, time, time, 0.0, 0.0, false}, {}, 0.0});
+      rolls_.push_back({{body_, time, time, 0.0, 0.0, false}, {}, 0.0, 0.0});
     }
     rolls_.back().entry.until = time;
   }
-  /// `speed`: at which that skin closes on the water [m/s].
-  void add(double time, const Wetting& skin, double speed) {
+  /// `speed`: at which that skin presses on the water, `down`: at which it sinks [m/s].
+  void add(double time, const Wetting& skin, double speed, double down) {
     go_on(time);
     Roll& roll = rolls_.back();
     const double mass = roll.patch.mass();
     roll.patch.add(skin);
-    roll.momentum += speed * std::max(roll.patch.mass() - mass, 0.0);
+    const double more = std::max(roll.patch.mass() - mass, 0.0);
+    roll.momentum += speed * more;
+    roll.sinking += down * more;
     // Of its beginning: that is what an impact tells.
-    if (time - roll.entry.time <= kRoll) roll.entry.down = roll.momentum / roll.patch.mass();
+    if (time - roll.entry.time <= kRoll) roll.entry.down = roll.sinking / roll.patch.mass();
   }
   /// Those that are surely impacts as wanted; those that surely are none are left out, unless
   /// nothing is known of their momentum.
@@ -165,6 +167,7 @@ class Rolls {
     Entry entry;
     Patch patch;
     double momentum = 0.0;  ///< [N s]
+    double sinking = 0.0;   ///< sum of its speeds down, each times its added mass [kg m/s]
   };
   std::size_t body_;
   double area_;      ///< least of an impact [m2]
@@ -233,7 +236,8 @@ std::vector<Entry> steps_of(std::size_t body, const Shape& shape, const Path& pa
       const double facing = -normal[2];
       const double speed = pressing / facing;
       if (facing <= kFacing || speed < limits.impact_speed) continue;
-      if (crosses && k > 0) through.add(time, {0.0, facing * skin[i].area, 1.0, arm}, speed);
+      const double down = -(state.velocity + cross(state.spin, arm))[2];
+      if (crosses && k > 0) through.add(time, {0.0, facing * skin[i].area, 1.0, arm}, speed, down);
       if (places[i].back() >= limits.clear) in_hollow += facing * skin[i].area;
     }
     if (in_hollow >= limits.face * face) hollow.go_on(time);
