@@ -9,6 +9,13 @@ namespace splash::sim {
 namespace {
 
 constexpr double kWater = 1000.0;  // [kg/m3]
+constexpr int kSteps = 20;
+constexpr double kNearly = 0.85;  ///< [1]
+
+/// Of the wetting, at the end of a step.
+struct Stage {
+  double mass = 0.0, area = 0.0, after = 0.0;
+};
 
 }  // namespace
 
@@ -51,6 +58,43 @@ double Patch::aspect() const {
   const double longest = trace / 2.0 + root;
   const double narrowest = area_ * area_ / (144.0 * std::max(longest, 1e-12));
   return std::sqrt(std::max(longest / std::max({least, narrowest, 1e-12}), 1.0));
+}
+
+Growth growth_of(std::vector<Wetting> wettings, double step) {
+  std::sort(wettings.begin(), wettings.end(),
+            [](const Wetting& a, const Wetting& b) { return a.after < b.after; });
+  Growth growth;
+  Patch at_once;
+  for (const Wetting& skin : wettings) {
+    if (skin.after <= kAtOnce) at_once.add(skin);
+  }
+  growth.area_at_once = at_once.backed();
+  growth.mass_at_once = at_once.mass();
+  std::vector<Stage> stages(1);
+  Patch patch;
+  auto next = wettings.begin();
+  for (int k = 1; k <= kSteps; ++k) {
+    Stage stage = stages.back();
+    for (; next != wettings.end() && next->after <= k * step; ++next) {
+      patch.add(*next);
+      stage.after = next->after;
+    }
+    stage.mass = patch.mass();
+    stage.area = patch.area();
+    stages.push_back(stage);
+  }
+  double steepest = 0.0;
+  for (std::size_t k = 1; k < stages.size(); ++k) {
+    steepest = std::max(steepest, stages[k].mass - stages[k - 1].mass);
+  }
+  for (std::size_t k = 1; k < stages.size(); ++k) {
+    if (stages[k].mass - stages[k - 1].mass < kNearly * steepest) continue;
+    growth.rise = stages[k].after;
+    growth.area = stages[k].area;
+    growth.mass = stages[k].mass;
+    break;
+  }
+  return growth;
 }
 
 }  // namespace splash::sim

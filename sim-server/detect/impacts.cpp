@@ -36,10 +36,6 @@ constexpr double kClearFor = 0.5;
 constexpr double kShareOfOwn = 0.5;
 constexpr double kOwnShare = 0.3;
 
-/// What gets wet within this time of the first touch is felt as one blow; what takes longer is
-/// eased in [s].
-constexpr double kAtOnce = 0.030;
-
 /// A blow goes on while skin gets wet, with pauses of up to this, or of what it takes to go in by a
 /// spacing [s]. What follows within it is a blow of its own only if it is so many times heavier
 /// [1].
@@ -58,11 +54,8 @@ constexpr double kFacing = 0.5;
 constexpr float kBacked = 0.25F;
 
 /// The wetting is looked at in steps of this part of the time R / u in which a face of the radius R
-/// goes in. The blow is strongest when in one of them the added mass grows nearly as fast as in
-/// any: of a curved body's blow the first part is sharp, what follows is drag.
+/// goes in [1].
 constexpr double kStep = 0.1;
-constexpr int kSteps = 20;
-constexpr double kNearly = 0.85;
 
 /// Air cushions the blow of a flat face for about this long [s].
 constexpr double kCushion = 0.001;
@@ -221,43 +214,12 @@ void ImpactWatch::weigh(Meeting& meeting, const std::vector<SurfacePoint>& point
     wettings.push_back({std::max(-depth / speed - first, 0.0), facing * points[i].area,
                         -depth > reach / 2.0 ? backing : static_cast<double>(touch.ahead), place});
   }
-  std::sort(wettings.begin(), wettings.end(),
-            [](const Wetting& a, const Wetting& b) { return a.after < b.after; });
-
-  Patch at_once;
-  for (const Wetting& skin : wettings) {
-    if (skin.after <= kAtOnce) at_once.add(skin);
-  }
-  meeting.area_at_once = at_once.backed();
-  meeting.momentum_at_once = meeting.approach * at_once.mass();
-
-  struct Stage {
-    double mass = 0.0, area = 0.0, after = 0.0;
-  };
-  std::vector<Stage> stages(1);
-  Patch patch;
-  auto next = wettings.begin();
-  for (int k = 1; k <= kSteps; ++k) {
-    Stage stage = stages.back();
-    for (; next != wettings.end() && next->after <= k * step; ++next) {
-      patch.add(*next);
-      stage.after = next->after;
-    }
-    stage.mass = patch.mass();
-    stage.area = patch.area();
-    stages.push_back(stage);
-  }
-  double steepest = 0.0;
-  for (std::size_t k = 1; k < stages.size(); ++k) {
-    steepest = std::max(steepest, stages[k].mass - stages[k - 1].mass);
-  }
-  for (std::size_t k = 1; k < stages.size(); ++k) {
-    if (stages[k].mass - stages[k - 1].mass < kNearly * steepest) continue;
-    meeting.momentum = meeting.approach * stages[k].mass;
-    meeting.area = stages[k].area;
-    meeting.rise = std::max(stages[k].after, kCushion);
-    return;
-  }
+  const Growth growth = growth_of(std::move(wettings), step);
+  meeting.area_at_once = growth.area_at_once;
+  meeting.momentum_at_once = meeting.approach * growth.mass_at_once;
+  meeting.momentum = meeting.approach * growth.mass;
+  meeting.area = growth.area;
+  meeting.rise = std::max(growth.rise, kCushion);
 }
 
 /// Water that a body carries along or that flees from it is not hit; nor does water that comes to a
