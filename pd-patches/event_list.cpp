@@ -72,6 +72,7 @@ struct Line {
   }
   void operator()(const protocol::Cavity& e) const {
     print(out, "cavity", e.id, e.body, e.radius, e.epsilon, e.position);
+    if (e.life > 0.0F) print(out, e.life);
   }
 };
 

@@ -55,6 +55,7 @@ class Pool final : public BubblePool {
         sample_rate_(s.sample_rate),
         max_voices_(static_cast<std::size_t>(s.max_voices)),
         fade_length_(std::llround(kVoiceFade * s.sample_rate)),
+        break_length_(std::llround(kBreakFade * s.sample_rate)),
         packs_(packs_for(s)),
         sitters_(packs_.size()),
         feeds_(packs_.size(), s.max_routes, s.channels),
@@ -204,7 +205,8 @@ class Pool final : public BubblePool {
 
   [[nodiscard]] VoiceSpan span_of(const VoiceLife& life, std::int64_t sample) const noexcept {
     VoiceSpan span{sample + 1, sample + life.length};  // sin 0 is nil, to the last bit
-    if (life.fold < life.length) {                     // out before the pitch reaches Nyquist
+    if (life.breaks < life.length) span.fade_out(sample + life.breaks, break_length_);
+    if (life.fold < life.length) {  // out before the pitch reaches Nyquist
       span.fade_out(sample + std::max<std::int64_t>(0, life.fold - fade_length_), fade_length_);
       span.end = std::min(span.end, sample + life.fold);
     }
@@ -275,7 +277,8 @@ class Pool final : public BubblePool {
   PackKernels<Pack> kernels_;
   double sample_rate_;
   std::size_t max_voices_;
-  std::int64_t fade_length_;  ///< samples
+  std::int64_t fade_length_;   ///< samples
+  std::int64_t break_length_;  ///< samples
   std::vector<Pack, Aligned<Pack>> packs_;
   std::vector<Sitters> sitters_;  ///< by pack
   PackFeeds<Real> feeds_;         ///< by pack

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/render/ensemble.hpp"
 
+#include <cmath>
 #include <span>
 #include <type_traits>
 #include <variant>
@@ -61,9 +62,12 @@ bool Ensemble::masking() const noexcept {
 }
 
 Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
-                                       bool kept, std::int64_t sample) noexcept {
+                                       const protocol::Cavity* cavity,
+                                       std::int64_t sample) noexcept {
   VoiceLife life = life_of(tone, settings_.sample_rate, reach.floor);
-  life.kept = kept;
+  const bool kept = life.kept = cavity != nullptr;
+  const bool breaks = kept && cavity->life > 0.0F;
+  if (breaks) life.breaks = std::llround(static_cast<double>(cavity->life) * settings_.sample_rate);
   if (reach.result == Routing::Result::out_of_band || life.fold <= 0) {
     counts_.band.add();
     return Outcome::left_out;
@@ -81,7 +85,7 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
   const BubblePool::Started started = bubbles_->start(tone, life, reached, reach.group, sample);
   if (started.result == BubblePool::Start::refused) return Outcome::no_place;
   if (started.result == BubblePool::Start::stole) counts_.stolen.add();
-  if (settings_.skip_masked) {
+  if (settings_.skip_masked && !breaks) {  // what it hides may ring on
     masking_.note(tone, reached, sample, started.place, bubbles_->ranking());
   }
   return Outcome::started;
@@ -94,8 +98,9 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t
                   settings_.water_level, static_cast<double>(event.radius),
                   static_cast<double>(event.epsilon), static_cast<double>(event.position.z));
   const Source source{event.position, event.body, tone.frequency};
-  constexpr bool kKept = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
-  return start_tone(tone, routing_.route(source, routes_), kKept, sample);
+  const protocol::Cavity* cavity = nullptr;
+  if constexpr (std::is_same_v<BubbleOrCavity, protocol::Cavity>) cavity = &event;
+  return start_tone(tone, routing_.route(source, routes_), cavity, sample);
 }
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {

@@ -45,8 +45,9 @@ class Ensemble {
   Outcome start_kind(const protocol::Impact& impact, std::int64_t sample) noexcept;
   template <class BubbleOrCavity>
   Outcome start_kind(const BubbleOrCavity& event, std::int64_t sample) noexcept;
-  Outcome start_tone(const BubbleTone& tone, const Routing::Reach& reach, bool kept,
-                     std::int64_t sample) noexcept;
+  /// `cavity`: what the tone is, or null: a bubble.
+  Outcome start_tone(const BubbleTone& tone, const Routing::Reach& reach,
+                     const protocol::Cavity* cavity, std::int64_t sample) noexcept;
   [[nodiscard]] bool masking() const noexcept;
 
   EngineSettings settings_;

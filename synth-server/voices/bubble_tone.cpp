@@ -2,12 +2,10 @@
 #include "synth-server/voices/bubble_tone.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace splash::synth {
 
 VoiceLife life_of(const BubbleTone& tone, double sample_rate, double floor) noexcept {
-  constexpr auto kNever = std::numeric_limits<std::int64_t>::max();
   VoiceLife life;
   life.log_amplitude = std::log(tone.amplitude);
   life.decay = tone.damping;
@@ -16,7 +14,7 @@ VoiceLife life_of(const BubbleTone& tone, double sample_rate, double floor) noex
   // f0 (1 + 2 c t) = sample_rate / 2
   const double headroom = 0.5 * sample_rate / tone.frequency - 1.0;
   const double fold = headroom / (2.0 * tone.rise) * sample_rate;
-  life.fold = fold < 1e15 ? static_cast<std::int64_t>(std::max(fold, 0.0)) : kNever;
+  life.fold = fold < 1e15 ? static_cast<std::int64_t>(std::max(fold, 0.0)) : VoiceLife::kNever;
   return life;
 }
 

@@ -25,16 +25,18 @@ TEST(EventList, HoldsOneLinePerEventInTheOrderOfTheirSamples) {
        {to_message(Frame{7, 0, 3, 20.0F}),
         to_message(Impact{4, 1, 1.5F, 1.25F, {0.5F, 0.25F, -0.125F}, 2.0F}),
         to_message(Bubble{9, -1, 0.0078125F, 0.0625F, {1.0F, 2.0F, 3.0F}, 0.0F})}},
-      {0.020, {to_message(Cavity{2, 0, 0.125F, 0.125F, {0.0F, 0.0F, 0.0F}, 0.0F})}}};
+      {0.020, {to_message(Cavity{2, 0, 0.125F, 0.125F, {0.0F, 0.0F, 0.0F}, 0.0F})}},
+      {0.030, {to_message(Cavity{3, 0, 0.125F, 0.0078125F, {0.0F, 0.0F, 0.0F}, 0.0F, 0.25F})}}};
   std::ostringstream text;
   const auto report = write_event_list(log, 8000.0, text);
   EXPECT_EQ(text.str(),
             "10 bubble 9 -1 0.0078125 0.0625 1 2 3;\n"
             "2 impact 4 1 1.5 1.25 0.5 0.25 -0.125;\n"
-            "8 cavity 2 0 0.125 0.125 0 0 0;\n");
-  EXPECT_EQ(report.events, 3U);
+            "8 cavity 2 0 0.125 0.125 0 0 0;\n"
+            "10 cavity 3 0 0.125 0.0078125 0 0 0 0.25;\n");
+  EXPECT_EQ(report.events, 4U);
   EXPECT_EQ(report.not_events, 1U);
-  EXPECT_EQ(report.last_sample, 160);
+  EXPECT_EQ(report.last_sample, 240);
 }
 
 TEST(EventList, RoundedDeltasDoNotDrift) {

@@ -62,6 +62,17 @@ TEST(Scsynth, StartsEachEventOnItsSample) {
   }
 }
 
+TEST(Scsynth, FadesACavityAfterItsLife) {
+  const auto log =
+      pd::make_log({{0.1, protocol::Cavity{1, 0, 0.06F, 0.1F, {0.0F, 0.0F, 0.0F}, 0.0F, 0.1372F}}});
+  const double gain = 0.9 / (0.1 * 0.06);
+  const Pair both = render_both(log, 48000, gain);
+  const double level = decibels(largest(both.synth, both.scsynth) / 0.9);
+  std::cout << "a cavity that breaks: " << level << " dB re A0\n";
+  EXPECT_GT(peak(both.synth), 0.3);
+  EXPECT_LT(level, kTolerance);
+}
+
 class Scene : public testing::TestWithParam<const char*> {};
 
 TEST_P(Scene, SoundsAlike) {

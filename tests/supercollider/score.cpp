@@ -20,6 +20,7 @@ namespace splash::supercollider {
 namespace {
 
 constexpr double kPatience = 120.0;  ///< for one rendering on a busy machine [s]
+constexpr double kNever = 1e6;       ///< [s]
 constexpr double kFaintest = 1e-8;   ///< a voice ends at this [full scale]
 /// Of a sample: scsynth rounds to the nearest, but what lies on a block's edge it puts into the
 /// last sample of the block before.
@@ -52,6 +53,7 @@ class Packet {
 struct Tone {
   double radius = 0.0;   ///< [m]
   double epsilon = 0.0;  ///< [1]
+  double life = 0.0;     ///< until it breaks, 0: never [s]
 };
 
 std::optional<Tone> tone_of(const protocol::Event& event) {
@@ -59,7 +61,8 @@ std::optional<Tone> tone_of(const protocol::Event& event) {
     return Tone{static_cast<double>(b->radius), static_cast<double>(b->epsilon)};
   }
   if (const auto* c = std::get_if<protocol::Cavity>(&event)) {
-    return Tone{static_cast<double>(c->radius), static_cast<double>(c->epsilon)};
+    return Tone{static_cast<double>(c->radius), static_cast<double>(c->epsilon),
+                static_cast<double>(c->life)};
   }
   return std::nullopt;
 }
@@ -85,12 +88,12 @@ std::multimap<std::int64_t, Tone> tones(const std::vector<protocol::LogEntry>& l
 }
 
 /// f0 r = 3 m/s and d = 0.13 / r + 0.0072 r^-1.5: paper, section 5.2.
-std::string new_bubble(const Tone& tone, double gain) {
+std::string new_bubble(const Tone& tone, double gain, double sample_rate) {
   const double damping = 0.13 / tone.radius + 0.0072 * std::pow(tone.radius, -1.5);
   const double amplitude = tone.epsilon * tone.radius * gain;
   Packet message;
   message.text("/s_new");
-  message.text(",siiisfsfsfsf");
+  message.text(",siiisfsfsfsfsf");
   message.text("bubble");
   message.whole(-1);  // a number of scsynth's own
   message.whole(1);   // at the end
@@ -102,7 +105,8 @@ std::string new_bubble(const Tone& tone, double gain) {
   set("amp", amplitude);
   set("f0", 3.0 / tone.radius);
   set("d", damping);
-  set("life", std::max(1e-3, std::log(amplitude / kFaintest) / damping));
+  set("length", std::max(1e-3, std::log(amplitude / kFaintest) / damping));
+  set("breaks", tone.life > 0.0 ? std::round(tone.life * sample_rate) / sample_rate : kNever);
   return message.bytes();
 }
 
@@ -129,7 +133,7 @@ int write_score(const std::vector<protocol::LogEntry>& log, const ScoreSettings&
   int count = 0;
   for (const auto& [sample, tone] : tones(log, settings)) {
     write_bundle(file, (static_cast<double>(sample) + kWithin) / settings.sample_rate,
-                 new_bubble(tone, settings.gain));
+                 new_bubble(tone, settings.gain, settings.sample_rate));
     ++count;
   }
   Packet nothing;  // the rendering ends with the last bundle

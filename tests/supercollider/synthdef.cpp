@@ -13,7 +13,10 @@ enum Rate : int { kScalar = 0, kControl = 1, kAudio = 2 };
 /// Special indices of UnaryOpUGen and BinaryOpUGen.
 enum Operator : int {
   kAdd = 0,
+  kMinus = 1,
   kTimes = 2,
+  kMinimum = 12,
+  kMaximum = 13,
   kNegate = 0,
   kFraction = 10,
   kExponential = 15,
@@ -102,17 +105,19 @@ std::vector<std::byte> bubble_synthdef() {
   constexpr int kAmp = 0;
   constexpr int kFrequency = 1;
   constexpr int kDamping = 2;
-  constexpr int kLife = 3;
+  constexpr int kLength = 3;
+  constexpr int kBreaks = 4;
   constexpr float kFreeSelf = 2.0F;  // what Line does when it is through
   Definition def;
   const Wire nil = def.constant(0.0F);
   const Wire one = def.constant(1.0F);
-  def.parameters({"amp", "f0", "d", "life"});
+  def.parameters({"amp", "f0", "d", "length", "breaks"});
   const Wire amp = Definition::parameter(kAmp);
   const Wire f0 = Definition::parameter(kFrequency);
   const Wire d = Definition::parameter(kDamping);
-  const Wire life = Definition::parameter(kLife);
-  def.add("Line", kControl, {nil, one, life, def.constant(kFreeSelf)});
+  const Wire length = Definition::parameter(kLength);
+  const Wire breaks = Definition::parameter(kBreaks);
+  def.add("Line", kControl, {nil, one, length, def.constant(kFreeSelf)});
   const Wire t = def.add("Sweep", kAudio, {nil, one});
   const Wire decay = def.binary(kTimes, d, t);
   const Wire chirp = def.binary(kAdd, one, def.binary(kTimes, def.constant(0.1F), decay));
@@ -121,7 +126,14 @@ std::vector<std::byte> bubble_synthdef() {
                                 def.unary(kFraction, cycles));
   const Wire envelope = def.unary(kExponential, def.unary(kNegate, decay));
   const Wire tone = def.binary(kTimes, def.unary(kSine, angle), def.binary(kTimes, amp, envelope));
-  def.add("OffsetOut", kAudio, {nil, tone}, 0);
+  // From `breaks` on it fades within 50 ms: left^2 (3 - 2 left).
+  const Wire since = def.binary(kMinus, t, breaks);
+  const Wire falling = def.binary(kMinus, one, def.binary(kTimes, def.constant(20.0F), since));
+  const Wire left = def.binary(kMaximum, def.binary(kMinimum, falling, one), nil);
+  const Wire bend =
+      def.binary(kMinus, def.constant(3.0F), def.binary(kTimes, def.constant(2.0F), left));
+  const Wire fade = def.binary(kTimes, def.binary(kTimes, left, left), bend);
+  def.add("OffsetOut", kAudio, {nil, def.binary(kTimes, tone, fade)}, 0);
   return def.compiled("bubble");
 }
 

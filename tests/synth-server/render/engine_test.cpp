@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -43,6 +44,36 @@ TEST(Engine, RendersTheFormulaAtFullScale) {
   // A0 is 0.025 of full scale; the 1 Hz high-pass turns 600 Hz by 0.25 degrees, and swings in.
   EXPECT_LT(worst, 0.025 * 0.01);
   EXPECT_GT(worst, 0.0);
+}
+
+// Until it breaks it is the formula; then it fades within 50 ms. Without a life it rings on.
+TEST(Engine, FadesACavityAfterItsLife) {
+  const auto played = [](float life) {
+    Engine engine(open_rig(), file_settings());
+    protocol::Cavity event = cavity(0.06F);
+    event.epsilon = 0.01F;
+    event.life = life;
+    engine.schedule({event, 100});
+    return render(engine, 48000, {37}).front();
+  };
+  const auto for_ever = played(0.0F);
+  const auto broken = played(0.15F);
+  constexpr std::size_t kBreaks = 100 + 7200;
+  constexpr std::size_t kOver = kBreaks + 2400;
+  double left_energy = 0.0;
+  for (std::size_t n = 0; n < broken.size(); ++n) {
+    const double whole = static_cast<double>(for_ever[n]);
+    if (n <= kBreaks) {
+      ASSERT_EQ(broken[n], for_ever[n]) << n;
+    } else if (n < kOver) {
+      ASSERT_LE(std::abs(static_cast<double>(broken[n])), std::abs(whole) + 0.01) << n;
+    }
+    if (n >= 24100) left_energy += static_cast<double>(broken[n]) * static_cast<double>(broken[n]);
+  }
+  EXPECT_GT(std::abs(*std::max_element(for_ever.begin() + kOver, for_ever.end())), 0.02F);
+  double energy = 0.0;
+  for (const float v : broken) energy += static_cast<double>(v) * static_cast<double>(v);
+  EXPECT_LT(left_energy, 1e-4 * energy);  // half a second after its start
 }
 
 TEST(Engine, FollowsTheChirpSetting) {
