@@ -159,4 +159,10 @@ PistonState piston_at(const WaveMaker& maker, double seconds) {
           maker.stroke / 2.0 * omega * std::sin(omega * seconds)};
 }
 
+Tank tank_at(const Scene& scene, double seconds) {
+  Tank tank = scene.tank;
+  tank.lower[0] += piston_at(scene.wave_maker, seconds).offset;
+  return tank;
+}
+
 }  // namespace splash::sim

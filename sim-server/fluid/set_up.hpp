@@ -40,5 +40,7 @@ struct PistonState {
   double speed = 0.0;
 };
 [[nodiscard]] PistonState piston_at(const WaveMaker& maker, double seconds);
+/// The tank as it is then: a wave maker's wall is where its piston is.
+[[nodiscard]] Tank tank_at(const Scene& scene, double seconds);
 
 }  // namespace splash::sim

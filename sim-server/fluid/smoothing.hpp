@@ -29,6 +29,22 @@ constexpr double kTornDensity = 0.9063;
 [[nodiscard]] double kernel_norm(double support);
 /// W(r) [1/m3]
 [[nodiscard]] double kernel_value(double r, double support);
+/// W again, of one support and from r^2 [m2]: for sums over many pairs.
+class SmoothingKernel {
+ public:
+  explicit SmoothingKernel(double support)
+      : norm_(kernel_norm(support)), inverse_square_(1.0 / (support * support)) {}
+  [[nodiscard]] double of_square(double r2) const {  ///< [1/m3]
+    const double t = 1.0 - r2 * inverse_square_;
+    if (t <= 0.0) return 0.0;
+    const double t2 = t * t;
+    return norm_ * t2 * t2 * t * (1.1 + t * (-1.8 + t * 1.7));
+  }
+
+ private:
+  double norm_;            ///< [1/m3]
+  double inverse_square_;  ///< [1/m2]
+};
 /// F(r) of grad W(x) = F(r) x [1/m5]
 [[nodiscard]] double kernel_gradient(double r, double support);
 /// Weight of the kernel's plane at distance z from its centre: the integral of W over it [1/m].

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Air below the water's level: a hollow that is open to the air above, and pockets that the water
-// has closed around. The region is divided into cells of about one spacing. A cell is air where the
-// colour field sum_j V W at its middle is below a half and no body is there; air is open when it is
-// joined to the region's top through faces of cells that are air.
+// has closed around (fluid/air_cells.hpp).
 #pragma once
 
 #include <functional>

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sim-server/bodies/skin.hpp"
+#include "sim-server/fluid/images.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/gauge/body_force.hpp"
@@ -15,7 +16,6 @@
 #include "sim-server/gauge/film_force.hpp"
 #include "sim-server/gauge/front.hpp"
 #include "sim-server/gauge/height.hpp"
-#include "sim-server/gauge/images.hpp"
 #include "sim-server/gauge/pressure.hpp"
 #include "sim-server/gauge/thrust.hpp"
 #include "sim-server/scene/resolution.hpp"
@@ -57,13 +57,6 @@ bool needs_pressures(GaugeKind kind) {
 template <class Values>
 void append(std::vector<double>& row, const Values& values) {
   row.insert(row.end(), values.begin(), values.end());
-}
-
-/// The tank as it is now: a wave maker's wall is where its piston is.
-Tank tank_at(const Scene& scene, double seconds) {
-  Tank tank = scene.tank;
-  tank.lower[0] += piston_at(scene.wave_maker, seconds).offset;
-  return tank;
 }
 
 std::vector<BodyState> states_at(double seconds, const Bodies& bodies) {

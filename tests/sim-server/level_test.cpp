@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim-server/gauge/height.hpp"
-#include "sim-server/gauge/images.hpp"
+#include "sim-server/fluid/images.hpp"
 #include "sim-server/gauge/water_state.hpp"
 #include "sim-server/missing_water.hpp"
 #include "sim-server/scene/initial_fluid.hpp"

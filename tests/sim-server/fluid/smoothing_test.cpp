@@ -29,6 +29,14 @@ TEST(Smoothing, WeighsOne) {
   EXPECT_NEAR(weight, 1.0, 1.0e-9);
 }
 
+TEST(Smoothing, IsTheSameFromTheSquare) {
+  const SmoothingKernel kernel(kSupport);
+  const double peak = kernel_value(0.0, kSupport);
+  for (double r = 0.0; r < 1.2 * kSupport; r += 0.01 * kSupport) {
+    EXPECT_NEAR(kernel.of_square(r * r), kernel_value(r, kSupport), 1.0e-14 * peak) << r;
+  }
+}
+
 TEST(Smoothing, EndsAtTheSupport) {
   EXPECT_EQ(kernel_value(kSupport, kSupport), 0.0);
   EXPECT_EQ(kernel_value(2.0 * kSupport, kSupport), 0.0);

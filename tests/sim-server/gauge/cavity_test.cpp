@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
-#include "sim-server/gauge/images.hpp"
+#include "sim-server/fluid/air_cells.hpp"
+#include "sim-server/fluid/images.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/gauge/lattice.hpp"
 
@@ -72,6 +74,36 @@ TEST(Cavity, PocketIsTheLargest) {
   const Cavity cavity = measure(water, nothing);
   EXPECT_GT(cavity.enclosed, cavity.pocket);
   EXPECT_NEAR((cavity.enclosed - cavity.pocket) / cavity.pocket, 8.0 / 27.0, 0.1);
+}
+
+// However small the hollow, what the colour field lacks is its air; cells below a half are fewer.
+TEST(AirCells, MeasureTheAirOfSmallPockets) {
+  constexpr double kSpacing = 0.02;
+  for (const double radius : {0.03, 0.04, 0.06}) {
+    int removed = 0;
+    const WaterState water =
+        lattice_water(kTank.lower, {0.2, 0.2, 0.2}, kSpacing, [&](const Vector3& x) {
+          const bool inside = length(x - kMiddle) < radius;
+          removed += inside ? 1 : 0;
+          return !inside;
+        });
+    const auto points = with_images(water.position, kTank, water.support);
+    AirCells cells({0.0, 0.0, 0.0}, {0.2, 0.2, 0.2}, kSpacing, water.support);
+    for (const Vector3& point : points) cells.add(point, water.volume());
+    cells.fill(nothing);
+    cells.measure();
+    ASSERT_EQ(cells.pockets().size(), 1U);
+    const double exact = removed * water.volume();
+    const AirCells::Pocket& pocket = cells.pockets().front();
+    std::printf("radius %.2f m: %.0f ml of cells, %.0f ml of air, exact %.0f\n", radius,
+                1e6 * pocket.volume, 1e6 * pocket.air, 1e6 * exact);
+    EXPECT_NEAR(pocket.air / exact, 1.0, 0.12);
+    EXPECT_NEAR(length(pocket.centre - kMiddle), 0.0, 0.001);
+    EXPECT_FALSE(pocket.at_side);
+    EXPECT_EQ(cells.pocket_at(kMiddle), 0);
+    EXPECT_EQ(cells.pocket_at({0.01, 0.01, 0.01}), -1);
+    EXPECT_EQ(cells.pocket_at({-1.0, 0.1, 0.1}), -1);
+  }
 }
 
 }  // namespace

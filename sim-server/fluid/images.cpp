@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/gauge/images.hpp"
+#include "sim-server/fluid/images.hpp"
 
 namespace splash::sim {
 
