@@ -19,12 +19,12 @@ protocol::Vec3 as_place(const Vector3& place) {
 
 /// Bubbles and cavities have the same fields on the wire.
 template <class Event, class Detected>
-Event as_bubble(const Detected& found, const Simulation& simulation, int& id, double epsilon) {
+Event as_bubble(const Detected& found, const Simulation& simulation, int& id) {
   Event event;
   event.id = next(id);
   event.body = simulation.nearest_body(found.position);
   event.radius = static_cast<float>(found.radius);
-  event.epsilon = static_cast<float>(epsilon);
+  event.epsilon = static_cast<float>(found.epsilon);
   event.position = as_place(found.position);
   return event;
 }
@@ -33,8 +33,6 @@ Event as_bubble(const Detected& found, const Simulation& simulation, int& id, do
 
 std::vector<TimedEvent> number_events(const Detections& found, const Simulation& simulation,
                                       double latency, EventIds& ids) {
-  // Paper, section 5.3.1: no variability is desired for cavities.
-  constexpr double kCavityEpsilon = 0.1;
   std::vector<TimedEvent> events;
   for (const DetectedImpact& impact : found.impacts) {
     protocol::Impact event;
@@ -48,12 +46,14 @@ std::vector<TimedEvent> number_events(const Detections& found, const Simulation&
     events.push_back({event, impact.time});
   }
   for (const DetectedBubble& bubble : found.bubbles) {
-    events.push_back({as_bubble<protocol::Bubble>(bubble, simulation, ids.bubble, bubble.epsilon),
-                      bubble.time + latency});
+    events.push_back(
+        {as_bubble<protocol::Bubble>(bubble, simulation, ids.bubble), bubble.time + latency});
   }
   for (const DetectedCavity& cavity : found.cavities) {
-    events.push_back({as_bubble<protocol::Cavity>(cavity, simulation, ids.cavity, kCavityEpsilon),
-                      cavity.time + latency});
+    auto event = as_bubble<protocol::Cavity>(cavity, simulation, ids.cavity);
+    if (cavity.body >= 0) event.body = cavity.body;
+    event.life = static_cast<float>(cavity.life);
+    events.push_back({event, cavity.time + latency});
   }
   return events;
 }

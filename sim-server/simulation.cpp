@@ -29,6 +29,29 @@ SleepRule sleep_rule(const Scene& scene) {
           static_cast<int>(std::ceil(scene.skip.sleep_after * scene.serve.frame_rate))};
 }
 
+double particle_volume(const FluidParams& p) {
+  return static_cast<double>(p.mass) / static_cast<double>(p.rest_density);
+}
+
+std::vector<SkinPoint> skins_of(const Scene& scene, const FluidParams& p) {
+  return sample_skins(scene.bodies, static_cast<double>(p.spacing));
+}
+
+/// Where all particles are; waits [m].
+std::vector<Vector3> read_places(Fluid& fluid) {
+  const auto count = static_cast<std::size_t>(fluid.params().count);
+  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
+  const std::vector<float> parts =
+      fluid.particles().position.read(fluid.device(), 2 * stride + count);
+  std::vector<Vector3> places(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      places[i][axis] = static_cast<double>(parts[axis * stride + i]);
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
@@ -36,8 +59,10 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
       fluid_(make_fluid(device, scene_, bodies_, holding_)),
-      detector_(fluid_, sample_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)),
-                scene_.detect, scene_.seed, !scene_.skip.cavities),
+      detector_(fluid_, skins_of(scene_, fluid_.params()), scene_.detect, scene_.seed,
+                !scene_.skip.cavities),
+      pockets_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
+               !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   come_to_rest(fluid_, scene_, bodies_, holding_, tell);
   fluid_.forget_work();
@@ -179,11 +204,21 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   totals_.steps += steps;
   FrameResult result;
   result.seconds = seconds_;
-  result.found = detector_.collect(detect_time, since, static_cast<std::uint32_t>(totals_.steps));
+  result.found = collect(detect_time, since);
   result.survey = fluid_.survey_result();
   detected_at_ = detect_time;
   keep(result);
   return result;
+}
+
+Detections Simulation::collect(double detect_time, double since) {
+  Detections found =
+      detector_.collect(detect_time, since, static_cast<std::uint32_t>(totals_.steps));
+  if (!scene_.detect.cavity_by_count) {
+    found.cavities =
+        pockets_.observe(seconds_, found.impacts, bodies_, [&] { return read_places(fluid_); });
+  }
+  return found;
 }
 
 void Simulation::count(const FrameNeeds& needs) {
@@ -192,7 +227,8 @@ void Simulation::count(const FrameNeeds& needs) {
   skipped.idle += !needs.steps;
   skipped.contacts += !needs.steps || !needs.contacts;
   skipped.bubbles += !needs.steps || !needs.bubbles;
-  skipped.cavities = static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches();
+  skipped.cavities =
+      static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches() - pockets_.looks();
   skipped.asleep_sum += static_cast<double>(survey_.asleep) / fluid_.params().count;
 }
 
@@ -238,6 +274,7 @@ FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   if (mishap.remedy == Remedy::reset) {
     fluid_.restore(start_);
     bodies_.reset(seconds_ + frame);
+    pockets_.forget();
     ++totals_.resets;
   } else {
     calm(mishap, fluid_, bodies_, recovery_.given_up(), seconds_);

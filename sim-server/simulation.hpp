@@ -9,6 +9,7 @@
 
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/detect/detector.hpp"
+#include "sim-server/detect/pockets.hpp"
 #include "sim-server/fluid/checkpoint.hpp"
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/settle.hpp"
@@ -74,6 +75,7 @@ class Simulation {
     seconds_ = detected_at_ = seconds;
     sound_.keep(fluid_.device(), state());
     needs_.forget();
+    pockets_.forget();
   }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
@@ -105,6 +107,8 @@ class Simulation {
   [[nodiscard]] std::optional<FrameResult> attempt(const std::vector<Step>& plan,
                                                    const FrameNeeds& needs);
   void enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since);
+  /// What the detectors found in a frame that was sound.
+  [[nodiscard]] Detections collect(double detect_time, double since);
   [[nodiscard]] FrameResult hold_still(double frame);
   /// Of the frame that has been computed, with so many steps.
   [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t steps);
@@ -128,6 +132,7 @@ class Simulation {
   std::vector<Holding> holding_;
   Fluid fluid_;
   Detector detector_;
+  Pockets pockets_;
   Needs needs_;
   Survey survey_;  ///< the last one
   double seconds_ = 0.0;

@@ -37,7 +37,6 @@ struct PoolBubble {
   double born = 0.0;                   ///< [s]
   int serial = 0;                      ///< counts all bubbles ever spawned
   int cavity = -1;                     ///< serial of the cavity it is part of, -1: none
-  double volume = 0.0;                 ///< space it takes up among the others [m3]
 };
 
 /// Sums over a run.

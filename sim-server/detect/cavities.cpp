@@ -3,14 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
-
-#include "sim-server/fluid/set_up.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 
 namespace splash::sim {
 namespace {
@@ -22,21 +17,8 @@ constexpr int kRoundsAtOnce = 4;
 struct Group {
   int bubbles = 0;
   int cavity = kUnlabelled;  ///< smallest serial of a known cavity among its bubbles
-  double volume = 0.0;       ///< [m3]
   Vector3 sum = {0.0, 0.0, 0.0};
 };
-
-double radius_of(const Group& group, const DetectSettings& settings) {
-  if (settings.cavity_by_count) return cavity_radius(group.bubbles, settings);
-  return std::min(std::cbrt(3.0 / (4.0 * std::numbers::pi) * group.volume),
-                  settings.cavity_radius_max);
-}
-
-/// Whether a group makes a cavity.
-bool suffices(const Group& group, const DetectSettings& settings) {
-  if (settings.cavity_by_count) return group.bubbles >= settings.cavity_bubbles_min;
-  return radius_of(group, settings) >= settings.cavity_radius_min;
-}
 
 }  // namespace
 
@@ -47,12 +29,6 @@ double cavity_radius(int bubbles, const DetectSettings& settings) {
          part * (settings.cavity_radius_max - settings.cavity_radius_min);
 }
 
-double bubble_volume(double colour, const FluidParams& params) {
-  const auto unit = static_cast<double>(params.mass / params.rest_density);
-  return unit /
-         (std::max(colour, 0.0) + unit * kernel_value(0.0, static_cast<double>(params.support)));
-}
-
 std::vector<DetectedCavity> name_cavities(std::vector<PoolBubble>& pool,
                                           const std::vector<int>& label, double time,
                                           const DetectSettings& settings, int& next_cavity) {
@@ -61,18 +37,17 @@ std::vector<DetectedCavity> name_cavities(std::vector<PoolBubble>& pool,
     if (label[i] < 0) continue;
     Group& group = groups[label[i]];
     ++group.bubbles;
-    group.volume += pool[i].volume;
     if (pool[i].cavity >= 0) group.cavity = std::min(group.cavity, pool[i].cavity);
     for (std::size_t axis = 0; axis < 3; ++axis) group.sum[axis] += pool[i].position[axis];
   }
   std::vector<DetectedCavity> fresh;
   for (auto& [first, group] : groups) {
-    if (group.cavity != kUnlabelled || !suffices(group, settings)) continue;
+    if (group.cavity != kUnlabelled || group.bubbles < settings.cavity_bubbles_min) continue;
     group.cavity = next_cavity++;
     DetectedCavity cavity;
     cavity.time = time;
     cavity.bubbles = group.bubbles;
-    cavity.radius = radius_of(group, settings);
+    cavity.radius = cavity_radius(group.bubbles, settings);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       cavity.position[axis] = group.sum[axis] / group.bubbles;
     }
@@ -131,8 +106,6 @@ std::vector<DetectedCavity> Cavities::search(double time, Bubbles& bubbles) {
   const std::vector<int> grown = grow(bubbles);
   std::vector<int> label(bubbles.pool().size(), -1);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    PoolBubble& bubble = bubbles.pool()[static_cast<std::size_t>(states[i].id)];
-    bubble.volume = bubble_volume(static_cast<double>(states[i].colour), fluid_.params());
     if (grown[i] != kUnlabelled) label[static_cast<std::size_t>(states[i].id)] = grown[i];
   }
   return name_cavities(bubbles.pool(), label, time, settings_, next_cavity_);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The main cavity (paper, section 5.3.2): bubbles surrounded by bubbles are found by their colour
-// field c_b, the group around them by an iterative neighbour search on the device, and the space
-// that its bubbles take up, or their number, is mapped to the radius of one sphere. A cavity speaks
-// once: a group that holds bubbles of a known cavity is that cavity.
+// The main cavity by the paper's rule (section 5.3.2): bubbles surrounded by bubbles are found by
+// their colour field c_b, the group around them by an iterative neighbour search on the device, and
+// their number is mapped to the radius of one sphere. A cavity is told once: a group that holds
+// bubbles of a known cavity is that cavity. What a scene has without this rule: pockets.hpp.
 #pragma once
 
 #include <vector>
@@ -13,10 +13,6 @@ namespace splash::sim {
 
 /// N_b to radius, linearly between the scene's bounds [m].
 [[nodiscard]] double cavity_radius(int bubbles, const DetectSettings& settings);
-
-/// Space that a bubble takes up among others that give it the colour `colour` [m3]: the particle's
-/// share of space in SPH, 1 / sum_j W_ij, its own part included (Hu & Adams 2006).
-[[nodiscard]] double bubble_volume(double colour, const FluidParams& params);
 
 /// Gives each group its cavity: `label[i]`: the group of pool bubble i, -1: none. Marks the pool's
 /// bubbles and returns the groups that are new cavities. `next_cavity` counts cavities.

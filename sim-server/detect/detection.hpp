@@ -29,9 +29,12 @@ struct DetectedBubble {
 
 struct DetectedCavity {
   double time = 0.0;                   ///< [s]
-  int bubbles = 0;                     ///< N_b
+  int body = -1;                       ///< behind which it closed, -1: not known
+  int bubbles = 0;                     ///< N_b, by the paper's rule
   double radius = 0.0;                 ///< [m]
-  Vector3 position = {0.0, 0.0, 0.0};  ///< centre of its bubbles [m]
+  double epsilon = 0.1;                ///< initial excitation; the paper's, section 5.3.1 [1]
+  double life = 0.0;                   ///< until it surfaces or breaks, 0: not known [s]
+  Vector3 position = {0.0, 0.0, 0.0};  ///< its centre [m]
 };
 
 struct Detections {

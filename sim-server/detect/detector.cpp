@@ -75,8 +75,10 @@ Detector::Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const Detec
       program_(build(fluid.device())),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
-      cavities_(fluid, program_, settings, bubble_room(fluid.params().count), search_always),
-      impacts_(faces_, settings, distance_of(fluid.params())) {}
+      impacts_(faces_, settings, distance_of(fluid.params())) {
+  if (!settings.cavity_by_count) return;
+  cavities_.emplace(fluid, program_, settings, bubble_room(fluid.params().count), search_always);
+}
 
 void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
   if (passes.contacts && !points_.empty()) {
@@ -94,7 +96,7 @@ void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
 void Detector::rehearse(const Step& step) {
   bubbles_.pool().resize(1);
   enqueue(step, step.dt);
-  cavities_.rehearse(bubbles_);
+  if (cavities_) cavities_->rehearse(bubbles_);
   bubbles_.pool().clear();
   bubbles_.skip();
 }
@@ -122,7 +124,7 @@ Detections Detector::collect(double time, double frame, std::uint32_t step) {
   Detections found;
   found.impacts = impacts_.observe(time, frame, surface());
   found.bubbles = bubbles_.collect(time, frame, step);
-  found.cavities = cavities_.search(time, bubbles_);
+  if (cavities_) found.cavities = cavities_->search(time, bubbles_);
   bubbles_.renew(time);
   return found;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim-server/bodies/skin.hpp"
@@ -21,8 +22,8 @@ struct Passes {
 
 class Detector {
  public:
-  /// `skin`: of all bodies; `search_always`: for cavities even where no bubble has enough others
-  /// around it.
+  /// `skin`: of all bodies; `search_always`: for groups of bubbles even where no bubble has enough
+  /// others around it.
   Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const DetectSettings& settings,
            int seed, bool search_always = false);
 
@@ -40,7 +41,9 @@ class Detector {
   [[nodiscard]] std::vector<cl::Buffer> state() const { return {bubbles_.memory()}; }
 
   [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
-  [[nodiscard]] std::uint64_t cavity_searches() const noexcept { return cavities_.searches(); }
+  [[nodiscard]] std::uint64_t cavity_searches() const noexcept {
+    return cavities_ ? cavities_->searches() : 0;
+  }
   [[nodiscard]] const AirTotals& air() const noexcept { return bubbles_.air(); }
   [[nodiscard]] std::uint64_t bubbles_dropped() const noexcept { return bubbles_.dropped(); }
 
@@ -59,7 +62,7 @@ class Detector {
   cl::Program program_;
   Kernel touch_water_;
   Bubbles bubbles_;
-  Cavities cavities_;
+  std::optional<Cavities> cavities_;  ///< where they are groups of bubbles
   ImpactWatch impacts_;
 };
 

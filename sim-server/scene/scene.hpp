@@ -143,7 +143,8 @@ struct MotionSettings {
 struct BodySettings {
   std::string name;
   Shape shape;
-  Keyframe rest;  ///< pose at the start and, for fixed bodies, for ever
+  bool cavity = true;  ///< it parts the water: air may be shut in behind it
+  Keyframe rest;       ///< pose at the start and, for fixed bodies, for ever
   MotionSettings motion;
 };
 
@@ -175,12 +176,12 @@ struct DetectSettings {
   double epsilon_min = 0.01;            ///< excitations follow epsilon^-epsilon_exponent [1]
   double epsilon_max = 0.1;             ///< [1]
   double epsilon_exponent = 2.0;        ///< [1]
-  bool cavity_by_count = false;      ///< the paper's rule: radius linear in the number of bubbles
+  bool cavity_by_count = false;         ///< the paper's rule: cavities are groups of bubbles
   double cavity_colour = 0.3;        ///< colour field c_b above which a bubble seeds a cavity [1]
   int cavity_bubbles_min = 5;        ///< N_b that is mapped to cavity_radius_min
   int cavity_bubbles_max = 100;      ///< N_b that is mapped to cavity_radius_max
-  double cavity_radius_min = 0.020;  ///< [m]
-  double cavity_radius_max = 0.100;  ///< [m]
+  double cavity_radius_min = 0.020;  ///< of any cavity [m]
+  double cavity_radius_max = 0.100;  ///< by the paper's rule [m]
 };
 
 enum class GaugeKind { height, pressure, front, body, energy, momentum, spread, cavity };
@@ -212,7 +213,7 @@ struct SkipSettings {
   bool idle = true;           ///< nothing at all is done while everything sleeps and nothing moves
   bool contacts = true;       ///< no look for impacts while no body is near the water
   bool bubbles = true;        ///< none for bubbles while no water is fast and no bubble lives
-  bool cavities = true;       ///< none for cavities while no bubble has enough others around it
+  bool cavities = true;       ///< none for cavities while none can close
   bool kernels = true;        ///< kernels are built without what the scene lacks
 };
 

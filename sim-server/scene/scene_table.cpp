@@ -78,6 +78,12 @@ const Fields<BodySettings>& body_fields() {
   static const Fields<BodySettings> kFields = {
       {{.key = "name", .unit = "", .meaning = "Its name, unlike any other's.", .required = true},
        &BodySettings::name},
+      {{.key = "cavity",
+        .unit = "",
+        .meaning = "false: water closes around it without a hollow behind it, as around a clean "
+                   "wet ball slower than about 7 m/s; so it makes no cavity. Edges part the water.",
+        .source = "Duez et al. 2007"},
+       &BodySettings::cavity},
   };
   return kFields;
 }

@@ -36,7 +36,8 @@ const Fields<SkipSettings>& skip_fields() {
        &S::bubbles},
       {{.key = "cavities",
         .unit = "",
-        .meaning = "While no bubble has enough others around it, nobody looks for cavities."},
+        .meaning = "While no cavity can close behind a body that hit the water, nobody looks for "
+                   "one; nor, with cavity_by_count, while no bubble has enough others around it."},
        &S::cavities},
       {{.key = "kernels",
         .unit = "",

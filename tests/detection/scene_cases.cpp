@@ -18,23 +18,34 @@ namespace {
 struct Stroke {
   std::string name;
   sim::Shape shape = hand();
-  double speed = 1.0;   ///< [m/s]
-  double depth = 0.3;   ///< where its underside stops [m]
-  double level = 0.45;  ///< [m]
+  double speed = 1.0;  ///< [m/s]
+  double depth = 0.0;  ///< where its underside stops [m]; 0: deep enough for the hollow to close
+  double level = 0.0;  ///< [m]; 0: 15 cm more than that
+  double width = 0.5;  ///< of the basin [m]
   double spacing = 0.025;
   Count cavities = {1, 1};
 };
 
+/// Radius of the disc of the area that goes in [m].
+double radius_of(const sim::Shape& shape) {
+  if (shape.kind != sim::ShapeKind::box) return 0.5 * shape.size[0];
+  return std::sqrt(shape.size[0] * shape.size[1] / std::numbers::pi);
+}
+
 Case case_of(const Stroke& stroke) {
+  const double radius = radius_of(stroke.shape);
+  const double closes_after = 2.285 * std::sqrt(radius / 9.81);
+  const double froude = stroke.speed / std::sqrt(9.81 * radius);
+  const double depth =
+      stroke.depth > 0.0 ? stroke.depth : std::max(0.3, 1.2 * stroke.speed * closes_after);
   Basin basin;
-  basin.length = 0.5;
-  basin.width = 0.4;
-  basin.level = stroke.level;
+  basin.length = basin.width = stroke.width;
+  basin.level = stroke.level > 0.0 ? stroke.level : depth + 0.15;
   basin.spacing = stroke.spacing;
   const double gap = std::max(0.03, 0.15 * stroke.speed);
   const double half = 0.5 * stroke.shape.size[2];
   Way way({0.0, 0.0, basin.level + gap + half});
-  way.go({0.0, 0.0, -stroke.speed}, (gap + stroke.depth) / stroke.speed).wait(1.0);
+  way.go({0.0, 0.0, -stroke.speed}, (gap + depth) / stroke.speed).wait(1.0);
   Case item;
   item.sweep = "cavities";
   item.name = stroke.name;
@@ -42,10 +53,9 @@ Case case_of(const Stroke& stroke) {
   item.seconds = gap / stroke.speed + 0.6;
   item.wishes.cavities = stroke.cavities;
   if (stroke.cavities.least == 1) {
-    const double area = stroke.shape.kind == sim::ShapeKind::cylinder
-                            ? 0.25 * std::numbers::pi * stroke.shape.size[0] * stroke.shape.size[0]
-                            : stroke.shape.size[0] * stroke.shape.size[1];
-    item.wishes.closes_after = 2.285 * std::sqrt(std::sqrt(area / std::numbers::pi) / 9.81);
+    item.wishes.closes_after = closes_after;
+    // Bergmann et al. 2009; its factor by a cone's estimate.
+    item.wishes.air = 2.0 * std::pow(radius, 3) * froude * (1.0 + 0.26 * froude);
   }
   item.quick = stroke.name == "hand, 1 m/s" || stroke.name == "hand, 0.3 m/s";
   return item;
@@ -89,15 +99,19 @@ std::string without_wave_impacts(const std::string& text) {
 }
 
 std::vector<Case> cavity_cases() {
-  sim::Shape foot = box({0.26, 0.1, 0.08});
+  const sim::Shape foot = box({0.26, 0.1, 0.08});
   std::vector<Stroke> strokes = {
       {.name = "hand, 1 m/s"},
-      {.name = "hand, 1 m/s, 15 mm", .spacing = 0.015},
+      {.name = "hand, 1 m/s, 30 mm", .spacing = 0.03},
+      {.name = "hand, 1 m/s, 20 mm", .spacing = 0.02},
+      {.name = "hand, 1 m/s, 15 mm", .width = 0.42, .spacing = 0.015},
       {.name = "disc, 1 m/s", .shape = disc(0.144, 0.04)},
+      {.name = "disc, 1 m/s, 15 mm", .shape = disc(0.144, 0.04), .width = 0.42, .spacing = 0.015},
       {.name = "hand, 2 m/s", .speed = 2.0},
       {.name = "hand, 3 m/s", .speed = 3.0},
-      {.name = "hand, 5 m/s", .speed = 5.0},
+      {.name = "hand, 5 m/s", .speed = 5.0, .width = 0.6},
       {.name = "hand, 0.3 m/s", .speed = 0.3, .cavities = {0, 0}},
+      {.name = "hand, 0.5 m/s", .speed = 0.5, .cavities = {0, 0}},
       {.name = "hand, 1 m/s, 6 cm deep", .depth = 0.06, .level = 0.24, .cavities = {0, 0}},
       {.name = "foot, 1.5 m/s, 20 cm of water",
        .shape = foot,

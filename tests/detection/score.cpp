@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "sim-server/scene/rotation.hpp"
 
@@ -15,6 +16,9 @@ constexpr double kWaveHeight = 0.01;     ///< [m]
 constexpr double kWidestWindow = 0.15;   ///< [s]
 constexpr double kCavityWindow = 0.5;    ///< after an entry [s]
 constexpr double kClosing = 0.15;        ///< of its time [1]
+constexpr double kAir = 1.7;             ///< factor of its volume, either way [1]
+constexpr double kShallow = 0.8;         ///< of half the body's depth [1]
+constexpr double kDeep = 1.6;            ///< same [1]
 constexpr double kStandsStill = 0.001;   ///< a slower body does [m/s]
 constexpr double kSmallestSpeed = 0.01;  ///< [m/s]
 
@@ -149,13 +153,32 @@ class Judge {
                                   wishes_.cavities->least, wishes_.cavities->most));
   }
 
-  /// Of the first cavity.
+  /// Of the first cavity: the hollow closes at half the body's depth (Bergmann et al. 2009), and
+  /// the air is below that, down to the body.
   void look_at_closing() {
     if (wishes_.closes_after <= 0.0 || heard_.found.cavities.empty() || entries_.empty()) return;
-    const double after = heard_.found.cavities.front().time - entries_.front().time;
-    if (std::abs(after - wishes_.closes_after) <= kClosing * wishes_.closes_after) return;
-    result_.faults.push_back(said("the cavity closes %.0f ms after the entry, expected %.0f",
-                                  1.0e3 * after, 1.0e3 * wishes_.closes_after));
+    const sim::DetectedCavity& cavity = heard_.found.cavities.front();
+    const Entry& entry = entries_.front();
+    const double after = cavity.time - entry.time;
+    result_.closing.push_back(after / wishes_.closes_after);
+    if (std::abs(result_.closing.back() - 1.0) > kClosing) {
+      result_.faults.push_back(said("the cavity closes %.0f ms after the entry, expected %.0f",
+                                    1.0e3 * after, 1.0e3 * wishes_.closes_after));
+    }
+    if (wishes_.air <= 0.0) return;
+    const double air = 4.0 / 3.0 * std::numbers::pi * std::pow(cavity.radius, 3);
+    result_.air.push_back(air / wishes_.air);
+    if (air > kAir * wishes_.air || kAir * air < wishes_.air) {
+      result_.faults.push_back(said("%.2f litres of air in the cavity, expected %.2f", 1.0e3 * air,
+                                    1.0e3 * wishes_.air));
+    }
+    const double half = 0.5 * entry.down * after;
+    const double depth = wishes_.level - cavity.position[2];
+    result_.depth.push_back(depth / half);
+    if (depth < kShallow * half || depth > kDeep * half) {
+      result_.faults.push_back(said("the cavity lies %.0f mm deep, expected %.0f to %.0f",
+                                    1.0e3 * depth, 1.0e3 * kShallow * half, 1.0e3 * kDeep * half));
+    }
   }
 
   const std::vector<Entry>& entries_;
@@ -196,6 +219,9 @@ void add(Score& sum, const Score& one) {
   append(sum.late_ms, one.late_ms);
   append(sum.speed_error, one.speed_error);
   append(sum.momentum, one.momentum);
+  append(sum.closing, one.closing);
+  append(sum.air, one.air);
+  append(sum.depth, one.depth);
   append(sum.faults, one.faults);
 }
 

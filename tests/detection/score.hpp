@@ -25,6 +25,7 @@ struct Wishes {
   std::optional<Count> cavities;  ///< in all; nothing: any number, each after an entry
   std::optional<Count> waves;     ///< impacts of bodies that stand still; nothing: they are false
   double closes_after = 0.0;      ///< from the entry to the cavity [s]; 0: any time
+  double air = 0.0;               ///< in the cavity [m3]; 0: it is not judged
 };
 
 /// Everything that a run told, and what its bodies did.
@@ -43,6 +44,9 @@ struct Score {
   std::vector<double> late_ms;
   std::vector<double> speed_error;  ///< of the approach [1]
   std::vector<double> momentum;     ///< P / (m_a u) [1]
+  std::vector<double> closing;      ///< time of the first cavity by the wanted one [1]
+  std::vector<double> air;          ///< its volume by the wanted one [1]
+  std::vector<double> depth;        ///< of its centre by half of the body's [1]
   int cavities = 0;                 ///< below the level within 0.5 s after an entry
   int stray = 0;                    ///< the other ones
   int stray_above = 0;              ///< of these, above the level

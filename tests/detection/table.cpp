@@ -12,10 +12,11 @@ namespace {
 
 const char* const kColumns =
     " | impacts wanted | told | missed | false | moment, ms | approach, % | P / (m_a u) | "
-    "cavities of an entry | stray (above) | bubbles | faulty";
+    "cavities of an entry | stray (above) | closing / law | V / law | bubbles | faulty";
 const char* const kBegin = "<!-- begin: detection-bench -->\n";
 const char* const kEnd = "<!-- end: detection-bench -->\n";
-const char* const kRule = " | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | ---";
+const char* const kRule =
+    " | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | ---";
 
 /// "smallest / median / largest".
 std::string spread(std::vector<double> values, double factor, const char* format) {
@@ -32,12 +33,13 @@ std::string figures(const Score& s) {
   std::snprintf(counts, sizeof counts, " | %d | %d | %d | %d | ", s.wanted, s.hit, s.wanted - s.hit,
                 s.untrue);
   char rest[64];
-  std::snprintf(rest, sizeof rest, " | %d | %d (%d) | %d", s.cavities, s.stray, s.stray_above,
-                s.bubbles);
+  std::snprintf(rest, sizeof rest, " | %d | %d (%d) | ", s.cavities, s.stray, s.stray_above);
   std::vector<double> percent = s.speed_error;
   return counts + spread(s.late_ms, 1.0, "%+.1f / %+.1f / %+.1f") + " | " +
          spread(percent, 100.0, "%+.0f / %+.0f / %+.0f") + " | " +
-         spread(s.momentum, 1.0, "%.2f / %.2f / %.2f") + rest;
+         spread(s.momentum, 1.0, "%.2f / %.2f / %.2f") + rest +
+         spread(s.closing, 1.0, "%.2f / %.2f / %.2f") + " | " +
+         spread(s.air, 1.0, "%.2f / %.2f / %.2f") + " | " + std::to_string(s.bubbles);
 }
 
 /// In the order of their first case.
@@ -93,7 +95,7 @@ void write_cases(std::ostream& out, const std::vector<Outcome>& outcomes) {
 
 void write_csv(std::ostream& out, const std::vector<Outcome>& outcomes) {
   out << "sweep,case,wanted,told,missed,false,allowed,waves,cavities,stray,stray_above,bubbles,"
-         "faults,late_ms,approach_error,momentum_ratio\n";
+         "faults,late_ms,approach_error,momentum_ratio,closing_ratio,air_ratio,depth_ratio\n";
   const auto list = [&](const std::vector<double>& values) {
     out << ',';
     for (std::size_t k = 0; k < values.size(); ++k) out << (k > 0 ? " " : "") << values[k];
@@ -109,6 +111,9 @@ void write_csv(std::ostream& out, const std::vector<Outcome>& outcomes) {
     list(s.late_ms);
     list(s.speed_error);
     list(s.momentum);
+    list(s.closing);
+    list(s.air);
+    list(s.depth);
     out << '\n';
   }
 }

@@ -3,13 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <numbers>
 
 #include "sim-server/detect/cavities.hpp"
-#include "sim-server/fluid/smoothing.hpp"
-#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 namespace {
@@ -126,61 +121,6 @@ TEST(CavityRadius, SurvivesBoundsThatMeet) {
   settings.cavity_bubbles_max = settings.cavity_bubbles_min;
   EXPECT_DOUBLE_EQ(cavity_radius(3, settings), 0.01);
   EXPECT_DOUBLE_EQ(cavity_radius(4, settings), 0.06);
-}
-
-// By the space they take up: bubbles that fill a block, however finely, make the sphere of its
-// volume.
-TEST(CavityVolume, IsThatOfTheSpaceTheBubblesFill) {
-  FluidParams params = {};
-  const double spacing = 0.02;
-  const double support = kSupportSpacings * spacing;
-  params.support = static_cast<float>(support);
-  params.mass = static_cast<float>(1000.0 * spacing * spacing * spacing);
-  params.rest_density = 1000.0F;
-  const double unit = spacing * spacing * spacing;
-  const double edge = 0.12;
-  for (const int side : {6, 9, 12}) {
-    SCOPED_TRACE(side);
-    std::vector<PoolBubble> pool;
-    for (int k = 0; k < side * side * side; ++k) {
-      PoolBubble bubble;
-      bubble.position = {edge * (k % side + 0.5) / side, edge * (k / side % side + 0.5) / side,
-                         edge * (k / (side * side) + 0.5) / side};
-      pool.push_back(bubble);
-    }
-    for (PoolBubble& bubble : pool) {
-      double colour = -unit * kernel_value(0.0, support);
-      for (const PoolBubble& other : pool) {
-        colour += unit * kernel_value(length(bubble.position - other.position), support);
-      }
-      bubble.volume = bubble_volume(colour, params);
-    }
-    DetectSettings settings;
-    settings.cavity_radius_max = 1.0;
-    int next = 0;
-    const auto found = name_cavities(pool, std::vector<int>(pool.size(), 0), 1.0, settings, next);
-    ASSERT_EQ(found.size(), 1U);
-    const double exact = std::cbrt(3.0 * edge * edge * edge / (4.0 * std::numbers::pi));
-    std::printf("%d bubbles along an edge: radius %.4f m, exact %.4f m\n", side, found[0].radius,
-                exact);
-    // Bubbles at the faces take up space on their far side, too.
-    EXPECT_GT(found[0].radius, exact);
-    EXPECT_LT(found[0].radius, 1.2 * exact);
-  }
-}
-
-TEST(CavityVolume, TooLittleOfItIsNone) {
-  std::vector<PoolBubble> pool(3);
-  for (PoolBubble& bubble : pool) bubble.volume = 1.0e-5;
-  int next = 0;
-  DetectSettings settings;
-  settings.cavity_radius_min = 0.02;  // 3.35e-5 m3
-  EXPECT_TRUE(name_cavities(pool, {0, 0, 0}, 1.0, settings, next).empty());
-  for (PoolBubble& bubble : pool) bubble.volume = 1.2e-5;
-  EXPECT_EQ(name_cavities(pool, {0, 0, 0}, 1.0, settings, next).size(), 1U);
-  for (PoolBubble& bubble : pool) bubble = {{0.0, 0.0, 0.0}, 0.0, 0, -1, 1.0};
-  EXPECT_EQ(name_cavities(pool, {0, 0, 0}, 1.0, settings, next).at(0).radius,
-            settings.cavity_radius_max);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ int two_frames(int lanes, std::uint32_t frames) {
   settings.bubble_speed = 0.1;
   settings.bubble_gradient = 0.0;
   settings.bubble_per_particle = true;
+  settings.cavity_by_count = true;
   settings.cavity_colour = 0.0;
   Detector detector(*water.fluid, sample_skins(water.scene.bodies, 0.02), settings, 1, true);
   std::size_t cavities = 0;

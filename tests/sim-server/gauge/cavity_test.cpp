@@ -76,7 +76,7 @@ TEST(Cavity, PocketIsTheLargest) {
   EXPECT_NEAR((cavity.enclosed - cavity.pocket) / cavity.pocket, 8.0 / 27.0, 0.1);
 }
 
-// However small the hollow, what the colour field lacks is its air; cells below a half are fewer.
+// However small the hollow, what the colour field lacks is its air.
 TEST(AirCells, MeasureTheAirOfSmallPockets) {
   constexpr double kSpacing = 0.02;
   for (const double radius : {0.03, 0.04, 0.06}) {
