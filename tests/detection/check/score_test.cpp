@@ -210,6 +210,21 @@ TEST_F(Scorer, HoldsCavitiesToTheirNumberAndTime) {
                                            HasSubstr("2 cavities")));
 }
 
+// At 1 m/s half the body's depth is 100 mm then; a ball of 5 cm radius holds 0.52 litres.
+TEST_F(Scorer, HoldsCavitiesToTheirAirAndDepth) {
+  wishes_.closes_after = 0.2;
+  wishes_.air = 0.6e-3;
+  heard_.found.cavities = {cavity(0.4, kLevel - 0.12)};
+  EXPECT_THAT(judged().faults, IsEmpty());
+  EXPECT_NEAR(judged().air.at(0), 0.873, 0.01);
+  EXPECT_NEAR(judged().depth.at(0), 1.2, 0.01);
+  wishes_.air = 1.0e-3;
+  heard_.found.cavities = {cavity(0.4, kLevel - 0.2)};
+  EXPECT_THAT(judged().faults,
+              ElementsAre("0.52 litres of air in the cavity, expected 1.00",
+                          HasSubstr("the cavity lies 200 mm deep, expected 80 to 160")));
+}
+
 TEST_F(Scorer, AllowsWavesOnAStandingBodyOnlyWhereTheyAreWished) {
   heard_.found.impacts.push_back(impact(0.5, 0.3, kLevel, 1));
   EXPECT_EQ(judged().untrue, 1);
@@ -228,7 +243,7 @@ TEST_F(Scorer, SumsUpInARow) {
   one.score = judged();
   const std::string table = summary({one, one});
   EXPECT_THAT(table, HasSubstr("| speed | 2 | 2 | 2 | 0 | 2 | +1.0 / +1.0 / +1.0 | "
-                               "+10 / +10 / +10 | 1.25 / 1.25 / 1.25 | 0 | 0 (0) | 0 | 2 |"));
+                               "+10 / +10 / +10 | 1.25 / 1.25 / 1.25 | 0 | 0 (0) |  |  | 0 | 2 |"));
 }
 
 TEST_F(Scorer, PutsItsRowsIntoAReadme) {
