@@ -63,6 +63,7 @@ kernel void end_solves(constant FluidParams* p, float dt, float follow, global c
 kernel void judge_solve(constant FluidParams* p, int parts, int k, int least, int most,
                         global const float* error_part, global SolveState* state) {
   local float sums[JUDGES], numbers[JUDGES];
+  if (is_done(state, k)) return;
   const int item = get_local_id(0);
   const int size = (parts + JUDGES - 1) / JUDGES;
   const int last = min((item + 1) * size, parts);
@@ -73,7 +74,7 @@ kernel void judge_solve(constant FluidParams* p, int parts, int k, int least, in
   }
   sums[item] = sum;
   numbers[item] = number;
-  barrier(CLK_LOCAL_MEM_FENCE);
+  barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);  // all have read the state
   if (item > 0) return;
   SolveState s = *state;
   if (k == 0) {
@@ -81,7 +82,6 @@ kernel void judge_solve(constant FluidParams* p, int parts, int k, int least, in
     s.iterations = 0;
     ++s.solves;
   }
-  if (s.done) return;
   for (int i = 1; i < JUDGES; ++i) {
     sum += sums[i];
     number += numbers[i];
