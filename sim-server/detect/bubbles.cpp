@@ -63,7 +63,8 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
       spawns_(fluid.device(), spawns_read_.size()),
       points_(fluid.device(), room),
       sorted_(fluid.device(), room),
-      grid_(fluid.device(), program, fluid.params(), room, 1),
+      grid_(fluid.device(), program, fluid.params(), room,
+            std::min(fluid.device().profile().sort_chunks, 1)),
       state_buffer_(fluid.device(), room),
       spawn_bubbles_(program, "spawn_bubbles"),
       carry_bubbles_(program, "carry_bubbles") {

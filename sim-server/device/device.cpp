@@ -135,17 +135,22 @@ std::string describe(const DeviceFacts& facts) {
   return line.str();
 }
 
-Device::Device(int index, bool profiling, int lanes) {
+Device::Device(int index, bool profiling, int lanes) : Device(index, profiling, Profile{}) {
+  const bool scalar = lanes == 1 || (lanes == 0 && !facts_.is_cpu);
+  profile_ = scalar ? gpu_profile() : cpu_profile(facts_.compute_units, lanes != 0 ? lanes : 16);
+}
+
+Device::Device(int index, bool profiling, const Profile& profile) : profile_(profile) {
   const Found found = choose(index);
   facts_ = found.facts;
-  lanes_ = lanes != 0 ? lanes : facts_.is_cpu ? 16 : 1;
   handle_ = found.handle;
   context_ = cl::Context(handle_);
   queue_ = cl::CommandQueue(context_, handle_, profiling ? CL_QUEUE_PROFILING_ENABLE : 0);
 }
 
-int Device::sort_chunks() const noexcept {
-  return facts_.is_cpu ? static_cast<int>(std::clamp(facts_.compute_units, 1U, 64U)) : 256;
+std::size_t Device::vectors_of(int particles) const noexcept {
+  const auto lanes = static_cast<std::size_t>(profile_.lanes);
+  return (static_cast<std::size_t>(particles) + lanes - 1) / lanes;
 }
 
 }  // namespace splash::sim

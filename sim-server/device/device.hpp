@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim-server/device/opencl.hpp"
+#include "sim-server/device/profile.hpp"
 
 namespace splash::sim {
 
@@ -32,21 +33,25 @@ class Device {
  public:
   /// `index` as list_devices counts; -1: the CPU device with most units, else the first device
   /// (the default runs everywhere; a GPU is used when asked for).
-  /// `lanes`: 1, 8 or 16 particles per vector in kernels; 0: as suits the device.
+  /// `lanes`: 8 or 16 particles per vector in kernels; 1: as GPUs do it, whatever the device;
+  /// 0: as suits the device.
   explicit Device(int index = -1, bool profiling = false, int lanes = 0);
+  /// Cuts work as `profile` says, whatever would suit the device.
+  Device(int index, bool profiling, const Profile& profile);
 
   [[nodiscard]] const DeviceFacts& facts() const noexcept { return facts_; }
   [[nodiscard]] const cl::Context& context() const noexcept { return context_; }
   [[nodiscard]] const cl::Device& handle() const noexcept { return handle_; }
   [[nodiscard]] cl::CommandQueue& queue() noexcept { return queue_; }
-  /// Particles per vector in kernels: 16 on CPUs, 1 on GPUs, unless chosen (see kernels/lanes.h).
-  [[nodiscard]] int lanes() const noexcept { return lanes_; }
-  /// Independent runs of a sort: one per CPU core; enough to fill a GPU.
-  [[nodiscard]] int sort_chunks() const noexcept;
+  [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
+  /// Particles per vector in kernels.
+  [[nodiscard]] int lanes() const noexcept { return profile_.lanes; }
+  /// Work-items that `particles` take, a vector to each.
+  [[nodiscard]] std::size_t vectors_of(int particles) const noexcept;
 
  private:
   DeviceFacts facts_;
-  int lanes_ = 1;
+  Profile profile_;
   cl::Device handle_;
   cl::Context context_;
   cl::CommandQueue queue_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/device/program.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -45,6 +46,18 @@ void Kernel::note_made() {
   ++ledger().count.all;
 }
 
+Kernel::Kernel(const cl::Program& program, const std::string& name, std::size_t group)
+    : kernel_(program, name.c_str()), group_(group) {
+  const auto device = program.getInfo<CL_PROGRAM_DEVICES>().front();
+  group_ = std::clamp<std::size_t>(kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device), 1,
+                                   group);
+  note_made();
+}
+
+std::size_t Kernel::groups_of(std::size_t count) const noexcept {
+  return count >= group_ ? (count + group_ - 1) / group_ : count;
+}
+
 void Kernel::launch(cl::CommandQueue& queue, std::size_t count, std::size_t group) {
   const cl_int error = enqueue(queue(), kernel_(), count, group);
   if (error != CL_SUCCESS) throw cl::Error(error, "clEnqueueNDRangeKernel");
@@ -64,6 +77,8 @@ cl::Program build_program(const Device& device, const std::vector<KernelSource>&
   std::string options = "-cl-std=CL1.2 -cl-mad-enable -cl-no-signed-zeros";
   if (relaxed) options += " -cl-fast-relaxed-math";
   options += " -DLANES=" + std::to_string(device.lanes());
+  options += " -DTEAM=" + std::to_string(device.profile().team);
+  options += " -DJUDGES=" + std::to_string(device.profile().judges);
   for (const std::string& define : defines) options += " -D" + define;
 
   cl::Program program(device.context(), text);

@@ -37,23 +37,36 @@ void tell_of_kernels(std::function<void(const KernelCount&)> told);
 class Kernel {
  public:
   Kernel() = default;
-  /// `group`: work-items handed out together; few when each is worth microseconds.
-  Kernel(const cl::Program& program, const std::string& name, std::size_t group = 64)
-      : kernel_(program, name.c_str()), group_(group) {
-    note_made();
-  }
+  /// `group`: work-items handed out together, few when each is worth microseconds; fewer where the
+  /// device allows this kernel no more.
+  Kernel(const cl::Program& program, const std::string& name, std::size_t group = 64);
 
   template <class... Args>
   void run(cl::CommandQueue& queue, std::size_t count, const Args&... args) {
-    cl_uint index = 0;
-    (kernel_.setArg(index++, args), ...);
+    if (count == 0) return;
+    set(args...);
     const std::size_t group = count >= group_ ? group_ : 1;
-    const std::size_t padded = (count + group - 1) / group * group;
-    launch(queue, padded, group);
+    launch(queue, groups_of(count) * group, group);
   }
+
+  /// Of whole work-groups, whose items work together.
+  template <class... Args>
+  void run_teams(cl::CommandQueue& queue, std::size_t teams, const Args&... args) {
+    if (teams == 0) return;
+    set(args...);
+    launch(queue, teams * group_, group_);
+  }
+
+  /// Work-groups of a run over `count` work-items.
+  [[nodiscard]] std::size_t groups_of(std::size_t count) const noexcept;
 
  private:
   static void note_made();
+  template <class... Args>
+  void set(const Args&... args) {
+    cl_uint index = 0;
+    (kernel_.setArg(index++, args), ...);
+  }
   void launch(cl::CommandQueue& queue, std::size_t count, std::size_t group);
 
   cl::Kernel kernel_;

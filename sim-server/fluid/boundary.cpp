@@ -20,7 +20,7 @@ Boundary::Boundary(Device& device, const cl::Program& program, const FluidParams
       meshes_(device, outlines.meshes),
       unsorted_(device, points.size()),
       sorted_(device, points.size()),
-      grid_(device, program, params, points.size(), 1),
+      grid_(device, program, params, points.size(), std::min(device.profile().sort_chunks, 1)),
       place_bodies_(program, "place_bodies"),
       gather_volumes_(program, "gather_body_volumes") {
   load(device, params, points);

@@ -69,7 +69,7 @@ void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outl
   const cl::Program program = build_program(device_, fluid_sources(), defines, build_.relaxed);
   const cl::Program guard = build_program(device_, survey_sources(), defines, false);
   const auto particles = static_cast<std::size_t>(params_.count);
-  grid_ = NeighbourGrid(device_, program, params_, particles, device_.sort_chunks());
+  grid_ = NeighbourGrid(device_, program, params_, particles, device_.profile().sort_chunks);
   boundary_ = Boundary(device_, program, params_, boundary, outlines);
   sleep_ = Sleep(device_, program, params_);
   const std::size_t group = device_.lanes() > 1 ? 4 : 64;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sort, first half: how many points of each chunk fall into each slice of a cell (called a cell
+// Sort for CPUs, first half: how many points of each chunk fall into each slice of a cell (called a cell
 // here), and where each chunk's points of each begin. A counting sort with one histogram per chunk
 // needs no atomics, so its order, and with it every sum that follows, is the same on every run.
 
@@ -7,10 +7,6 @@
 // cell_start says `points` since the last whole sort. extent[chunk]: one past the last cell in use
 // by the chunk; extent[chunks] and the next: by all of them, and how far the cells were gone
 // through, both in the last sort. `whole`: that is not known, all cells are gone through.
-
-static int all_cells(constant FluidParams* p) {
-  return p->cells_x * SLICES * p->cells_y * p->cells_z;
-}
 
 // Cells to go through: those in use now, and those of last time.
 static int cells_in_use(constant FluidParams* p, global const int* extent, int chunks, int whole) {

@@ -1,24 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sort, second half: every point to its place, cells in order, x fastest. `source`: where each
+// Sort for CPUs, second half: every point to its place, cells in order, x fastest. `source`: where each
 // came from.
-
-// Points as arrays, before the sort or after.
-typedef struct {
-  global float* position;
-  global float* velocity;
-  global int* id;
-} Points;
-
-static void move_point(int stride, global const float* position, global const float* velocity,
-                       global const int* id, int i, const Points* out, global int* source,
-                       int to) {
-  for (int axis = 0; axis < 3; ++axis) {
-    out->position[axis * stride + to] = position[axis * stride + i];
-    out->velocity[axis * stride + to] = velocity[axis * stride + i];
-  }
-  out->id[to] = id[i];
-  source[to] = i;
-}
 
 #if LANES > 1
 // Points that stay next to each other, as most do from step to step, LANES of them.

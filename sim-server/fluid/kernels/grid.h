@@ -7,6 +7,11 @@
 
 #define SLICES SPLASH_SLICES
 
+// Slices of all cells.
+static int all_cells(constant FluidParams* p) {
+  return p->cells_x * SLICES * p->cells_y * p->cells_z;
+}
+
 static int cell_along(float x, float origin, float inverse_cell, int cells) {
   // Clamped before it becomes an integer: NaN and infinity land in the grid, too.
   return (int)fmin(fmax((x - origin) * inverse_cell, 1.0f), (float)(cells - 2));

@@ -69,11 +69,15 @@ TEST(Devices, OutOfRangeIsAnsweredWithThoseThereAre) {
   }
 }
 
-TEST(Devices, LanesSuitTheDeviceUnlessChosen) {
+TEST(Devices, AProfileSuitsTheDeviceUnlessChosen) {
   const Device device;
   EXPECT_EQ(device.lanes(), device.facts().is_cpu ? 16 : 1);
   EXPECT_EQ(Device(-1, false, 8).lanes(), 8);
-  EXPECT_GE(device.sort_chunks(), 1);
+  const Profile scalar = Device(-1, false, 1).profile();
+  EXPECT_EQ(scalar.sort_chunks, 0);
+  EXPECT_EQ(scalar.team, scalar.group);
+  EXPECT_EQ(cpu_profile(0).sort_chunks, 1);
+  EXPECT_EQ(cpu_profile(1000).sort_chunks, 64);
 }
 
 TEST(Buffers, BeginAsZerosAndKeepWhatIsWritten) {

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "sim-server/device/buffer.hpp"
 
 namespace splash::sim {
@@ -52,6 +55,38 @@ TEST(Programs, TellHowManyOfTheirKernelsHaveRun) {
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told[1].ready, told[0].ready + 1);
   EXPECT_GE(told[0].all, 2);
+}
+
+TEST(Programs, RunNothingOfNothingAndWholeTeams) {
+  Device device;
+  const KernelSource kernel = {"some/count.cl",
+                               "kernel void count(global int* out) {\n"
+                               "  out[get_global_id(0)] = 1000 * get_local_size(0) + 1;\n}\n"};
+  Kernel count(build_program(device, {kernel}, {}, false), "count", 24);
+  const Buffer<int> out(device, 100);
+  count.run(device.queue(), 0, out.memory());
+  count.run_teams(device.queue(), 0, out.memory());
+  EXPECT_EQ(out.read(device, 100), std::vector<int>(100, 0));
+  count.run_teams(device.queue(), 2, out.memory());
+  std::vector<int> expected(100, 0);
+  std::fill(expected.begin(), expected.begin() + 48, 24001);
+  EXPECT_EQ(out.read(device, 100), expected);
+  EXPECT_EQ(count.groups_of(48), 2U);
+  EXPECT_EQ(count.groups_of(49), 3U);
+  EXPECT_EQ(count.groups_of(23), 23U);  // one work-item each
+}
+
+// A device may allow fewer work-items to a group than a kernel would like.
+TEST(Programs, TakeNoLargerGroupsThanTheKernelAllows) {
+  Device device;
+  const KernelSource kernel = {"some/size.cl",
+                               "kernel void size(global int* out) {\n"
+                               "  out[get_global_id(0)] = get_local_size(0);\n}\n"};
+  const std::size_t limit = device.handle().getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  Kernel size(build_program(device, {kernel}, {}, false), "size", 4 * limit);
+  const Buffer<int> out(device, limit);
+  size.run_teams(device.queue(), 1, out.memory());
+  EXPECT_EQ(out.read(device, limit), std::vector<int>(limit, static_cast<int>(limit)));
 }
 
 TEST(Programs, AnErrorNamesItsFileAndLine) {
