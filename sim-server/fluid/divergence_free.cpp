@@ -11,9 +11,6 @@ namespace {
 
 static_assert(sizeof(SolveState) == 32);
 
-/// Work-items that judge a solve side by side (kernels/pressure_solve.cl).
-constexpr std::size_t kJudges = 64;
-
 /// Iterations of the two solves, at least and at most. A fresh lattice would want a hundred; it is
 /// given several steps for it.
 struct Iterations {
@@ -33,8 +30,7 @@ constexpr float kFollow = 0.01F;
 DivergenceFree::DivergenceFree(Device& device, const FluidParams& params,
                                const std::vector<std::string>& defines, bool relaxed)
     : particles_(static_cast<std::size_t>(params.count)),
-      groups_((particles_ + static_cast<std::size_t>(device.lanes()) - 1) /
-              static_cast<std::size_t>(device.lanes())),
+      groups_(device.vectors_of(params.count)),
       stride_(static_cast<std::size_t>(params.capacity)),
       gradient_(device, 3 * stride_),
       response_(device, stride_),
@@ -50,13 +46,14 @@ DivergenceFree::DivergenceFree(Device& device, const FluidParams& params,
       state_{Buffer<SolveState>(device, 1), Buffer<SolveState>(device, 1)},
       state_read_{} {
   const cl::Program program = build_program(device, divergence_free_sources(), defines, relaxed);
-  const std::size_t group = device.lanes() > 1 ? 4 : 64;
+  const std::size_t group = device.profile().group;
   recall_pressure_ = Kernel(program, "recall_pressure");
   measure_response_ = Kernel(program, "measure_response", group);
   begin_divergence_solve_ = Kernel(program, "begin_divergence_solve");
   begin_density_solve_ = Kernel(program, "begin_density_solve");
   correct_pressure_ = Kernel(program, "correct_pressure", group);
-  judge_solve_ = Kernel(program, "judge_solve", kJudges);
+  judge_solve_ = Kernel(program, "judge_solve", device.profile().judges);
+  error_parts_ = device.profile().team > 1 ? correct_pressure_.groups_of(groups_) : groups_;
   push_by_pressure_ = Kernel(program, "push_by_pressure", group);
   end_solves_ = Kernel(program, "end_solves");
 }
@@ -135,8 +132,8 @@ void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
                           guess_.memory(), gradient_.memory(), response_.memory(),
                           boundary_rate_.memory(), offset_.memory(), pressure.memory(),
                           jacobi_.memory(), change_.memory(), error_part_.memory());
-    judge_solve_.run(queue, kJudges, params, static_cast<int>(groups_), k, least, most,
-                     error_part_.memory(), state);
+    judge_solve_.run_teams(queue, 1, params, static_cast<int>(error_parts_), k, least, most,
+                           error_part_.memory(), state);
     push_by_pressure_.run(queue, items, params, k, state, dt, cells, stir, places,
                           gradient_.memory(), change_.memory(), pressure.memory(), guess_.memory());
     if (fluid.free_bodies() == nullptr) continue;

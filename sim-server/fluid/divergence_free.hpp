@@ -45,6 +45,7 @@ class DivergenceFree : public PressureSolver {
   std::size_t particles_;
   std::size_t groups_;
   std::size_t stride_;
+  std::size_t error_parts_ = 0;  ///< found in a correction, to be judged
 
   Buffer<float> gradient_;             ///< G
   Buffer<float> response_;             ///< D

@@ -63,7 +63,7 @@ Films::Films(Device& device, const cl::Program& program, const std::vector<FreeB
   }
   skin_ = sorted.empty() ? Buffer<float>(device, 1) : Buffer<float>(device, numbers);
   skin_from_ = Buffer<int>(device, from);
-  const std::size_t group = device.lanes() > 1 ? 4 : 64;
+  const std::size_t group = device.profile().group;
   measure_rims_ = Kernel(program, "measure_rims", group);
   press_films_ = Kernel(program, "press_films", group);
   sum_films_ = Kernel(program, "sum_films", 1);

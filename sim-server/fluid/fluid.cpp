@@ -15,9 +15,6 @@ namespace {
 static_assert(sizeof(FluidParams) == 39 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
 static_assert(sizeof(SurveyPart) == 56);
 
-/// Parts of the fluid that are surveyed side by side.
-constexpr int kParts = 64;
-
 float as_float(double value) {
   return static_cast<float>(value);
 }
@@ -69,17 +66,17 @@ void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outl
   const cl::Program program = build_program(device_, fluid_sources(), defines, build_.relaxed);
   const cl::Program guard = build_program(device_, survey_sources(), defines, false);
   const auto particles = static_cast<std::size_t>(params_.count);
-  grid_ = NeighbourGrid(device_, program, params_, particles, device_.profile().sort_chunks);
+  const Profile& profile = device_.profile();
+  grid_ = NeighbourGrid(device_, program, params_, particles, profile.sort_chunks);
   boundary_ = Boundary(device_, program, params_, boundary, outlines);
   sleep_ = Sleep(device_, program, params_);
-  const std::size_t group = device_.lanes() > 1 ? 4 : 64;
-  compute_density_ = Kernel(program, "compute_density", group);
-  compute_acceleration_ = Kernel(program, "compute_acceleration", group);
-  integrate_ = Kernel(program, "integrate", group);
-  survey_ = Kernel(guard, "survey", group);
+  compute_density_ = Kernel(program, "compute_density", profile.group);
+  compute_acceleration_ = Kernel(program, "compute_acceleration", profile.group);
+  integrate_ = Kernel(program, "integrate", profile.group);
+  survey_ = Kernel(guard, "survey", profile.team);
   health_ = Health(device_, guard, params_);
-  survey_parts_ = Buffer<SurveyPart>(device_, kParts);
-  survey_read_.resize(kParts);
+  survey_parts_ = Buffer<SurveyPart>(device_, profile.parts);
+  survey_read_.resize(profile.parts);
 }
 
 void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
@@ -156,8 +153,7 @@ void Fluid::wake_and_sleep(const Step& step) {
 }
 
 std::size_t Fluid::groups() const {
-  const auto lanes = static_cast<std::size_t>(device_.lanes());
-  return (static_cast<std::size_t>(params_.count) + lanes - 1) / lanes;
+  return device_.vectors_of(params_.count);
 }
 
 void Fluid::compute_density(const Step& step) {
@@ -208,9 +204,10 @@ void Fluid::give_weight() {
 }
 
 void Fluid::enqueue_survey() {
-  survey_.run(device_.queue(), kParts, params_buffer_.memory(), kParts, sorted_.position.memory(),
-              sorted_.velocity.memory(), acceleration_.memory(), density_.memory(),
-              sorted_.id.memory(), moving_.memory(), survey_parts_.memory());
+  survey_.run_teams(device_.queue(), survey_read_.size(), params_buffer_.memory(),
+                    sorted_.position.memory(), sorted_.velocity.memory(), acceleration_.memory(),
+                    density_.memory(), sorted_.id.memory(), moving_.memory(),
+                    survey_parts_.memory());
   survey_parts_.enqueue_read(device_, survey_read_);
   if (watched_) health_.enqueue_read(device_);
   if (free_) free_->enqueue_read(*this);

@@ -20,9 +20,7 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
                        const std::vector<SkinFace>& skin)
     : list_(bodies),
       count_(static_cast<int>(bodies.size())),
-      groups_(
-          (static_cast<std::size_t>(params.count) + static_cast<std::size_t>(device.lanes()) - 1) /
-          static_cast<std::size_t>(device.lanes())),
+      groups_(device.vectors_of(params.count)),
       bodies_(device, std::span<const FreeBody>(bodies)),
       reach_(device,
              bodies.size() * SPLASH_REACH_FIELDS * static_cast<std::size_t>(params.capacity)),
@@ -37,10 +35,11 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       force_read_(6 * bodies.size()) {
   const cl::Program program = build_program(device, free_body_sources(), defines, false);
   films_ = Films(device, program, bodies, skin);
-  const std::size_t group = device.lanes() > 1 ? 4 : 64;
+  const std::size_t group = device.profile().group;
+  const std::size_t team = device.profile().team;
   reach_bodies_ = Kernel(program, "reach_bodies", group);
-  weigh_water_ = Kernel(program, "weigh_water", group);
-  answer_bodies_ = Kernel(program, "answer_bodies", 1);
+  weigh_water_ = Kernel(program, "weigh_water", team);
+  answer_bodies_ = Kernel(program, "answer_bodies", team);
   carry_water_ = Kernel(program, "carry_water", group);
   keep_out_of_free_ = Kernel(program, "keep_out_of_free", group);
   move_bodies_ = Kernel(program, "move_bodies", 1);
@@ -81,14 +80,14 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
   if (occasion.falling > 0.0) {
     films_.press(fluid, step, {bodies_, *occasion.pressure, reach_, reached_});
   }
-  weigh_water_.run(queue, list_.size() * SPLASH_PUSH_PARTS, params, k, state, count_,
-                   as_float(occasion.pushing), as_float(occasion.rubbing), bodies_.memory(), steps,
-                   step.first_body, places, occasion.pressure->memory(), reach_.memory(),
-                   reached_.memory(), parts_.memory());
-  answer_bodies_.run(queue, list_.size(), params, k, state, count_, as_float(occasion.falling),
-                     bodies_.memory(), steps, step.first_body, parts_.memory(),
-                     films_.pressed() ? 1 : 0, films_.push().memory(), answer_.memory(),
-                     felt_.memory());
+  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS, params, k, state, count_,
+                         as_float(occasion.pushing), as_float(occasion.rubbing), bodies_.memory(),
+                         steps, step.first_body, places, occasion.pressure->memory(),
+                         reach_.memory(), reached_.memory(), parts_.memory());
+  answer_bodies_.run_teams(queue, list_.size(), params, k, state, count_,
+                           as_float(occasion.falling), bodies_.memory(), steps, step.first_body,
+                           parts_.memory(), films_.pressed() ? 1 : 0, films_.push().memory(),
+                           answer_.memory(), felt_.memory());
   const bool wants_rate = occasion.rate != nullptr;
   carry_water_.run(queue, groups_, params, k, state, count_, as_float(occasion.factor),
                    bodies_.memory(), steps, step.first_body, answer_.memory(), places,

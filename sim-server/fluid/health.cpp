@@ -16,11 +16,6 @@ namespace {
 static_assert(sizeof(HealthLimits) == 36 && sizeof(HealthRecord) == 56);
 static_assert(kFaults == static_cast<std::size_t>(Fault::step) + 1);
 
-/// Work-items that look at stretches of the fluid side by side: on CPUs a few per core, on GPUs
-/// enough to fill them.
-constexpr int kStretches = 16;
-constexpr int kThreads = 16384;
-
 /// Faults by how much each explains the others: who changed the state made it wrong.
 constexpr Fault kByCause[] = {Fault::step,    Fault::changed, Fault::lost,  Fault::not_finite,
                               Fault::outside, Fault::stray,   Fault::speed, Fault::density};
@@ -111,12 +106,10 @@ HealthLimits health_limits(const FluidParams& p) {
 
 Health::Health(Device& device, const cl::Program& program, const FluidParams& params)
     : particles_(params.count),
-      parts_(device.lanes() > 1 ? kStretches : kThreads),
+      parts_(device.profile().parts),
       longest_step_(2.0 * largest_time_step(params, 0.0, 0.0, 1.0)),
-      check_(program, "check_health", device.lanes() > 1 ? 1 : 64) {
-  const auto lanes = static_cast<std::size_t>(device.lanes());
-  const std::size_t groups = (static_cast<std::size_t>(params.count) + lanes - 1) / lanes;
-  rested_ = Buffer<std::uint32_t>(device, 2 * groups);
+      check_(program, "check_health", device.profile().team) {
+  rested_ = Buffer<std::uint32_t>(device, 2 * device.vectors_of(params.count));
   const HealthLimits limits = health_limits(params);
   limits_ = Buffer<HealthLimits>(device, std::span<const HealthLimits>(&limits, 1));
 }
@@ -137,14 +130,14 @@ void Health::look(Device& device, const Patient& patient, const Step& step) {
   const bool anew = missed_ || (!last_ && slot == 0);
   missed_ = false;
   const Look resting = anew ? Look::anew : steps_.size() >= frame_ ? Look::seen : Look::unseen;
-  check_.run(device.queue(), static_cast<std::size_t>(parts_), patient.params.memory(),
-             limits_.memory(), static_cast<int>(checks_), parts_, as_float(step.dt),
-             as_float(step.piston), patient.now.position.memory(), patient.now.velocity.memory(),
-             patient.acceleration.memory(), patient.density.memory(), patient.now.id.memory(),
-             patient.before.position.memory(), patient.before.velocity.memory(),
-             patient.before.id.memory(), patient.source, patient.resting, static_cast<int>(resting),
-             rested_.memory(), patient.shapes.memory(), patient.meshes.memory(),
-             patient.bodies.memory(), step.first_body, patient.body_count, slot, records_.memory());
+  check_.run_teams(
+      device.queue(), parts_, patient.params.memory(), limits_.memory(), static_cast<int>(checks_),
+      as_float(step.dt), as_float(step.piston), patient.now.position.memory(),
+      patient.now.velocity.memory(), patient.acceleration.memory(), patient.density.memory(),
+      patient.now.id.memory(), patient.before.position.memory(), patient.before.velocity.memory(),
+      patient.before.id.memory(), patient.source, patient.resting, static_cast<int>(resting),
+      rested_.memory(), patient.shapes.memory(), patient.meshes.memory(), patient.bodies.memory(),
+      step.first_body, patient.body_count, slot, records_.memory());
 }
 
 void Health::enqueue_read(Device& device) {

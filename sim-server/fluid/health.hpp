@@ -129,7 +129,7 @@ class Health {
                                                    std::optional<std::uint32_t> before) const;
 
   int particles_ = 0;
-  int parts_ = 1;
+  std::size_t parts_ = 1;  ///< of the particles, looked at side by side
   FaultSet checks_ = kAllFaults;
   bool fast_ = false;
   bool missed_ = false;

@@ -23,8 +23,9 @@ NeighbourGrid::NeighbourGrid(Device& device, const cl::Program& program, const F
 
 void NeighbourGrid::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, int points,
                          const PointArrays& from, const PointArrays& to) {
-  std::visit([&](auto& cells) { cells.sort(queue, params, points, from, to, cell_start_, source_); },
-             cells_);
+  std::visit(
+      [&](auto& cells) { cells.sort(queue, params, points, from, to, cell_start_, source_); },
+      cells_);
 }
 
 }  // namespace splash::sim

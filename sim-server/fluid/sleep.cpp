@@ -5,22 +5,14 @@
 #include <vector>
 
 namespace splash::sim {
-namespace {
-
-/// Of so many particles, one to a lane.
-std::size_t groups_of(int particles, int lanes) {
-  return static_cast<std::size_t>((particles + lanes - 1) / lanes);
-}
-
-}  // namespace
 
 Sleep::Sleep(Device& device, const cl::Program& program, const FluidParams& params)
     : rows_(static_cast<std::size_t>(params.cells_y) * static_cast<std::size_t>(params.cells_z)),
       awake_(device, rows_ * (static_cast<std::size_t>(params.cells_x) + 1)),
       stir_(device, 2 * rows_ * static_cast<std::size_t>(params.cells_x)),
-      resting_(device, groups_of(params.count, device.lanes())),
-      keep_awake_(program, "keep_awake", 4),
-      stir_cells_(program, "stir_cells", 4) {
+      resting_(device, device.vectors_of(params.count)),
+      keep_awake_(program, "keep_awake", device.profile().group),
+      stir_cells_(program, "stir_cells", device.profile().group) {
   wake(device);
 }
 

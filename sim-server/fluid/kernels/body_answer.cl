@@ -39,7 +39,7 @@ static void add_water(const Reach* r, Lever lever, float inverse_size, lanes pus
   add_square(sum + 6, &z, r->rub);
 }
 
-// Pushes on each free body and the water's inertia, of one part of the water: one work-item for
+// Pushes on each free body and the water's inertia, of one part of the water: one work-group for
 // each body and part. `pushing`: of the pressure given, in it and in seconds; `rubbing`: of a_i,
 // likewise.
 kernel void weigh_water(constant FluidParams* p, int k, global const SolveState* state,
@@ -47,25 +47,28 @@ kernel void weigh_water(constant FluidParams* p, int k, global const SolveState*
                         global const BodyStep* bodies, int first_body,
                         global const float* position, global const float* pressure,
                         global float* reach, global const int* reached, global float* parts) {
+  local float of_team[SPLASH_PUSH_ENTRIES * TEAM];
   if (is_done(state, k)) return;
-  const int item = get_global_id(0);
-  if (item >= free_count * SPLASH_PUSH_PARTS) return;
-  const int b = item / SPLASH_PUSH_PARTS, part = item % SPLASH_PUSH_PARTS;
+  const int number = get_group_id(0), item = get_local_id(0), items = get_local_size(0);
+  const int b = number / SPLASH_PUSH_PARTS, part = number % SPLASH_PUSH_PARTS;
   const int groups = group_count(p);
-  const int size = (groups + SPLASH_PUSH_PARTS - 1) / SPLASH_PUSH_PARTS;
-  const int last = min((part + 1) * size, groups);
+  const Share share = share_of(groups, part, SPLASH_PUSH_PARTS, 1, 1);
   const float inverse_size = 1.0f / frees[b].size;
   lanes sum[SPLASH_PUSH_ENTRIES];
   for (int e = 0; e < SPLASH_PUSH_ENTRIES; ++e) sum[e] = 0.0f;
-  for (int group = part * size; group < last; ++group) {
+  for (int group = share.first; group < share.last; group += share.step) {
     if (!reached[b * groups + group]) continue;
     const int i = group * LANES;
     const Reach r = load_reach(p, reach, b, i);
     const Lever lever = lever_of(p, position, bodies[first_body + frees[b].body], i);
     add_water(&r, lever, inverse_size, pushing * LOAD(pressure, i), rubbing, sum);
   }
-  for (int e = 0; e < SPLASH_PUSH_ENTRIES; ++e) {
-    parts[item * SPLASH_PUSH_ENTRIES + e] = p->mass * total(sum[e]);
+  for (int e = 0; e < SPLASH_PUSH_ENTRIES; ++e) of_team[e * TEAM + item] = total(sum[e]);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (int e = item; e < SPLASH_PUSH_ENTRIES; e += items) {
+    float all = of_team[e * TEAM];
+    for (int other = 1; other < items; ++other) all += of_team[e * TEAM + other];
+    parts[number * SPLASH_PUSH_ENTRIES + e] = p->mass * all;
   }
 }
 
@@ -80,7 +83,7 @@ static void add_body(FreeBody f, BodyStep b, float* a) {
   }
 }
 
-// One work-item for each free body. `falling`: of gravity [s], and of the films' pushes
+// One work-group for each free body. `falling`: of gravity [s], and of the films' pushes
 // (body_film.cl) where there are any. `answer`: dV, dw. `felt`: what the
 // water gave each body in this step so far, its momentum and angular momentum. The body's speeds in
 // this step change at once.
@@ -89,18 +92,22 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
                           global BodyStep* bodies, int first_body, global const float* parts,
                           int films, global const float* film, global float* answer,
                           global float* felt) {
+  local float of_team[SPLASH_PUSH_ENTRIES];
   if (is_done(state, k)) return;
-  const int item = get_global_id(0);
-  if (item >= free_count) return;
+  const int item = get_group_id(0);
+  for (int e = get_local_id(0); e < SPLASH_PUSH_ENTRIES; e += get_local_size(0)) {
+    float all = 0.0f;
+    for (int part = 0; part < SPLASH_PUSH_PARTS; ++part) {
+      all += parts[(item * SPLASH_PUSH_PARTS + part) * SPLASH_PUSH_ENTRIES + e];
+    }
+    of_team[e] = all;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) > 0) return;
   const FreeBody f = frees[item];
   BodyStep b = bodies[first_body + f.body];
   float sum[SPLASH_PUSH_ENTRIES];
-  for (int e = 0; e < SPLASH_PUSH_ENTRIES; ++e) {
-    sum[e] = 0.0f;
-    for (int part = 0; part < SPLASH_PUSH_PARTS; ++part) {
-      sum[e] += parts[(item * SPLASH_PUSH_PARTS + part) * SPLASH_PUSH_ENTRIES + e];
-    }
-  }
+  for (int e = 0; e < SPLASH_PUSH_ENTRIES; ++e) sum[e] = of_team[e];
   const float3 fall = falling * (float3)(p->gravity_x, p->gravity_y, p->gravity_z);
   sum[0] += f.mass * fall.x;
   sum[1] += f.mass * fall.y;

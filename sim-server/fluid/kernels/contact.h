@@ -28,6 +28,9 @@ typedef struct {
   int key;             // of this place of the body and what it meets, above 0
 } Contact;
 
+// The host gives each so much room.
+typedef char contact_fits[sizeof(Contact) <= 4 * SPLASH_CONTACT_FLOATS ? 1 : -1];
+
 // What is left of a contact for the next step.
 typedef struct {
   int key;

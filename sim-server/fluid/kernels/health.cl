@@ -151,18 +151,31 @@ static lane_flags but_for_solids(lane_flags stray, constant FluidParams* p, floa
   return LOAD(flag, 0);
 }
 
-static void report_sums(global HealthRecord* record, const Sums* s) {
-  atomic_add(&record->before, bits_of(s->before) + s->known.state);
-  atomic_add(&record->after, bits_of(s->after) + s->known.state);
-  atomic_add(&record->ids_before, bits_of(s->ids_before) + s->known.ids + s->ids_known);
-  atomic_add(&record->ids_after, bits_of(s->ids_after) + s->known.ids);
+// A team adds its sums up before one of it reports them: all of them at once would queue for one
+// record.
+static void report_sums(global HealthRecord* record, const Sums* s, local uint* of_team) {
+  const uint mine[4] = {bits_of(s->before) + s->known.state, bits_of(s->after) + s->known.state,
+                        bits_of(s->ids_before) + s->known.ids + s->ids_known,
+                        bits_of(s->ids_after) + s->known.ids};
+  const int item = get_local_id(0);
+  for (int k = 0; k < 4; ++k) of_team[4 * item + k] = mine[k];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item > 0) return;
+  uint sums[4] = {0, 0, 0, 0};
+  for (int other = 0; other < (int)get_local_size(0); ++other) {
+    for (int k = 0; k < 4; ++k) sums[k] += of_team[4 * other + k];
+  }
+  atomic_add(&record->before, sums[0]);
+  atomic_add(&record->after, sums[1]);
+  atomic_add(&record->ids_before, sums[2]);
+  atomic_add(&record->ids_after, sums[3]);
 }
 
-// `checks`: a bit for each thing that is looked at. `before`: the arrays as they were when the step
+// One work-group for each part of the particles. `checks`: a bit for each thing that is looked at. `before`: the arrays as they were when the step
 // began, unsorted; `source`: where each particle was among those. `acceleration`: that of the step.
 // `look`: at groups that rest, which `resting` knows.
 kernel void check_health(constant FluidParams* p, constant HealthLimits* limits, int checks,
-                         int parts, float dt, float piston, global const float* position,
+                         float dt, float piston, global const float* position,
                          global const float* velocity, global const float* acceleration,
                          global const float* density, global const int* id,
                          global const float* position_before, global const float* velocity_before,
@@ -171,18 +184,12 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
                          constant BodyShape* shapes, global const float* meshes,
                          global const BodyStep* bodies, int first_body, int body_count, int slot,
                          global HealthRecord* records) {
-  const int part = get_global_id(0);
-  if (part >= parts) return;
+  local uint of_team[4 * TEAM];
   const int n = p->capacity;
   global HealthRecord* record = records + slot;
   Sums sums = {0, 0, 0, 0, {0, 0}, 0};
-#if LANES > 1  // each work-item its own stretch, in whole vectors
-  const int size = ((p->count + parts - 1) / parts + LANES - 1) / LANES * LANES;
-  const int stride = LANES, begin = part * size, end = min(begin + size, p->count);
-#else
-  const int stride = parts, begin = part, end = p->count;
-#endif
-  for (int i = begin; i < end; i += stride) {
+  const Share share = share_of(p->count, get_group_id(0), get_num_groups(0), LANES, LANES);
+  for (int i = share.first; i < share.last; i += share.step) {
     const int rests = resting[i / LANES];
     if (rests > 1 && look == RESTING_UNSEEN) {
       sums.known.state += rested[i / LANES].state;
@@ -213,5 +220,5 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
       if (checks & (1 << check)) report_lanes(record, check, bad[check], id, i);
     }
   }
-  report_sums(record, &sums);
+  report_sums(record, &sums, of_team);
 }

@@ -38,22 +38,17 @@ static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
   return p->mass * sum;
 }
 
-// `jacobi`: Q. `error_part`: of the group's particles that move, the sum of what Jacobi's step
-// answers to, which is errors but not those below zero of particles without pressure [kg/m3]; and
-// their number.
-kernel void correct_pressure(constant FluidParams* p, int k, global const SolveState* state,
-                             float beta, float dt, global const int* cell_start,
-                             global const int* stir, global const float* position,
-                             global const float* velocity, global const float* gradient,
-                             global const float* response, global const float* boundary_rate,
-                             global const float* offset, global const float* pressure,
-                             global float* jacobi, global float* change,
-                             global float* error_part) {
-  if (is_done(state, k)) return;
+// Of the particles `first` to `last` (not included) that move, the sum of what Jacobi's step answers
+// to, which is errors but not those below zero of particles without pressure [kg/m3]; and their
+// number.
+static float2 correct(constant FluidParams* p, int k, float beta, float dt,
+                      global const int* cell_start, global const int* stir,
+                      global const float* position, global const float* velocity,
+                      global const float* gradient, global const float* response,
+                      global const float* boundary_rate, global const float* offset,
+                      global const float* pressure, global float* jacobi, global float* change,
+                      int first, int last) {
   const int n = p->capacity;
-  const int first = get_global_id(0) * LANES;
-  const int last = min(first + LANES, p->count);
-  if (first >= last) return;
   const float scale = -gradient_norm(p);
   lanes carried = 0.0f;
   lane_flags moves = 0;
@@ -86,6 +81,37 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   const lanes next = clamp(better + beta * (better - before), none, most);
   STORE(select(none, next - now, moves), change, first);
   const lanes found = fabs(better - now) * d * (dt * dt / RELAXATION);
-  error_part[2 * (first / LANES)] = total(select(none, found, moves));
-  error_part[2 * (first / LANES) + 1] = total(select(none, one, moves));
+  return (float2)(total(select(none, found, moves)), total(select(none, one, moves)));
+}
+
+// `jacobi`: Q. `error_part`: what was found, of each work-item, or of each work-group of a team.
+kernel void correct_pressure(constant FluidParams* p, int k, global const SolveState* state,
+                             float beta, float dt, global const int* cell_start,
+                             global const int* stir, global const float* position,
+                             global const float* velocity, global const float* gradient,
+                             global const float* response, global const float* boundary_rate,
+                             global const float* offset, global const float* pressure,
+                             global float* jacobi, global float* change,
+                             global float* error_part) {
+  if (is_done(state, k)) return;
+  const int first = get_global_id(0) * LANES;
+  const int last = min(first + LANES, p->count);
+#if TEAM > 1
+  local float2 of_team[TEAM];
+  float2 found = (float2)(0.0f, 0.0f);
+  if (first < last) {
+    found = correct(p, k, beta, dt, cell_start, stir, position, velocity, gradient, response,
+                    boundary_rate, offset, pressure, jacobi, change, first, last);
+  }
+  of_team[get_local_id(0)] = found;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) > 0) return;
+  for (int item = 1; item < (int)get_local_size(0); ++item) found += of_team[item];
+  vstore2(found, get_group_id(0), error_part);
+#else
+  if (first >= last) return;
+  vstore2(correct(p, k, beta, dt, cell_start, stir, position, velocity, gradient, response,
+                  boundary_rate, offset, pressure, jacobi, change, first, last),
+          get_global_id(0), error_part);
+#endif
 }

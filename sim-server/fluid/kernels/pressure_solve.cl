@@ -8,9 +8,6 @@
 // surface has 0.88, a sheet of one layer 0.75.
 #define SPARSE 0.85f
 
-// Work-items that judge a solve side by side; known to the host (divergence_free.cpp).
-#define JUDGES 64
-
 // Each particle's pressure of the last step, in this step's order.
 kernel void recall_pressure(constant FluidParams* p, global const int* id,
                             global const float* kept, global float* pressure) {
@@ -58,17 +55,19 @@ kernel void end_solves(constant FluidParams* p, float dt, float follow, global c
   all[id[i]] = pressure[i];
 }
 
-// Judges the errors that the corrections of iteration `k` found; one work-group, sums in a fixed
-// order. Done when their mean is within the tolerance, not before `least` iterations.
+// Judges the errors that the corrections of iteration `k` found; one work-group of at most JUDGES,
+// sums in a fixed order: each item's of a stretch, or, in teams, of every so manieth. Done when
+// their mean is within the tolerance, not before `least` iterations.
 kernel void judge_solve(constant FluidParams* p, int parts, int k, int least, int most,
                         global const float* error_part, global SolveState* state) {
   local float sums[JUDGES], numbers[JUDGES];
   if (is_done(state, k)) return;
-  const int item = get_local_id(0);
-  const int size = (parts + JUDGES - 1) / JUDGES;
-  const int last = min((item + 1) * size, parts);
+  const int item = get_local_id(0), items = get_local_size(0);
+  const int size = (parts + items - 1) / items;
+  const int first = TEAM > 1 ? item : item * size, step = TEAM > 1 ? items : 1;
+  const int last = TEAM > 1 ? parts : min((item + 1) * size, parts);
   float sum = 0.0f, number = 0.0f;
-  for (int i = item * size; i < last; ++i) {
+  for (int i = first; i < last; i += step) {
     sum += error_part[2 * i];
     number += error_part[2 * i + 1];
   }
@@ -82,7 +81,7 @@ kernel void judge_solve(constant FluidParams* p, int parts, int k, int least, in
     s.iterations = 0;
     ++s.solves;
   }
-  for (int i = 1; i < JUDGES; ++i) {
+  for (int i = 1; i < items; ++i) {
     sum += sums[i];
     number += numbers[i];
   }

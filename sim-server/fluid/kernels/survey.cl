@@ -60,19 +60,34 @@ static lane_flags tally(constant FluidParams* p, global const float* position,
   return here & (doubt != none);
 }
 
-kernel void survey(constant FluidParams* p, int parts, global const float* position,
+static void join(SurveyPart* sum, SurveyPart other) {
+  sum->speed2 = fmax(sum->speed2, other.speed2);
+  sum->acceleration2 = fmax(sum->acceleration2, other.acceleration2);
+  sum->excess_sum += other.excess_sum;
+  sum->excess_max = fmax(sum->excess_max, other.excess_max);
+  sum->not_finite += other.not_finite;
+  sum->first_bad = min(sum->first_bad, other.first_bad);
+  sum->runaway += other.runaway;
+  sum->asleep += other.asleep;
+  for (int axis = 0; axis < 3; ++axis) {
+    sum->lower[axis] = fmin(sum->lower[axis], other.lower[axis]);
+    sum->upper[axis] = fmax(sum->upper[axis], other.upper[axis]);
+  }
+}
+
+// One work-group for each part.
+kernel void survey(constant FluidParams* p, global const float* position,
                    global const float* velocity, global const float* acceleration,
                    global const float* density, global const int* id, global const int* moving,
                    global SurveyPart* out) {
-  const int part = get_global_id(0);
-  if (part >= parts) return;
+  local SurveyPart of_team[TEAM];
+  const int part = get_group_id(0), item = get_local_id(0);
   Tally t = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
              {FAR_AWAY, FAR_AWAY, FAR_AWAY}, {-FAR_AWAY, -FAR_AWAY, -FAR_AWAY}};
   int bad = 0, first_bad = 0x7FFFFFFF;
-  const int size = (p->count + parts - 1) / parts;
-  const int last = min((part + 1) * size, p->count);
-  for (int i = part * size; i < last; i += LANES) {
-    const lane_flags here = LANE_NUMBERS < (lane_flags)(last - i);
+  const Share share = share_of(p->count, part, get_num_groups(0), 1, LANES);
+  for (int i = share.first; i < share.last; i += share.step) {
+    const lane_flags here = LANE_NUMBERS < (lane_flags)(share.last - i);
     const lane_flags wrong =
         tally(p, position, velocity, acceleration, density, moving, i, here, &t);
     if (!any_lane(wrong)) continue;
@@ -84,10 +99,14 @@ kernel void survey(constant FluidParams* p, int parts, global const float* posit
       first_bad = min(first_bad, id[i + lane]);
     }
   }
-  const SurveyPart s = {most(t.speed2), most(t.acceleration2), total(t.excess_sum),
-                        most(t.excess_max), bad, first_bad, (int)total(t.runaway),
-                        (int)total(t.asleep),
-                        {least(t.lower[0]), least(t.lower[1]), least(t.lower[2])},
-                        {most(t.upper[0]), most(t.upper[1]), most(t.upper[2])}};
+  SurveyPart s = {most(t.speed2), most(t.acceleration2), total(t.excess_sum),
+                  most(t.excess_max), bad, first_bad, (int)total(t.runaway),
+                  (int)total(t.asleep),
+                  {least(t.lower[0]), least(t.lower[1]), least(t.lower[2])},
+                  {most(t.upper[0]), most(t.upper[1]), most(t.upper[2])}};
+  of_team[item] = s;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item > 0) return;
+  for (int k = 1; k < (int)get_local_size(0); ++k) join(&s, of_team[k]);
   out[part] = s;
 }
