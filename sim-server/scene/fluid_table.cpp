@@ -40,8 +40,8 @@ Fields<F> method_fields() {
        &F::solver_name},
       {{.key = "kernels",
         .unit = "",
-        .meaning = "vector: as suits the device; reference: one particle at a time, slow, for "
-                   "comparison.",
+        .meaning = "vector: as suits the device; reference: one particle at a time, as GPUs do it, "
+                   "slow on a CPU, for comparison.",
         .choices = {"vector", "reference"}},
        &F::kernels_name},
       {{.key = "settle",

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -30,11 +31,25 @@ struct Options {
   bool all = false;
   Clock clock = Clock::wall;
   int device = -1;
+  std::string profile;  ///< of profiles(); empty: as suits the device
 
   [[nodiscard]] bool wants(const char* part) const {
     return std::find(parts.begin(), parts.end(), part) != parts.end();
   }
 };
+
+/// Ways to cut work into pieces, to be tried on any device.
+std::map<std::string, sim::Profile> profiles(unsigned units) {
+  sim::Profile ranks = sim::cpu_profile(units);
+  ranks.sort_chunks = 0;
+  return {{"cpu", sim::cpu_profile(units)}, {"cpu-ranks", ranks}, {"gpu", sim::gpu_profile()}};
+}
+
+sim::Device device_of(const Options& options) {
+  if (options.profile.empty()) return sim::Device(options.device, true);
+  const unsigned units = sim::Device(options.device).facts().compute_units;
+  return {options.device, true, profiles(units).at(options.profile)};
+}
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
@@ -43,7 +58,7 @@ void measure_cost(const Options& options) {
   File csv(std::fopen(path.c_str(), "w"), std::fclose);
   if (!csv) throw std::runtime_error("cannot write " + path);
   std::fprintf(csv.get(), "what,particles,density_ms,by_hand_ms,forces_ms,by_hand_ms\n");
-  sim::Device device(options.device, true);
+  sim::Device device = device_of(options);
   if (options.wants("kernels")) beside_the_yardstick(device, options.most_particles, csv.get());
   if (options.wants("size")) against_size(device, options.most_particles, csv.get());
   if (options.wants("stages")) stage_by_stage(device, csv.get());
@@ -103,6 +118,10 @@ int main(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(clocks));
   app.add_option("--out", options.out, "Folder for tables and pictures")->capture_default_str();
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  app.add_option("--profile", options.profile,
+                 "How kernels, size and stages cut work into pieces: cpu, cpu-ranks (cpu with the "
+                 "sort of gpu) or gpu (default: as suits the device)")
+      ->check(CLI::IsMember({"cpu", "cpu-ranks", "gpu"}));
   CLI11_PARSE(app, argc, argv);
   try {
     measure(options);

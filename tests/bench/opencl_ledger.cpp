@@ -5,6 +5,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <mutex>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace {
 struct Launch {
   cl_kernel kernel = nullptr;
   cl_event event = nullptr;
+  std::size_t items = 0;
 };
 
 struct Ledger {
@@ -73,6 +75,7 @@ std::map<std::string, Launches> end_ledger() {
   std::map<std::string, Launches> totals;
   for (const Launch& launch : ledger().launches) {
     Launches& mine = totals[name_of(launch.kernel)];
+    mine.least = mine.count == 0 ? launch.items : std::min(mine.least, launch.items);
     ++mine.count;
     mine.seconds += duration(launch.event);
     clReleaseEvent(launch.event);
@@ -122,7 +125,7 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
   if (ledger().open) {
     clRetainKernel(kernel);
     if (mine == nullptr) clRetainEvent(mine = *event);
-    ledger().launches.push_back({kernel, mine});
+    ledger().launches.push_back({kernel, mine, *global});
   } else if (mine != nullptr) {
     clReleaseEvent(mine);
   }

@@ -14,7 +14,8 @@ namespace splash::bench {
 /// All launches of a kernel.
 struct Launches {
   std::int64_t count = 0;
-  double seconds = 0.0;  ///< on the device, from its own clock
+  double seconds = 0.0;   ///< on the device, from its own clock
+  std::size_t least = 0;  ///< work-items of the smallest
 };
 
 /// What all buffers of the program hold now [B].

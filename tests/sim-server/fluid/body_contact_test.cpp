@@ -75,7 +75,7 @@ double depth_of(const FreeFloat& world, std::size_t one, std::size_t two) {
 }
 
 TEST(BodyContact, SpheresPartAsNewtonSays) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(0.0);
   world.add(kBall, 1000.0, {{1.0, 1.5, 1.0}, {0, 0, 0, 1}, {2.0, 0.0, 0.0}, {}});
   world.add(kBall, 3000.0, {{1.3, 1.5, 1.0}, {0, 0, 0, 1}, {-1.0, 0.0, 0.0}, {}});
@@ -101,7 +101,7 @@ class Meetings : public ::testing::TestWithParam<Meeting> {};
 
 // Thrown at each other askew, in four ways, turning.
 TEST_P(Meetings, KeepMomentaAndNothingIsInTheOther) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   for (int k = 0; k < 4; ++k) {
     SCOPED_TRACE(k);
     FreeFloat world = dry_world(0.0);
@@ -147,7 +147,7 @@ class Stack : public ::testing::TestWithParam<double> {};
 
 // Also in steps in which all fall by as much as what a knock rebounds from.
 TEST_P(Stack, OfTenStands) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
   for (int k = 0; k < 10; ++k) {
     world.add(kBrick, 600.0, {{1.5, 1.5, 0.04 + 0.08 * k}, {0, 0, 0, 1}, {}, {}});
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Steps, Stack, ::testing::Values(0.0, 0.01), [](const au
 });
 
 TEST(BodyContact, SlideOnEachOtherAsFarAsFrictionLetsThem) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
   world.add({ShapeKind::box, {0.2, 0.2, 0.05}, 0.0, 0.0}, 500.0,
             {{1.0, 1.5, 0.125}, {0, 0, 0, 1}, {2.0, 0.0, 0.0}, {}});
@@ -184,7 +184,7 @@ TEST(BodyContact, SlideOnEachOtherAsFarAsFrictionLetsThem) {
 
 // What goes its way does not give way: a plate shoves a ball along, and parts from it as it stops.
 TEST(BodyContact, ALedBodyShovesAFreeOne) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(0.0);
   world.add(kBall, 500.0, {{1.2, 1.5, 1.0}, {0, 0, 0, 1}, {}, {}});
   world.add_led({ShapeKind::box, {0.05, 0.4, 0.4}, 0.0, 0.0},

@@ -50,7 +50,7 @@ class Momentum : public ::testing::TestWithParam<Kind> {};
 // A turning box goes through the drop: it pushes, rubs and throws.
 TEST_P(Momentum, OfWaterAndBodyTogetherStays) {
   const Kind& kind = GetParam();
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = drop_and_body(
       {ShapeKind::box, {0.1, 0.08, 0.06}, 0.0, 0.0}, kind.density,
       {{0.5, 0.49, 0.62}, from_turn({0.3, 0.2, 0.1}), {0.1, 0.0, -2.0}, {3.0, -5.0, 4.0}});
@@ -73,7 +73,7 @@ const std::vector<Kind> kKinds = {
 INSTANTIATE_TEST_SUITE_P(Kinds, Momentum, ::testing::ValuesIn(kKinds), kind_name);
 
 TEST(Momentum, OfWaterAndMeshTogetherStays) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = drop_and_body(
       askew_box({0.1, 0.08, 0.06}, 0.02), 500.0,
       {{0.5, 0.49, 0.62}, from_turn({0.3, 0.2, 0.1}), {0.1, 0.0, -2.0}, {3.0, -5.0, 4.0}});
@@ -87,7 +87,7 @@ TEST(Momentum, OfWaterAndMeshTogetherStays) {
 
 // Slowly, so that nobody is put back out of the body, which moves without a speed.
 TEST(FreeBodies, KeepTheAngularMomentumOfWaterAndBody) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world =
       drop_and_body({ShapeKind::box, {0.1, 0.08, 0.06}, 0.0, 0.0}, 300.0,
                     {{0.5, 0.49, 0.6}, {0, 0, 0, 1}, {0.0, 0.0, -0.2}, {0.5, -1.0, 0.8}});
@@ -99,7 +99,7 @@ TEST(FreeBodies, KeepTheAngularMomentumOfWaterAndBody) {
 }
 
 TEST(FreeBodies, FallAsBodiesDo) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world;
   world.scene = tank_scene(0.05, {1.0, 1.0, 1.0}, 0.1);
   world.add({ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0}, 500.0,
@@ -117,7 +117,7 @@ TEST(FreeBodies, FallAsBodiesDo) {
 // it does whose axes are none of its file's.
 void expect_tumbling(const Shape& shape, const Quaternion& turn, double rounding) {
   SCOPED_TRACE(static_cast<int>(shape.kind));
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world;
   world.scene = tank_scene(0.046, {1.0, 1.0, 1.0}, 0.1);
   world.scene.fluid.gravity = {0.0, 0.0, 0.0};
@@ -145,7 +145,7 @@ TEST(FreeBodies, TumbleWithTheirAngularMomentumAndEnergy) {
 }
 
 TEST(FreeBodies, RestOnTheFloorAndRebound) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   for (const Shape& shape : {Shape{ShapeKind::box, {0.2, 0.14, 0.1}, 0.0, 0.0},
                              Shape{ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0},
                              Shape{ShapeKind::cylinder, {0.2, 0.2, 0.1}, 0.0, 0.0},
@@ -174,7 +174,7 @@ TEST(FreeBodies, RestOnTheFloorAndRebound) {
 
 // Every vertex counts, however many there are: a tumbling mesh is never beyond a wall.
 TEST(FreeBodies, KeepAllOfAMeshWithinTheWalls) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world;
   world.scene = tank_scene(0.05, {1.0, 1.0, 1.0}, 0.1);
   world.scene.water = {{{0.0, 0.0, 0.0}, {0.1, 0.1, 0.1}}};
@@ -202,7 +202,7 @@ TEST(FreeBodies, KeepAllOfAMeshWithinTheWalls) {
 }
 
 TEST(FreeBodies, SlideAsFarAsFrictionLetsThem) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world;
   world.scene = tank_scene(0.05, {3.0, 1.0, 1.0}, 0.1);
   world.scene.water = {{{0.0, 0.0, 0.0}, {0.2, 1.0, 0.06}}};
@@ -216,7 +216,7 @@ TEST(FreeBodies, SlideAsFarAsFrictionLetsThem) {
 }
 
 TEST(FreeBodies, DoTheSameTwice) {
-  Device device(-1, false, 0);
+  Device device(-1, false, SPLASH_TEST_LANES);
   std::vector<BodyState> ends;
   for (int k = 0; k < 2; ++k) {
     FreeFloat world = drop_and_body({ShapeKind::box, {0.1, 0.08, 0.06}, 0.0, 0.0}, 50.0,

@@ -58,53 +58,47 @@ void PrintTo(const Watched& watched, std::ostream* out) {
   *out << watched.name;
 }
 
-const std::set<std::string> kStep = {
-    "place_bodies", "gather_body_volumes", "count_cells",          "sum_blocks", "place_cells",
-    "sort_points",  "compute_density",     "compute_acceleration", "integrate",  "keep_awake",
-    "survey",       "check_health",        "stir_cells",           "put_back"};
-const std::set<std::string> kSolve = {"check_health",
-                                      "place_bodies",
-                                      "gather_body_volumes",
-                                      "count_cells",
-                                      "sum_blocks",
-                                      "place_cells",
-                                      "sort_points",
-                                      "compute_density",
-                                      "compute_acceleration",
-                                      "integrate",
-                                      "survey",
-                                      "correct_pressure",
-                                      "push_by_pressure",
-                                      "measure_response",
-                                      "recall_pressure",
-                                      "begin_divergence_solve",
-                                      "begin_density_solve",
-                                      "end_solves",
-                                      "judge_solve",
-                                      "keep_awake",
-                                      "stir_cells",
-                                      "put_back"};
-const std::set<std::string> kDetect = {"place_bodies",    "gather_body_volumes",  "count_cells",
-                                       "sum_blocks",      "place_cells",          "sort_points",
-                                       "compute_density", "compute_acceleration", "integrate",
-                                       "touch_water",     "spawn_bubbles",        "carry_bubbles",
-                                       "seed_cavities",   "grow_cavities",        "push_by_walls"};
+using Kernels = std::set<std::string>;
 
-/// Those of a scene with bodies that the water moves, besides.
-std::set<std::string> with_free_bodies(std::set<std::string> kernels) {
-  kernels.insert({"reach_bodies", "measure_rims", "press_films", "sum_films", "weigh_water",
-                  "answer_bodies", "carry_water", "keep_out_of_free", "move_bodies"});
-  return kernels;
+Kernels join(std::initializer_list<Kernels> parts) {
+  Kernels all;
+  for (const Kernels& part : parts) all.insert(part.begin(), part.end());
+  return all;
 }
+
+// Sorts, by vectors and scalar.
+const Kernels kRuns = {"count_cells", "sum_blocks", "place_cells", "sort_points"};
+const Kernels kRanks = {"count_points", "sum_cells", "start_cells", "gather_cells", "rank_points"};
+const Kernels kStep = {"place_bodies",    "gather_body_volumes",
+                       "compute_density", "compute_acceleration",
+                       "integrate",       "keep_awake",
+                       "survey",          "check_health",
+                       "stir_cells",      "put_back"};
+const Kernels kSolve = {
+    "correct_pressure",       "push_by_pressure",    "measure_response", "recall_pressure",
+    "begin_divergence_solve", "begin_density_solve", "end_solves",       "judge_solve"};
+/// Of a scene with bodies that the water moves.
+const Kernels kFree = {"reach_bodies", "measure_rims",     "press_films",
+                       "sum_films",    "weigh_water",      "answer_bodies",
+                       "carry_water",  "keep_out_of_free", "move_bodies"};
+const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_density",
+                         "integrate",     "compute_acceleration", "touch_water",
+                         "spawn_bubbles", "carry_bubbles",        "seed_cavities",
+                         "grow_cavities", "push_by_walls"};
 
 // Scalar kernels of the divergence-free solver take the interpreter minutes: by hand only.
 const std::vector<Watched> kWatched = {
-    {"scalar", "sim_fluid_two_steps 1 0 0", "Oclgrind: 251 particles", kStep},
-    {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles", kStep},
-    {"divergence_free", "sim_fluid_two_steps 16 1 0", "Oclgrind: 251 particles", kSolve},
+    {"scalar", "sim_fluid_two_steps 1 0 0", "Oclgrind: 251 particles", join({kRanks, kStep})},
+    {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles", join({kRuns, kStep})},
+    {"divergence_free", "sim_fluid_two_steps 16 1 0", "Oclgrind: 251 particles",
+     join({kRuns, kStep, kSolve})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
-     with_free_bodies(kStep)},
-    {"detectors", "sim_detect_two_frames 16", "Oclgrind: 230 particles", kDetect}};
+     join({kRuns, kStep, kFree})},
+    {"scalar_free_bodies", "sim_fluid_two_steps 1 0 1", "Oclgrind: 251 particles",
+     join({kRanks, kStep, kFree})},
+    {"detectors", "sim_detect_two_frames 16", "Oclgrind: 230 particles", join({kRuns, kDetect})},
+    {"scalar_detectors", "sim_detect_two_frames 1", "Oclgrind: 230 particles",
+     join({kRanks, kDetect})}};
 
 class Oclgrind : public ::testing::TestWithParam<Watched> {};
 
