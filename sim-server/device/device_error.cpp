@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "sim-server/device/opencl.hpp"
 
@@ -34,19 +35,28 @@ constexpr std::array kRows = {
     Row{CL_DEVICE_NOT_AVAILABLE, "CL_DEVICE_NOT_AVAILABLE", kLost},
     Row{CL_COMPILER_NOT_AVAILABLE, "CL_COMPILER_NOT_AVAILABLE", kCompiler},
     Row{CL_MEM_OBJECT_ALLOCATION_FAILURE, "CL_MEM_OBJECT_ALLOCATION_FAILURE", kSmaller},
-    Row{CL_OUT_OF_RESOURCES, "CL_OUT_OF_RESOURCES", kSmaller},
+    Row{CL_OUT_OF_RESOURCES, "CL_OUT_OF_RESOURCES", kLost},
     Row{CL_OUT_OF_HOST_MEMORY, "CL_OUT_OF_HOST_MEMORY", kSmaller},
     Row{CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST,
         "CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST", kLost},
+    Row{CL_INVALID_VALUE, "CL_INVALID_VALUE", kOurs},
     Row{CL_INVALID_CONTEXT, "CL_INVALID_CONTEXT", kLost},
     Row{CL_INVALID_COMMAND_QUEUE, "CL_INVALID_COMMAND_QUEUE", kLost},
     Row{CL_INVALID_KERNEL_NAME, "CL_INVALID_KERNEL_NAME", kDamaged},
     Row{CL_INVALID_ARG_SIZE, "CL_INVALID_ARG_SIZE", kOurs},
     Row{CL_INVALID_KERNEL_ARGS, "CL_INVALID_KERNEL_ARGS", kOurs},
     Row{CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE", kOurs},
+    Row{CL_INVALID_WORK_ITEM_SIZE, "CL_INVALID_WORK_ITEM_SIZE", kOurs},
+    Row{CL_INVALID_GLOBAL_WORK_SIZE, "CL_INVALID_GLOBAL_WORK_SIZE", kOurs},
     Row{CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE", kSmaller},
     Row{-9999, "NVIDIA: illegal read or write", kLost},
 };
+
+/// Where memory is asked for; other calls run out of resources, on NVIDIA, when a kernel went wrong
+/// or ran too long.
+bool asks_for_memory(std::string_view call) {
+  return call.starts_with("clCreate") || call == "clEnqueueFillBuffer";
+}
 
 }  // namespace
 
@@ -54,8 +64,12 @@ std::string opencl_error_text(const char* call, int error) {
   const auto* const row = std::find_if(kRows.begin(), kRows.end(),
                                        [error](const Row& known) { return known.error == error; });
   const bool known = row != kRows.end();
+  const bool full = error == CL_OUT_OF_RESOURCES && asks_for_memory(call);
   return std::string("OpenCL's ") + call + " failed: " + (known ? row->name : "error") + " (" +
-         std::to_string(error) + "); " + (known ? row->cure : kLost);
+         std::to_string(error) + "); " +
+         (full    ? kSmaller
+          : known ? row->cure
+                  : kLost);
 }
 
 void rethrow_opencl_error() {

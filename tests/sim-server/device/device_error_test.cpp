@@ -20,14 +20,31 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(OpenClErrors, AreToldInWords) {
-  EXPECT_THAT([] { naming_opencl_errors([] { throw cl::Error(-5, "clFinish"); }); },
+  EXPECT_THAT([] { naming_opencl_errors([] { throw cl::Error(-4, "clFinish"); }); },
               ThrowsMessage<DeviceError>(
-                  AllOf(HasSubstr("clFinish failed: CL_OUT_OF_RESOURCES (-5)"),
+                  AllOf(HasSubstr("clFinish failed: CL_MEM_OBJECT_ALLOCATION_FAILURE (-4)"),
                         HasSubstr("lower the scene's particles"), HasSubstr("--list-devices"))));
   EXPECT_THAT(opencl_error_text("clCreateKernel", -46), HasSubstr("start again"));
   EXPECT_THAT(opencl_error_text("clSetKernelArg", -51), HasSubstr("a fault of sim-server"));
   EXPECT_THAT(opencl_error_text("clFinish", -36), HasSubstr("the device was lost"));
   EXPECT_THAT(opencl_error_text("clFinish", -12345), HasSubstr("error (-12345); the device"));
+}
+
+// NVIDIA says so of every kernel that reads beyond its memory or is stopped by a watchdog.
+TEST(OpenClErrors, OutOfResourcesMeansMemoryOnlyWhereMemoryIsAskedFor) {
+  for (const char* call : {"clCreateBuffer", "clCreateCommandQueue", "clEnqueueFillBuffer"}) {
+    EXPECT_THAT(opencl_error_text(call, -5), HasSubstr("lower the scene's particles")) << call;
+  }
+  for (const char* call : {"clFinish", "clEnqueueNDRangeKernel", "clEnqueueReadBuffer"}) {
+    EXPECT_THAT(opencl_error_text(call, -5), HasSubstr("the device was lost")) << call;
+  }
+}
+
+TEST(OpenClErrors, NameWhatIsOurOwnFault) {
+  for (const int error : {-30, -52, -54, -55, -63}) {
+    EXPECT_THAT(opencl_error_text("clEnqueueNDRangeKernel", error),
+                AllOf(HasSubstr("CL_INVALID_"), HasSubstr("a fault of sim-server")));
+  }
 }
 
 TEST(OpenClErrors, LeaveOthersAlone) {
