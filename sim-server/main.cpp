@@ -9,6 +9,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <memory>
 
 #include "protocol/config.hpp"
 #include "protocol/config_file.hpp"
@@ -19,13 +20,16 @@
 #include "sim-server/device/cache.hpp"
 #include "sim-server/device/cache_seal.hpp"
 #include "sim-server/device/device.hpp"
+#include "sim-server/device/device_choice.hpp"
 #include "sim-server/device/device_error.hpp"
 #include "sim-server/device/last_words.hpp"
 #include "sim-server/device/program.hpp"
+#include "sim-server/device_trials.hpp"
 #include "sim-server/missing_water.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/self_test.hpp"
 #include "sim-server/server.hpp"
 #include "sim-server/tracking/digging.hpp"
 #include "sim-server/unsettled.hpp"
@@ -206,41 +210,119 @@ auto doubting(CacheSeal& seal, const Build& build) {
   }
 }
 
+/// For whoever asks which device to take (device_trials.hpp), and for people.
+void check_device(int number, const std::filesystem::path& cache) {
+  CacheSeal seal(cache);
+  LastWords last_words(cache, protocol::kExitUnavailable);
+  doubting(seal, [&] {
+    Device device(number);
+    last_words.devices_known();
+    std::printf("%s\n", describe(device.facts()).c_str());
+    const double step = self_test(device, [&] {
+      std::printf("built\n");
+      std::fflush(stdout);
+      last_words.built();
+      seal.renew();
+    });
+    std::printf("sound %.6f\n", step);
+  });
+}
+
+/// A device and the simulation on it.
+struct Started {
+  std::unique_ptr<Device> device;
+  std::unique_ptr<Simulation> simulation;
+};
+
+class Start {
+ public:
+  Start(const Options& options, const Scene& scene, const std::filesystem::path& cache)
+      : options_(options),
+        scene_(scene),
+        trials_(cache, "/proc/self/exe"),
+        seal_(cache),
+        last_words_(cache, protocol::kExitUnavailable) {}
+
+  /// On the best device that can do it. One that was not asked for and fails is named and passed
+  /// over.
+  Started start(const Progress& tell) {
+    auto meant = protocol::failing_with(protocol::kExitUnavailable, [this] {
+      return meant_devices(list_devices(), options_.device);
+    });
+    for (;;) {
+      const Choice choice = choose_device(meant, !options_.device.empty(), trials_);
+      for (const std::string& failed : choice.passed_over) {
+        std::fprintf(stderr, "sim-server: device %s\n", failed.c_str());
+      }
+      try {
+        return start_on(choice, tell);
+      } catch (const DeviceError& error) {
+        if (meant.size() == 1) throw;
+        std::fprintf(stderr, "sim-server: device %d: %s is passed over: %s\n", choice.device.index,
+                     choice.device.name.c_str(), error.what());
+        std::erase_if(
+            meant, [&](const DeviceFacts& device) { return device.index == choice.device.index; });
+      }
+    }
+  }
+
+  /// All is built: whether something was compiled for it.
+  bool end() {
+    last_words_.built();
+    const bool compiled = seal_.has_new();
+    seal_.renew();
+    return compiled;
+  }
+  void renew_seal() { seal_.renew(); }
+
+ private:
+  Started start_on(const Choice& choice, const Progress& tell) {
+    const int lanes = scene_.fluid.kernels == KernelKind::reference ? 1 : 0;
+    Started started;
+    started.device = naming_opencl_errors(
+        [&] { return std::make_unique<Device>(choice.device.index, false, lanes); });
+    last_words_.devices_known();
+    std::printf("device  %s: %s\n", describe(choice.device).c_str(), choice.reason.c_str());
+    std::printf("compiling kernels (some seconds, once for each kind of scene)\n");
+    std::fflush(stdout);
+    tell_of_kernels(telling_how_far_compiling_is());
+    started.simulation = doubting(seal_, [&] {
+      return std::make_unique<Simulation>(*started.device, scene_, options_.tracker, tell);
+    });
+    tell_of_kernels({});
+    return started;
+  }
+
+  const Options& options_;
+  const Scene& scene_;
+  DeviceTrials trials_;
+  CacheSeal seal_;
+  LastWords last_words_;
+};
+
 void run(const Options& options) {
   if (options.list_devices) return print_devices();
   protocol::ServiceNotice service;
+  const auto cache_folder = [] {
+    return protocol::failing_with(protocol::kExitUnavailable, prepare_kernel_cache);
+  };
+  if (options.check_device >= 0) return check_device(options.check_device, cache_folder());
   const Scene scene = load_scene(options.scene);
   require_use(options.tracker, scene);
   if (options.check) return describe_scene(scene);
   say_what_digs(scene, options.tracker);
   require_free(options.listen);
-  const double start = protocol::monotonic_now();
-  const std::filesystem::path cache =
-      protocol::failing_with(protocol::kExitUnavailable, prepare_kernel_cache);
-  CacheSeal seal(cache);
-  LastWords last_words(cache, protocol::kExitUnavailable);
-  Device device = protocol::failing_with(protocol::kExitUnavailable, [&] {
-    return Device(options.device, false, scene.fluid.kernels == KernelKind::reference ? 1 : 0);
-  });
-  last_words.devices_known();
-  std::printf("device  %s\n", describe(device.facts()).c_str());
-  std::printf("compiling kernels (some seconds, once for each kind of scene)\n");
-  std::fflush(stdout);
-  tell_of_kernels(telling_how_far_compiling_is());
-  Simulation simulation = doubting(seal, [&] {
-    return Simulation(device, scene, options.tracker, telling_how_it_settles(service));
-  });
-  tell_of_kernels({});
-  last_words.built();
-  const bool compiled = seal.has_new();
-  seal.renew();
-  Server server(options, simulation, device.facts().name);
+  const double begin = protocol::monotonic_now();
+  Start start(options, scene, cache_folder());
+  const auto [device, simulation] = start.start(telling_how_it_settles(service));
+  const bool compiled = start.end();
+  Server server(options, *simulation, device->facts().name);
   take_signals();
-  say_hello(simulation, server, protocol::monotonic_now() - start, compiled);
-  service.ready(scene.name + ", " + std::to_string(simulation.particles()) + " particles, on " +
+  say_hello(*simulation, server, protocol::monotonic_now() - begin, compiled);
+  service.ready(scene.name + ", " + std::to_string(simulation->particles()) + " particles, on " +
                 protocol::to_string(server.local()));
   serve(server, service);
-  seal.renew();
+  start.renew_seal();
 }
 
 }  // namespace

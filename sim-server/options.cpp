@@ -62,13 +62,18 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
 void add_device(CLI::App& app, Options& options) {
   app.add_flag("--list-devices", options.list_devices, "List the OpenCL devices and end");
   app.add_option("--device", options.device,
-                 "OpenCL device by its number in that list (default: the CPU)")
+                 "OpenCL device by its number in that list or a part of its name; gpu or cpu: the "
+                 "best of these (default: a GPU that stands a small test, else the CPU)")
+      ->envname("SPLASH_DEVICE")
+      ->type_name("N|NAME|gpu|cpu");
+  app.add_option("--check-device", options.check_device,
+                 "Test the device of this number in that list and end")
       ->check(CLI::Range(0, 1000))
       ->type_name("N");
 }
 
 void check(const Options& options) {
-  if (options.list_devices) return;
+  if (options.list_devices || options.check_device >= 0) return;
   if (options.scene.empty()) {
     throw std::invalid_argument(
         "--scene is missing: a name such as basin or pool, or a scene file");

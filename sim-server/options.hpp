@@ -27,7 +27,8 @@ struct Options {
 
   bool check = false;  ///< say what the scene is, and end
   bool list_devices = false;
-  int device = -1;  ///< as --list-devices counts; -1: chosen
+  int check_device = -1;  ///< only test this one, as --list-devices counts
+  std::string device;     ///< its number, a part of its name, "gpu" or "cpu"; empty: chosen
 };
 
 /// What the command line says: options, or the code to exit with (help and errors are printed).

@@ -3,16 +3,19 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "sim-server/device/cache.hpp"
+#include "sim-server/device/device_choice.hpp"
+#include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
 namespace {
@@ -75,7 +78,10 @@ DeviceFacts facts_of(const cl::Platform& platform, const cl::Device& device, int
   facts.name = device.getInfo<CL_DEVICE_NAME>();
   facts.platform = platform.getInfo<CL_PLATFORM_NAME>();
   facts.driver = device.getInfo<CL_DRIVER_VERSION>();
-  facts.is_cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+  const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+  facts.kind = (type & CL_DEVICE_TYPE_GPU) != 0   ? DeviceKind::gpu
+               : (type & CL_DEVICE_TYPE_CPU) != 0 ? DeviceKind::cpu
+                                                  : DeviceKind::accelerator;
   facts.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   facts.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   facts.allocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
@@ -94,49 +100,61 @@ std::vector<Found> find_devices() {
       continue;  // a platform without devices is not an error
     }
     for (const cl::Device& device : devices) {
-      found.push_back({facts_of(platform, device, static_cast<int>(found.size())), device});
+      try {
+        found.push_back({facts_of(platform, device, static_cast<int>(found.size())), device});
+      } catch (const cl::Error& error) {
+        std::cerr << "note: a device of " << platform.getInfo<CL_PLATFORM_NAME>()
+                  << " does not tell what it is and is left out ("
+                  << opencl_error_text(error.what(), error.err()) << ")\n";
+      }
     }
   }
   if (found.empty()) throw std::runtime_error("the OpenCL platforms found have no device");
   return found;
 }
 
+std::vector<DeviceFacts> facts_of_all(const std::vector<Found>& found) {
+  std::vector<DeviceFacts> list;
+  for (const Found& one : found) list.push_back(one.facts);
+  return list;
+}
+
 Found choose(int index) {
-  auto found = find_devices();
-  if (index < -1 || index >= static_cast<int>(found.size())) {
-    std::string text = "--device " + std::to_string(index) + ": there is no such OpenCL device; ";
-    text += found.size() == 1 ? "there is only " : "there are ";
-    for (const Found& device : found) {
-      text += (device.facts.index == 0 ? "" : "; ") + describe(device.facts);
-    }
-    throw std::runtime_error(text);
-  }
-  if (index >= 0) return found[static_cast<std::size_t>(index)];
-  const auto better = [](const Found& a, const Found& b) {
-    if (a.facts.is_cpu != b.facts.is_cpu) return b.facts.is_cpu;
-    return a.facts.compute_units < b.facts.compute_units;
-  };
-  return *std::max_element(found.begin(), found.end(), better);
+  const auto found = find_devices();
+  const char* wish = std::getenv("SPLASH_DEVICE");
+  const auto meant = meant_devices(facts_of_all(found), index >= 0        ? std::to_string(index)
+                                                        : wish != nullptr ? wish
+                                                                          : "");
+  return found[static_cast<std::size_t>(meant.front().index)];
+}
+
+/// What a driver has to say about a failure, beside the number.
+void CL_CALLBACK pass_on(const char* text, const void* /*data*/, std::size_t /*size*/,
+                         void* /*user*/) {
+  std::fprintf(stderr, "note: the device's driver says: %s\n", text);
+}
+
+const char* name_of(DeviceKind kind) {
+  if (kind == DeviceKind::gpu) return "GPU";
+  return kind == DeviceKind::cpu ? "CPU" : "accelerator";
 }
 
 }  // namespace
 
 std::vector<DeviceFacts> list_devices() {
-  std::vector<DeviceFacts> list;
-  for (const Found& found : find_devices()) list.push_back(found.facts);
-  return list;
+  return facts_of_all(find_devices());
 }
 
 std::string describe(const DeviceFacts& facts) {
   std::ostringstream line;
-  line << facts.index << ": " << facts.name << " (" << (facts.is_cpu ? "CPU" : "GPU") << ", "
+  line << facts.index << ": " << facts.name << " (" << name_of(facts.kind) << ", "
        << facts.compute_units << " compute units, " << (facts.memory >> 20U) << " MiB, "
        << facts.platform << ", driver " << facts.driver << ")";
   return line.str();
 }
 
 Device::Device(int index, bool profiling, int lanes) : Device(index, profiling, Profile{}) {
-  const bool scalar = lanes == 1 || (lanes == 0 && !facts_.is_cpu);
+  const bool scalar = lanes == 1 || (lanes == 0 && facts_.kind != DeviceKind::cpu);
   profile_ = scalar ? gpu_profile() : cpu_profile(facts_.compute_units, lanes != 0 ? lanes : 16);
 }
 
@@ -144,7 +162,7 @@ Device::Device(int index, bool profiling, const Profile& profile) : profile_(pro
   const Found found = choose(index);
   facts_ = found.facts;
   handle_ = found.handle;
-  context_ = cl::Context(handle_);
+  context_ = cl::Context(handle_, nullptr, pass_on);
   queue_ = cl::CommandQueue(context_, handle_, profiling ? CL_QUEUE_PROFILING_ENABLE : 0);
 }
 

@@ -10,19 +10,22 @@
 
 namespace splash::sim {
 
+/// In the order in which they are taken.
+enum class DeviceKind { gpu, accelerator, cpu };
+
 struct DeviceFacts {
   int index = 0;  ///< as --device counts them
   std::string name;
   std::string platform;
   std::string driver;
-  bool is_cpu = false;
+  DeviceKind kind = DeviceKind::gpu;
   unsigned compute_units = 0;
   std::size_t memory = 0;      ///< [B]
   std::size_t allocation = 0;  ///< largest single buffer [B]
 };
 
-/// All devices of all platforms. Throws std::runtime_error with the package to install when
-/// there is no OpenCL platform.
+/// All devices of all platforms that tell their facts. Throws std::runtime_error with the package
+/// to install when there is no OpenCL platform.
 [[nodiscard]] std::vector<DeviceFacts> list_devices();
 
 /// One line for people: index, name, kind, units, memory.
@@ -31,8 +34,8 @@ struct DeviceFacts {
 /// A chosen device with its context and in-order queue.
 class Device {
  public:
-  /// `index` as list_devices counts; -1: the CPU device with most units, else the first device
-  /// (the default runs everywhere; a GPU is used when asked for).
+  /// `index` as list_devices counts; -1: the first that $SPLASH_DEVICE means, or of all
+  /// (device_choice.hpp).
   /// `lanes`: 8 or 16 particles per vector in kernels; 1: as GPUs do it, whatever the device;
   /// 0: as suits the device.
   explicit Device(int index = -1, bool profiling = false, int lanes = 0);

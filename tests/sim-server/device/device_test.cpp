@@ -5,10 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 #include "sim-server/device/buffer.hpp"
+#include "sim-server/device/device_choice.hpp"
 
 namespace splash::sim {
 namespace {
@@ -36,42 +37,39 @@ TEST(Devices, AreDescribedOnOneLine) {
   facts.name = "Abacus";
   facts.platform = "Wood";
   facts.driver = "1.5";
-  facts.is_cpu = true;
+  facts.kind = DeviceKind::cpu;
   facts.compute_units = 7;
   facts.memory = std::size_t{5} << 30;
   EXPECT_EQ(describe(facts), "3: Abacus (CPU, 7 compute units, 5120 MiB, Wood, driver 1.5)");
-  facts.is_cpu = false;
+  facts.kind = DeviceKind::gpu;
   EXPECT_THAT(describe(facts), HasSubstr("(GPU, "));
+  facts.kind = DeviceKind::accelerator;
+  EXPECT_THAT(describe(facts), HasSubstr("(accelerator, "));
 }
 
-TEST(Devices, ADefaultIsTheLargestCpuIfThereIsOne) {
-  const auto list = list_devices();
+TEST(Devices, TheDefaultIsTheFirstOfThoseMeant) {
+  const char* wish = std::getenv("SPLASH_DEVICE");
   const Device device;
-  const bool any_cpu =
-      std::any_of(list.begin(), list.end(), [](const DeviceFacts& f) { return f.is_cpu; });
-  EXPECT_EQ(device.facts().is_cpu, any_cpu);
-  for (const DeviceFacts& facts : list) {
-    if (facts.is_cpu != any_cpu) continue;
-    EXPECT_LE(facts.compute_units, device.facts().compute_units);
-  }
+  const auto meant = meant_devices(list_devices(), wish != nullptr ? wish : "");
+  EXPECT_EQ(device.facts().index, meant.front().index);
   EXPECT_EQ(Device(device.facts().index).facts().name, device.facts().name);
 }
 
 TEST(Devices, OutOfRangeIsAnsweredWithThoseThereAre) {
-  const auto count = static_cast<int>(list_devices().size());
-  for (const int index : {count, 1000, -2}) {
+  const auto list = list_devices();
+  for (const int index : {static_cast<int>(list.size()), 1000}) {
     EXPECT_THAT([index] { Device device(index); },
                 ThrowsMessage<std::runtime_error>(
                     AllOf(HasSubstr("--device " + std::to_string(index) +
                                     ": there is no such OpenCL device; there " +
-                                    (count == 1 ? "is only 0: " : "are 0: ")),
-                          HasSubstr(describe(list_devices().back())))));
+                                    (list.size() == 1 ? "is only 0: " : "are 0: ")),
+                          HasSubstr(describe(list.back())))));
   }
 }
 
 TEST(Devices, AProfileSuitsTheDeviceUnlessChosen) {
   const Device device;
-  EXPECT_EQ(device.lanes(), device.facts().is_cpu ? 16 : 1);
+  EXPECT_EQ(device.lanes(), device.facts().kind == DeviceKind::cpu ? 16 : 1);
   EXPECT_EQ(Device(-1, false, 8).lanes(), 8);
   const Profile scalar = Device(-1, false, 1).profile();
   EXPECT_EQ(scalar.sort_chunks, 0);
