@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The causes that alarms name can cause them: each is provoked here, but for memory that was
-// overwritten and steps that are too long, which stress_test does.
+// overwritten and steps that are too long, which stress_test does, and speed, which the lid made by
+// hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ std::string alarms(const std::string& text, double seconds) {
   return all;
 }
 
-TEST(LikelyCause, OfDensityAndSpeedIsABodyThatLeavesNoWayOut) {
+TEST(LikelyCause, OfDensityIsABodyThatLeavesNoWayOut) {
   const std::string found = alarms(R"(
 fluid: {spacing: 0.025}
 tank: {lower: [0, 0, 0], upper: [0.4, 0.3, 1.2]}
@@ -38,7 +39,6 @@ bodies:
 )",
                                    0.45);
   EXPECT_THAT(found, ::testing::HasSubstr("impossible density"));
-  EXPECT_THAT(found, ::testing::HasSubstr("as fast as sound"));
   EXPECT_THAT(found, ::testing::HasSubstr("leave it a way out"));
   EXPECT_THAT(found, ::testing::Not(::testing::HasSubstr("memory"))) << found;
 }
