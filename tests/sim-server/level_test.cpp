@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "sim-server/gauge/height.hpp"
 #include "sim-server/fluid/images.hpp"
+#include "sim-server/gauge/height.hpp"
 #include "sim-server/gauge/water_state.hpp"
 #include "sim-server/missing_water.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
