@@ -65,19 +65,14 @@ std::string_view describe(Fault fault) noexcept {
 }
 
 std::string_view likely_cause(Fault fault) noexcept {
-  constexpr std::string_view kMemory =
-      "memory of the device was overwritten: check the device and its driver";
   switch (fault) {
     case Fault::not_finite:
     case Fault::outside:
     case Fault::lost:
     case Fault::changed:
     case Fault::body:
-      return kMemory;
     case Fault::stray:
-      return "the wave maker is faster than the water can be (make its stroke smaller or its "
-             "period "
-             "longer), or memory of the device was overwritten";
+      return "memory of the device was overwritten: check the device and its driver";
     case Fault::speed:
     case Fault::density:
       return "a body presses water against a wall or another body; leave it a way out";
