@@ -3,6 +3,7 @@
 // is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <numbers>
@@ -275,7 +276,8 @@ TEST(Recording, IsPlayedOtherwise) {
   const sim::Vector3 low = {0.1, 0.2, 0.0};
   const sim::Vector3 high = {0.3, 0.4, 1.0};
   recording.frames = {{low, high}, {low, std::nullopt}, {high, low}};
-  const auto file = std::filesystem::temp_directory_path() / "splash_played.trc";
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("splash_played_" + std::to_string(getpid()) + ".trc");
   write_trc(played(recording, {.backwards = true, .over = true, .pace = 2.0}), file);
   const sim::MarkerRecording back = sim::read_markers(file);
   std::filesystem::remove(file);

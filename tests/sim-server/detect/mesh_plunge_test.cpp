@@ -2,6 +2,7 @@
 // A ball that falls into still water at 1 m/s is heard at the same moment whether it is a sphere or
 // a mesh of one.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -23,7 +24,8 @@ std::string plunge_of(const std::string& shape) {
 }
 
 TEST(MeshPlunge, IsHeardWhenTheSpheresIs) {
-  const auto file = std::filesystem::temp_directory_path() / "splash_plunge_ball.obj";
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("splash_plunge_ball_" + std::to_string(getpid()) + ".obj");
   std::ofstream(file) << obj_text(sphere_mesh(kRadius, 3));
   const SceneRun sphere = run_scene(plunge_of("kind: sphere, size: [0.2, 0.2, 0.2]"), 2.2);
   const SceneRun mesh = run_scene(plunge_of("mesh: " + file.string()), 2.2);

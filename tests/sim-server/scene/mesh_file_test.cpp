@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -108,7 +109,8 @@ TEST(MeshFile, LeavesOutVerticesOfNoTriangle) {
 }
 
 TEST(MeshFile, IsReadFromDisk) {
-  const auto path = std::filesystem::temp_directory_path() / "splash_corner.obj";
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("splash_corner_" + std::to_string(getpid()) + ".obj");
   std::ofstream(path) << kObj;
   EXPECT_EQ(read_mesh(path, 1.0).triangles.size(), 4U);
   std::filesystem::remove(path);

@@ -2,6 +2,7 @@
 // A scene's mesh is found beside it, and a free one is about its centre of mass.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -57,7 +58,8 @@ class MeshScene : public ::testing::Test {
   }
 
   const Quaternion no_turn_ = {0.0, 0.0, 0.0, 1.0};
-  const fs::path folder_ = fs::temp_directory_path() / "splash_mesh_scene";
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("splash_mesh_scene_" + std::to_string(getpid()));
 };
 
 TEST_F(MeshScene, ATrackedMeshKeepsItsOwnOrigin) {
