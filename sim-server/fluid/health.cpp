@@ -103,8 +103,8 @@ Health::Health(Device& device, const cl::Program& program, const FluidParams& pa
     : particles_(params.count),
       parts_(device.profile().parts),
       longest_step_(2.0 * largest_time_step(params, 0.0, 0.0, 1.0)),
+      rested_(device, 2 * device.vectors_of(params.count)),
       check_(program, "check_health", device.profile().team) {
-  rested_ = Buffer<std::uint32_t>(device, 2 * device.vectors_of(params.count));
   const HealthLimits limits = health_limits(params);
   limits_ = Buffer<HealthLimits>(device, std::span<const HealthLimits>(&limits, 1));
 }

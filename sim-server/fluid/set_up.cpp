@@ -103,9 +103,8 @@ std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
                              const std::vector<Holding>& holding) {
   if (stratification(scene) == 0.0) return particles;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    Vector3& x = particles[i];
     const bool hangs = i < holding.size() && holding[i] == Holding::hangs;
-    if (!hangs) x[2] = sunk(scene, x);
+    if (!hangs) particles[i][2] = sunk(scene, particles[i]);
   }
   return particles;
 }

@@ -109,7 +109,9 @@ TEST_F(OpenClFault, ALinkerThatFailsIsSaid) {
 
 /// On a machine's first start a splash would wait for it else.
 TEST_F(OpenClFault, NothingIsCompiledOnceTimeRuns) {
+  const SmallScene by_count(plunging() + "\ndetect: {cavity_by_count: true}");  // on the device
   Arguments splash = arguments();
+  splash[1] = by_count.path();
   splash[5] = "2";  // seconds, in which the disc plunges
   ChildProcess simulator(command("sim-server", splash), {{"POCL_CACHE_DIR", cache().string()}});
   ASSERT_TRUE(simulator.wait_for_text("running", 300.0)) << simulator.output();

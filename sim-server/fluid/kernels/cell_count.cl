@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Sort for CPUs, first half: how many points of each chunk fall into each slice of a cell (called a cell
-// here), and where each chunk's points of each begin. A counting sort with one histogram per chunk
-// needs no atomics, so its order, and with it every sum that follows, is the same on every run.
+// Sort for CPUs, first half: how many points of each chunk fall into each slice of a cell (called
+// a cell here), and where each chunk's points of each begin. A counting sort with one histogram per
+// chunk needs no atomics, so its order, and with it every sum that follows, is the same on every
+// run.
 
 // Most cells lie above the water: past the last one in use nothing is counted or placed, and
 // cell_start says `points` since the last whole sort. extent[chunk]: one past the last cell in use

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sort for CPUs, second half: every point to its place, cells in order, x fastest. `source`: where each
-// came from.
+// Sort for CPUs, second half: every point to its place, cells in order, x fastest. `source`: where
+// each came from.
 
 #if LANES > 1
 // Points that stay next to each other, as most do from step to step, LANES of them.

@@ -171,9 +171,10 @@ static void report_sums(global HealthRecord* record, const Sums* s, local uint* 
   atomic_add(&record->ids_after, sums[3]);
 }
 
-// One work-group for each part of the particles. `checks`: a bit for each thing that is looked at. `before`: the arrays as they were when the step
-// began, unsorted; `source`: where each particle was among those. `acceleration`: that of the step.
-// `look`: at groups that rest, which `resting` knows.
+// One work-group for each part of the particles. `checks`: a bit for each thing that is looked at.
+// `before`: the arrays as they were when the step began, unsorted; `source`: where each particle
+// was among those. `acceleration`: that of the step. `look`: at groups that rest, which `resting`
+// knows.
 kernel void check_health(constant FluidParams* p, constant HealthLimits* limits, int checks,
                          float dt, float piston, global const float* position,
                          global const float* velocity, global const float* acceleration,

@@ -38,9 +38,9 @@ static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
   return p->mass * sum;
 }
 
-// Of the particles `first` to `last` (not included) that move, the sum of what Jacobi's step answers
-// to, which is errors but not those below zero of particles without pressure [kg/m3]; and their
-// number.
+// Of the particles `first` to `last` (not included) that move, the sum of what Jacobi's step
+// answers to, which is errors but not those below zero of particles without pressure [kg/m3]; and
+// their number.
 static float2 correct(constant FluidParams* p, int k, float beta, float dt,
                       global const int* cell_start, global const int* stir,
                       global const float* position, global const float* velocity,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/sim-server/fluid/free_float.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim-server/bodies/mass.hpp"
@@ -35,7 +36,14 @@ void FreeFloat::add_led(const Shape& shape, const BodyState& start) {
 }
 
 void FreeFloat::start(Device& device) {
-  const auto particles = initial_particles(scene);
+  auto particles = initial_particles(scene);
+  // Nothing settles here: what is too near to a body would push it away.
+  std::erase_if(particles, [this](const Vector3& x) {
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const BodySettings& body) {
+      const Vector3 local = rotate(inverse(body.rest.rotation), x - body.rest.position);
+      return distance_to(body.shape, local) < 0.5 * scene.fluid.spacing;
+    });
+  });
   const FluidParams params = make_params(scene, particles);
   const double support = scene_support(scene);
   std::vector<std::unique_ptr<Motion>> motions;

@@ -67,7 +67,7 @@ const std::vector<Check>& checks() {
        0.0,
        {{"period, error", -3.0, 3.0, ""},
         {"largest rise of energy, of the swing's", 0.0, 0.1, ""},
-        {"axis after one period, error", 0.0, 2.0, ""}}},
+        {"axis after one period, error", -2.0, 2.0, ""}}},
       {"Vortex", "vortex", 1, 0.0, {{"decay rate, error", 0.0, 550.0, kRubs}}},
       {"DamMartinMoyce",
        "dam_martin_moyce",
