@@ -155,7 +155,7 @@ DeviceTrials::DeviceTrials(const std::filesystem::path& cache, std::filesystem::
 Trial DeviceTrials::operator()(const DeviceFacts& device) const {
   const std::string key = key_of(device);
   if (const auto seconds = seconds_in(remembered_, key)) return {*seconds, {}};
-  const Trial trial = judge(run(program_, device.index, patience_), patience_);
+  Trial trial = judge(run(program_, device.index, patience_), patience_);
   // A folder that refuses the line is no error: the next start tests again.
   if (trial.failure.empty())
     std::ofstream(remembered_, std::ios::app) << trial.step << ' ' << key << '\n';
