@@ -221,6 +221,10 @@ TEST_F(OnTwoHosts, NobodyOutsideCanForgeAProgramsOwnHost) {
     return protocol::to_synth_status(status).value_or(protocol::SynthStatus{}).refused;
   };
   const std::vector<std::byte> garbage(3);  // is refused, and counted
+  // Without it the first forged datagram would ask for the other host's Ethernet address in the
+  // name of 127.0.0.1, which is not answered, so that none would cross the cable.
+  hosts_.socket_on(kSimHost, "10.77.0.1:0").send_to(there, garbage);
+  ASSERT_TRUE(soon([&] { return refused() == 1; })) << "an honest datagram arrives";
   constexpr std::uint64_t kForged = 5;
   const auto before = hosts_.received_on(kSynthHost);
   for (std::uint64_t i = 0; i < kForged; ++i) {
@@ -228,11 +232,12 @@ TEST_F(OnTwoHosts, NobodyOutsideCanForgeAProgramsOwnHost) {
   }
   EXPECT_TRUE(soon([&] { return hosts_.received_on(kSynthHost) >= before + kForged; }))
       << "they do cross the cable";
-  EXPECT_EQ(refused(), 0U);
+  EXPECT_EQ(refused(), 1U);
   for (std::uint64_t i = 0; i < kForged; ++i) {
     hosts_.send_forged(kSimHost, protocol::parse_endpoint("10.77.0.9:9", 0), there, garbage);
   }
-  EXPECT_TRUE(soon([&] { return refused() == kForged; })) << "a forged address of the network does";
+  EXPECT_TRUE(soon([&] { return refused() == 1 + kForged; }))
+      << "a forged address of the network does";
 }
 
 }  // namespace
