@@ -18,9 +18,12 @@ namespace {
 constexpr std::uintmax_t kMaxLogBytes = std::uintmax_t{256} << 20U;
 constexpr std::uint32_t kBundleHead = 16;
 
-std::runtime_error cannot(const std::string& what, const std::filesystem::path& path) {
-  return std::runtime_error("cannot " + what + " event log '" + path.string() +
-                            "': " + write_error(errno));
+std::string cannot(const std::string& what, const std::filesystem::path& path) {
+  return "cannot " + what + " event log '" + path.string() + "'";
+}
+
+std::runtime_error unreadable(const std::filesystem::path& path, const std::string& why) {
+  return std::runtime_error(cannot("read", path) + ": " + why);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::uintmax_t offset,
@@ -78,7 +81,7 @@ std::uint32_t read_size(const std::filesystem::path& path, std::uintmax_t offset
 LogWriter::LogWriter(const std::filesystem::path& path) : path_(path) {
   errno = 0;
   file_.open(path, std::ios::binary | std::ios::trunc);
-  if (!file_) throw cannot("create", path_);
+  if (!file_) throw WriteError(cannot("create", path_), errno);
 }
 
 void LogWriter::append(double seconds, const std::vector<Message>& messages) {
@@ -98,7 +101,7 @@ void LogWriter::append(double seconds, const std::vector<Message>& messages) {
 }
 
 void LogWriter::give_up() {
-  const auto error = cannot("write", path_);
+  const WriteError error(cannot("write", path_), errno);
   file_.close();
   std::error_code ignored;  // a device cannot be cut, and the first error is the one to tell
   if (std::filesystem::is_regular_file(path_, ignored)) {
@@ -111,11 +114,9 @@ std::vector<LogEntry> read_log(const std::filesystem::path& path) {
   errno = 0;
   std::error_code error;
   const auto total = std::filesystem::file_size(path, error);
-  if (error) {
-    throw std::runtime_error("cannot read event log '" + path.string() + "': " + error.message());
-  }
+  if (error) throw unreadable(path, error.message());
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw cannot("read", path);
+  if (!file) throw unreadable(path, write_error(errno));
   return read_log(file, total, path);
 }
 
@@ -130,7 +131,8 @@ std::vector<LogEntry> read_log(std::istream& file, std::uintmax_t total,
   std::array<std::byte, kMaxDatagram> packet{};
   for (std::uintmax_t offset = 0; offset < total;) {
     const auto size = read_size(path, offset, total - offset, file);
-    if (!file.read(reinterpret_cast<char*>(packet.data()), size)) throw cannot("read", path);
+    if (!file.read(reinterpret_cast<char*>(packet.data()), size))
+      throw unreadable(path, write_error(errno));
     auto entry = to_entry(path, offset, Bytes(packet).first(size));
     if (!entries.empty() && entry.seconds < entries.back().seconds) {
       refuse(path, offset,

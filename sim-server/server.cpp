@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "protocol/failure.hpp"
+#include "protocol/write_error.hpp"
 #include "sim-server/run_report.hpp"
 
 namespace splash::sim {
@@ -30,7 +31,7 @@ std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Sc
     return GaugeFile(path, scene);
   } catch (const std::invalid_argument& error) {
     throw protocol::Failure(protocol::kExitConfig, error.what());
-  } catch (const std::runtime_error& error) {
+  } catch (const protocol::WriteError& error) {
     throw protocol::Failure(protocol::kExitIo, error.what());
   }
 }
@@ -145,7 +146,7 @@ void Server::send(const FrameResult& frame) {
 void Server::keep_going(const std::function<void()>& write, const std::function<void()>& forget) {
   try {
     write();
-  } catch (const std::runtime_error& error) {  // which OpenCL's errors are not
+  } catch (const protocol::WriteError& error) {
     if (!options_.real_time) throw protocol::Failure(protocol::kExitIo, error.what());
     forget();
     unwritten_ = error.what();

@@ -17,9 +17,8 @@ const Scene& with_probes(const Scene& scene) {
                               "(configs/README.md) or leave out --gauges");
 }
 
-std::runtime_error cannot_write(const std::filesystem::path& path) {
-  return std::runtime_error("cannot write gauges to " + path.string() + ": " +
-                            protocol::write_error(errno));
+protocol::WriteError cannot_write(const std::filesystem::path& path) {
+  return {"cannot write gauges to " + path.string(), errno};
 }
 
 }  // namespace

@@ -50,9 +50,8 @@ std::string known_or_dash(const std::optional<std::uint64_t>& value) {
   return value ? std::to_string(*value) : "unknown (no target answered)";
 }
 
-std::runtime_error cannot_write(const std::filesystem::path& path, int error) {
-  return std::runtime_error("cannot write the report '" + path.string() +
-                            "': " + protocol::write_error(error));
+protocol::WriteError cannot_write(const std::filesystem::path& path, int error) {
+  return {"cannot write the report '" + path.string() + "'", error};
 }
 
 /// `path` is what the person asked for, `file_path` where the bytes go.

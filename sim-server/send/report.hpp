@@ -87,8 +87,8 @@ struct RunReport {
 /// The report as JSON; numbers that are not finite become null.
 [[nodiscard]] std::string to_json(const RunReport& report);
 
-/// Writes it whole or not at all (by way of a file beside it). Throws std::runtime_error with the
-/// path and the cause.
+/// Writes it whole or not at all (by way of a file beside it). Throws
+/// protocol::WriteError.
 void write_report(const std::filesystem::path& path, const RunReport& report);
 
 /// A few lines for the terminal.

@@ -112,8 +112,7 @@ WavFile::~WavFile() {
 }
 
 void WavFile::fail(const std::string& action) const {
-  throw std::runtime_error(path_.string() + ": cannot " + action + ": " +
-                           protocol::write_error(errno));
+  throw protocol::WriteError(path_.string() + ": cannot " + action, errno);
 }
 
 void WavFile::write_header() {

@@ -9,7 +9,7 @@
 
 namespace splash::synth {
 
-/// All methods throw std::runtime_error naming the file and the cause when the disk refuses.
+/// All methods throw protocol::WriteError when the disk refuses.
 class WavFile {
  public:
   /// The largest RIFF file; a larger one is RF64, which most programs read as well.

@@ -15,9 +15,12 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-Ended simulate(const std::string& scene, const std::string& gauges) {
-  return run_program("sim-server", {"--scene", scene, "--gauges", gauges, "--duration", "0.1",
-                                    "--faster-than-real-time", "--listen", "127.0.0.1:0"});
+Ended simulate(const std::string& scene, const std::string& gauges,
+               const ChildProcess::Environment& environment = {}) {
+  return run_program("sim-server",
+                     {"--scene", scene, "--gauges", gauges, "--duration", "0.1",
+                      "--faster-than-real-time", "--listen", "127.0.0.1:0"},
+                     120.0, environment);
 }
 
 TEST(Gauges, AreWritten) {
@@ -50,6 +53,24 @@ TEST(Gauges, OfASceneWithoutAnyAreAMistakeOfTheScene) {
                "/nowhere/g.csv");
   EXPECT_EQ(unwritable.code, 74);
   EXPECT_THAT(unwritable.text, HasSubstr("/nowhere/g.csv"));
+}
+
+TEST(Gauges, ThatTheDeviceRefusesToComputeAreNoFilesThatCannotBeWritten) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers must be the first library that is loaded";
+#endif
+  const SmallScene scene(plunging() +
+                         "\ngauges: {probes: [{name: floor, kind: pressure, place: [0, 0, 0]}]}");
+  const std::string csv = temporary_path("refused.csv");
+  const auto [code, text] =
+      simulate(scene.path(), csv,
+               {{"LD_PRELOAD", std::string(SPLASH_BINARY_DIR) + "/libopencl_shim.so"},
+                {"SPLASH_SHIM_DEVICE", "pthread"},
+                {"SPLASH_SHIM", "build"},
+                {"SPLASH_SHIM_KERNEL", "push_by_walls"}});
+  EXPECT_EQ(code, 69) << text;
+  EXPECT_THAT(text, HasSubstr("do not build on pthread"));
+  std::filesystem::remove(csv);
 }
 
 }  // namespace

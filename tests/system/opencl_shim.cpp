@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // To be preloaded (LD_PRELOAD): makes the OpenCL devices whose names contain $SPLASH_SHIM_DEVICE
 // GPUs, which go wrong as $SPLASH_SHIM says:
-//   build   no program builds on them
+//   build   no program builds on them; if $SPLASH_SHIM_KERNEL is set, none with that kernel
 //   wrong   the sort leaves out what it should gather
 //   hang    what was enqueued never ends
 //   crash   the first launch ends the program
@@ -44,6 +44,16 @@ bool is_meant(cl_command_queue queue) {
   return is_meant(device);
 }
 
+bool is_meant(cl_program program) {
+  const char* part = std::getenv("SPLASH_SHIM_KERNEL");
+  if (part == nullptr) return true;
+  std::size_t size = 0;
+  clGetProgramInfo(program, CL_PROGRAM_SOURCE, 0, nullptr, &size);
+  std::string source(size, '\0');
+  clGetProgramInfo(program, CL_PROGRAM_SOURCE, size, source.data(), nullptr);
+  return source.find(std::string("kernel void ") + part + "(") != std::string::npos;
+}
+
 std::string name_of(cl_kernel kernel) {
   char name[128] = {};
   clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name - 1, name, nullptr);
@@ -68,7 +78,7 @@ extern "C" cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size
 extern "C" cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices,
                                  const char* options, void (*told)(cl_program, void*), void* to) {
   static const auto real = next<decltype(&clBuildProgram)>("clBuildProgram");
-  const bool fails = goes("build") && count > 0 && is_meant(*devices);
+  const bool fails = goes("build") && count > 0 && is_meant(*devices) && is_meant(program);
   if (fails) options = "-DLANES=7";  // kernels/lanes.h refuses that
   return real(program, count, devices, options, told, to);
 }
