@@ -101,9 +101,9 @@ Ended run(const std::filesystem::path& program, int device, const Patience& pati
   if (process.id < 0) return ended;
   auto last = std::chrono::steady_clock::now() + patience.build;
   while (hear(process, last, ended)) {
-    if (ended.built || ended.output.find("built\n") == std::string::npos) continue;
-    ended.built = true;
-    last = std::chrono::steady_clock::now() + patience.steps;
+    if (ended.built) continue;
+    ended.built = ended.output.find("built\n") != std::string::npos;
+    last = std::chrono::steady_clock::now() + (ended.built ? patience.steps : patience.build);
   }
   if (ended.hung) kill(process.id, SIGKILL);
   close(process.words);
@@ -130,9 +130,8 @@ Trial judge(const Ended& ended, const Patience& patience) {
   if (ended.hung) {
     const auto waited = std::chrono::duration_cast<std::chrono::seconds>(
         ended.built ? patience.steps : patience.build);
-    return {0.0, std::string("it hangs: ") +
-                     (ended.built ? "a small test" : "building the kernels") + " did not end in " +
-                     std::to_string(waited.count()) + " s"};
+    return {0.0, std::string("it hangs: ") + (ended.built ? "a small test" : "building a kernel") +
+                     " did not end in " + std::to_string(waited.count()) + " s"};
   }
   if (WIFSIGNALED(ended.status)) {
     return {0.0, "its driver crashed (signal " + std::to_string(WTERMSIG(ended.status)) + ")"};

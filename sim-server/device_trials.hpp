@@ -10,17 +10,17 @@
 
 namespace splash::sim {
 
-/// How long a device may take to build the kernels, and for the steps of the test itself.
+/// How long a device may take to build one kernel, and for the steps of the test itself.
 struct Patience {
-  std::chrono::milliseconds build{120'000};
+  std::chrono::milliseconds build{60'000};
   std::chrono::milliseconds steps{30'000};
 };
 
 class DeviceTrials {
  public:
   /// `cache`: folder of compiled kernels, where it is remembered who stood the test. `program`: one
-  /// that prints "built", then "sound SECONDS" for a step, when its arguments are --check-device
-  /// and the device's number: sim-server itself.
+  /// that prints a line for each kernel it builds and "built" after the last, then "sound SECONDS"
+  /// for a step, when its arguments are --check-device and the device's number: sim-server itself.
   DeviceTrials(const std::filesystem::path& cache, std::filesystem::path program,
                const Patience& patience = {});
 

@@ -218,6 +218,10 @@ void check_device(int number, const std::filesystem::path& cache) {
     Device device(number);
     last_words.devices_known();
     std::printf("%s\n", describe(device.facts()).c_str());
+    tell_of_kernels([](const KernelCount& kernels) {
+      std::printf("%d kernels ready\n", kernels.ready);
+      std::fflush(stdout);
+    });
     const double step = self_test(device, [&] {
       std::printf("built\n");
       std::fflush(stdout);

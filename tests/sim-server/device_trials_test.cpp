@@ -72,11 +72,17 @@ TEST_F(DeviceTrial, OfABrokenOneSaysHowAndIsDoneAgain) {
 TEST_F(DeviceTrial, OfOneThatHangsEnds) {
   using std::chrono::milliseconds;
   const Patience build = {.build = milliseconds(100)};
-  EXPECT_THAT(test("exec sleep 1000", build).failure,
-              HasSubstr("building the kernels did not end"));
+  EXPECT_THAT(test("exec sleep 1000", build).failure, HasSubstr("building a kernel did not end"));
   const Patience steps = {.steps = milliseconds(100)};
   EXPECT_THAT(test("echo built; exec sleep 1000", steps).failure,
               HasSubstr("a small test did not end"));
+}
+
+TEST_F(DeviceTrial, WaitsAsLongAsKernelsGetReady) {
+  const Patience each = {.build = std::chrono::milliseconds(2000)};
+  EXPECT_THAT(
+      test("for k in 1 2 3 4; do sleep 0.7; echo $k; done; echo built; echo sound 1", each).failure,
+      IsEmpty());
 }
 
 TEST_F(DeviceTrial, WithoutAProgramFails) {
