@@ -160,10 +160,12 @@ constexpr ArgumentRow kSimStatus[] = {
     count_row("refused",
               "datagrams stopped by the gate or the address table, and poses that no body took"),
     count_row("resets", "times the solver had to recover"),
-    count_row("skipped", "frames without a step, and searches of frames for events that were left out"),
+    count_row("skipped",
+              "frames without a step, and searches of frames for events that were left out"),
     {'f', "real_time_factor", "1", 0, 1e6, "simulated time in wall time, last second"},
     {'f', "steps_per_second", "1/s", 0, 1e6, "last second"},
-    {'f', "density_error", "1", 0, 10, "mean of what density exceeds that at rest by, as a part of it"},
+    {'f', "density_error", "1", 0, 10,
+     "mean of what density exceeds that at rest by, as a part of it"},
     count_row("bubble_particles", "bubble particles alive now"),
     count_row("thinned", "bubbles over the scene's bubbles_per_second, told in larger ones")};
 

@@ -13,8 +13,8 @@
 
 namespace splash::protocol {
 
-/// Appends bundles to a log. Throws WriteError when it cannot write. What a killed program or a full
-/// disk leaves behind is a log of whole bundles.
+/// Appends bundles to a log. Throws WriteError when it cannot write. What a killed program or a
+/// full disk leaves behind is a log of whole bundles.
 class LogWriter {
  public:
   explicit LogWriter(const std::filesystem::path& path);
