@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes and rigs by name: `--scene pool` is the file pool.yaml wherever scenes lie.
+// Scenes, rigs and sounds by name: `--scene pool` is the file pool.yaml wherever scenes lie.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace splash::protocol {
 
-/// Where files of `kind` ("scenes", "rigs") are looked for, in this order: the user's own folder,
-/// $XDG_CONFIG_HOME/splash/<kind> (~/.config where that is not set), and the one that belongs to
-/// the program, share/splash/configs/<kind> beside its bin/, built or installed.
+/// Where files of `kind` ("scenes", "rigs", "sounds") are looked for, in this order: the user's own
+/// folder, $XDG_CONFIG_HOME/splash/<kind> (~/.config where that is not set), and the one that
+/// belongs to the program, share/splash/configs/<kind> beside its bin/, built or installed.
 [[nodiscard]] std::vector<std::filesystem::path> config_folders(const std::string& kind);
 
 /// The file that `wanted` means: itself where it is a file or names a folder, else <wanted>.yaml in

@@ -17,6 +17,7 @@
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay_file.hpp"
 #include "synth-server/server.hpp"
+#include "synth-server/sound/sound_reader.hpp"
 #include "synth-server/test_tone.hpp"
 
 namespace {
@@ -100,6 +101,18 @@ Rig load_rig(const std::filesystem::path& wanted) {
   return protocol::failing_with(protocol::kExitConfig, [&] { return read_rig(path); });
 }
 
+/// The sound that was chosen, into `options`.
+void load_sound(Options& options) {
+  NamedSound chosen;
+  if (!options.sound.file.empty()) {
+    const auto path = protocol::find_config("--sound", "sounds", options.sound.file);
+    chosen = protocol::failing_with(protocol::kExitConfig, [&] { return read_sound(path); });
+  }
+  apply(options.sound, chosen.sound);
+  options.engine.sound = chosen.sound;
+  options.sound_name = chosen.name;
+}
+
 /// Blocked before any thread starts, so that all inherit it and only who waits for them sees them.
 /// What nohup ignores stays ignored.
 sigset_t block_signals() {
@@ -111,11 +124,12 @@ sigset_t block_signals() {
   return all;
 }
 
-void run(const Options& options) {
+void run(Options options) {
   if (options.list_devices) return print_devices(options.api);
   protocol::ServiceNotice service;
   Rig rig = load_rig(options.rig);
   centre(rig, options.middle);
+  load_sound(options);
   if (!options.replay.empty()) {
     protocol::require_readable("--replay", options.replay);
     return render_log(options, rig);

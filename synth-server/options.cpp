@@ -172,6 +172,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_sources(app, options, texts);
   add_output(app, options);
   add_playing(app, options, texts);
+  add_sound(app, options.sound);
   add_voices(app, texts.voices, options.engine);
   try {
     app.parse(argc, argv);

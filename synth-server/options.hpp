@@ -11,6 +11,7 @@
 
 #include "protocol/udp_socket.hpp"
 #include "synth-server/render/engine.hpp"
+#include "synth-server/voice_options.hpp"
 
 namespace splash::synth {
 
@@ -38,8 +39,10 @@ struct Options {
   double late_window = 0.050;  ///< [s]
   double horizon = 2.0;        ///< further ahead no time tag is believed [s]
   bool muted = false;          ///< silent until /mute 0
-  EngineSettings engine;       ///< what concerns the sound; whoever renders knows the rest
-  double duration = 0.0;       ///< [s]; 0: until it is stopped
+  SoundOptions sound;
+  std::string sound_name;  ///< of the one that was read
+  EngineSettings engine;   ///< what concerns the voices; whoever renders knows the rest
+  double duration = 0.0;   ///< [s]; 0: until it is stopped
   bool verbose = false;
 };
 

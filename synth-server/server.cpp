@@ -176,6 +176,7 @@ void Server::introduce() const {
   std::printf("synth-server %s\n", protocol::version().c_str());
   std::printf("rig: %s, %d channels: %s\n", rig_.name.c_str(), channel_count(rig_),
               rig_.description.c_str());
+  std::printf("sound: %s\n", options_.sound_name.c_str());
   std::printf("output: %s\n", to_text(format_).c_str());
   std::printf("%s", channel_map(channel_names(rig_), format_.ports).c_str());
   std::printf("latency: %s after a time tag; dropped when over %s late\n",

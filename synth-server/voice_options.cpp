@@ -6,25 +6,11 @@
 namespace splash::synth {
 
 void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
-  app.add_option("--bubbles", texts.bubbles,
-                 "The paper's bubbles, or those of linear theory (Minnaert, heat, depth)")
-      ->check(CLI::IsMember({"paper", "physical"}))
-      ->capture_default_str();
-  app.add_option("--chirp", texts.chirp,
-                 "The paper's as sin(2 pi t f(t)), as it prints them, or with integrated f")
-      ->check(CLI::IsMember({"literal", "integrated"}))
-      ->capture_default_str();
   app.add_option("--water-level", engine.water_level,
                  "z of the surface, for the depths of physical bubbles (default: they lie at it)")
       ->check(CLI::Range(-1e6, 1e6))
       ->check(protocol::refuse_nan)
       ->type_name("M");
-  app.add_option("--impact-exponent", engine.impact_exponent,
-                 "An impact's amplitude grows with its speed into the water to this power")
-      ->check(CLI::Range(0.0, 6.0))
-      ->check(protocol::refuse_nan)
-      ->type_name("N")
-      ->capture_default_str();
   app.add_option("--precision", texts.precision,
                  "Bubbles within -140 dB of their formula, or within -95 dB for half the time")
       ->check(CLI::IsMember({"exact", "fast"}))
@@ -43,9 +29,40 @@ void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
       ->capture_default_str();
 }
 
+void add_sound(CLI::App& app, SoundOptions& options) {
+  app.add_option("--sound", options.file,
+                 "How water sounds: a sound by its name (cirio2013, ...) or its file (default: "
+                 "cirio2013, the paper's)")
+      ->type_name("NAME|FILE");
+  app.add_option("--bubbles", options.bubbles,
+                 "The paper's bubbles, or those of linear theory (Minnaert, heat, depth), whatever "
+                 "the sound says")
+      ->check(CLI::IsMember({"paper", "physical"}));
+  app.add_option("--chirp", options.chirp,
+                 "The paper's as sin(2 pi t f(t)), as it prints them, or with integrated f, "
+                 "whatever the sound says")
+      ->check(CLI::IsMember({"literal", "integrated"}));
+  app.add_option("--impact-exponent", options.impact_exponent,
+                 "An impact's amplitude grows with its speed into the water to this power, "
+                 "whatever the sound says")
+      ->check(CLI::Range(0.0, 6.0))
+      ->check(protocol::refuse_nan)
+      ->type_name("N");
+}
+
+void apply(const SoundOptions& options, Sound& sound) {
+  if (options.impact_exponent) sound.impact.exponent = *options.impact_exponent;
+  for (ToneSound* tone : {&sound.bubble, &sound.cavity}) {
+    if (options.chirp == "literal") tone->rise = ToneSound{}.rise;
+    if (options.chirp == "integrated") tone->rise = kIntegratedRise;
+    if (options.bubbles == "paper") tone->physical = 0.0;
+    if (options.bubbles != "physical") continue;
+    tone->physical = 1.0;
+    tone->rise = kIntegratedRise;
+  }
+}
+
 void apply(const VoiceTexts& texts, EngineSettings& engine) {
-  engine.bubbles = texts.bubbles == "physical" ? BubbleModel::physical : BubbleModel::paper;
-  engine.literal_chirp = texts.chirp == "literal";
   engine.precision = texts.precision == "fast" ? Precision::fast : Precision::exact;
   for (const std::string& kind : texts.no_skip) {
     if (kind == "silent") engine.skip_silent = false;

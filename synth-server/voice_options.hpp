@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The part of the command line that concerns the sound: which model, how exactly, how many voices,
+// The part of the command line that concerns the sound: which one, how exactly, how many voices,
 // what is left out.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,18 +13,26 @@
 
 namespace splash::synth {
 
+/// Options that change one row of the sound, whatever its file says.
+struct SoundOptions {
+  std::filesystem::path file;  ///< a sound's name or file; empty: the paper's
+  std::string bubbles;         ///< physical, paper; empty: as the sound has it
+  std::string chirp;           ///< rise: integrated, literal; empty: as the sound has it
+  std::optional<double> impact_exponent;
+};
+
 /// The options whose text becomes something else.
 struct VoiceTexts {
-  std::string bubbles = "paper";
-  std::string chirp = "literal";
   std::string precision = "exact";
   std::vector<std::string> no_skip;
 };
 
-/// Both must outlive the parsing.
+/// What they fill must outlive the parsing.
 void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine);
+void add_sound(CLI::App& app, SoundOptions& options);
 
 /// After the parsing.
 void apply(const VoiceTexts& texts, EngineSettings& engine);
+void apply(const SoundOptions& options, Sound& sound);
 
 }  // namespace splash::synth

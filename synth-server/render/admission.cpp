@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/render/admission.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -32,7 +33,7 @@ bool renderable(const protocol::Vec3& place) noexcept {
 
 bool renderable(const protocol::Impact& impact) noexcept {
   return within(static_cast<double>(impact.approach), 0.0, kMostSpeed) &&
-         renderable(impact.position);
+         within(static_cast<double>(impact.speed), 0.0, kMostSpeed) && renderable(impact.position);
 }
 
 template <class BubbleOrCavity>
@@ -53,9 +54,11 @@ const EngineSettings& checked(const EngineSettings& s) {
   require(s.water_level <= kMostPlace, "water_level", s.water_level, "at most 1000000 m");
   require(s.max_scheduled >= 1 && s.max_scheduled <= (1 << 20), "max_scheduled", s.max_scheduled,
           "1 to 1048576");
-  require(s.impact_gain >= 0.0 && s.impact_gain <= 10.0, "impact_gain", s.impact_gain, "0 to 10 m");
-  require(s.impact_exponent >= 0.0 && s.impact_exponent <= 6.0, "impact_exponent",
-          s.impact_exponent, "0 to 6");
+  for (const double number : numbers_of(s.sound)) {
+    require(std::isfinite(number), "number of the sound", number, "finite");
+  }
+  require(s.sound.impact.frequency < 0.5 * s.sample_rate, "sound.impact.frequency",
+          s.sound.impact.frequency, "under half the sample rate");
   require(s.start_ramp >= 0.0 && s.start_ramp <= 60.0, "start_ramp", s.start_ramp, "0 to 60 s");
   return s;
 }

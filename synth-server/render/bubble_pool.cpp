@@ -86,6 +86,7 @@ class Pool final : public BubblePool {
     feeds_.add(found, lane, routes);
     const auto place = static_cast<std::uint32_t>(pack * kPackLanes + lane);
     ranking_.enter(place, life, sample, std::min(span.end, span.fade));
+    if (wanted.kept) sitters_[pack].cavities |= 1U << lane;
     if (life.kept) {
       sitters_[pack].kept |= 1U << lane;
       ++kept_;
@@ -100,7 +101,7 @@ class Pool final : public BubblePool {
     const auto end = begin + static_cast<int>(to - from);
     const std::span<const int> packs = seating_.packs();
     for (std::size_t first = 0; first < packs.size(); first += kMixedPacks<Real>) {
-      mix_some(packs.subspan(first), from - begin, begin, end);
+      mix_some(packs.subspan(first), from - begin, begin, end, mix);
     }
     mixed_ = end % kCell;
     for (std::size_t c = 0; c < mix.touched.size(); ++c) {
@@ -135,7 +136,9 @@ class Pool final : public BubblePool {
  private:
   /// The first kMixedPacks of these packs: samples [begin, end) of the cell that starts at `cell`.
   /// One channel alone piece by piece.
-  void mix_some(std::span<const int> packs, std::int64_t cell, int begin, int end) noexcept {
+  void mix_some(std::span<const int> packs, std::int64_t cell, int begin, int end,
+                const Mix& mix) noexcept {
+    const bool as_they_are = mix.bubbles.is_one() && mix.cavities.is_one();
     const std::size_t count = std::min<std::size_t>(kMixedPacks<Real>, packs.size());
     // What is only needed within this call need not go to memory with the packs.
     const bool passing = kAfresh && begin == 0 && end == kCell;
@@ -160,6 +163,7 @@ class Pool final : public BubblePool {
         if (cell + from < sitters.calm_from || cell + to > sitters.calm_to) {
           shape(sitters, cell + from, to - from, rows);
         }
+        if (!as_they_are) scale(sitters.cavities, mix, from, to, rows);
       }
       mix_joined(from, to);
       from = to;
@@ -247,6 +251,17 @@ class Pool final : public BubblePool {
     }
   }
 
+  /// Samples [from, to) of the cell by the gains of bubbles and cavities.
+  static void scale(std::uint32_t cavities, const Mix& mix, int from, int to, Real* row) noexcept {
+    for (int n = from; n < to; ++n, row += kPackVoices) {
+      const auto bubble = static_cast<Real>(mix.bubbles.at(n));
+      const auto cavity = static_cast<Real>(mix.cavities.at(n));
+      for (std::size_t lane = 0; lane < kPackLanes; ++lane) {
+        row[lane] *= (cavities >> lane & 1U) != 0 ? cavity : bubble;
+      }
+    }
+  }
+
   void release_from(std::size_t p, std::int64_t sample) noexcept {
     static const Pack kSilent{};
     Sitters& sitters = sitters_[p];
@@ -264,6 +279,7 @@ class Pool final : public BubblePool {
       if ((sitters.leaving >> lane & 1U) == 0) --lasting_;
       if ((sitters.kept >> lane & 1U) != 0) --kept_;
       sitters.kept &= ~(1U << lane);
+      sitters.cavities &= ~(1U << lane);
       sitters.taken &= ~(1U << lane);
       sitters.leaving &= ~(1U << lane);
       copy_lane(kSilent, packs_[p], lane);

@@ -38,14 +38,11 @@ class StartWatch {
 };
 
 struct EngineSettings {
-  double sample_rate = 48000.0;  ///< [Hz], 8000 to 384000
-  int max_block = 4096;          ///< most frames of one render call, 1 to 65536
-  std::uint64_t seed = 1;        ///< of the impacts' noise
-  BubbleModel bubbles = BubbleModel::paper;
-  bool literal_chirp = true;  ///< paper: sin(2 pi t f(t)) as printed; false: f is integrated
-  double water_level = kNoWaterLevel;  ///< physical: z of the surface, for depths [m]
-  double impact_gain = 5.0e-4;         ///< amplitude of an impact at 1 m/s [m]
-  double impact_exponent = 3.0;        ///< amplitude ~ approach^exponent; paper section 5.1.2
+  double sample_rate = 48000.0;        ///< [Hz], 8000 to 384000
+  int max_block = 4096;                ///< most frames of one render call, 1 to 65536
+  std::uint64_t seed = 1;              ///< of the impacts' noise
+  Sound sound;                         ///< the paper's
+  double water_level = kNoWaterLevel;  ///< z of the surface, for the depths of physical bubbles [m]
   unsigned components = kAllComponents;
   Precision precision = Precision::exact;
   InstructionSet instructions = InstructionSet::best;

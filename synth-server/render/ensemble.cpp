@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/render/ensemble.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <type_traits>
@@ -38,17 +39,20 @@ void Ensemble::start(const protocol::Event& event, std::int64_t sample) noexcept
 
 Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
                                        std::int64_t sample) noexcept {
-  const double amplitude = impact_amplitude(static_cast<double>(impact.approach),
-                                            settings_.impact_gain, settings_.impact_exponent);
+  const ImpactSound& sound = settings_.sound.impact;
+  const double speed =
+      impact_speed(sound, static_cast<double>(impact.speed), static_cast<double>(impact.approach));
+  const double amplitude = impact_amplitude(sound, speed);
   const Routing::Reach reach = routing_.route({impact.position, impact.body, 0.0}, routes_);
-  const VoiceLife life = impact_life(amplitude, settings_.sample_rate, reach.floor);
+  const double floor = reach.floor / gain_of(sound.gain_db);
+  const VoiceLife life = impact_life(sound, amplitude, settings_.sample_rate, floor);
   if (reach.result != Routing::Result::heard || life.length <= 0) {
     counts_.unheard.add();
     return Outcome::left_out;
   }
   if (starts_ >= kMostStarts) return Outcome::no_place;
   const Noise noise(settings_.seed, static_cast<std::uint64_t>(impact.id));
-  const ImpactVoice voice(amplitude, noise, settings_.sample_rate);
+  const ImpactVoice voice(sound, amplitude, noise, settings_.sample_rate);
   const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
   const ImpactPool::Start result = impacts_.start(voice, life, reached, sample);
   if (result == ImpactPool::Start::refused) return Outcome::no_place;
@@ -64,8 +68,10 @@ bool Ensemble::masking() const noexcept {
 Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
                                        const protocol::Cavity* cavity,
                                        std::int64_t sample) noexcept {
-  VoiceLife life = life_of(tone, settings_.sample_rate, reach.floor);
-  const bool kept = life.kept = cavity != nullptr;
+  const bool kept = cavity != nullptr;
+  const ToneSound& sound = kept ? settings_.sound.cavity : settings_.sound.bubble;
+  VoiceLife life = life_of(tone, settings_.sample_rate, reach.floor / gain_of(sound.gain_db));
+  life.kept = kept;
   const bool breaks = kept && cavity->life > 0.0F;
   if (breaks) life.breaks = std::llround(static_cast<double>(cavity->life) * settings_.sample_rate);
   if (reach.result == Routing::Result::out_of_band || life.fold <= 0) {
@@ -93,17 +99,24 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
 
 template <class BubbleOrCavity>
 Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t sample) noexcept {
-  const BubbleTone tone =
-      bubble_tone(settings_.bubbles, settings_.literal_chirp ? Chirp::literal : Chirp::integrated,
-                  settings_.water_level, static_cast<double>(event.radius),
-                  static_cast<double>(event.epsilon), static_cast<double>(event.position.z));
+  constexpr bool kIsCavity = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
+  const ToneSound& sound = kIsCavity ? settings_.sound.cavity : settings_.sound.bubble;
+  const double depth = settings_.water_level - static_cast<double>(event.position.z);
+  const BubbleTone tone = bubble_tone(sound, static_cast<double>(event.radius),
+                                      static_cast<double>(event.epsilon), std::max(0.0, depth));
   const Source source{event.position, event.body, tone.frequency};
   const protocol::Cavity* cavity = nullptr;
-  if constexpr (std::is_same_v<BubbleOrCavity, protocol::Cavity>) cavity = &event;
+  if constexpr (kIsCavity) cavity = &event;
   return start_tone(tone, routing_.route(source, routes_), cavity, sample);
 }
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
+  const auto steady = [](double decibels) {
+    return CellGain{gain_of(decibels), gain_of(decibels)};
+  };
+  mix.impacts = steady(settings_.sound.impact.gain_db);
+  mix.bubbles = steady(settings_.sound.bubble.gain_db);
+  mix.cavities = steady(settings_.sound.cavity.gain_db);
   impacts_.mix(from, to, mix);
   bubbles_->mix(from, to, mix);
 }

@@ -67,7 +67,11 @@ void ImpactPool::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
     const auto count = static_cast<int>(end - begin);
     seat.voice.render(sound.data(), count);
     if (seat.span.fade < end) seat.span.shape(begin, count, sound.data());
-    const auto offset = static_cast<std::size_t>(begin % kCell);
+    const auto first = static_cast<int>(begin % kCell);
+    for (int n = 0; n < count && !mix.impacts.is_one(); ++n) {
+      sound[static_cast<std::size_t>(n)] *= mix.impacts.at(first + n);
+    }
+    const auto offset = static_cast<std::size_t>(first);
     for (std::size_t r = 0; r < seat.routes; ++r) {
       const Route& route = routes_[place * max_routes_ + r];
       const auto channel = static_cast<std::size_t>(route.channel);

@@ -20,6 +20,7 @@ struct Sitters {
   std::uint32_t taken = 0;                   ///< a bit per lane
   std::uint32_t leaving = 0;                 ///< of these, those that were told to make room
   std::uint32_t kept = 0;                    ///< same, those that are not told to
+  std::uint32_t cavities = 0;                ///< same, those that are no bubbles
   std::int64_t calm_from = 0;                ///< all have started by then
   std::int64_t calm_to = VoiceSpan::kNever;  ///< none ends or fades before
   std::array<VoiceSpan, kPackLanes> spans;

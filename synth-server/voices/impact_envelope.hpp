@@ -10,27 +10,28 @@
 
 #include <cmath>
 
+#include "synth-server/voices/sound.hpp"
+
 namespace splash::synth {
 
-inline constexpr double kAttack = 0.001;            ///< ta [s]; paper section 6
-inline constexpr double kRelease = 0.37;            ///< tr [s]; paper section 6
 inline constexpr double kFall = 6.907755278982137;  ///< ln 1000: 60 dB
 
 /// The formula: what the running envelope is tested against. `t` from the start [s].
-[[nodiscard]] inline double impact_envelope(double t) noexcept {
-  if (t < kAttack) return (1.0 - std::exp(-kFall * t / kAttack)) / (1.0 - std::exp(-kFall));
-  return std::exp(-kFall * (t - kAttack) / kRelease);
+[[nodiscard]] inline double impact_envelope(const ImpactSound& sound, double t) noexcept {
+  const double attack = sound.attack;
+  if (t < attack) return (1.0 - std::exp(-kFall * t / attack)) / (1.0 - std::exp(-kFall));
+  return std::exp(-kFall * (t - attack) / sound.release);
 }
 
 /// The same, sample after sample.
 class ImpactEnvelope {
  public:
   ImpactEnvelope() = default;
-  explicit ImpactEnvelope(double sample_rate) noexcept
-      : attack_left_(static_cast<int>(std::ceil(kAttack * sample_rate))),
-        attack_factor_(std::exp(-kFall / (kAttack * sample_rate))),
-        release_factor_(std::exp(-kFall / (kRelease * sample_rate))),
-        release_(impact_envelope(attack_left_ / sample_rate)) {}
+  ImpactEnvelope(const ImpactSound& sound, double sample_rate) noexcept
+      : attack_left_(static_cast<int>(std::ceil(sound.attack * sample_rate))),
+        attack_factor_(std::exp(-kFall / (sound.attack * sample_rate))),
+        release_factor_(std::exp(-kFall / (sound.release * sample_rate))),
+        release_(impact_envelope(sound, attack_left_ / sample_rate)) {}
 
   [[nodiscard]] double next() noexcept {
     if (attack_left_ > 0) {

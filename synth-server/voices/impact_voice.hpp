@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A body meets the water (paper section 5.1): a burst of white noise, its envelope, a resonator.
-// Amplitude A = gain speed^exponent. The paper takes 3 (Richardson 1955); he speaks of intensity,
-// which read as power would be 1.5: the exponent is therefore a setting.
+// Its amplitude grows as speed^exponent. The paper takes 3 (Richardson 1955); he speaks of
+// intensity, which read as power would be 1.5: the exponent is therefore a number of the sound.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,21 @@
 
 namespace splash::synth {
 
-inline constexpr double kImpactFrequency = 420.0;  ///< w0 [Hz]; paper section 6
-/// Sharpness of the resonance [1]: 84 Hz wide, so that it rings for 26 ms (60 dB), well within the
-/// release, and the burst keeps the character of noise. The paper gives no value.
-inline constexpr double kImpactQ = 5.0;
+/// The speed that counts [m/s]: its part `approach` into the water, and as much of what is along
+/// the surface as the sound says. Sliding along it transfers almost no momentum.
+[[nodiscard]] double impact_speed(const ImpactSound& sound, double speed, double approach) noexcept;
 
-/// `speed`: its component normal to the water's surface [m/s]; sliding along it transfers almost no
-/// momentum. `gain`: A at 1 m/s [m]. A is the signal's standard deviation at the envelope's top.
-[[nodiscard]] double impact_amplitude(double speed, double gain, double exponent) noexcept;
+/// A [m], the signal's standard deviation at the envelope's top; `speed` as above [m/s].
+[[nodiscard]] double impact_amplitude(const ImpactSound& sound, double speed) noexcept;
 
 class ImpactVoice {
  public:
   ImpactVoice() = default;
-  ImpactVoice(double amplitude, Noise noise, double sample_rate) noexcept
+  ImpactVoice(const ImpactSound& sound, double amplitude, Noise noise, double sample_rate) noexcept
       : amplitude_(amplitude),
         noise_(noise),
-        envelope_(sample_rate),
-        resonator_(kImpactFrequency, kImpactQ, sample_rate) {}
+        envelope_(sound, sample_rate),
+        resonator_(sound.frequency, sound.q, sample_rate) {}
 
   /// Writes the next `count` samples [m].
   void render(double* out, int count) noexcept;
@@ -43,6 +41,7 @@ class ImpactVoice {
 };
 
 /// `floor` [m]: amplitude under which the voice is over.
-[[nodiscard]] VoiceLife impact_life(double amplitude, double sample_rate, double floor) noexcept;
+[[nodiscard]] VoiceLife impact_life(const ImpactSound& sound, double amplitude, double sample_rate,
+                                    double floor) noexcept;
 
 }  // namespace splash::synth

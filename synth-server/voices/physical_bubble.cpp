@@ -5,8 +5,6 @@
 #include <complex>
 #include <numbers>
 
-#include "synth-server/voices/paper_bubble.hpp"
-
 namespace splash::synth {
 namespace {
 
@@ -54,12 +52,6 @@ BubbleResonance resonance(double radius, double depth, const Water& water) noexc
   const double w = turning(k.real());
   return {w / (2.0 * std::numbers::pi), k.real(), 2.0 * water.viscosity / inertia,
           1.5 * gas * k.imag() / (inertia * w), w * w * radius / (2.0 * water.sound_speed)};
-}
-
-BubbleTone physical_bubble(double radius, double epsilon, double depth) noexcept {
-  const BubbleResonance found = resonance(radius, depth);
-  const double damping = found.damping();
-  return {epsilon * radius, found.frequency, damping, 0.5 * kRise * damping};
 }
 
 }  // namespace splash::synth

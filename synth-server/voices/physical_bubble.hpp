@@ -7,9 +7,9 @@
 // large and nearly 1 for the small. What the fit of the paper lumps together is three terms:
 //   d = 2 mu / (rho r^2)  +  3 p_gas Im k / (2 rho r^2 w0)  +  w0^2 r / (2 c)
 //       viscous              thermal                           radiation
+// A rise of the pitch is no part of the theory: it is van den Doel's, for bubbles that come up to
+// the surface.
 #pragma once
-
-#include "synth-server/voices/bubble_tone.hpp"
 
 namespace splash::synth {
 
@@ -38,10 +38,5 @@ struct BubbleResonance {
 /// `radius` [m], `depth` of its middle under the surface [m].
 [[nodiscard]] BubbleResonance resonance(double radius, double depth,
                                         const Water& water = {}) noexcept;
-
-/// As the voices play it: amplitude epsilon r, and the paper's rise of the pitch,
-/// f(t) = f0 (1 + xi d t), as the integral of f (the rise is no part of the theory: it is van den
-/// Doel's, for bubbles that come up to the surface).
-[[nodiscard]] BubbleTone physical_bubble(double radius, double epsilon, double depth) noexcept;
 
 }  // namespace splash::synth

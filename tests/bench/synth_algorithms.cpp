@@ -221,7 +221,7 @@ double largest_error(const Make& make) {
     for (int lane = 0; lane < kPackVoices; ++lane) {
       const double radius = radius_of(group * kPackVoices + lane, kGroups * kPackVoices);
       const auto at = static_cast<std::size_t>(lane);
-      tones[at] = synth::paper_bubble(radius, 1.0 / radius, synth::Chirp::literal);
+      tones[at] = synth::paper_bubble(radius, 1.0 / radius);
       voices->seat(at, tones[at]);
       longest = std::max(longest, life_of(tones[at], kRate, 3.16e-5).length);
     }
@@ -243,8 +243,7 @@ double voices_per_core(const Make& make, double share) {
   const auto voices = make();
   for (int lane = 0; lane < kPackVoices; ++lane) {
     const double radius = 0.05 + 0.01 * lane;
-    voices->seat(static_cast<std::size_t>(lane),
-                 synth::paper_bubble(radius, 0.05, synth::Chirp::literal));
+    voices->seat(static_cast<std::size_t>(lane), synth::paper_bubble(radius, 0.05));
   }
   const int cells = static_cast<int>(share * kVoiceCells / kPackVoices);
   std::array<double, kCell> channel{};

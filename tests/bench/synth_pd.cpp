@@ -105,7 +105,8 @@ double onsets(const std::filesystem::path& folder) {
 }
 
 double error(const std::filesystem::path& folder) {
-  const auto tone = synth::paper_bubble(kErrorRadius, 1.0 / kErrorRadius, synth::Chirp::integrated);
+  const auto tone =
+      synth::paper_bubble(kErrorRadius, 1.0 / kErrorRadius, {.rise = synth::kIntegratedRise});
   const double life = 6.9077552789821368 / tone.damping;
   const double pitch = tone.frequency * (1.0 + 2.0 * tone.rise * life);
   const std::string rest = "#X msg 100 50 all " + std::to_string(tone.frequency) + " " +

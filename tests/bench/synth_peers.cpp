@@ -43,7 +43,7 @@ double run_peer(const std::vector<std::string>& arguments, const std::string& pa
 double bubble_error(const std::filesystem::path& wav) {
   const std::vector<float> samples = synth::read_wav(wav).channels.at(0);
   const synth::BubbleTone tone =
-      synth::paper_bubble(kErrorRadius, 1.0 / kErrorRadius, synth::Chirp::integrated);
+      synth::paper_bubble(kErrorRadius, 1.0 / kErrorRadius, {.rise = synth::kIntegratedRise});
   const auto length = static_cast<int>(6.9 / tone.damping * 44100.0);
   double best = std::numeric_limits<double>::infinity();
   for (int shift = -2; shift <= 130; ++shift) {

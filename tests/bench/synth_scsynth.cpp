@@ -163,7 +163,8 @@ double onsets(const std::filesystem::path& folder) {
 }
 
 double error(const std::filesystem::path& folder) {
-  const auto tone = synth::paper_bubble(kErrorRadius, 1.0 / kErrorRadius, synth::Chirp::integrated);
+  const auto tone =
+      synth::paper_bubble(kErrorRadius, 1.0 / kErrorRadius, {.rise = synth::kIntegratedRise});
   const double life = 6.9077552789821368 / tone.damping;
   const double pitch = tone.frequency * (1.0 + 2.0 * tone.rise * life);
   render(folder, {{0.0, 1.0, tone.frequency, pitch, life, 1e-3}}, 1.0);

@@ -56,6 +56,7 @@ const std::vector<Room>& rooms() {
       {"sim-server/send", {"protocol"}, {"lo/", "nlohmann/"}},
       {"sim-server", {"protocol", "sim-server"}, {"CLI/"}},
       {"synth-server/voices", {"protocol/event.hpp"}, {}},
+      {"synth-server/sound", {"protocol/config.hpp", "synth-server/voices"}, {}},
       {"synth-server/output",
        {"protocol/event.hpp", "protocol/config.hpp", "protocol/write_error.hpp"},
        {}},

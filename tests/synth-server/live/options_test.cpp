@@ -16,12 +16,18 @@ ParsedOptions parse(std::vector<const char*> arguments) {
   return parse_options(static_cast<int>(arguments.size()), arguments.data());
 }
 
+/// The numbers of `sound` after what the command line says of it.
+SoundNumbers sound_with(const Options& options, Sound sound = {}) {
+  apply(options.sound, sound);
+  return numbers_of(sound);
+}
+
 TEST(Options, HaveSafeDefaults) {
   const auto parsed = parse({"--rig", "x.yaml"});
   ASSERT_TRUE(parsed.options);
   EXPECT_EQ(protocol::to_string(parsed.options->listen), "127.0.0.1:57310");
   EXPECT_TRUE(parsed.options->allow.empty());
-  EXPECT_TRUE(parsed.options->engine.literal_chirp);
+  EXPECT_EQ(sound_with(*parsed.options), numbers_of(Sound{})) << "the paper's";
   EXPECT_DOUBLE_EQ(parsed.options->late_window, 0.050);
   EXPECT_LT(parsed.options->latency, 0.0) << "by the block";
   EXPECT_FALSE(parsed.options->muted);
@@ -34,7 +40,6 @@ TEST(Options, ReadWhatIsGiven) {
   ASSERT_TRUE(parsed.options);
   EXPECT_EQ(protocol::to_string(parsed.options->listen), "0.0.0.0:9000");
   EXPECT_EQ(parsed.options->allow, (std::vector<std::uint32_t>{0x0A000005, 0x0A000006}));
-  EXPECT_FALSE(parsed.options->engine.literal_chirp);
   EXPECT_DOUBLE_EQ(parsed.options->latency, 0.020);
   EXPECT_DOUBLE_EQ(parsed.options->late_window, 0.100);
   EXPECT_EQ(parsed.options->engine.seed, 7U);
@@ -46,15 +51,39 @@ TEST(Options, ChooseHowVoicesSound) {
                              "60000", "--no-skip", "masked", "--no-skip", "unfelt"});
   ASSERT_TRUE(parsed.options);
   const EngineSettings& engine = parsed.options->engine;
-  EXPECT_EQ(engine.bubbles, BubbleModel::physical);
   EXPECT_DOUBLE_EQ(engine.water_level, -0.5);
-  EXPECT_DOUBLE_EQ(engine.impact_exponent, 1.5);
   EXPECT_EQ(engine.precision, Precision::fast);
   EXPECT_EQ(engine.max_voices, 60000);
   EXPECT_FALSE(engine.skip_masked);
   EXPECT_FALSE(engine.skip_unfelt);
   EXPECT_TRUE(engine.skip_silent);
   EXPECT_TRUE(engine.skip_out_of_band);
+}
+
+TEST(Options, ChangeOneRowOfTheSoundWhateverItsFileSays) {
+  Sound file;
+  file.bubble.rise = file.cavity.rise = 0.3;
+  file.bubble.physical = file.cavity.physical = 0.5;
+  file.bubble.pitch = 2.0;
+  const auto with = [&](std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), {"--rig", "x.yaml", "--sound", "mine"});
+    const auto parsed = parse(arguments);
+    EXPECT_TRUE(parsed.options);
+    return parsed.options ? sound_with(*parsed.options, file) : SoundNumbers{};
+  };
+  EXPECT_EQ(with({}), numbers_of(file));
+  Sound wanted = file;
+  wanted.impact.exponent = 1.5;
+  EXPECT_EQ(with({"--impact-exponent", "1.5"}), numbers_of(wanted));
+  wanted = file;
+  wanted.bubble.rise = wanted.cavity.rise = 0.05;
+  EXPECT_EQ(with({"--chirp", "integrated"}), numbers_of(wanted));
+  wanted.bubble.physical = wanted.cavity.physical = 1.0;
+  EXPECT_EQ(with({"--bubbles", "physical"}), numbers_of(wanted)) << "theory knows no literal chirp";
+  wanted = file;
+  wanted.bubble.rise = wanted.cavity.rise = 0.1;
+  wanted.bubble.physical = wanted.cavity.physical = 0.0;
+  EXPECT_EQ(with({"--bubbles", "paper", "--chirp", "literal"}), numbers_of(wanted));
 }
 
 TEST(Options, RefuseToRenderOverTheLog) {

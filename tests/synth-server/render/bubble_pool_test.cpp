@@ -28,13 +28,13 @@ std::unique_ptr<BubblePool> pool_of(int voices, Precision precision = Precision:
 }
 
 Start start(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05) {
-  const BubbleTone tone = paper_bubble(radius, epsilon, Chirp::literal);
+  const BubbleTone tone = paper_bubble(radius, epsilon);
   return pool.start(tone, life_of(tone, kRate, kFloor), {&kRoute, 1}, 0, sample).result;
 }
 
 double formula(double radius, std::int64_t start, double sample) {
   const double t = (sample - static_cast<double>(start)) / kRate;
-  return t < 0.0 ? 0.0 : pressure(paper_bubble(radius, 0.05, Chirp::literal), t);
+  return t < 0.0 ? 0.0 : pressure(paper_bubble(radius, 0.05), t);
 }
 
 /// Mixes [from, to) in pieces of at most `most` samples, none beyond its cell.
@@ -127,7 +127,7 @@ TEST(BubblePool, StealsWithoutAClick) {
 TEST(BubblePool, EndsVoicesUnderTheFloorAndGivesTheirPlacesBack) {
   const auto pool = pool_of(4);
   start(*pool, 0.004, 0);
-  const auto length = life_of(paper_bubble(0.004, 0.05, Chirp::literal), kRate, kFloor).length;
+  const auto length = life_of(paper_bubble(0.004, 0.05), kRate, kFloor).length;
   const auto out = mix(*pool, 0, (length / kCell + 2) * kCell);
   EXPECT_EQ(pool->size(), 0U);
   EXPECT_EQ(out.back(), 0.0);
@@ -139,7 +139,7 @@ TEST(BubblePool, EndsVoicesUnderTheFloorAndGivesTheirPlacesBack) {
 TEST(BubblePool, FadesAVoiceBeforeItsPitchReachesNyquist) {
   const auto pool = pool_of(4);
   constexpr double kRadius = 0.00015;  // 20 kHz
-  const VoiceLife life = life_of(paper_bubble(kRadius, 0.1, Chirp::literal), kRate, kFloor);
+  const VoiceLife life = life_of(paper_bubble(kRadius, 0.1), kRate, kFloor);
   ASSERT_LT(life.fold, life.length);
   start(*pool, kRadius, 0, 0.1);
   const auto out = mix(*pool, 0, life.fold + 200);
@@ -163,7 +163,7 @@ TEST(BubblePool, RefusesWhenFadingVoicesTakeAllPlaces) {
 }
 
 Start start_kept(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05) {
-  const BubbleTone tone = paper_bubble(radius, epsilon, Chirp::literal);
+  const BubbleTone tone = paper_bubble(radius, epsilon);
   VoiceLife life = life_of(tone, kRate, kFloor);
   life.kept = true;
   return pool.start(tone, life, {&kRoute, 1}, 0, sample).result;
@@ -182,7 +182,7 @@ TEST(BubblePool, KeepsAPlaceForWhatIsKept) {
   for (int i = 0; i < 21; ++i) ASSERT_EQ(start(*other, 0.04, 0), Start::stole);
   const auto without = mix(*other, 0, 4800);
   const auto sound = [&](double radius, double epsilon) {
-    return pressure(paper_bubble(radius, epsilon, Chirp::literal), 4000.0 / kRate);
+    return pressure(paper_bubble(radius, epsilon), 4000.0 / kRate);
   };
   // All stolen ones have faded out: they differ by the kept voice and one of the loud ones.
   EXPECT_NEAR(with[4000] - without[4000], sound(0.02, 0.01) - sound(0.04, 0.05), 1e-12);
@@ -193,7 +193,7 @@ TEST(BubblePool, KeepsNoMoreThanASixteenth) {
   for (int i = 0; i < 64; ++i) ASSERT_EQ(start(*pool, 0.03, 0), Start::started);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(start_kept(*pool, 0.01, 0), Start::stole);
   EXPECT_EQ(start_kept(*pool, 0.01, 0), Start::refused);
-  const VoiceLife life = life_of(paper_bubble(0.01, 0.05, Chirp::literal), kRate, kFloor);
+  const VoiceLife life = life_of(paper_bubble(0.01, 0.05), kRate, kFloor);
   mix(*pool, 0, (life.length / kCell + 1) * kCell);
   for (int i = 0; i < 64; ++i) start(*pool, 0.03, (life.length / kCell + 1) * kCell);
   EXPECT_EQ(start_kept(*pool, 0.01, (life.length / kCell + 1) * kCell), Start::stole)

@@ -37,8 +37,8 @@ TEST(Engine, RendersTheFormulaAtFullScale) {
   double worst = 0.0;
   for (std::size_t n = 100; n < out.size(); ++n) {
     const double t = static_cast<double>(n - 100) / kRate;
-    const double p = pressure(
-        paper_bubble(static_cast<double>(0.005F), static_cast<double>(0.05F), Chirp::literal), t);
+    const double p =
+        pressure(paper_bubble(static_cast<double>(0.005F), static_cast<double>(0.05F)), t);
     worst = std::max(worst, std::abs(static_cast<double>(out[n]) - p / 0.01));
   }
   // A0 is 0.025 of full scale; the 1 Hz high-pass turns 600 Hz by 0.25 degrees, and swings in.
@@ -74,16 +74,6 @@ TEST(Engine, FadesACavityAfterItsLife) {
   double energy = 0.0;
   for (const float v : broken) energy += static_cast<double>(v) * static_cast<double>(v);
   EXPECT_LT(left_energy, 1e-4 * energy);  // half a second after its start
-}
-
-TEST(Engine, FollowsTheChirpSetting) {
-  auto settings = file_settings();
-  Engine literal(open_rig(), settings);
-  settings.literal_chirp = false;
-  Engine integrated(open_rig(), settings);
-  literal.schedule({bubble(0.005F), 0});
-  integrated.schedule({bubble(0.005F), 0});
-  EXPECT_NE(render(literal, 4800), render(integrated, 4800));
 }
 
 class EngineIn : public testing::TestWithParam<Precision> {};
@@ -316,7 +306,8 @@ TEST(Engine, RefusesSettingsBeyondTheirLimits) {
   refused([](auto& s) { s.max_scheduled = 0; }, "max_scheduled");
   refused([](auto& s) { s.mask_from = 2.0; }, "mask_from");
   refused([](auto& s) { s.water_level = std::numeric_limits<double>::quiet_NaN(); }, "water_level");
-  refused([](auto& s) { s.impact_exponent = 20.0; }, "impact_exponent");
+  refused([](auto& s) { s.sound.impact.frequency = 24000.0; }, "sound.impact.frequency");
+  refused([](auto& s) { s.sound.cavity.rise = std::numeric_limits<double>::infinity(); }, "sound");
   refused([](auto& s) { s.start_ramp = -1.0; }, "start_ramp");
   EXPECT_THROW(Engine(Rig{}, file_settings()), std::invalid_argument);
   Rig beyond_nyquist = open_rig();

@@ -14,8 +14,8 @@ constexpr double kRate = 48000.0;
 constexpr Route kRoute{0, 1.0};
 
 ImpactPool::Start start(ImpactPool& pool, double amplitude, std::uint64_t id, std::int64_t sample) {
-  return pool.start(ImpactVoice(amplitude, Noise(1, id), kRate),
-                    impact_life(amplitude, kRate, 1e-8), {&kRoute, 1}, sample);
+  return pool.start(ImpactVoice({}, amplitude, Noise(1, id), kRate),
+                    impact_life({}, amplitude, kRate, 1e-8), {&kRoute, 1}, sample);
 }
 
 std::vector<double> mix(ImpactPool& pool, std::int64_t from, std::int64_t to) {
@@ -37,8 +37,8 @@ TEST(ImpactPool, StealsTheQuietestRefusesTheQuieterAndFreesItsPlaces) {
   EXPECT_EQ(start(pool, 0.005, 3, 0), Start::refused);
   EXPECT_EQ(start(pool, 0.03, 4, 0), Start::stole);
   const auto both = mix(pool, 0, 4800);
-  ImpactVoice first(0.02, Noise(1, 1), kRate);
-  ImpactVoice second(0.03, Noise(1, 4), kRate);
+  ImpactVoice first({}, 0.02, Noise(1, 1), kRate);
+  ImpactVoice second({}, 0.03, Noise(1, 4), kRate);
   std::vector<double> a(4800);
   std::vector<double> b(4800);
   first.render(a.data(), 4800);

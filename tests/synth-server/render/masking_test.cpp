@@ -18,7 +18,7 @@ constexpr Route kHere[] = {{0, 1.0}, {1, 0.5}};
 class MaskingTest : public testing::Test {
  protected:
   BubbleTone tone(double radius, double level_db) {
-    return paper_bubble(radius, std::pow(10.0, level_db / 20.0), Chirp::literal);
+    return paper_bubble(radius, std::pow(10.0, level_db / 20.0));
   }
   void sound(const BubbleTone& voice, std::int64_t sample) {
     const VoiceLife life = life_of(voice, kRate, 1e-9);

@@ -10,6 +10,9 @@
 #include <limits>
 #include <vector>
 
+#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/physical_bubble.hpp"
+
 namespace splash::synth {
 namespace {
 
@@ -20,6 +23,8 @@ struct Row {
   double radius_mm, paper_frequency, minnaert, frequency, polytropic;
   double paper_damping, damping, viscous, thermal, radiation;
 };
+constexpr ToneSound kIntegrated{.rise = kIntegratedRise};
+constexpr ToneSound kPhysical{.rise = kIntegratedRise, .physical = 1.0};
 constexpr std::array kTable = {
     Row{0.15, 20000, 21910.2, 21229.3, 1.3050, 4785.85, 4820.45, 89.07, 3831, 900.41},
     Row{0.3, 10000, 10955.1, 10706.8, 1.3325, 1818.97, 1919.03, 22.27, 1438.7, 458.06},
@@ -43,12 +48,12 @@ void expect_digits(double value, double expected) {
 
 TEST(PaperBubble, MatchesTheTable) {
   for (const Row& row : kTable) {
-    const BubbleTone tone = paper_bubble(row.radius_mm * 1e-3, 0.05, Chirp::literal);
+    const BubbleTone tone = paper_bubble(row.radius_mm * 1e-3, 0.05);
     expect_digits(tone.frequency, row.paper_frequency);
     expect_digits(tone.damping, row.paper_damping);
     EXPECT_DOUBLE_EQ(tone.rise, 0.1 * tone.damping);
     EXPECT_DOUBLE_EQ(tone.amplitude, 0.05 * row.radius_mm * 1e-3);
-    EXPECT_DOUBLE_EQ(paper_bubble(row.radius_mm * 1e-3, 0.05, Chirp::integrated).rise,
+    EXPECT_DOUBLE_EQ(paper_bubble(row.radius_mm * 1e-3, 0.05, kIntegrated).rise,
                      0.05 * tone.damping);
   }
 }
@@ -63,7 +68,7 @@ TEST(PhysicalBubble, MatchesTheTable) {
     EXPECT_NEAR(found.thermal, row.thermal, 2e-4 * row.thermal);
     expect_digits(found.radiation, row.radiation);
     expect_digits(found.damping(), row.damping);
-    const BubbleTone tone = physical_bubble(row.radius_mm * 1e-3, 0.05, 0.0);
+    const BubbleTone tone = bubble_tone(kPhysical, row.radius_mm * 1e-3, 0.05, 0.0);
     EXPECT_DOUBLE_EQ(tone.frequency, found.frequency);
     EXPECT_DOUBLE_EQ(tone.damping, found.damping());
     EXPECT_DOUBLE_EQ(tone.rise, 0.05 * tone.damping) << "its phase is the integral of f";
@@ -89,12 +94,46 @@ TEST(PhysicalBubble, RisesWithTheRootOfThePressure) {
   const double atmosphere = 101325.0 / (998.0 * 9.81);
   const double ratio = resonance(0.01, atmosphere).frequency / resonance(0.01, 0.0).frequency;
   EXPECT_NEAR(ratio, std::sqrt(2.0), 0.002);
-  const auto tone = [](double level, double z) {
-    return bubble_tone(BubbleModel::physical, Chirp::literal, level, 0.01, 0.05, z).frequency;
+  EXPECT_DOUBLE_EQ(bubble_tone(kPhysical, 0.01, 0.05, atmosphere).frequency,
+                   resonance(0.01, atmosphere).frequency);
+}
+
+TEST(BubbleModel, IsThePapersToTheBitUnlessItsSoundSaysOtherwise) {
+  for (const Row& row : kTable) {
+    const double r = row.radius_mm * 1e-3;
+    const BubbleTone paper = paper_bubble(r, 0.037, {});
+    const BubbleTone tone = bubble_tone({}, r, 0.037, 0.3);
+    EXPECT_EQ(tone.amplitude, paper.amplitude);
+    EXPECT_EQ(tone.frequency, 3.0 / r);
+    EXPECT_EQ(tone.damping, paper.damping);
+    EXPECT_EQ(tone.rise, 0.1 * paper.damping);
+  }
+}
+
+// Each number of the sound does what its row says, and nothing else.
+TEST(BubbleModel, FollowsEachNumberOfItsSound) {
+  constexpr double kRadius = 0.004;
+  const BubbleTone paper = bubble_tone({}, kRadius, 0.04, 0.0);
+  const auto expect = [&](const ToneSound& sound, double amplitude, double pitch, double damping,
+                          double rise) {
+    const BubbleTone tone = bubble_tone(sound, kRadius, 0.04, 0.0);
+    EXPECT_NEAR(tone.amplitude / paper.amplitude, amplitude, 1e-12);
+    EXPECT_NEAR(tone.frequency / paper.frequency, pitch, 1e-12);
+    EXPECT_NEAR(tone.damping / paper.damping, damping, 1e-12);
+    EXPECT_NEAR(tone.rise / paper.rise, rise, 1e-12);
   };
-  EXPECT_DOUBLE_EQ(tone(0.5, 0.5 - atmosphere), resonance(0.01, atmosphere).frequency);
-  EXPECT_DOUBLE_EQ(tone(0.5, 0.6), resonance(0.01, 0.0).frequency) << "above the surface";
-  EXPECT_DOUBLE_EQ(tone(kNoWaterLevel, -3.0), resonance(0.01, 0.0).frequency);
+  expect({.minnaert = 3.3}, 1.0, 1.1, 1.0, 1.0);
+  expect({.pitch = 0.25}, 1.0, 0.25, 1.0, 1.0);
+  expect({.damping = 2.0}, 1.0, 1.0, 2.0, 2.0);
+  expect({.rise = 0.3}, 1.0, 1.0, 1.0, 3.0);
+  expect({.excitation = 0.5}, 1.0 / std::sqrt(0.04), 1.0, 1.0, 1.0);
+  const double linear = 0.13 / kRadius / paper.damping;
+  expect({.radiation = 0.26}, 1.0, 1.0, 1.0 + linear, 1.0 + linear);
+  expect({.thermal = 0.0144}, 1.0, 1.0, 2.0 - linear, 2.0 - linear);
+  const BubbleResonance found = resonance(kRadius, 0.0);
+  const double pitch = std::sqrt(found.frequency / paper.frequency);
+  const double damping = std::sqrt(found.damping() / paper.damping);
+  expect({.physical = 0.5}, 1.0, pitch, damping, damping);
 }
 
 /// Instantaneous frequency of a tone around time t [Hz], from the zero crossings of 20 ms.
@@ -115,14 +154,12 @@ TEST(Chirp, RisesTwiceAsFastLiterallyAsIntegrated) {
   const double d = paper_damping(0.004);
   const double t = 0.12;
   // Over 20 ms at about 1.5 kHz there are 60 crossings: one of them is 25 Hz.
-  EXPECT_NEAR(pitch(paper_bubble(0.004, 1.0, Chirp::literal), t), 750.0 * (1.0 + 0.2 * d * t),
-              26.0);
-  EXPECT_NEAR(pitch(paper_bubble(0.004, 1.0, Chirp::integrated), t), 750.0 * (1.0 + 0.1 * d * t),
-              26.0);
+  EXPECT_NEAR(pitch(paper_bubble(0.004, 1.0), t), 750.0 * (1.0 + 0.2 * d * t), 26.0);
+  EXPECT_NEAR(pitch(paper_bubble(0.004, 1.0, kIntegrated), t), 750.0 * (1.0 + 0.1 * d * t), 26.0);
 }
 
 TEST(Pressure, StartsAtNilAndDecaysByTheDamping) {
-  const BubbleTone tone = paper_bubble(0.01, 0.05, Chirp::literal);
+  const BubbleTone tone = paper_bubble(0.01, 0.05);
   EXPECT_EQ(pressure(tone, 0.0), 0.0);
   EXPECT_GT(pressure(tone, 1e-4), 0.0);
   double most = 0.0;
@@ -134,7 +171,7 @@ TEST(Pressure, StartsAtNilAndDecaysByTheDamping) {
 
 TEST(BubbleLife, EndsWhereTheAmplitudeMeetsTheFloor) {
   const double rate = 48000.0;
-  const BubbleTone tone = paper_bubble(0.005, 0.05, Chirp::literal);
+  const BubbleTone tone = paper_bubble(0.005, 0.05);
   const VoiceLife life = life_of(tone, rate, 1e-8);
   const double end = static_cast<double>(life.length) / rate;
   EXPECT_NEAR(std::exp(life.log_amplitude_at(end)), 1e-8, 1e-11);
@@ -144,8 +181,8 @@ TEST(BubbleLife, EndsWhereTheAmplitudeMeetsTheFloor) {
 TEST(BubbleLife, KnowsWhenThePitchReachesNyquist) {
   const double rate = 48000.0;
   // 0.1 mm starts at 30 kHz: over Nyquist from the first sample.
-  EXPECT_EQ(life_of(paper_bubble(0.0001, 0.05, Chirp::literal), rate, 1e-12).fold, 0);
-  const BubbleTone tone = paper_bubble(0.00015, 0.05, Chirp::literal);  // 20 kHz
+  EXPECT_EQ(life_of(paper_bubble(0.0001, 0.05), rate, 1e-12).fold, 0);
+  const BubbleTone tone = paper_bubble(0.00015, 0.05);  // 20 kHz
   const VoiceLife life = life_of(tone, rate, 1e-12);
   const double t = static_cast<double>(life.fold) / rate;
   EXPECT_NEAR(20000.0 * (1.0 + 0.2 * tone.damping * t), 24000.0, 50.0);

@@ -11,19 +11,22 @@
 #include <vector>
 
 #include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/paper_bubble.hpp"
 #include "tests/synth-server/voices/packs.hpp"
 
 namespace splash::synth {
 namespace {
 
 constexpr double kEpsilon = 0.05;
+constexpr ToneSound kIntegrated{.rise = kIntegratedRise};
+constexpr ToneSound kPhysical{.rise = kIntegratedRise, .physical = 1.0};
 
 /// Sixteen radii from 1 mm to 0.3 m, evenly in their logarithm.
-std::vector<BubbleTone> tones(BubbleModel model, Chirp chirp) {
+std::vector<BubbleTone> tones(const ToneSound& sound) {
   std::vector<BubbleTone> all;
   for (int lane = 0; lane < kPackVoices; ++lane) {
     const double radius = 0.001 * std::pow(300.0, lane / (kPackVoices - 1.0));
-    all.push_back(bubble_tone(model, chirp, kNoWaterLevel, radius, kEpsilon, 0.0));
+    all.push_back(bubble_tone(sound, radius, kEpsilon, 0.0));
   }
   return all;
 }
@@ -59,15 +62,14 @@ std::vector<double> errors(const PackKernels<Pack>& kernels, const std::vector<B
 
 struct Case {
   double rate;
-  BubbleModel model;
-  Chirp chirp;
+  ToneSound sound;
 };
 
 class BubblePackError : public testing::TestWithParam<Case> {
  protected:
   template <class Pack>
   void expect_under(const PackKernels<Pack>& kernels, double limit) {
-    const std::vector<BubbleTone> voices = tones(GetParam().model, GetParam().chirp);
+    const std::vector<BubbleTone> voices = tones(GetParam().sound);
     const std::vector<double> found = errors(kernels, voices, GetParam().rate);
     for (std::size_t lane = 0; lane < found.size(); ++lane) {
       EXPECT_LT(found[lane], limit) << "f0 = " << voices[lane].frequency << " Hz";
@@ -93,16 +95,13 @@ TEST_P(BubblePackError, IsUnderMinus90DecibelsInTheFastPortableSetting) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BubblePackError,
-                         testing::Values(Case{44100.0, BubbleModel::paper, Chirp::literal},
-                                         Case{48000.0, BubbleModel::paper, Chirp::literal},
-                                         Case{96000.0, BubbleModel::paper, Chirp::literal},
-                                         Case{44100.0, BubbleModel::paper, Chirp::integrated},
-                                         Case{48000.0, BubbleModel::physical, Chirp::integrated}));
+                         testing::Values(Case{44100.0, {}}, Case{48000.0, {}}, Case{96000.0, {}},
+                                         Case{44100.0, kIntegrated}, Case{48000.0, kPhysical}));
 
 template <class Pack>
 std::vector<typename Pack::Real> render(const PackKernels<Pack>& kernels,
                                         const std::vector<int>& pieces) {
-  const std::vector<BubbleTone> voices = tones(BubbleModel::paper, Chirp::literal);
+  const std::vector<BubbleTone> voices = tones({});
   PackPlayer<Pack> player(kernels);
   for (std::size_t lane = 0; lane < voices.size(); ++lane) {
     player.seat(lane, voices[lane], 48000.0, static_cast<int>(lane));
@@ -158,7 +157,7 @@ TEST(BubblePack, NeverGrows) {
   PackPlayer<FastPack> player(fast_kernels(InstructionSet::best));
   std::vector<BubbleTone> voices;
   for (int lane = 0; lane < kPackVoices; ++lane) {
-    voices.push_back(paper_bubble(0.02 + 0.02 * lane, 1.0, Chirp::literal));
+    voices.push_back(paper_bubble(0.02 + 0.02 * lane, 1.0));
     player.seat(static_cast<std::size_t>(lane), voices.back(), rate, 0);
   }
   for (int cell = 0; cell < 60 * 44100 / kCell; ++cell) {
@@ -177,7 +176,7 @@ TEST(BubblePack, NeverGrows) {
 /// What lanes without a voice give: nil, whatever was in them.
 TEST(BubblePack, IsSilentWhereALaneIsFree) {
   PackPlayer<ExactPack> player(exact_kernels(InstructionSet::best));
-  player.seat(3, paper_bubble(0.01, kEpsilon, Chirp::literal), 48000.0, 0);
+  player.seat(3, paper_bubble(0.01, kEpsilon), 48000.0, 0);
   player.render(0, kCell);
   for (std::size_t lane = 0; lane < kPackVoices; ++lane) {
     EXPECT_EQ(player.at(lane, 40) != 0.0, lane == 3) << lane;

@@ -15,9 +15,10 @@ namespace splash::synth {
 namespace {
 
 constexpr double kRate = 48000.0;
+constexpr ImpactSound kPaper;
 
 std::vector<double> burst(double amplitude, std::uint64_t id, int length, int block) {
-  ImpactVoice voice(amplitude, Noise(1, id), kRate);
+  ImpactVoice voice({}, amplitude, Noise(1, id), kRate);
   std::vector<double> out(static_cast<std::size_t>(length));
   for (int done = 0; done < length; done += block) {
     voice.render(out.data() + done, std::min(block, length - done));
@@ -27,21 +28,33 @@ std::vector<double> burst(double amplitude, std::uint64_t id, int length, int bl
 
 TEST(ImpactEnvelope, FollowsItsFormulaAtEveryRate) {
   for (const double rate : {44100.0, 48000.0, 96000.0}) {
-    ImpactEnvelope envelope(rate);
+    ImpactEnvelope envelope({}, rate);
     double worst = 0.0;
     for (int n = 0; n < static_cast<int>(rate); ++n) {
-      worst = std::max(worst, std::abs(envelope.next() - impact_envelope(n / rate)));
+      worst = std::max(worst, std::abs(envelope.next() - impact_envelope({}, n / rate)));
     }
     EXPECT_LT(worst, 1e-12) << rate;
   }
 }
 
+TEST(ImpactEnvelope, FollowsTheTimesOfItsSound) {
+  const ImpactSound slow{.attack = 0.02, .release = 1.0};
+  ImpactEnvelope envelope(slow, kRate);
+  double worst = 0.0;
+  for (int n = 0; n < 96000; ++n) {
+    worst = std::max(worst, std::abs(envelope.next() - impact_envelope(slow, n / kRate)));
+  }
+  EXPECT_LT(worst, 1e-12);
+  EXPECT_NEAR(impact_envelope(slow, 0.02), 1.0, 1e-12);
+  EXPECT_NEAR(impact_envelope(slow, 1.02), 0.001, 1e-12);
+}
+
 TEST(ImpactEnvelope, RisesFromNilInOneMillisecondAndFalls60DecibelsIn370) {
-  EXPECT_EQ(impact_envelope(0.0), 0.0);
-  EXPECT_NEAR(impact_envelope(0.001), 1.0, 1e-12);
-  EXPECT_NEAR(impact_envelope(0.001 - 1e-9), 1.0, 1e-6);
-  EXPECT_NEAR(impact_envelope(0.371), 0.001, 1e-12);
-  EXPECT_NEAR(impact_envelope(0.186), std::sqrt(0.001), 1e-12);
+  EXPECT_EQ(impact_envelope({}, 0.0), 0.0);
+  EXPECT_NEAR(impact_envelope({}, 0.001), 1.0, 1e-12);
+  EXPECT_NEAR(impact_envelope({}, 0.001 - 1e-9), 1.0, 1e-6);
+  EXPECT_NEAR(impact_envelope({}, 0.371), 0.001, 1e-12);
+  EXPECT_NEAR(impact_envelope({}, 0.186), std::sqrt(0.001), 1e-12);
 }
 
 /// Slope of log amplitude against log speed, of the peaks of rendered bursts.
@@ -51,7 +64,7 @@ double slope(double exponent) {
   const double first = std::log(0.25);
   double first_peak = 0.0;
   for (const double speed : {0.25, 0.5, 1.0, 2.0, 4.0}) {
-    const auto out = burst(impact_amplitude(speed, 5e-4, exponent), 3, 4800, 64);
+    const auto out = burst(impact_amplitude({.exponent = exponent}, speed), 3, 4800, 64);
     double peak = 0.0;
     for (const double v : out) peak = std::max(peak, std::abs(v));
     if (first_peak == 0.0) first_peak = std::log(peak);
@@ -65,8 +78,15 @@ double slope(double exponent) {
 TEST(ImpactVoice, GrowsWithThePowerOfSpeed) {
   EXPECT_NEAR(slope(3.0), 3.0, 1e-9);
   EXPECT_NEAR(slope(1.5), 1.5, 1e-9);
-  EXPECT_DOUBLE_EQ(impact_amplitude(1.0, 5e-4, 3.0), 5e-4);
-  EXPECT_DOUBLE_EQ(impact_amplitude(2.0, 5e-4, 3.0), 4e-3);
+  EXPECT_DOUBLE_EQ(impact_amplitude({}, 1.0), 5e-4);
+  EXPECT_DOUBLE_EQ(impact_amplitude({}, 2.0), 4e-3);
+}
+
+TEST(ImpactVoice, CountsAsMuchOfTheSlidingAsItsSoundSays) {
+  EXPECT_EQ(impact_speed({}, 5.0, 3.0), 3.0) << "none";
+  EXPECT_DOUBLE_EQ(impact_speed({.sliding = 1.0}, 5.0, 3.0), 5.0) << "all";
+  EXPECT_DOUBLE_EQ(impact_speed({.sliding = 0.5}, 5.0, 3.0), std::sqrt(13.0));
+  EXPECT_EQ(impact_speed({.sliding = 1.0}, 0.0, 3.0), 3.0) << "of a sender that tells no speed";
 }
 
 TEST(ImpactVoice, IsTheSameInAllBlocks) {
@@ -81,7 +101,7 @@ TEST(ImpactVoice, HasTheVarianceOfFilteredEnvelopedNoise) {
   // (4.5 standard deviations of a mean of squares of Gaussians).
   constexpr int kLength = 9600;
   constexpr int kBursts = 600;
-  Resonator resonator(kImpactFrequency, kImpactQ, kRate);
+  Resonator resonator(kPaper.frequency, kPaper.q, kRate);
   std::vector<double> h(4800);
   for (std::size_t n = 0; n < h.size(); ++n) h[n] = resonator.process(n == 0 ? 1.0 : 0.0);
   std::vector<double> power(kLength, 0.0);
@@ -92,7 +112,7 @@ TEST(ImpactVoice, HasTheVarianceOfFilteredEnvelopedNoise) {
   for (const std::size_t n : {100U, 300U, 1000U, 3000U, 9000U}) {
     double expected = 0.0;
     for (std::size_t k = 0; k <= std::min<std::size_t>(n, h.size() - 1); ++k) {
-      const double e = impact_envelope(static_cast<double>(n - k) / kRate);
+      const double e = impact_envelope({}, static_cast<double>(n - k) / kRate);
       expected += h[k] * h[k] * e * e;
     }
     EXPECT_NEAR(power[n] / expected, 1.0, 0.26) << "sample " << n;
@@ -102,8 +122,8 @@ TEST(ImpactVoice, HasTheVarianceOfFilteredEnvelopedNoise) {
 /// Impulse response of the band-pass (w0, Q) of unit noise gain in closed form, from its poles
 /// rho e^(+-i theta): h(n) = g (c(n) - c(n - 2)) with c(n) = rho^n sin((n + 1) theta) / sin theta.
 std::vector<double> closed_form_response(double rate, std::size_t length) {
-  const double w = 2.0 * std::numbers::pi * kImpactFrequency / rate;
-  const double alpha = std::sin(w) / (2.0 * kImpactQ);
+  const double w = 2.0 * std::numbers::pi * kPaper.frequency / rate;
+  const double alpha = std::sin(w) / (2.0 * kPaper.q);
   const double rho = std::sqrt((1.0 - alpha) / (1.0 + alpha));
   const double theta = std::acos(std::cos(w) / (1.0 + alpha) / rho);
   const auto c = [&](double n) {
@@ -123,12 +143,12 @@ INSTANTIATE_TEST_SUITE_P(Rates, ImpactVoiceAt, testing::Values(44100.0, 48000.0,
 TEST_P(ImpactVoiceAt, IsTheNoiseUnderItsEnvelopeThroughItsResonatorOverItsWholeLife) {
   const double rate = GetParam();
   const Noise noise(7, 11);
-  ImpactVoice voice(1.0, noise, rate);
-  std::vector<double> out(static_cast<std::size_t>(impact_life(1.0, rate, 1e-6).length));
+  ImpactVoice voice({}, 1.0, noise, rate);
+  std::vector<double> out(static_cast<std::size_t>(impact_life({}, 1.0, rate, 1e-6).length));
   voice.render(out.data(), static_cast<int>(out.size()));
   std::vector<double> excitation;
   for (std::size_t n = 0; n < out.size(); ++n) {
-    excitation.push_back(impact_envelope(static_cast<double>(n) / rate) * noise.at(n));
+    excitation.push_back(impact_envelope({}, static_cast<double>(n) / rate) * noise.at(n));
   }
   const auto h = closed_form_response(rate, static_cast<std::size_t>(rate / 12));  // to -190 dB
   double worst = 0.0;
@@ -144,13 +164,13 @@ TEST_P(ImpactVoiceAt, IsTheNoiseUnderItsEnvelopeThroughItsResonatorOverItsWholeL
 }
 
 TEST(ImpactLife, EndsWhereTheEnvelopeMeetsTheFloor) {
-  const VoiceLife life = impact_life(1e-3, kRate, 1e-8);
+  const VoiceLife life = impact_life({}, 1e-3, kRate, 1e-8);
   const double end = static_cast<double>(life.length) / kRate;
-  EXPECT_NEAR(1e-3 * impact_envelope(end), 1e-8, 1e-11);
+  EXPECT_NEAR(1e-3 * impact_envelope({}, end), 1e-8, 1e-11);
   EXPECT_NEAR(std::exp(life.log_amplitude_at(end)), 1e-8, 1e-11);
   const auto out = burst(1e-3, 5, static_cast<int>(life.length), 64);
   EXPECT_LT(std::abs(out.back()), 1e-7);
-  EXPECT_EQ(impact_life(0.0, kRate, 1e-8).length, 0) << "an impact without speed is none";
+  EXPECT_EQ(impact_life({}, 0.0, kRate, 1e-8).length, 0) << "an impact without speed is none";
 }
 
 }  // namespace

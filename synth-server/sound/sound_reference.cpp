@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The rows of a sound as Markdown tables, with their defaults.
+#include <array>
+#include <cstdio>
+
+#include "synth-server/sound/sound_reader.hpp"
+
+namespace splash::synth {
+namespace {
+
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+/// `part`: whose numbers are the defaults.
+template <class Part>
+std::string describe_fields(const std::vector<Field<Part>>& fields, const Part& part) {
+  std::vector<protocol::Row> rows;
+  std::vector<std::string> defaults;
+  for (const Field<Part>& field : fields) {
+    rows.push_back(field.row);
+    const auto* number = std::get_if<double Part::*>(&field.member);
+    defaults.push_back(number == nullptr ? "" : text_of(part.**number));
+  }
+  return protocol::describe(rows, defaults);
+}
+
+}  // namespace
+
+std::string describe_sound_keys() {
+  const NamedSound paper;
+  return "### A sound\n\n" + describe_fields(sound_fields(), paper) + "\n### `impact`\n\n" +
+         describe_fields(impact_fields(), paper.sound.impact) + "\n### `bubble`\n\n" +
+         describe_fields(bubble_fields(), paper.sound.bubble) + "\n### `cavity`\n\n" +
+         describe_fields(cavity_fields(), paper.sound.cavity);
+}
+
+}  // namespace splash::synth

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/sound/sound_rows.hpp"
+
+namespace splash::synth {
+namespace {
+
+/// Gains reach far enough down to be silence, and no further up than the guard's input.
+constexpr double kLeastGain = -60.0;
+constexpr double kMostGain = 24.0;
+constexpr const char* kSection5 = "paper, section 5.2.1";
+constexpr const char* kSection6 = "paper, section 6";
+
+/// Bubbles and cavities have the same rows; `what` they speak of, in the plural.
+std::vector<Field<ToneSound>> tone_fields(const std::string& what) {
+  return {{{.key = "gain_db",
+            .unit = "dB",
+            .meaning = "gain of all " + what,
+            .min = kLeastGain,
+            .max = kMostGain},
+           &ToneSound::gain_db},
+          {{.key = "minnaert",
+            .unit = "m/s",
+            .meaning = "f0 r: the pitch f0 at birth of one of radius r is this over r",
+            .min = 1.0,
+            .max = 10.0,
+            .source = std::string(kSection5) + ", after Minnaert 1933"},
+           &ToneSound::minnaert},
+          {{.key = "pitch",
+            .unit = "1",
+            .meaning = "times f0, whatever gave it: transposes",
+            .min = 0.05,
+            .max = 20.0},
+           &ToneSound::pitch},
+          {{.key = "radiation",
+            .unit = "m/s",
+            .meaning = "first term of the damping: d = radiation / r + thermal / r^1.5",
+            .min = 0.01,
+            .max = 2.0,
+            .source = kSection5},
+           &ToneSound::radiation},
+          {{.key = "thermal",
+            .unit = "m^1.5/s",
+            .meaning = "second term of the damping",
+            .min = 0.0005,
+            .max = 0.1,
+            .source = kSection5},
+           &ToneSound::thermal},
+          {{.key = "damping",
+            .unit = "1",
+            .meaning = "times d, whatever gave it: 2 rings half as long",
+            .min = 0.1,
+            .max = 20.0},
+           &ToneSound::damping},
+          {{.key = "rise",
+            .unit = "1",
+            .meaning = "the phase is 2 pi f0 t (1 + rise d t): half of it where f0 (1 + rise d t) "
+                       "is to be the pitch that is heard",
+            .min = 0.0,
+            .max = 1.0,
+            .source = std::string(kSection5) + ": xi"},
+           &ToneSound::rise},
+          {{.key = "excitation",
+            .unit = "1",
+            .meaning = "the amplitude is epsilon^excitation r: under 1 weak ones come nearer to "
+                       "strong ones",
+            .min = 0.1,
+            .max = 3.0,
+            .source = "paper, section 5.2"},
+           &ToneSound::excitation},
+          {{.key = "physical",
+            .unit = "1",
+            .meaning = "0: f0 and d are the paper's; 1: those of linear theory (Minnaert, heat, "
+                       "surface tension, depth); between: mixed",
+            .min = 0.0,
+            .max = 1.0},
+           &ToneSound::physical}};
+}
+
+}  // namespace
+
+std::vector<Field<NamedSound>> sound_fields() {
+  return {{{.key = "name", .unit = "", .meaning = "what the sound is called", .required = true},
+           &NamedSound::name},
+          {{.key = "description", .unit = "", .meaning = "one line for lists"},
+           &NamedSound::description}};
+}
+
+std::vector<Field<ImpactSound>> impact_fields() {
+  return {
+      {{.key = "gain_db",
+        .unit = "dB",
+        .meaning = "gain of all impacts",
+        .min = kLeastGain,
+        .max = kMostGain},
+       &ImpactSound::gain_db},
+      {{.key = "amplitude",
+        .unit = "m",
+        .meaning = "amplitude at 1 m/s: the signal's standard deviation at the top of its envelope",
+        .min = 1e-6,
+        .max = 0.1,
+        .source = "ours: -26 dB of the rigs' full scale"},
+       &ImpactSound::amplitude},
+      {{.key = "exponent",
+        .unit = "1",
+        .meaning = "the amplitude grows as the speed to this power",
+        .min = 0.0,
+        .max = 6.0,
+        .source = "paper, section 5.1.2"},
+       &ImpactSound::exponent},
+      {{.key = "sliding",
+        .unit = "1",
+        .meaning = "part of the speed along the surface that counts as speed into it: at 0 a hand "
+                   "that slides is silent",
+        .min = 0.0,
+        .max = 1.0},
+       &ImpactSound::sliding},
+      {{.key = "attack",
+        .unit = "s",
+        .meaning = "the envelope rises to within 60 dB of its top",
+        .min = 0.0001,
+        .max = 0.1,
+        .source = kSection6},
+       &ImpactSound::attack},
+      {{.key = "release",
+        .unit = "s",
+        .meaning = "and falls by 60 dB",
+        .min = 0.01,
+        .max = 5.0,
+        .source = kSection6},
+       &ImpactSound::release},
+      {{.key = "frequency",
+        .unit = "Hz",
+        .meaning = "middle of the resonance that colours the noise",
+        .min = 20.0,
+        .max = 2000.0,
+        .source = kSection6},
+       &ImpactSound::frequency},
+      {{.key = "q",
+        .unit = "1",
+        .meaning = "its frequency over its width at -3 dB; the larger, the longer it rings",
+        .min = 0.3,
+        .max = 50.0,
+        .source = "ours: the paper gives none"},
+       &ImpactSound::q}};
+}
+
+std::vector<Field<ToneSound>> bubble_fields() {
+  return tone_fields("bubbles");
+}
+
+std::vector<Field<ToneSound>> cavity_fields() {
+  return tone_fields("cavities");
+}
+
+}  // namespace splash::synth

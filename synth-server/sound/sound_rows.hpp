@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Every number of a sound, a row each: the reader, the error texts and the manual come from them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/config.hpp"
+#include "synth-server/voices/sound.hpp"
+
+namespace splash::synth {
+
+using protocol::Field;
+
+/// What a sound is called, beside its numbers.
+struct NamedSound {
+  std::string name = "cirio2013";
+  std::string description;
+  Sound sound;  ///< the paper's
+};
+
+[[nodiscard]] std::vector<Field<NamedSound>> sound_fields();
+[[nodiscard]] std::vector<Field<ImpactSound>> impact_fields();
+[[nodiscard]] std::vector<Field<ToneSound>> bubble_fields();
+[[nodiscard]] std::vector<Field<ToneSound>> cavity_fields();
+
+}  // namespace splash::synth

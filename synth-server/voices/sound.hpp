@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// How water sounds: the numbers of the voices' formulas. As they stand here they are the paper's
+// (G. Cirio et al. 2013); read from a file by synth-server/sound. Every member is a double, so that
+// each can be set, smoothed and mixed like any other.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+
+namespace splash::synth {
+
+/// A body meets the water (impact_voice.hpp).
+struct ImpactSound {
+  double gain_db = 0.0;       ///< [dB]
+  double amplitude = 5.0e-4;  ///< A at 1 m/s [m]
+  double exponent = 3.0;      ///< A ~ speed^exponent [1]; paper section 5.1.2
+  double sliding = 0.0;   ///< part of the speed along the surface that counts as speed into it [1]
+  double attack = 0.001;  ///< ta [s]; paper section 6
+  double release = 0.37;  ///< tr [s]; paper section 6
+  double frequency = 420.0;  ///< w0 [Hz]; paper section 6
+  /// Sharpness of the resonance [1]: 84 Hz wide, so that it rings for 26 ms (60 dB), well within
+  /// the release, and the burst keeps the character of noise. The paper gives no value.
+  double q = 5.0;
+};
+
+/// A bubble, or a cavity, which is the same formula with a large radius (bubble_model.hpp).
+struct ToneSound {
+  double gain_db = 0.0;     ///< [dB]
+  double minnaert = 3.0;    ///< f0 r [m/s]; paper section 5.2.1 (theory gives 3.26 to 3.29)
+  double pitch = 1.0;       ///< times f0 [1]
+  double radiation = 0.13;  ///< d = radiation / r + ... [m/s]; paper section 5.2.1
+  double thermal = 0.0072;  ///< ... + thermal / r^1.5 [m^1.5/s]; paper section 5.2.1
+  double damping = 1.0;     ///< times d [1]
+  double rise = 0.1;        ///< the phase is 2 pi f0 t (1 + rise d t) [1]; paper section 5.2.1: xi
+  double excitation = 1.0;  ///< A0 = epsilon^excitation r [1]; paper section 5.2: 1
+  double physical = 0.0;    ///< 0: f0 and d are the paper's, 1: linear theory's, between: mixed [1]
+};
+
+struct Sound {
+  ImpactSound impact;
+  ToneSound bubble;
+  ToneSound cavity;
+};
+
+/// The numbers of a sound in the order of its members.
+inline constexpr std::size_t kSoundNumbers = sizeof(Sound) / sizeof(double);
+using SoundNumbers = std::array<double, kSoundNumbers>;
+[[nodiscard]] inline SoundNumbers numbers_of(const Sound& sound) noexcept {
+  return std::bit_cast<SoundNumbers>(sound);
+}
+[[nodiscard]] inline Sound sound_of(const SoundNumbers& numbers) noexcept {
+  return std::bit_cast<Sound>(numbers);
+}
+
+/// Rise of the pitch where the phase is the integral of f(t) = f0 (1 + xi d t), as in most patches:
+/// half of what the paper's sin(2 pi t f(t)) says, whose instantaneous frequency is
+/// f0 (1 + 2 xi d t), because the phase's derivative acts on both t.
+inline constexpr double kIntegratedRise = 0.05;
+
+}  // namespace splash::synth

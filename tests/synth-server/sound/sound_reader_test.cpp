@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Sounds as files: the shipped ones, what is left out, and what is wrong with its place.
+#include "synth-server/sound/sound_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace splash::synth {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path kFolder = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/sounds";
+
+TEST(Sound, Cirio2013IsWhatTheVoicesPlayUntold) {
+  const NamedSound sound = read_sound(kFolder / "cirio2013.yaml");
+  EXPECT_EQ(sound.name, "cirio2013");
+  EXPECT_EQ(numbers_of(sound.sound), numbers_of(Sound{}));
+}
+
+TEST(Sound, EveryShippedOneIsReadAndCalledLikeItsFile) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    if (entry.path().extension() != ".yaml") continue;
+    const NamedSound sound = read_sound(entry.path());
+    EXPECT_EQ(sound.name, entry.path().stem().string());
+    EXPECT_FALSE(sound.description.empty()) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 1);
+}
+
+TEST(Sound, IsThePapersWhereItsFileSaysNothing) {
+  const NamedSound sound = parse_sound("name: mine\nimpact: {q: 2}\ncavity: {gain_db: -6}\n", "x");
+  Sound wanted;
+  wanted.impact.q = 2.0;
+  wanted.cavity.gain_db = -6.0;
+  EXPECT_EQ(sound.name, "mine");
+  EXPECT_EQ(numbers_of(sound.sound), numbers_of(wanted));
+}
+
+/// Every number of a sound has its row: a file that sets each to another value leaves none as it
+/// is.
+template <class Part>
+std::string all_rows(const std::string& part, const std::vector<Field<Part>>& fields, Part before) {
+  std::string text = part + ":\n";
+  for (const Field<Part>& field : fields) {
+    const double number = before.*std::get<double Part::*>(field.member);
+    const double other = number == field.row.max ? field.row.min : 0.5 * (number + field.row.max);
+    text += "  " + field.row.key + ": " + std::to_string(other) + "\n";
+  }
+  return text;
+}
+
+TEST(Sound, HasARowForEachOfItsNumbers) {
+  const NamedSound sound = parse_sound("name: all\n" + all_rows("impact", impact_fields(), {}) +
+                                           all_rows("bubble", bubble_fields(), {}) +
+                                           all_rows("cavity", cavity_fields(), {}),
+                                       "all.yaml");
+  const SoundNumbers paper = numbers_of(Sound{});
+  const SoundNumbers set = numbers_of(sound.sound);
+  for (std::size_t i = 0; i < kSoundNumbers; ++i) EXPECT_NE(set[i], paper[i]) << "number " << i;
+}
+
+template <class Part>
+void expect_rows_complete(const std::vector<Field<Part>>& fields) {
+  const Part paper;
+  std::set<std::string> keys;
+  for (const auto& field : fields) {
+    SCOPED_TRACE(field.row.key);
+    const double number = paper.*std::get<double Part::*>(field.member);
+    EXPECT_TRUE(keys.insert(field.row.key).second);
+    EXPECT_FALSE(field.row.unit.empty());
+    EXPECT_FALSE(field.row.meaning.empty());
+    EXPECT_GE(number, field.row.min);
+    EXPECT_LE(number, field.row.max);
+    EXPECT_TRUE(std::isfinite(field.row.max - field.row.min));
+  }
+}
+
+TEST(Sound, EveryRowHasAUnitAMeaningAndARangeAroundThePapersValue) {
+  expect_rows_complete(impact_fields());
+  expect_rows_complete(bubble_fields());
+  expect_rows_complete(cavity_fields());
+}
+
+struct Broken {
+  std::string text;
+  std::string place;
+  std::string words;
+};
+
+class BrokenSound : public testing::TestWithParam<Broken> {};
+INSTANTIATE_TEST_SUITE_P(
+    All, BrokenSound,
+    testing::Values(Broken{"impact: {q: 5}\n", "sound.yaml:1:", "name"},
+                    Broken{"name: x\nimpact:\n  attak: 0.1\n", "sound.yaml:3:3:", "attack"},
+                    Broken{"name: x\nimpact: {q: 51}\n", "sound.yaml:2:13:", "50"},
+                    Broken{"name: x\nbubble: {pitch: high}\n", "sound.yaml:2:17:", "high"},
+                    Broken{"name: x\nbubble: {pitch: .nan}\n", "sound.yaml:2:17:", "pitch"},
+                    Broken{"name: x\nbuble: {pitch: 1}\n", "sound.yaml:2:1:", "bubble"},
+                    Broken{"name: x\ncavity: 3\n", "sound.yaml:2:9:", "mapping"},
+                    Broken{"name: x\noutputs: []\n", "sound.yaml:2:10:", "this is a rig"},
+                    Broken{"name: x\ntank: {}\n", "sound.yaml:2:7:", "this is a scene"}));
+
+TEST_P(BrokenSound, IsAnsweredWithItsPlaceAndTheReason) {
+  try {
+    static_cast<void>(parse_sound(GetParam().text, "sound.yaml"));
+    FAIL() << "accepted:\n" << GetParam().text;
+  } catch (const protocol::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(GetParam().place));
+    EXPECT_THAT(error.what(), HasSubstr(GetParam().words));
+  }
+}
+
+TEST(SoundKeys, AreWhatTheReadmeOfTheSoundsSays) {
+  std::ifstream file(kFolder / "README.md");
+  const std::string readme((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_THAT(readme, HasSubstr(describe_sound_keys()))
+      << "put the output of sound-reference behind the README's text";
+}
+
+}  // namespace
+}  // namespace splash::synth
