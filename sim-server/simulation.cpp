@@ -61,8 +61,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
       fluid_(make_fluid(device, scene_, bodies_, holding_)),
       detector_(fluid_, skins_of(scene_, fluid_.params()), scene_.detect, scene_.seed,
                 !scene_.skip.cavities),
-      pockets_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
-               !scene_.skip.cavities),
+      cavity_watch_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
+                    !scene_.skip.cavities),
       needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
   come_to_rest(fluid_, scene_, bodies_, holding_, tell);
   fluid_.forget_work();
@@ -215,8 +215,8 @@ Detections Simulation::collect(double detect_time, double since) {
   Detections found =
       detector_.collect(detect_time, since, static_cast<std::uint32_t>(totals_.steps));
   if (!scene_.detect.cavity_by_count) {
-    found.cavities =
-        pockets_.observe(seconds_, found.impacts, bodies_, [&] { return read_places(fluid_); });
+    found.cavities = cavity_watch_.observe(seconds_, found.impacts, bodies_,
+                                           [&] { return read_places(fluid_); });
   }
   return found;
 }
@@ -227,8 +227,8 @@ void Simulation::count(const FrameNeeds& needs) {
   skipped.idle += !needs.steps;
   skipped.contacts += !needs.steps || !needs.contacts;
   skipped.bubbles += !needs.steps || !needs.bubbles;
-  skipped.cavities =
-      static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches() - pockets_.looks();
+  skipped.cavities = static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches() -
+                     cavity_watch_.looks();
   skipped.asleep_sum += static_cast<double>(survey_.asleep) / fluid_.params().count;
 }
 
@@ -274,7 +274,7 @@ FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   if (mishap.remedy == Remedy::reset) {
     fluid_.restore(start_);
     bodies_.reset(seconds_ + frame);
-    pockets_.forget();
+    cavity_watch_.forget();
     ++totals_.resets;
   } else {
     calm(mishap, fluid_, bodies_, recovery_.given_up(), seconds_);

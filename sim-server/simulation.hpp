@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "sim-server/bodies/body_steps.hpp"
+#include "sim-server/detect/cavity_watch.hpp"
 #include "sim-server/detect/detector.hpp"
-#include "sim-server/detect/pockets.hpp"
 #include "sim-server/fluid/checkpoint.hpp"
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/settle.hpp"
@@ -75,7 +75,7 @@ class Simulation {
     seconds_ = detected_at_ = seconds;
     sound_.keep(fluid_.device(), state());
     needs_.forget();
-    pockets_.forget();
+    cavity_watch_.forget();
   }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
@@ -132,7 +132,7 @@ class Simulation {
   std::vector<Holding> holding_;
   Fluid fluid_;
   Detector detector_;
-  Pockets pockets_;
+  CavityWatch cavity_watch_;
   Needs needs_;
   Survey survey_;  ///< the last one
   double seconds_ = 0.0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -62,19 +63,30 @@ BodyAir::BodyAir(const Scene& scene, const std::vector<SkinPoint>& skin, double 
   for (const SkinPoint& point : skin) skin_[static_cast<std::size_t>(point.owner)].push_back(point);
 }
 
+/// A body at rest shows what it would if it sank.
 BodyExtent BodyAir::extent_of(std::size_t body, const BodyState& state) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  BodyExtent extent{state, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}, 0.0};
-  double shown = 0.0;  // from above and from below
+  BodyExtent extent;
+  extent.state = state;
+  extent.lower = {kFar, kFar, kFar};
+  extent.upper = {-kFar, -kFar, -kFar};
+  const double speed = length(state.velocity);
+  if (speed > 0.0) extent.along = (1.0 / speed) * state.velocity;
+  double shown = 0.0;
   for (const SkinPoint& point : skin_[body]) {
     const Vector3 place = state.position + rotate(state.rotation, point.place);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       extent.lower[axis] = std::min(extent.lower[axis], place[axis]);
       extent.upper[axis] = std::max(extent.upper[axis], place[axis]);
     }
-    shown += point.area * std::abs(rotate(state.rotation, point.normal)[2]);
+    const double part =
+        point.area * std::max(dot(rotate(state.rotation, point.normal), extent.along), 0.0);
+    shown += part;
+    extent.front = extent.front + part * place;
   }
-  extent.radius = std::sqrt(0.5 * shown / std::numbers::pi);
+  extent.front = (1.0 / shown) * extent.front;
+  extent.radius = std::sqrt(shown / std::numbers::pi);
+  extent.thickness = volume_of(scene_.bodies[body].shape) / shown;
   return extent;
 }
 
@@ -86,6 +98,23 @@ void BodyAir::move_to(double time, const Bodies& bodies) {
     extents_.push_back(extent_of(b, bodies.state(b, time)));
   }
   water_.clear();
+}
+
+std::function<double(double)> BodyAir::free_behind(std::size_t body) const {
+  const BodyExtent& extent = extents_[body];
+  const Quaternion& turn = extent.state.rotation;
+  std::map<double, double> area;  // of what faces back, by its distance from the front
+  for (const SkinPoint& point : skin_[body]) {
+    const double part = point.area * -dot(rotate(turn, point.normal), extent.along);
+    const Vector3 place = extent.state.position + rotate(turn, point.place);
+    if (part > 0.0) area[dot(extent.front - place, extent.along)] += part;
+  }
+  double all = 0.0;
+  for (auto& [distance, sum] : area) sum = all += sum;
+  return [area, all](double distance) {
+    const auto next = area.upper_bound(distance);
+    return next == area.begin() ? 0.0 : std::prev(next)->second / all;
+  };
 }
 
 double BodyAir::floor_below(std::size_t body) const {
@@ -129,34 +158,32 @@ bool BodyAir::is_solid(const Vector3& place) const {
   return false;
 }
 
-std::unique_ptr<AirCells> BodyAir::fill(std::size_t body, double level) const {
+/// The air within 2 R of the body, below `level`.
+AirCells BodyAir::fill(std::size_t body, double level) const {
   Box box = around(extents_[body], tank_, spacing_);
   box.upper[2] = level;
   box.lower[2] = std::min(box.lower[2], level - spacing_);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = spacing_ * std::floor(box.lower[axis] / spacing_);
-    box.upper[axis] = spacing_ * std::floor(box.upper[axis] / spacing_);
-  }
+  AirCells air(box.lower, box.upper, spacing_, support_);
   std::vector<Vector3> water;
   std::copy_if(water_.begin(), water_.end(), std::back_inserter(water),
                [&](const Vector3& place) { return box.holds(place, support_); });
-  auto air = std::make_unique<AirCells>(box.lower, box.upper, spacing_, support_);
-  water = with_images(std::move(water), tank_, support_);
-  for (const Vector3& place : water) air->add(place, volume_);
+  for (const Vector3& place : with_images(std::move(water), tank_, support_)) {
+    air.add(place, volume_);
+  }
   for (const BodyPoint& point : bodies_->points()) {
     const BodyState& state = extents_[static_cast<std::size_t>(point.owner)].state;
     const Vector3 place = state.position + rotate(state.rotation, point.place);
-    if (box.holds(place, support_)) air->add(place, point.volume);
+    if (box.holds(place, support_)) air.add(place, point.volume);
   }
-  air->fill([&](const Vector3& place) { return is_solid(place); });
-  air->measure();
+  air.fill([&](const Vector3& place) { return is_solid(place); });
   return air;
 }
 
-double BodyAir::distance(std::size_t body, const AirCells::Pocket& pocket) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Vector3& cell : pocket.cells) nearest = std::min(nearest, -depth_in(body, cell));
-  return nearest;
+bool BodyAir::is_open_to(std::size_t body, double level, double below) const {
+  const double near = extents_[body].radius;
+  return fill(body, level).any_open([&](const Vector3& place) {
+    return place[2] <= level - below && -depth_in(body, place) <= near;
+  });
 }
 
 }  // namespace splash::sim

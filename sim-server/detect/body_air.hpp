@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The air around a body, from the water's level down: filled from the sky, cell by cell
-// (fluid/air_cells.hpp). Bodies and walls are solid; their matter counts in the colour field as the
-// water does that they displace.
+// What a body shows of itself as it moves, the water's level around it, and the air at it: filled
+// from the sky down, cell by cell (fluid/air_cells.hpp). Bodies and walls are solid; their matter
+// counts in the colour field as the water does that they displace.
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "sim-server/bodies/body_steps.hpp"
@@ -19,7 +18,10 @@ struct BodyExtent {
   BodyState state;
   Vector3 lower = {0.0, 0.0, 0.0};  ///< corners of the box around it [m]
   Vector3 upper = {0.0, 0.0, 0.0};
-  double radius = 0.0;  ///< of the disc with the area that it shows from below [m]
+  Vector3 along = {0.0, 0.0, -1.0};  ///< unit vector of its motion
+  Vector3 front = {0.0, 0.0, 0.0};   ///< middle of the skin that faces its motion [m]
+  double radius = 0.0;     ///< of the disc with the area that it shows along its motion [m]
+  double thickness = 0.0;  ///< its volume by that area [m]
 };
 
 class BodyAir {
@@ -35,18 +37,20 @@ class BodyAir {
   void read(const ReadWater& read_water) { water_ = read_water(); }
 
   [[nodiscard]] const BodyExtent& extent(std::size_t body) const { return extents_[body]; }
+  /// Of its area across the motion, the share where all of the body is nearer to its front than a
+  /// distance [m], [1].
+  [[nodiscard]] std::function<double(double)> free_behind(std::size_t body) const;
   /// Height of the floor below the body [m].
   [[nodiscard]] double floor_below(std::size_t body) const;
   /// Height to which the water around the body would stand if it were level [m]. Other bodies are
   /// taken for air.
   [[nodiscard]] double level_around(std::size_t body) const;
-  /// The air within 2 R of the body, below `level` [m]. Cells lie on one lattice, whatever the body
-  /// and the time.
-  [[nodiscard]] std::unique_ptr<AirCells> fill(std::size_t body, double level) const;
-  /// How far the nearest of a pocket's cells is from the body [m].
-  [[nodiscard]] double distance(std::size_t body, const AirCells::Pocket& pocket) const;
+  /// Whether air that is joined to the sky comes as near to the body as its radius, so far below
+  /// `level` [m].
+  [[nodiscard]] bool is_open_to(std::size_t body, double level, double below) const;
 
  private:
+  [[nodiscard]] AirCells fill(std::size_t body, double level) const;
   [[nodiscard]] BodyExtent extent_of(std::size_t body, const BodyState& state) const;
   [[nodiscard]] bool is_solid(const Vector3& place) const;
   [[nodiscard]] double depth_in(std::size_t body, const Vector3& place) const;

@@ -4,18 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
-namespace {
-
-/// Where the colour field is less, air is near; water at rest scatters around one [1].
-constexpr double kFull = 0.9;
-
-}  // namespace
-
 AirCells::AirCells(const Vector3& lower, const Vector3& upper, double spacing, double support)
     : kernel_(support), support_(support), lower_(lower), volume_(1.0) {
   std::size_t cells = 1;
@@ -27,7 +19,7 @@ AirCells::AirCells(const Vector3& lower, const Vector3& upper, double spacing, d
     cells *= static_cast<std::size_t>(count_[axis]);
   }
   colour_.resize(cells);
-  cells_.resize(cells, kMatter);
+  cells_.resize(cells, Cell::matter);
 }
 
 Vector3 AirCells::middle(const Index& cell) const {
@@ -43,24 +35,6 @@ std::array<int, 2> AirCells::range(std::size_t axis, double x) const {
   const double last = count_[axis];
   return {static_cast<int>(std::clamp(std::ceil(at - by), 0.0, last)),
           static_cast<int>(std::clamp(std::floor(at + by) + 1.0, 0.0, last))};
-}
-
-/// May lie outside.
-AirCells::Index AirCells::index(const Vector3& place) const {
-  Index cell = {};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double k = std::floor((place[axis] - lower_[axis]) / edge_[axis]);
-    cell[axis] = static_cast<int>(std::clamp(k, -1.0, static_cast<double>(count_[axis])));
-  }
-  return cell;
-}
-
-int AirCells::at(const Vector3& place) const {
-  const Index cell = index(place);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (cell[axis] < 0 || cell[axis] >= count_[axis]) return kMatter;
-  }
-  return cells_[number(cell)];
 }
 
 void AirCells::add(const Vector3& place, double volume) {
@@ -92,15 +66,23 @@ void AirCells::for_each_cell(const Visit& visit) const {
 void AirCells::fill(const std::function<bool(const Vector3&)>& solid) {
   for_each_cell([&](const Index& cell) {
     const std::size_t n = number(cell);
-    if (colour_[n] < 0.5 && !solid(middle(cell))) cells_[n] = kAir;
+    if (colour_[n] < 0.5 && !solid(middle(cell))) cells_[n] = Cell::air;
   });
   for_each_cell([&](const Index& cell) {
-    if (cell[2] == count_[2] - 1) open_ += join(cell, kOpen).size();
+    if (cell[2] == count_[2] - 1) open_ += join(cell, Cell::open);
   });
   for_each_cell([&](const Index& cell) {
-    const std::vector<Index> joined = join(cell, static_cast<int>(pockets_.size()));
-    if (!joined.empty()) add_pocket(joined);
+    const std::size_t joined = join(cell, Cell::enclosed);
+    if (joined > 0) pockets_.push_back(static_cast<double>(joined) * volume_);
   });
+}
+
+bool AirCells::any_open(const std::function<bool(const Vector3&)>& is_such) const {
+  bool any = false;
+  for_each_cell([&](const Index& cell) {
+    any = any || (cells_[number(cell)] == Cell::open && is_such(middle(cell)));
+  });
+  return any;
 }
 
 /// Of those that share a face with it.
@@ -115,11 +97,11 @@ void AirCells::for_each_beside(const Index& cell, const Visit& visit) const {
   }
 }
 
-std::vector<AirCells::Index> AirCells::join(const Index& first, int what) {
+std::size_t AirCells::join(const Index& first, Cell what) {
   std::vector<Index> joined;
   const auto visit = [&](const Index& cell) {
-    int& here = cells_[number(cell)];
-    if (here != kAir) return;
+    Cell& here = cells_[number(cell)];
+    if (here != Cell::air) return;
     here = what;
     joined.push_back(cell);
   };
@@ -128,45 +110,7 @@ std::vector<AirCells::Index> AirCells::join(const Index& first, int what) {
     const Index cell = joined[next];
     for_each_beside(cell, visit);
   }
-  return joined;
-}
-
-void AirCells::measure() {
-  std::vector<int> nearest = cells_;
-  std::vector<Index> edge;
-  for_each_cell([&](const Index& cell) {
-    if (cells_[number(cell)] >= kOpen) edge.push_back(cell);
-  });
-  const auto layers = static_cast<int>(std::ceil(support_ / edge_[0]));
-  for (int layer = 0; layer < layers; ++layer) {
-    for (const Index& cell : std::exchange(edge, {})) {
-      for_each_beside(cell, [&](const Index& beside) {
-        const std::size_t n = number(beside);
-        if (nearest[n] != kMatter || colour_[n] >= kFull) return;
-        nearest[n] = nearest[number(cell)];
-        edge.push_back(beside);
-      });
-    }
-  }
-  for (std::size_t n = 0; n < nearest.size(); ++n) {
-    if (nearest[n] < 0) continue;
-    pockets_[static_cast<std::size_t>(nearest[n])].air += volume_ * std::max(1.0 - colour_[n], 0.0);
-  }
-}
-
-void AirCells::add_pocket(const std::vector<Index>& joined) {
-  Pocket pocket;
-  const double share = 1.0 / static_cast<double>(joined.size());
-  for (const Index& cell : joined) {
-    pocket.cells.push_back(middle(cell));
-    pocket.centre = pocket.centre + share * pocket.cells.back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool last = axis < 2 && cell[axis] == count_[axis] - 1;
-      pocket.at_side = pocket.at_side || cell[axis] == 0 || last;
-    }
-  }
-  pocket.volume = static_cast<double>(joined.size()) * volume_;
-  pockets_.push_back(pocket);
+  return joined.size();
 }
 
 }  // namespace splash::sim

@@ -14,9 +14,9 @@ Cavity find_cavity(std::span<const Vector3> points, const WaterState& water, con
   cells.fill(solid);
   Cavity cavity;
   cavity.open = cells.open();
-  for (const AirCells::Pocket& pocket : cells.pockets()) {
-    cavity.enclosed += pocket.volume;
-    cavity.pocket = std::max(cavity.pocket, pocket.volume);
+  for (const double pocket : cells.pockets()) {
+    cavity.enclosed += pocket;
+    cavity.pocket = std::max(cavity.pocket, pocket);
   }
   return cavity;
 }

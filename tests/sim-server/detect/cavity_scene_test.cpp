@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "tests/sim-server/detect/scene_run.hpp"
 
@@ -15,26 +18,41 @@ constexpr double kLevel = 0.45;
 /// 2.285 sqrt(R / g) of 18 cm by 9 cm.
 constexpr double kCloses = 0.1955;
 
-/// A hand of 4 cm on straight ways; keyframes: time, height of its underside above the level.
-std::string scene_of(std::vector<std::pair<double, double>> keys, const std::string& more = "") {
-  std::string text =
-      "fluid: {spacing: 0.03}\n"
-      "tank: {lower: [-0.24, -0.21, 0], upper: [0.24, 0.21, 1]}\n"
-      "water: [{lower: [-0.24, -0.21, 0], upper: [0.24, 0.21, 0.45]}]\n"
-      "bodies:\n"
-      "  - name: hand\n"
-      "    shape: {kind: box, size: [0.18, 0.09, 0.04]}\n"
-      "    motion: {kind: script, smooth: false, keyframes: [";
+/// Keyframes: time, height of its lowest edge above the level.
+using Keys = std::vector<std::pair<double, double>>;
+
+/// A hand of 4 cm on straight ways, turned so that its fingers are down.
+std::string scene_of(const Keys& keys, const std::string& more = "", double degrees = 0.0,
+                     double spacing = 0.03) {
+  const double half = degrees * std::numbers::pi / 360.0;
+  const double low = 0.09 * std::sin(2.0 * half) + 0.02 * std::cos(2.0 * half);
+  std::string text = "fluid: {spacing: " + std::to_string(spacing) +
+                     "}\n"
+                     "tank: {lower: [-0.24, -0.21, 0], upper: [0.24, 0.21, 1]}\n"
+                     "water: [{lower: [-0.24, -0.21, 0], upper: [0.24, 0.21, 0.45]}]\n"
+                     "bodies:\n"
+                     "  - name: hand\n"
+                     "    shape: {kind: box, size: [0.18, 0.09, 0.04]}\n"
+                     "    motion: {kind: script, smooth: false, keyframes: [";
   for (const auto& [time, height] : keys) {
     text += "{time: " + std::to_string(time) + ", position: [0, 0, " +
-            std::to_string(kLevel + height + 0.02) + "]}, ";
+            std::to_string(kLevel + height + low) + "], rotation: [0, " +
+            std::to_string(std::sin(half)) + ", 0, " + std::to_string(std::cos(half)) + "]}, ";
   }
   return text + "]}\n" + more;
 }
 
 /// Down from 10 cm above the level at a speed, to a depth, and rest there [m/s], [m].
+Keys keys_of(double speed, double depth) {
+  return {{0.0, 0.1}, {(0.1 + depth) / speed, -depth}, {9.0, -depth}};
+}
+
 std::string stroke(double speed, double depth, const std::string& more = "") {
-  return scene_of({{0.0, 0.1}, {(0.1 + depth) / speed, -depth}, {9.0, -depth}}, more);
+  return scene_of(keys_of(speed, depth), more);
+}
+
+double volume(const DetectedCavity& cavity) {
+  return 4.0 / 3.0 * std::numbers::pi * std::pow(cavity.radius, 3);
 }
 
 class DeepStroke : public testing::TestWithParam<double> {};
@@ -62,6 +80,50 @@ TEST_P(DeepStroke, ShutsInOneCavity) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, DeepStroke, testing::Values(1.0, 1.5, 2.0));
+
+// The air is that of the hand's way, not of the hollow's cells.
+TEST(CavityScene, HasTheSameAirAtAnySpacing) {
+  const SceneRun coarse = run_scene(stroke(1.0, 0.3), 0.5);
+  const SceneRun fine = run_scene(scene_of(keys_of(1.0, 0.3), "", 0.0, 0.02), 0.5);
+  ASSERT_EQ(coarse.found.cavities.size(), 1U);
+  ASSERT_EQ(fine.found.cavities.size(), 1U);
+  const double ratio = volume(fine.found.cavities[0]) / volume(coarse.found.cavities[0]);
+  std::printf("%.0f ml, 20 mm by 30 mm: %.2f\n", 1e6 * volume(coarse.found.cavities[0]), ratio);
+  EXPECT_NEAR(ratio, 1.0, 0.3);
+  // 2 R^3 (1 + 0.26 Fr^1/2) Fr^1/2 less the hand, the 2 being 1.5 to 3.
+  EXPECT_GT(volume(coarse.found.cavities[0]), 0.22e-3);
+  EXPECT_LT(volume(coarse.found.cavities[0]), 1.1e-3);
+}
+
+// Its fingers meet the water long before the middle of what it shows from below is under it.
+TEST(CavityScene, OfASlantedHandIsToldInTime) {
+  for (const double degrees : {30.0, 50.0}) {
+    const double turn = degrees * std::numbers::pi / 180.0;
+    const double under = 0.18 * std::cos(turn);  // and its end, of the width that it shows
+    const double end = 0.04 * std::sin(turn);
+    const double low = 0.09 * std::sin(turn) + 0.02 * std::cos(turn);
+    const double middle =
+        (under * 0.02 * std::cos(turn) + end * 0.09 * std::sin(turn)) / (under + end);
+    const double closes =
+        2.285 * std::sqrt(std::sqrt((under + end) * 0.09 / std::numbers::pi) / 9.81);
+    const double speed = 1.5;
+    const double entry = (0.1 + low - middle) / speed;
+    const SceneRun run = run_scene(scene_of(keys_of(speed, 0.38), "", degrees), entry + 0.3);
+    ASSERT_EQ(run.found.cavities.size(), 1U) << degrees;
+    EXPECT_NEAR(run.found.cavities[0].time - entry, closes, 0.15 * closes) << degrees;
+  }
+}
+
+// The demo: a hand that comes down fingers first at up to 1 m/s and slows down.
+TEST(CavityScene, IsToldOfTheBasinsFirstPlunge) {
+  const std::string motion = std::string(SPLASH_SOURCE_DIR) + "/configs/scenes/basin_plunge.csv";
+  const std::string scene =
+      changed(scene_text("basin.yaml"), "file: basin_plunge.csv", "file: " + motion);
+  const SceneRun run = run_scene(scene, 1.6);
+  EXPECT_EQ(run.found.impacts.size(), 1U);
+  ASSERT_EQ(run.found.cavities.size(), 1U);
+  EXPECT_NEAR(run.found.cavities[0].time, 1.38, 0.03);
+}
 
 TEST(CavityScene, IsNoneOfASlowOrShallowStroke) {
   EXPECT_TRUE(run_scene(stroke(0.3, 0.25), 0.1 / 0.3 + 0.9).found.cavities.empty());
