@@ -9,6 +9,7 @@
 #include "protocol/input_file.hpp"
 #include "protocol/nearest_name.hpp"
 #include "protocol/printable.hpp"
+#include "protocol/this_program.hpp"
 
 namespace splash::protocol {
 namespace {
@@ -25,9 +26,7 @@ fs::path from_environment(const char* name) {
 
 /// The folder whose bin/ holds this program; "" where /proc is not mounted.
 fs::path prefix() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? fs::path() : program.parent_path().parent_path();
+  return this_program().parent_path().parent_path();
 }
 
 bool is_file(const fs::path& path) {

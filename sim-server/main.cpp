@@ -15,6 +15,7 @@
 #include "protocol/config_file.hpp"
 #include "protocol/failure.hpp"
 #include "protocol/service_notice.hpp"
+#include "protocol/this_program.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
 #include "sim-server/device/cache.hpp"
@@ -66,14 +67,12 @@ void take_signals() {
   if (before == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
-void print_devices() {
-  const auto devices =
-      protocol::failing_with(protocol::kExitUnavailable, [] { return list_devices(); });
+/// All, or those that --device means, the first to be taken first.
+void print_devices(const std::string& wish) {
+  const auto devices = protocol::failing_with(protocol::kExitUnavailable, [&] {
+    return wish.empty() ? list_devices() : meant_devices(list_devices(), wish);
+  });
   for (const auto& device : devices) std::printf("%s\n", describe(device).c_str());
-}
-
-Scene load_scene(const std::filesystem::path& wanted) {
-  return read_scene(protocol::find_config("--scene", "scenes", wanted));
 }
 
 /// A recording that no body uses was meant for another scene.
@@ -243,7 +242,7 @@ class Start {
   Start(const Options& options, const Scene& scene, const std::filesystem::path& cache)
       : options_(options),
         scene_(scene),
-        trials_(cache, "/proc/self/exe"),
+        trials_(cache, protocol::this_program()),
         seal_(cache),
         last_words_(cache, protocol::kExitUnavailable) {}
 
@@ -305,13 +304,13 @@ class Start {
 };
 
 void run(const Options& options) {
-  if (options.list_devices) return print_devices();
+  if (options.list_devices) return print_devices(options.device);
   protocol::ServiceNotice service;
   const auto cache_folder = [] {
     return protocol::failing_with(protocol::kExitUnavailable, prepare_kernel_cache);
   };
   if (options.check_device >= 0) return check_device(options.check_device, cache_folder());
-  const Scene scene = load_scene(options.scene);
+  const Scene scene = read_scene(protocol::find_config("--scene", "scenes", options.scene));
   require_use(options.tracker, scene);
   if (options.check) return describe_scene(scene);
   say_what_digs(scene, options.tracker);

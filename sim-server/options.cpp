@@ -60,7 +60,8 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
 }
 
 void add_device(CLI::App& app, Options& options) {
-  app.add_flag("--list-devices", options.list_devices, "List the OpenCL devices and end");
+  app.add_flag("--list-devices", options.list_devices,
+               "List the OpenCL devices, or those that --device means, and end");
   app.add_option("--device", options.device,
                  "OpenCL device by its number in that list or a part of its name; gpu or cpu: the "
                  "best of these (default: a GPU that stands a small test, else the CPU)")

@@ -154,7 +154,8 @@ std::string describe(const DeviceFacts& facts) {
 }
 
 Device::Device(int index, bool profiling, int lanes) : Device(index, profiling, Profile{}) {
-  const bool scalar = lanes == 1 || (lanes == 0 && facts_.kind != DeviceKind::cpu);
+  const bool asked = std::getenv("SPLASH_SCALAR") != nullptr;
+  const bool scalar = lanes == 1 || (lanes == 0 && (asked || facts_.kind != DeviceKind::cpu));
   profile_ = scalar ? gpu_profile() : cpu_profile(facts_.compute_units, lanes != 0 ? lanes : 16);
 }
 

@@ -13,6 +13,7 @@
 
 #include "protocol/time_tag.hpp"
 #include "tests/detection/table.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -20,7 +21,7 @@ using namespace splash;
 using namespace splash::detection;
 namespace fs = std::filesystem;
 
-const fs::path kSource = SPLASH_SOURCE_DIR;
+const fs::path kSource = splash::tests::source_folder();
 
 struct Options {
   std::vector<std::string> sweeps;

@@ -8,6 +8,7 @@
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "tests/bench/fluid_block.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::bench {
 namespace {
@@ -17,7 +18,7 @@ using namespace splash::sim;
 constexpr double kShorter = 0.999;
 
 std::filesystem::path source(const char* file) {
-  return std::filesystem::path(SPLASH_SOURCE_DIR) / file;
+  return tests::source_folder() / file;
 }
 
 GaugeSettings probe(const char* name, GaugeKind kind, const Vector3& place) {

@@ -14,6 +14,7 @@
 #include "tests/stress/faults.hpp"
 #include "tests/stress/stability_map.hpp"
 #include "tests/stress/trial.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -22,7 +23,7 @@ using namespace splash::stress;
 using sim::PressureKind;
 
 struct Options {
-  std::filesystem::path out = std::filesystem::path(SPLASH_SOURCE_DIR) / "out" / "stability";
+  std::filesystem::path out = tests::source_folder() / "out" / "stability";
   std::vector<std::string> parts;
   std::vector<int> groups;
   std::vector<double> spacings = {0.05, 0.035, 0.025};

@@ -9,6 +9,7 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation.hpp"
 #include "tests/bench/fluid_block.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::bench {
 namespace {
@@ -27,7 +28,7 @@ double way_of(int particles) {
 /// A paddle that goes to and fro in the corner, slowly.
 Scene stirred(int particles) {
   Scene scene =
-      read_scene(std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes" / "pool.yaml");
+      read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
   scene.fluid.particles = particles;
   BodySettings paddle;
   paddle.name = "paddle";

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "protocol/time_tag.hpp"
+#include "tests/support/source_folder.hpp"
 #include "tests/validation/report.hpp"
 
 namespace {
@@ -16,7 +17,7 @@ using namespace splash::validation;
 
 struct Options {
   std::vector<std::string> cases;
-  std::filesystem::path out = std::filesystem::path(SPLASH_SOURCE_DIR) / "out" / "validation";
+  std::filesystem::path out = tests::source_folder() / "out" / "validation";
   int resolutions = 100;
   int device = -1;
   Setting setting;

@@ -10,6 +10,7 @@
 #include "tests/detection/script.hpp"
 #include "tests/detection/shipped.hpp"
 #include "tests/detection/sweeps.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::detection {
 namespace {
@@ -74,7 +75,7 @@ Case shipped_case(const std::string& name, double seconds, bool quick) {
 }  // namespace
 
 std::filesystem::path scene_folder() {
-  return std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes";
+  return tests::source_folder() / "configs" / "scenes";
 }
 
 std::string shipped(const std::string& name) {

@@ -13,6 +13,7 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation.hpp"
 #include "tests/stress/piece.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::stress {
 namespace {
@@ -38,7 +39,7 @@ int descriptors() {
 }
 
 std::filesystem::path scenes_folder() {
-  return std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes";
+  return tests::source_folder() / "configs" / "scenes";
 }
 
 std::string variant_of(const Endurance& wanted) {
@@ -176,7 +177,7 @@ sim::Scene built_in_scene(const std::string& name, const Endurance& wanted) {
     // A walk ends elsewhere than it begins.
     body.motion.repeat = kind == sim::MotionKind::script || kind == sim::MotionKind::csv;
     if (kind == sim::MotionKind::trc && body.motion.file.empty()) {
-      body.motion.file = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/scenes/walk.trc";
+      body.motion.file = tests::source_folder() / "configs/scenes/walk.trc";
     }
   }
   return scene;

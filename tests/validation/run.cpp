@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/support/source_folder.hpp"
 #include "tests/validation/run.hpp"
 
 #include <sys/resource.h>
@@ -15,7 +16,7 @@ namespace splash::validation {
 namespace {
 
 std::filesystem::path folder() {
-  return std::filesystem::path(SPLASH_SOURCE_DIR) / "tests" / "validation";
+  return tests::source_folder() / "tests" / "validation";
 }
 
 /// No water is as fast as twice this, and then nobody looks for bubbles [m/s].

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -25,7 +26,7 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 }  // namespace
 
 std::string scene_text(const std::string& name) {
-  std::ifstream file(std::string(SPLASH_SOURCE_DIR) + "/configs/scenes/" + name);
+  std::ifstream file(tests::source_folder() / "configs" / "scenes" / name);
   std::ostringstream text;
   text << file.rdbuf();
   if (!file) throw std::runtime_error("no scene " + name);
