@@ -37,8 +37,8 @@ double kernel_time(Device& device, cl::Kernel& kernel, std::size_t items, int ru
   std::vector<double> times;
   for (int k = 0; k < runs; ++k) {
     cl::Event event;
-    device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(4),
-                                        nullptr, &event);
+    device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items),
+                                        cl::NDRange(device.profile().group), nullptr, &event);
     event.wait();
     times.push_back(1e-9 *
                     static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
@@ -136,7 +136,8 @@ void beside_the_yardstick(sim::Device& device, int most_particles, std::FILE* cs
     const auto stride = static_cast<std::size_t>(p.stride);
     const auto particles = static_cast<std::size_t>(p.params.count);
     const auto lanes = static_cast<std::size_t>(device.lanes());
-    const std::size_t items = ((particles + lanes - 1) / lanes + 3) / 4 * 4;
+    const std::size_t group = device.profile().group;
+    const std::size_t items = ((particles + lanes - 1) / lanes + group - 1) / group * group;
     std::vector<float> density(stride);
     std::vector<float> push(3 * stride);
     std::vector<double> ours_d, ours_f, hand_d, hand_f;

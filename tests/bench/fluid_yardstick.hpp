@@ -21,9 +21,6 @@ struct Particles {
   std::vector<int> cell_start;
 };
 
-/// Particles that one vector holds on this processor, as the file was compiled.
-[[nodiscard]] int yardstick_lanes();
-
 /// Density by summation [kg/m3], without walls and bodies; `threads` of them at work.
 void density_by_hand(const Particles& particles, int threads, std::vector<float>& density);
 
