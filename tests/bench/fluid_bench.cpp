@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The fluid's cost on this machine: the two main kernels beside the same sums written by hand in
-// C++, the whole step from 2,000 to a million particles, its stages; and run time against error, of
-// validation cases with every quality setting. Prints tables and writes CSV, Markdown and PNG.
+// C++, the whole step from 2,000 to a million particles (16 million if asked for), its stages, and
+// what each kernel asks beside what the device can do; and run time against error, of validation
+// cases with every quality setting. Prints tables and writes CSV, Markdown, PNG and SVG.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -13,9 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "protocol/time_tag.hpp"
 #include "tests/bench/fluid_chart.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/fluid_sweep.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -23,15 +26,25 @@ using namespace splash;
 using namespace splash::bench;
 
 struct Options {
-  std::vector<std::string> parts = {"kernels", "size", "stages", "error"};
+  std::vector<std::string> parts = {"kernels", "size", "stages", "limits", "error"};
   std::vector<std::string> cases;
-  std::filesystem::path out = std::filesystem::path(SPLASH_SOURCE_DIR) / "out" / "fluid";
+  std::filesystem::path out = tests::source_folder() / "out" / "fluid";
   std::size_t resolutions = 2;
   int most_particles = 1'000'000;
   bool all = false;
   Clock clock = Clock::wall;
   int device = -1;
-  std::string profile;  ///< of profiles(); empty: as suits the device
+  std::string profile;        ///< of profiles(); empty: as suits the device
+  double seconds = 0.0;       ///< that size and limits may take each; 0: as long as they take
+  std::vector<double> there;  ///< GB/s, G operations/s and us a launch of a device to foretell
+
+  [[nodiscard]] Until until() const {
+    return {seconds > 0.0 ? protocol::monotonic_now() + seconds : 0.0};
+  }
+  [[nodiscard]] Limits other_device() const {
+    if (there.empty()) return {};
+    return {1e9 * there[0], 1e9 * there[1], 1e-6 * there[2]};
+  }
 
   [[nodiscard]] bool wants(const char* part) const {
     return std::find(parts.begin(), parts.end(), part) != parts.end();
@@ -60,7 +73,14 @@ void measure_cost(const Options& options) {
   std::fprintf(csv.get(), "what,particles,density_ms,by_hand_ms,forces_ms,by_hand_ms\n");
   sim::Device device = device_of(options);
   if (options.wants("kernels")) beside_the_yardstick(device, options.most_particles, csv.get());
-  if (options.wants("size")) against_size(device, options.most_particles, csv.get());
+  if (options.wants("size")) {
+    against_size(device, options.most_particles, options.until(), csv.get(),
+                 options.out / "size.svg");
+  }
+  if (options.wants("limits")) {
+    against_limits(device, options.most_particles, options.until(), options.other_device(),
+                   csv.get());
+  }
   if (options.wants("stages")) stage_by_stage(device, csv.get());
   if (std::fclose(csv.release()) != 0) throw std::runtime_error(path + " is not whole");
 }
@@ -81,8 +101,10 @@ void measure(const Options& options) {
   std::filesystem::create_directories(options.out);
   const sim::DeviceFacts facts = sim::Device(options.device).facts();
   std::printf("device: %s\n", describe(facts).c_str());
-  if (options.wants("kernels") || options.wants("size") || options.wants("stages")) {
+  for (const char* part : {"kernels", "size", "stages", "limits"}) {
+    if (!options.wants(part)) continue;
     measure_cost(options);
+    break;
   }
   if (!options.wants("error")) return;
   const ChartSettings chart = {options.clock, facts.compute_units, facts.name};
@@ -101,15 +123,24 @@ int main(int argc, char** argv) {
   CLI::App app("What the fluid costs, and what its errors are for it.", "bench-fluid");
   std::vector<std::string> cases;
   for (const SweepCase& item : sweep_cases()) cases.push_back(item.name);
-  app.add_option("--part", options.parts, "Only these: kernels, size, stages, error (repeatable)")
-      ->check(CLI::IsMember({"kernels", "size", "stages", "error"}));
+  app.add_option("--part", options.parts,
+                 "Only these: kernels, size, stages, limits, error (repeatable)")
+      ->check(CLI::IsMember({"kernels", "size", "stages", "limits", "error"}));
   app.add_option("--case", options.cases, "Only this case (repeatable)")
       ->check(CLI::IsMember(cases));
   app.add_option("--resolutions", options.resolutions, "Only so many, coarse ones first")
       ->capture_default_str()
       ->check(CLI::Range(1, 100));
-  app.add_option("--most-particles", options.most_particles, "Of kernels and size")
+  app.add_option("--most-particles", options.most_particles, "Of kernels, size and limits")
       ->capture_default_str();
+  app.add_option("--seconds", options.seconds,
+                 "That size and limits may take each: larger sizes are left out (default: all)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option(
+         "--there", options.there,
+         "GB/s, G operations/s and us a launch of another device: what limits would be there")
+      ->expected(3)
+      ->check(CLI::PositiveNumber);
   app.add_flag("--all", options.all, "All qualities at all resolutions: hours instead of minutes");
   const std::map<std::string, Clock> clocks = {{"wall", Clock::wall},
                                                {"processor", Clock::processor}};
@@ -119,7 +150,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "Folder for tables and pictures")->capture_default_str();
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
   app.add_option("--profile", options.profile,
-                 "How kernels, size and stages cut work into pieces: cpu, cpu-ranks (cpu with the "
+                 "How kernels, size, stages and limits cut work: cpu, cpu-ranks (cpu with the "
                  "sort of gpu) or gpu (default: as suits the device)")
       ->check(CLI::IsMember({"cpu", "cpu-ranks", "gpu"}));
   CLI11_PARSE(app, argc, argv);

@@ -1,18 +1,41 @@
 // SPDX-License-Identifier: MIT
 // What a step costs: the two main kernels beside C++ by hand, the whole step against the number of
-// particles, its stages, and what a launch costs that does nothing. Prints tables.
+// particles, its stages, what a launch costs that does nothing, and all that beside what the device
+// can do at most. Prints tables.
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
 
 #include "sim-server/device/device.hpp"
 
 namespace splash::bench {
 
+/// When a measurement over growing sizes has to be over.
+struct Until {
+  double end = 0.0;  ///< as protocol::monotonic_now() counts; 0: never [s]
+
+  /// Whether so many seconds are left.
+  [[nodiscard]] bool allows(double seconds) const;
+};
+
+/// What a device can do at most.
+struct Limits {
+  double bandwidth = 0.0;   ///< [B/s]
+  double arithmetic = 0.0;  ///< additions and multiplications, two to a fused one [1/s]
+  double launch = 0.0;      ///< [s]
+};
+
 /// In one run, on the same particles; `device` with profiling. `csv`: or null. Throws
 /// std::runtime_error when both do not give the same sums.
 void beside_the_yardstick(sim::Device& device, int most_particles, std::FILE* csv);
-void against_size(sim::Device& device, int most_particles, std::FILE* csv);
+/// Up to what time and the device's memory allow; `picture`: SVG, or empty.
+void against_size(sim::Device& device, int most_particles, const Until& until, std::FILE* csv,
+                  const std::filesystem::path& picture);
+/// Kernel by kernel; `device` with profiling. `there`: another device, of which the least times are
+/// told, too, or nothing.
+void against_limits(sim::Device& device, int most_particles, const Until& until,
+                    const Limits& there, std::FILE* csv);
 /// Of a cube of water, and of the pool with its bodies and detectors; `device` with profiling.
 void stage_by_stage(sim::Device& device, std::FILE* csv);
 

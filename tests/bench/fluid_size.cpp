@@ -11,6 +11,8 @@
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/opencl_ledger.hpp"
+#include "tests/bench/svg_chart.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::bench {
 namespace {
@@ -25,6 +27,39 @@ struct StageTimes {
   std::int64_t steps = 0;
   double wall = 0.0;  ///< [s]
 };
+
+constexpr int kSizes[] = {2'000,   4'000,   8'000,     15'625,    30'000,    60'000,    125'000,
+                          250'000, 500'000, 1'000'000, 2'000'000, 4'000'000, 8'000'000, 16'000'000};
+
+/// Of a step with so many particles.
+struct Cost {
+  double particles = 0.0;
+  double step = 0.0;     ///< [s]
+  double busy = 0.0;     ///< of processors [s]
+  double memory = 0.0;   ///< of all buffers [B]
+  double seconds = 0.0;  ///< that measuring took [s]
+};
+
+Cost cost_of(Device& device, int count) {
+  Cost cost;
+  const double begin = protocol::monotonic_now();
+  const std::size_t others = buffer_bytes();
+  Block block(device, count);
+  cost.memory = static_cast<double>(buffer_bytes() - others);
+  const int batches = count > 200'000 ? 3 : 7;
+  const double processor = processor_time();
+  cost.step = wall_time(
+                  [&] {
+                    for (int k = 0; k < kSteps; ++k) block.move();
+                    device.queue().finish();
+                  },
+                  batches) /
+              kSteps;
+  cost.busy = (processor_time() - processor) / (kSteps * batches);
+  cost.particles = block.params.count;
+  cost.seconds = protocol::monotonic_now() - begin;
+  return cost;
+}
 
 void print(const char* what, const StageTimes& times, std::FILE* csv) {
   std::vector<std::pair<std::string, Launches>> sorted(times.kernels.begin(), times.kernels.end());
@@ -65,7 +100,7 @@ StageTimes of_cube(Device& device, int count) {
 }
 
 StageTimes of_pool(Device& device) {
-  const auto path = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes" / "pool.yaml";
+  const auto path = tests::source_folder() / "configs" / "scenes" / "pool.yaml";
   Simulation pool(device, read_scene(path), {});
   StageTimes times;
   begin_ledger();
@@ -94,34 +129,44 @@ std::pair<double, double> empty_launch(Device& device) {
 
 }  // namespace
 
-void against_size(Device& device, int most_particles, std::FILE* csv) {
+bool Until::allows(double seconds) const {
+  return end == 0.0 || protocol::monotonic_now() + seconds < end;
+}
+
+void against_size(Device& device, int most_particles, const Until& until, std::FILE* csv,
+                  const std::filesystem::path& picture) {
   std::printf("\nThe whole step, without walls and bodies, in batches of %d; median of 7\n",
               kSteps);
   std::printf(
       "particles   ms/step  of processors  steps/s  M particle updates/s    MiB  B/particle\n");
-  for (const int count :
-       {2'000, 4'000, 8'000, 15'625, 30'000, 60'000, 125'000, 250'000, 500'000, 1'000'000}) {
+  SvgCurve steps = {device.facts().name, {}};
+  Cost last;
+  for (const int count : kSizes) {
     if (count > most_particles) break;
-    const std::size_t others = buffer_bytes();
-    Block block(device, count);
-    const auto memory = static_cast<double>(buffer_bytes() - others);
-    const int batches = count > 200'000 ? 3 : 7;
-    const double processor = processor_time();
-    const double step = wall_time(
-                            [&] {
-                              for (int k = 0; k < kSteps; ++k) block.move();
-                              device.queue().finish();
-                            },
-                            batches) /
-                        kSteps;
-    const double busy = (processor_time() - processor) / (kSteps * batches);
-    const double particles = block.params.count;
-    std::printf("%9.0f  %8.3f  %13.3f  %7.0f  %20.2f  %5.1f  %10.0f\n", particles, 1e3 * step,
-                1e3 * busy, 1.0 / step, 1e-6 * particles / step, memory / 1048576.0,
-                memory / particles);
+    const double ratio = count / std::max(last.particles, 1.0);
+    if (!until.allows(1.2 * ratio * last.seconds)) {
+      std::printf("%9d  would take longer than there is time\n", count);
+      break;
+    }
+    if (ratio * last.memory > 0.8 * static_cast<double>(device.facts().memory)) {
+      std::printf("%9d  would take %.0f MiB of %zu\n", count, ratio * last.memory / 1048576.0,
+                  device.facts().memory >> 20U);
+      break;
+    }
+    last = cost_of(device, count);
+    std::printf("%9.0f  %8.3f  %13.3f  %7.0f  %20.2f  %5.1f  %10.0f\n", last.particles,
+                1e3 * last.step, 1e3 * last.busy, 1.0 / last.step,
+                1e-6 * last.particles / last.step, last.memory / 1048576.0,
+                last.memory / last.particles);
     std::fflush(stdout);
     if (csv != nullptr) {
-      std::fprintf(csv, "step,%.0f,%g,%g,%g\n", particles, 1e3 * step, 1e3 * busy, memory);
+      std::fprintf(csv, "step,%.0f,%g,%g,%g\n", last.particles, 1e3 * last.step, 1e3 * last.busy,
+                   last.memory);
+      std::fflush(csv);
+    }
+    steps.points.emplace_back(last.particles, 1e3 * last.step);
+    if (!picture.empty()) {
+      draw_log_chart(picture, "Time of a step", "particles", "ms", {steps});
     }
   }
 }

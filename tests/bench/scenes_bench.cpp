@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How fast the built-in scenes run on this machine, beside the paper's rates: water, bodies and
 // detectors, without waiting for the clock and without a receiver. Prints a table; with a file
-// name, also writes it as CSV.
+// name, also writes it as CSV. Runs of a scene must end in the same bits, and none may go wrong.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,14 +17,19 @@
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
 using namespace splash;
 using namespace splash::sim;
 
-constexpr double kSeconds = 5.0;  ///< of each run, simulated
-constexpr int kRuns = 3;
+struct Options {
+  std::vector<std::string> scenes;
+  double seconds = 5.0;  ///< of each run, simulated
+  int runs = 3;
+  std::filesystem::path csv;
+};
 
 struct Case {
   std::string scene;
@@ -36,64 +42,119 @@ struct Result {
   double real_time_factor = 0.0;
   double mean_error = 0.0;
   double max_error = 0.0;
+  std::string broken;  ///< what went wrong; empty: nothing
 };
 
+const std::vector<Case>& cases() {
+  static const std::vector<Case> kCases = {{"basin", 240.0}, {"pool", 152.0}, {"beach", 147.0},
+                                           {"bucket", 0.0},  {"rest", 0.0},   {"plunge", 0.0},
+                                           {"walk", 0.0},    {"ducks", 0.0},  {"boat", 0.0}};
+  return kCases;
+}
+
+/// A recorded walk is an argument of the command line elsewhere.
+std::filesystem::path tracker_of(const Scene& scene) {
+  for (const BodySettings& body : scene.bodies) {
+    if (body.motion.kind == MotionKind::trc && body.motion.file.empty()) {
+      return tests::source_folder() / "configs" / "scenes" / "walk.trc";
+    }
+  }
+  return {};
+}
+
+bool same(const Snapshot& a, const Snapshot& b) {
+  return a.id == b.id && a.position == b.position && a.velocity == b.velocity;
+}
+
 /// One run: {steps per second, simulated seconds per second}.
-std::pair<double, double> run_once(Device& device, const Scene& scene, Result& result) {
-  Simulation simulation(device, scene, {});
+std::pair<double, double> run_once(Device& device, const Scene& scene, double seconds,
+                                   Result& result, Snapshot& end) {
+  Simulation simulation(device, scene, tracker_of(scene));
   const double start = protocol::monotonic_now();
-  while (simulation.seconds() < kSeconds) static_cast<void>(simulation.advance());
+  while (simulation.seconds() < seconds) static_cast<void>(simulation.advance());
   const double wall = protocol::monotonic_now() - start;
   const RunTotals& totals = simulation.totals();
   result.particles = simulation.particles();
   result.mean_error = totals.mean_excess_sum / static_cast<double>(totals.frames);
   result.max_error = totals.max_excess;
+  if (totals.calmed + totals.resets > 0) result.broken = "frames were given up";
+  const Snapshot here = simulation.fluid().snapshot();
+  if (!end.id.empty() && !same(end, here)) result.broken = "the same run ended in other bits";
+  end = here;
   return {static_cast<double>(totals.steps) / wall, simulation.seconds() / wall};
 }
 
-Result measure(Device& device, const Scene& scene) {
+Result measure(Device& device, const Scene& scene, const Options& options) {
   Result result;
+  Snapshot end;
   std::vector<std::pair<double, double>> runs;
-  for (int k = 0; k < kRuns; ++k) runs.push_back(run_once(device, scene, result));
+  for (int k = 0; k < options.runs; ++k) {
+    runs.push_back(run_once(device, scene, options.seconds, result, end));
+  }
   std::sort(runs.begin(), runs.end());
-  result.steps_per_second = runs[kRuns / 2].first;
-  result.real_time_factor = runs[kRuns / 2].second;
+  result.steps_per_second = runs[runs.size() / 2].first;
+  result.real_time_factor = runs[runs.size() / 2].second;
   return result;
 }
 
-void bench(const std::filesystem::path& csv) {
+void print(const Case& item, const Result& r) {
+  const std::string paper =
+      item.paper_rate > 0.0 ? std::to_string(std::lround(item.paper_rate)) : "-";
+  std::printf("%-9s %9d  %7.0f  %7s  %11.2f  %11.2f  mean %.2f %%, max %.1f %%%s%s\n",
+              item.scene.c_str(), r.particles, r.steps_per_second, paper.c_str(),
+              r.real_time_factor, 1e-6 * r.steps_per_second * r.particles, 100.0 * r.mean_error,
+              100.0 * r.max_error, r.broken.empty() ? "" : "  WRONG: ", r.broken.c_str());
+  std::fflush(stdout);
+}
+
+bool is_wanted(const Case& item, const Options& options) {
+  const auto& names = options.scenes;
+  return names.empty() || std::find(names.begin(), names.end(), item.scene) != names.end();
+}
+
+/// Whether nothing went wrong.
+bool bench(const Options& options) {
   Device device;
   std::printf("device: %s\n", describe(device.facts()).c_str());
-  std::printf("median of %d runs of %.0f s, water, bodies and detectors, nobody listening\n\n",
-              kRuns, kSeconds);
+  std::printf("median of %d runs of %g s, water, bodies and detectors, nobody listening\n\n",
+              options.runs, options.seconds);
   std::printf("scene     particles  steps/s  paper's  real time x  M updates/s  density error\n");
-  std::ofstream file(csv);
+  std::ofstream file(options.csv);
   if (file) file << "scene,particles,steps_per_second,real_time_factor,mean_density_error\n";
-  const std::vector<Case> cases = {
-      {"basin", 240.0}, {"pool", 152.0}, {"beach", 147.0}, {"bucket", 0.0}, {"rest", 0.0}};
-  for (const Case& item : cases) {
-    const auto path = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes";
-    const Result r = measure(device, read_scene(path / (item.scene + ".yaml")));
-    const std::string paper =
-        item.paper_rate > 0.0 ? std::to_string(std::lround(item.paper_rate)) : "-";
-    std::printf("%-9s %9d  %7.0f  %7s  %11.2f  %11.2f  mean %.2f %%, max %.1f %%\n",
-                item.scene.c_str(), r.particles, r.steps_per_second, paper.c_str(),
-                r.real_time_factor, 1e-6 * r.steps_per_second * r.particles, 100.0 * r.mean_error,
-                100.0 * r.max_error);
-    std::fflush(stdout);
+  bool sound = true;
+  for (const Case& item : cases()) {
+    if (!is_wanted(item, options)) continue;
+    const auto path = tests::source_folder() / "configs" / "scenes" / (item.scene + ".yaml");
+    const Result r = measure(device, read_scene(path), options);
+    sound = sound && r.broken.empty();
+    print(item, r);
     if (file) {
       file << item.scene << ',' << r.particles << ',' << r.steps_per_second << ','
-           << r.real_time_factor << ',' << r.mean_error << '\n';
+           << r.real_time_factor << ',' << r.mean_error << std::endl;
     }
   }
+  return sound;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("How fast the built-in scenes run.", "bench-scenes");
+  std::vector<std::string> names;
+  for (const Case& item : cases()) names.push_back(item.scene);
+  app.add_option("csv", options.csv, "Also writes the table to this file");
+  app.add_option("--scene", options.scenes, "Only this scene (repeatable)")
+      ->check(CLI::IsMember(names));
+  app.add_option("--seconds", options.seconds, "Of each run, simulated")
+      ->check(CLI::Range(0.1, 1.0e4))
+      ->capture_default_str();
+  app.add_option("--runs", options.runs, "Of each scene")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
   try {
-    bench(argc > 1 ? argv[1] : "");
-    return 0;
+    return bench(options) ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << "bench-scenes: " << error.what() << '\n';
     return 70;
