@@ -8,12 +8,11 @@
 #include "protocol/event_log.hpp"
 #include "protocol/failure.hpp"
 #include "synth-server/output/wav_file.hpp"
+#include "synth-server/output_choice.hpp"
 #include "synth-server/replay/replay.hpp"
 
 namespace splash::synth {
 namespace {
-
-constexpr int kDefaultRate = 48000;
 
 struct Stem {
   const char* name;
