@@ -141,7 +141,7 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
               compiled ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());
   if (server.is_unheard()) {
-    std::printf("nobody hears it yet: --target host:port sends to a synth\n");
+    std::printf("no target: --target host:port sends the events to a synth\n");
   }
   std::printf("running, steps of %.2f ms; Ctrl-C ends it\n", 1e3 * simulation.time_step());
   std::fflush(stdout);

@@ -25,7 +25,7 @@ std::uint64_t moved(std::uint64_t before, std::uint64_t now) {
 
 std::string nobody_at(const protocol::Endpoint& target) {
   const std::string where = protocol::to_string(target);
-  return "nobody answers at " + where +
+  return "no answer from " + where +
          (is_loopback(target)
               ? ": start synth-server or a Pd patch there" +
                     (target.port == protocol::kSynthPort

@@ -92,7 +92,7 @@ TEST(Readme, SimulatorKnowsItsOptions) {
 }
 
 TEST(Readme, FilesItNamesExist) {
-  static const std::regex kFile(R"(((?:configs|pd-patches)/[A-Za-z0-9_+/-]+\.[a-z]+))");
+  static const std::regex kFile(R"(((?:configs|docs|examples|pd-patches)/[A-Za-z0-9_+/-]+\.[a-z]+))");
   const std::set<std::string> files = matches(readme(), kFile);
   ASSERT_THAT(files, Contains("pd-patches/splash-stereo.pd"));
   std::vector<std::string> missing;

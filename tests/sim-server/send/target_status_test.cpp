@@ -72,7 +72,7 @@ TEST_F(TargetStatusTest, ReportsOnceThatATargetIsSilentAndThatItAnswersAgain) {
   EXPECT_TRUE(lines.empty()) << "one answer may be lost on the way";
   for (int i = 0; i < 5; ++i) poll_after_a_second();
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_EQ(lines[0], "nobody answers at " + where +
+  EXPECT_EQ(lines[0], "no answer from " + where +
                           ": start synth-server or a Pd patch there; unless told otherwise both "
                           "listen on port 57310");
   answer(synth, {.voices = 1});
