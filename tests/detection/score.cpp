@@ -16,9 +16,8 @@ constexpr double kWaveHeight = 0.01;     ///< [m]
 constexpr double kWidestWindow = 0.15;   ///< [s]
 constexpr double kCavityWindow = 0.5;    ///< after an entry [s]
 constexpr double kClosing = 0.15;        ///< of its time [1]
-constexpr double kAir = 1.7;             ///< factor of its volume, either way [1]
 constexpr double kShallow = 0.8;         ///< of half the body's depth [1]
-constexpr double kDeep = 1.6;            ///< same [1]
+constexpr double kDeep = 2.2;            ///< same [1]
 constexpr double kStandsStill = 0.001;   ///< a slower body does [m/s]
 constexpr double kSmallestSpeed = 0.01;  ///< [m/s]
 
@@ -159,18 +158,19 @@ class Judge {
     if (wishes_.closes_after <= 0.0 || heard_.found.cavities.empty() || entries_.empty()) return;
     const sim::DetectedCavity& cavity = heard_.found.cavities.front();
     const Entry& entry = entries_.front();
-    const double after = cavity.time - entry.time;
+    const double after = cavity.time - entry.time - wishes_.sinks_after;
     result_.closing.push_back(after / wishes_.closes_after);
     if (std::abs(result_.closing.back() - 1.0) > kClosing) {
       result_.faults.push_back(said("the cavity closes %.0f ms after the entry, expected %.0f",
                                     1.0e3 * after, 1.0e3 * wishes_.closes_after));
     }
-    if (wishes_.air <= 0.0) return;
+    if (wishes_.most_air <= 0.0) return;
     const double air = 4.0 / 3.0 * std::numbers::pi * std::pow(cavity.radius, 3);
-    result_.air.push_back(air / wishes_.air);
-    if (air > kAir * wishes_.air || kAir * air < wishes_.air) {
-      result_.faults.push_back(said("%.2f litres of air in the cavity, expected %.2f", 1.0e3 * air,
-                                    1.0e3 * wishes_.air));
+    result_.air.push_back((air + wishes_.body) / wishes_.hollow);
+    if (air > wishes_.most_air || air < wishes_.least_air) {
+      result_.faults.push_back(said("%.2f litres of air in the cavity, expected %.2f to %.2f",
+                                    1.0e3 * air, 1.0e3 * wishes_.least_air,
+                                    1.0e3 * wishes_.most_air));
     }
     const double half = 0.5 * entry.down * after;
     const double depth = wishes_.level - cavity.position[2];

@@ -24,8 +24,12 @@ struct Wishes {
   double added_mass = 0.0;        ///< of the face that goes in [kg]; 0: P is not judged
   std::optional<Count> cavities;  ///< in all; nothing: any number, each after an entry
   std::optional<Count> waves;     ///< impacts of bodies that stand still; nothing: they are false
-  double closes_after = 0.0;      ///< from the entry to the cavity [s]; 0: any time
-  double air = 0.0;               ///< in the cavity [m3]; 0: it is not judged
+  double sinks_after = 0.0;       ///< from the entry until its front's middle is under [s]
+  double closes_after = 0.0;      ///< from then to the cavity [s]; 0: any time
+  double least_air = 0.0;         ///< in the cavity [m3]
+  double most_air = 0.0;          ///< same; 0: it is not judged
+  double body = 0.0;              ///< of which the air would fill with a thin one's ... [m3]
+  double hollow = 0.0;            ///< ... so much [m3]
 };
 
 /// Everything that a run told, and what its bodies did.
@@ -45,7 +49,7 @@ struct Score {
   std::vector<double> speed_error;  ///< of the approach [1]
   std::vector<double> momentum;     ///< P / (m_a u) [1]
   std::vector<double> closing;      ///< time of the first cavity by the wanted one [1]
-  std::vector<double> air;          ///< its volume by the wanted one [1]
+  std::vector<double> air;          ///< its volume and the body's, by the hollow's [1]
   std::vector<double> depth;        ///< of its centre by half of the body's [1]
   int cavities = 0;                 ///< below the level within 0.5 s after an entry
   int stray = 0;                    ///< the other ones

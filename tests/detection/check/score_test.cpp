@@ -211,19 +211,28 @@ TEST_F(Scorer, HoldsCavitiesToTheirNumberAndTime) {
                                            HasSubstr("2 cavities")));
 }
 
-// At 1 m/s half the body's depth is 100 mm then; a ball of 5 cm radius holds 0.52 litres.
+// At 1 m/s half the front's depth is 90 mm then; a ball of 5 cm radius holds 0.52 litres.
 TEST_F(Scorer, HoldsCavitiesToTheirAirAndDepth) {
-  wishes_.closes_after = 0.2;
-  wishes_.air = 0.6e-3;
+  wishes_.sinks_after = 0.02;
+  wishes_.closes_after = 0.18;
+  wishes_.least_air = 0.3e-3;
+  wishes_.most_air = 0.6e-3;
+  wishes_.body = 0.1e-3;
+  wishes_.hollow = 0.5e-3;
   heard_.found.cavities = {cavity(0.4, kLevel - 0.12)};
   EXPECT_THAT(judged().faults, IsEmpty());
-  EXPECT_NEAR(judged().air.at(0), 0.873, 0.01);
-  EXPECT_NEAR(judged().depth.at(0), 1.2, 0.01);
-  wishes_.air = 1.0e-3;
-  heard_.found.cavities = {cavity(0.4, kLevel - 0.2)};
+  EXPECT_NEAR(judged().closing.at(0), 1.0, 1.0e-6);
+  EXPECT_NEAR(judged().air.at(0), 1.247, 0.01);
+  EXPECT_NEAR(judged().depth.at(0), 1.333, 0.01);
+  wishes_.least_air = 0.55e-3;
+  heard_.found.cavities = {cavity(0.4, kLevel - 0.21)};
   EXPECT_THAT(judged().faults,
-              ElementsAre("0.52 litres of air in the cavity, expected 1.00",
-                          HasSubstr("the cavity lies 200 mm deep, expected 80 to 160")));
+              ElementsAre("0.52 litres of air in the cavity, expected 0.55 to 0.60",
+                          "the cavity lies 210 mm deep, expected 72 to 198"));
+  wishes_.least_air = 0.0;
+  wishes_.most_air = 0.5e-3;
+  heard_.found.cavities = {cavity(0.4, kLevel - 0.12)};
+  EXPECT_THAT(judged().faults, SizeIs(1));
 }
 
 TEST_F(Scorer, AllowsWavesOnAStandingBodyOnlyWhereTheyAreWished) {
