@@ -43,6 +43,14 @@ void put_air(const RunTotals& totals, std::int64_t particles, RunReport& report)
       .largest_particles = share(static_cast<double>(totals.bubbles_alive_most), particles)};
 }
 
+void put_cavities(const NoCavity& none, RunReport& report) {
+  report.no_cavity = {{"stopped", none.stopped},
+                      {"shallow", none.shallow},
+                      {"afloat", none.afloat},
+                      {"unseen", none.unseen},
+                      {"filled", none.filled}};
+}
+
 void put_skips(const RunTotals& totals, RunReport& report) {
   const SkipTotals& skipped = totals.skipped;
   report.idle_frames = skipped.idle;
@@ -60,6 +68,7 @@ RunReport report_on(const Simulation& simulation, const SendCounts& sent, const 
   RunReport report;
   put_water(simulation, report);
   put_air(simulation.totals(), simulation.particles(), report);
+  put_cavities(simulation.totals().no_cavity, report);
   put_skips(simulation.totals(), report);
   report.events = {sent.impacts, sent.bubbles, sent.cavities};
   report.invalid_events = sent.invalid;

@@ -242,6 +242,7 @@ void Simulation::keep(const FrameResult& result) {
   totals_.bubbles_alive_most = std::max(totals_.bubbles_alive_most, totals_.bubbles_alive);
   totals_.bubbles_alive_sum += static_cast<double>(totals_.bubbles_alive);
   totals_.air = detector_.air();
+  totals_.no_cavity = cavity_watch_.none();
   totals_.mean_excess_sum += survey_.mean_excess;
   totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
   const double fastest = std::max(survey_.speed, fastest_mover(seconds_));

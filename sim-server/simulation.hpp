@@ -44,6 +44,7 @@ struct RunTotals {
   double bubbles_alive_sum = 0.0;      ///< of the frames' numbers of them
   std::size_t bubbles_alive_most = 0;  ///< of any frame
   AirTotals air;
+  NoCavity no_cavity;
   SkipTotals skipped;
 };
 

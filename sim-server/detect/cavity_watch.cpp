@@ -71,7 +71,9 @@ void CavityWatch::follow(std::size_t body, double time) {
     hollow.go_on(now);
     const double since = time - hollow.began_at();
     const bool comes_out = depth <= 0.0 || down < -kOutward * hollow.way() / since;
-    if (comes_out || since > kLongest * closes) watch = {};
+    if (!comes_out && since <= kLongest * closes) return;
+    ++none_.stopped;
+    watch = {};
   } else if (depth > 0.0 && down > 0.0) {
     Front first = now;
     const double ago = std::min(depth / down, std::max(time - watch.slam->time, 0.0));
@@ -80,6 +82,7 @@ void CavityWatch::follow(std::size_t body, double time) {
     watch.hollow.emplace(first, watch.slam->level, gravity_);
     watch.hollow->go_on(now);
   } else if (time > watch.slam->time + closes) {
+    ++none_.afloat;
     watch = {};
   }
 }
@@ -87,7 +90,7 @@ void CavityWatch::follow(std::size_t body, double time) {
 /// Where a body goes far enough at the speed it has.
 bool CavityWatch::wants_look(std::size_t body, double time) const {
   const Watch& watch = watches_[body];
-  if (!watch.hollow || watch.seen) return false;
+  if (!watch.hollow || watch.hollow->way() <= 0.0 || watch.seen) return false;
   const Hollow& hollow = *watch.hollow;
   const BodyExtent& extent = air_.extent(body);
   const double left = hollow.closes_at() - time;
@@ -96,28 +99,41 @@ bool CavityWatch::wants_look(std::size_t body, double time) const {
          way > hollow.radius() + extent.thickness;
 }
 
-bool CavityWatch::went_in(std::size_t body) const {
+void CavityWatch::close(std::size_t body, std::vector<DetectedCavity>& found) {
   const Watch& watch = watches_[body];
+  const Hollow& hollow = *watch.hollow;
   const BodyExtent& extent = air_.extent(body);
-  const double least = watch.hollow->radius() + extent.thickness;
-  const bool seen = watch.seen || watch.hollow->radius() < kNarrow * spacing_;
-  return seen && watch.hollow->way() > least && extent.upper[2] < watch.slam->level &&
-         watch.slam->level - air_.floor_below(body) > least;
+  const double level = watch.slam->level;
+  const double least = hollow.radius() + extent.thickness;
+  if (hollow.way() <= least) {
+    ++none_.stopped;
+  } else if (level - air_.floor_below(body) <= least) {
+    ++none_.shallow;
+  } else if (extent.upper[2] >= level) {
+    ++none_.afloat;
+  } else if (!watch.seen && hollow.radius() >= kNarrow * spacing_) {
+    ++none_.unseen;
+  } else {
+    const std::optional<Hollow::Air> air = hollow.shut_in(air_.free_behind(body));
+    const double radius = air ? sphere_radius(air->volume) : 0.0;
+    if (radius >= settings_.cavity_radius_min && level - air->centre[2] >= 0.5 * radius) {
+      tell(body, *air, found);
+    } else {
+      ++none_.filled;
+    }
+  }
 }
 
-void CavityWatch::tell(std::size_t body, std::vector<DetectedCavity>& found) {
-  const Watch& watch = watches_[body];
-  const std::optional<Hollow::Air> air = watch.hollow->shut_in(air_.free_behind(body));
-  if (!air) return;
-  const double depth = watch.slam->level - air->centre[2];
+void CavityWatch::tell(std::size_t body, const Hollow::Air& air,
+                       std::vector<DetectedCavity>& found) {
+  const double depth = watches_[body].slam->level - air.centre[2];
   DetectedCavity cavity;
-  cavity.time = watch.hollow->closes_at();
+  cavity.time = watches_[body].hollow->closes_at();
   cavity.body = static_cast<int>(body);
-  cavity.radius = sphere_radius(air->volume);
-  cavity.epsilon = ring_excitation(air->volume, air->rate, depth, density_, gravity_);
+  cavity.radius = sphere_radius(air.volume);
+  cavity.epsilon = ring_excitation(air.volume, air.rate, depth, density_, gravity_);
   cavity.life = ring_life(cavity.radius, depth, gravity_);
-  cavity.position = air->centre;
-  if (cavity.radius < settings_.cavity_radius_min || depth < 0.5 * cavity.radius) return;
+  cavity.position = air.centre;
   const bool known = std::any_of(told_.begin(), told_.end(), [&](const DetectedCavity& other) {
     return cavity.body != other.body && cavity.time - other.time <= kAtOnce &&
            length(cavity.position - other.position) <= cavity.radius + other.radius;
@@ -138,7 +154,7 @@ void CavityWatch::look(double time, bool looks, std::vector<DetectedCavity>& fou
       watch.seen = watch.seen || (wants && open);
     }
     if (!watch.hollow || time < watch.hollow->closes_at()) continue;
-    if (went_in(b)) tell(b, found);
+    close(b, found);
     watch = {};
   }
 }

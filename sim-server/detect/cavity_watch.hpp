@@ -19,6 +19,15 @@
 
 namespace splash::sim {
 
+/// Impacts that no cavity followed, by the reason.
+struct NoCavity {
+  std::uint64_t stopped = 0;  ///< the body went less far than R + its thickness, or came out
+  std::uint64_t shallow = 0;  ///< the water was less deep than that
+  std::uint64_t afloat = 0;   ///< not all of the body went under
+  std::uint64_t unseen = 0;   ///< no hollow was in the simulated water
+  std::uint64_t filled = 0;   ///< the hollow fills from below, or holds too little
+};
+
 class CavityWatch {
  public:
   /// `skin`: of all bodies of the scene; `volume`: of a particle [m3]; `always`: fills the air
@@ -36,6 +45,7 @@ class CavityWatch {
   void forget();
   /// Frames in which the water was looked at so far.
   [[nodiscard]] std::uint64_t looks() const noexcept { return looks_; }
+  [[nodiscard]] const NoCavity& none() const noexcept { return none_; }
 
  private:
   /// An impact that a cavity may follow.
@@ -53,9 +63,9 @@ class CavityWatch {
   void note(const DetectedImpact& impact);
   void follow(std::size_t body, double time);
   [[nodiscard]] bool wants_look(std::size_t body, double time) const;
-  [[nodiscard]] bool went_in(std::size_t body) const;
   void look(double time, bool looks, std::vector<DetectedCavity>& found);
-  void tell(std::size_t body, std::vector<DetectedCavity>& found);
+  void close(std::size_t body, std::vector<DetectedCavity>& found);
+  void tell(std::size_t body, const Hollow::Air& air, std::vector<DetectedCavity>& found);
 
   DetectSettings settings_;
   std::vector<bool> parts_;  ///< of each body whether it parts the water
@@ -67,6 +77,7 @@ class CavityWatch {
   std::vector<Watch> watches_;
   std::vector<DetectedCavity> told_;  ///< not long ago
   std::uint64_t looks_ = 0;
+  NoCavity none_;
 };
 
 }  // namespace splash::sim

@@ -46,6 +46,15 @@ Json iterations_of(const SolveTotals& solve) {
           {"solves", solve.solves}};
 }
 
+/// Nothing where all are zero.
+void put_counts(const char* head, const NamedCounts& counts, std::ostream& text) {
+  if (sum_of(counts) == 0) return;
+  text << head;
+  for (const auto& [name, count] : counts) {
+    if (count > 0) text << ' ' << name << ' ' << count;
+  }
+}
+
 std::string known_or_dash(const std::optional<std::uint64_t>& value) {
   return value ? std::to_string(*value) : "unknown (no target answered)";
 }
@@ -105,6 +114,7 @@ std::string to_json(const RunReport& report) {
   json["events"] = {{"impacts", report.events.impacts},
                     {"bubbles", report.events.bubbles},
                     {"cavities", report.events.cavities}};
+  json["no_cavity"] = by_name(report.no_cavity);
   json["air"] = {{"entrapped_litres", finite_or_null(kLitres * report.air.entrapped)},
                  {"told_litres", finite_or_null(kLitres * report.air.told)},
                  {"thinned_bubbles", report.air.thinned}};
@@ -170,7 +180,9 @@ std::string summary(const RunReport& report) {
          << "; given up " << divergence.given_up + density.given_up << '\n';
   }
   text << "events    " << report.events.impacts << " impacts, " << report.events.bubbles
-       << " bubbles, " << report.events.cavities << " cavities\n";
+       << " bubbles, " << report.events.cavities << " cavities";
+  put_counts("; impacts without one:", report.no_cavity, text);
+  text << '\n';
   text << "air       " << kLitres * report.air.entrapped << " l entrapped, "
        << kLitres * report.air.told << " l told, " << report.air.thinned
        << " bubbles over the budget; bubble particles " << 100.0 * report.air.mean_particles
@@ -183,10 +195,8 @@ std::string summary(const RunReport& report) {
        << " without contacts, " << report.without_bubbles << " without bubbles, "
        << report.without_cavities << " without cavities\n";
   if (const auto refused = sum_of(report.refused_poses); refused > 0) {
-    text << "poses     " << refused << " refused:";
-    for (const auto& [name, count] : report.refused_poses) {
-      if (count > 0) text << ' ' << name << ' ' << count;
-    }
+    text << "poses     " << refused;
+    put_counts(" refused:", report.refused_poses, text);
     text << '\n';
   }
   text << "pacing    " << report.behind << " of " << report.frames << " frames behind, "

@@ -54,6 +54,7 @@ struct RunReport {
   SolveTotals divergence_solve;
   SolveTotals density_solve;
   EventTotals events;
+  NamedCounts no_cavity;  ///< impacts that none followed, by reason
   AirReport air;
   std::uint64_t invalid_events = 0;    ///< outside the wire's ranges, not sent
   std::uint64_t overdue_events = 0;    ///< their moment had passed when they were sent

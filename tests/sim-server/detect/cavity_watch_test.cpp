@@ -45,6 +45,7 @@ struct Told {
   std::vector<DetectedCavity> cavities;
   int readings = 0;  ///< of the water
   std::uint64_t looks = 0;
+  NoCavity none;
 };
 
 Told tell(const Story& story) {
@@ -102,6 +103,7 @@ Told tell(const Story& story) {
     }
   }
   told.looks = watch.looks();
+  told.none = watch.none();
   return told;
 }
 
@@ -151,6 +153,7 @@ TEST(CavityWatch, NeedsSpeed) {
   const Told told = tell(story);
   EXPECT_TRUE(told.cavities.empty());
   EXPECT_EQ(told.looks, 1U);
+  EXPECT_EQ(told.none.stopped, 1U);
   story.path = "{time: 0, position: [0, 0, 0.485]}, {time: 0.5, position: [0, 0, 0.16]}";
   EXPECT_EQ(tell(story).cavities.size(), 1U);
 }
@@ -167,16 +170,35 @@ TEST(CavityWatch, NeedsDepth) {
     Story story = plain();
     story.path = "{time: 0, position: [0, 0, 0.52]}, {time: " + std::to_string(0.1 + depth) +
                  ", position: [0, 0, " + std::to_string(0.42 - depth) + "]}";
-    EXPECT_TRUE(tell(story).cavities.empty()) << depth;
+    const Told told = tell(story);
+    EXPECT_TRUE(told.cavities.empty()) << depth;
+    EXPECT_EQ(told.none.stopped, depth < 0.11 ? 1U : 0U) << depth;
+    EXPECT_EQ(told.none.filled, depth < 0.11 ? 0U : 1U) << depth;
   }
 }
 
 TEST(CavityWatch, NeedsDeepWater) {
   Story story = plain();
   story.floor = kLevel - 0.1;
-  EXPECT_TRUE(tell(story).cavities.empty());
+  const Told told = tell(story);
+  EXPECT_TRUE(told.cavities.empty());
+  EXPECT_EQ(told.none.shallow, 1U);
   story.floor = kLevel - 0.16;
   EXPECT_EQ(tell(story).cavities.size(), 1U);
+}
+
+// A board of 40 cm, turned by 60 degrees, stops when its middle is 13 cm deep: its upper end sticks
+// out.
+TEST(CavityWatch, NeedsABodyThatGoesUnder) {
+  Story story = plain();
+  story.size = "[0.4, 0.02, 0.01]";
+  const std::string turn = ", rotation: [0, 0.5, 0, 0.8660254]}";
+  story.path =
+      "{time: 0, position: [0, 0, 0.58]" + turn + ", {time: 0.31, position: [0, 0, 0.27]" + turn;
+  story.slap = 0.01;
+  const Told told = tell(story);
+  EXPECT_TRUE(told.cavities.empty());
+  EXPECT_EQ(told.none.afloat, 1U);
 }
 
 TEST(CavityWatch, NeedsABodyThatDoesNotComeOut) {
@@ -192,7 +214,9 @@ TEST(CavityWatch, NeedsABodyThatDoesNotComeOut) {
 TEST(CavityWatch, NeedsAHollowInTheWater) {
   Story story = plain();
   story.hollow = [](const Vector3&, double, double) { return false; };
-  EXPECT_TRUE(tell(story).cavities.empty());
+  const Told told = tell(story);
+  EXPECT_TRUE(told.cavities.empty());
+  EXPECT_EQ(told.none.unseen, 1U);
   story.hollow = [](const Vector3& x, double time, double top) {
     return shaft(x, time, top) && x[2] < kLevel - 0.08;
   };

@@ -33,6 +33,7 @@ RunReport example() {
   report.divergence_solve = {.solves = 7200, .iterations = 9000, .most = 4, .given_up = 0};
   report.density_solve = {.solves = 7200, .iterations = 36000, .most = 20, .given_up = 3};
   report.events = {.impacts = 3, .bubbles = 120, .cavities = 2};
+  report.no_cavity = {{"stopped", 1}, {"filled", 0}};
   report.air = {.entrapped = 0.0125,
                 .told = 0.012,
                 .thinned = 17,
@@ -66,6 +67,7 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(iterations.at("density"),
             (json{{"mean", 5.0}, {"most", 20}, {"given_up", 3}, {"solves", 7200}}));
   EXPECT_EQ(read.at("events"), (json{{"impacts", 3}, {"bubbles", 120}, {"cavities", 2}}));
+  EXPECT_EQ(read.at("no_cavity"), (json{{"stopped", 1}, {"filled", 0}}));
   const auto& air = read.at("air");
   EXPECT_DOUBLE_EQ(air.at("entrapped_litres"), 12.5);
   EXPECT_DOUBLE_EQ(air.at("told_litres"), 12.0);
@@ -148,7 +150,7 @@ TEST(Report, SummaryTellsThePersonTheSame) {
   const auto text = summary(example());
   for (const auto* part :
        {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25", "300 steps/s",
-        "3 impacts, 120 bubbles, 2 cavities", "lost 7",
+        "3 impacts, 120 bubbles, 2 cavities; impacts without one: stopped 1\n", "lost 7",
         "12.50 l entrapped, 12.00 l told, 17 bubbles over the budget", "6.00 % at most",
         "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried",
         "9 refused: too_fast 2 outlier 7\n"}) {
