@@ -47,6 +47,7 @@ void add_stacks(std::vector<Trial>& all) {
                    .name = with_ratio("ten on each other", ratio),
                    .seconds = 2.0,
                    .speed = kFall,
+                   .stands = ratio > 1.0,
                    .scene = [=](double s) { return stack(s, ratio); }});
   }
 }

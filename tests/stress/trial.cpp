@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/fluid/fluid_params.h"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/stress/whereabouts.hpp"
@@ -82,6 +83,17 @@ double fastest_free_body(const Simulation& simulation) {
     fastest = std::isfinite(speed) ? std::max(fastest, speed) : HUGE_VAL;
   }
   return fastest;
+}
+
+/// Of what has fallen by the rounding of the edges of the thinnest body [m/s].
+double fallen_speed(const Scene& scene) {
+  double thinnest = HUGE_VAL;
+  for (const sim::BodySettings& body : scene.bodies) {
+    const sim::Vector3& size = body.shape.size;
+    thinnest = std::min({thinnest, size[0], size[1], size[2]});
+  }
+  const double rounding = static_cast<double>(SPLASH_ROUNDED) * 0.5 * thinnest;
+  return std::sqrt(2.0 * sim::length(scene.fluid.gravity) * rounding);
 }
 
 double median(std::vector<double> values) {
@@ -165,6 +177,7 @@ Verdict run_trial(sim::Device& device, const Trial& trial, const Settings& setti
   const double bound = kSplash * std::max(trial.speed, wave_speed(scene));
   note(verdict, verdict.fastest <= bound, "speed");
   note(verdict, verdict.fastest_body <= bound, "body's speed");
+  note(verdict, !trial.stands || verdict.fastest_body <= fallen_speed(scene), "stands");
   note(verdict,
        trial.harmed || verdict.mean_excess <= densest_mean(scene, trial.speed, trial.slams),
        "mean density");

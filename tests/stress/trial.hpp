@@ -20,6 +20,7 @@ struct Trial {
   double speed = 1.0;     ///< the fastest that anything is meant to get [m/s]
   bool still = false;     ///< nothing moves: the water, none of it asleep, must be calm at the end
   bool slams = false;     ///< all of it lands flat and at once
+  bool stands = false;    ///< no free body may fall, not by the rounding of its edges
   bool harmed = false;    ///< faults are put in: steps may be computed again
   bool turnover = false;  ///< bubbles end as fast as they begin: there is always room for more
   double finest = 0.0;    ///< with finer water it takes hours and is left out [m]

@@ -5,8 +5,12 @@
 
 #define FIRST_EDGE 64  // number of the first edge among a body's features
 #define PUT_APART 4    // times that overlaps are ended, pair after pair
-#define LEFT_IN 0.1f   // overlap that is left, so that what lies stays in touch [rounding]
+#define LEFT_IN 0.1f   // overlap that is left, so that what lies stays in touch [touching]
 #define BOX_SLACK 1.01f  // of boxes, for the rounding of places [1]
+
+static float touch_of(const Pairing* m) {
+  return fmin(touching(m->shape), touching(m->shape_other));
+}
 
 // Whether the boxes around two outlines, along the axes of the world, meet within the step: what
 // does not is passed over before any corner is looked at.
@@ -14,7 +18,8 @@ static bool boxes_meet(const Pairing* m, float dt) {
   const float3 apart = fabs(place_of(m->step) - place_of(m->step_other));
   const float3 sizes = reach_along_axes(m->shape, m->step) +
                        reach_along_axes(m->shape_other, m->step_other);
-  const float3 reach = BOX_SLACK * sizes + dt * (m->step.speed + m->step_other.speed);
+  const float3 reach =
+      BOX_SLACK * sizes + touch_of(m) + dt * (m->step.speed + m->step_other.speed);
   return apart.x < reach.x && apart.y < reach.y && apart.z < reach.z;
 }
 
@@ -39,11 +44,11 @@ static void add_meeting(Contacts* all, const Pairing* m, int feature, float3 at,
   c.normal = turned ? -normal : normal;
   c.key = contact_key(m->body, m->body_other, turned, feature);
   c.drift = speed_at(theirs, c.other_lever);
-  add_contact(all, c, gap, dt);
+  add_contact(all, c, gap, touch_of(m), dt);
 }
 
 static void add_meetings(Contacts* all, const Pairing* m, float dt) {
-  const float reach = dt * (m->step.speed + m->step_other.speed);
+  const float reach = touch_of(m) + dt * (m->step.speed + m->step_other.speed);
   float3 at, normal;
   float gap;
   for (int k = 0; k < corner_count(m->shape); ++k) {
@@ -112,17 +117,13 @@ static BodyStep step_after(const Contacts* all, int body_count, int free_body, i
   return b;
 }
 
-static float least_rounding(const Pairing* m) {
-  return fmin(rounding_of(m->shape), rounding_of(m->shape_other));
-}
-
 // Ends what is left of an overlap: no motion comes of it. Each free body gives way in inverse
 // proportion to its mass.
 static void put_apart(const Contacts* all, const Pairing* m, int body_count, int j) {
   const Pairing turned = turned_round(m);
   const float3 way = overlap_of(m), back = overlap_of(&turned);
   float3 apart = dot(way, way) > dot(back, back) ? way : -back;
-  const float overlap = length(apart), left = LEFT_IN * least_rounding(m);
+  const float overlap = length(apart), left = LEFT_IN * touch_of(m);
   if (!(overlap > left)) return;
   apart *= 1.0f - left / overlap;
   const FreeBody f = all->frees[m->one];

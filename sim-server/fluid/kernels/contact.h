@@ -3,7 +3,8 @@
 // ends the approach (or turns it round, by the restitution) and one that rubs (Coulomb), found
 // together by repeated sweeps, none of them ever pulling (Catto 2005, sequential impulses). What
 // one body gets, the other gives, at the same place: momentum and angular momentum stay.
-// What would pass the other within the step is stopped so that it just reaches it.
+// What would pass the other within the step is stopped so that it just reaches it; what touches may
+// have to be stopped, too, once that on which it lies is.
 // A place in touch in the step before begins with the push that it had: so what is piled up is
 // found in a few sweeps. Where the water was taken back, that push is of a step that did not come
 // to be: a worse guess, no wrong answer.
@@ -124,13 +125,19 @@ static float mass_at(const Contacts* all, const Contact* c, float3 way) {
   return 1.0f / yield;
 }
 
-// Adds the contact `c`, apart by `gap` [m], if it closes within the step.
-static void add_contact(Contacts* all, Contact c, float gap, float dt) {
+// What is nearer than this touches: by as much as edges are round [m].
+static float touching(BodyShape s) {
+  return SPLASH_ROUNDED * fmin(s.half_z, fmin(s.half_x, s.half_y));
+}
+
+// Adds the contact `c`, apart by `gap` [m], if it closes within the step or is nearer than `touch`.
+static void add_contact(Contacts* all, Contact c, float gap, float touch, float dt) {
   const float leaving = dot(slip_of(all, &c), c.normal);
-  if (!(gap + dt * leaving < 0.0f) || all->count >= all->room) return;
+  const bool closes = gap + dt * leaving < 0.0f;
+  if (!(closes || gap < touch) || all->count >= all->room) return;
   float restitution = all->frees[c.body].restitution;
   if (c.other != NO_BODY) restitution = fmax(restitution, all->frees[c.other].restitution);
-  const bool rebounds = leaving < -all->rebound && restitution > 0.0f;
+  const bool rebounds = closes && leaving < -all->rebound && restitution > 0.0f;
   c.wanted = rebounds ? -restitution * leaving : -fmax(gap, 0.0f) / dt;
   c.friction = all->frees[c.body].friction;
   if (c.other != NO_BODY) c.friction = sqrt(c.friction * all->frees[c.other].friction);

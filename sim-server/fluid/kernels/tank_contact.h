@@ -44,7 +44,7 @@ static void meet_walls(Contacts* all, constant FluidParams* p, BodyShape shape,
       c.normal = normal;
       c.key = contact_key(all->frees[free_body].body, MET_WALLS + k, false, i);
       c.drift = (k == p->piston ? piston_speed : 0.0f) * normal;
-      add_contact(all, c, above_wall(p, k, piston, b, lever[i]), dt);
+      add_contact(all, c, above_wall(p, k, piston, b, lever[i]), touching(shape), dt);
     }
   }
   all->room = room;
