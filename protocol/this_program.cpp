@@ -16,7 +16,7 @@ bool is_loader(const std::filesystem::path& file) {
 
 std::filesystem::path this_program() {
   std::error_code error;
-  const std::filesystem::path file = std::filesystem::read_symlink("/proc/self/exe", error);
+  std::filesystem::path file = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) return {};
   const char* starter = std::getenv("SPLASH_PROGRAM");
   if (starter != nullptr && is_loader(file)) return starter;

@@ -97,7 +97,7 @@ Limits limits_of(Device& device) {
     limits.bandwidth = 3.0 * static_cast<double>(count * width * sizeof(float)) / seconds;
   }
   Kernel multiply_add(program, "multiply_add", device.profile().group);
-  const std::size_t items = device.facts().compute_units * (width == 1 ? 4096U : 64U);
+  const std::size_t items = std::size_t{width == 1 ? 4096U : 64U} * device.facts().compute_units;
   const int rounds = width == 1 ? 4096 : 65536;
   Buffer<float> out(device, items);
   const double seconds = fastest(
@@ -116,7 +116,7 @@ Limits limits_of(Device& device) {
 
 /// Where the particles are, as the kernels see them.
 struct Places {
-  FluidParams params;
+  FluidParams params = {};
   std::vector<float> position;  ///< x, y, z parts
   std::vector<int> cell_start;
   int used = 0;  ///< cells up to the last that has a particle
@@ -214,7 +214,8 @@ class Search {
         met_.visited += end - begin;
         continue;
       }
-      met_.tested += (end - begin + lanes_ - 1) / lanes_ * lanes_;
+      const int vectors = (end - begin + lanes_ - 1) / lanes_;
+      met_.tested += vectors * lanes_;
       for (int j = begin; j < end; ++j) met_.visited += is_near(around, j) ? lanes_ : 0;
     }
   }

@@ -34,12 +34,10 @@ YardstickLoops loops() {
 /// First particles of all groups: row by row, so that none straddles two.
 std::vector<int> group_starts(const Particles& p) {
   std::vector<int> starts;
-  const int rows = p.params.cells_y * p.params.cells_z;
-  const int slices = SPLASH_SLICES * p.params.cells_x;
-  for (int row = 0; row < rows; ++row) {
-    const int end = p.cell_start[static_cast<std::size_t>((row + 1) * slices)];
-    for (int first = p.cell_start[static_cast<std::size_t>(row * slices)]; first < end;
-         first += kGroup) {
+  const auto slices = static_cast<std::size_t>(SPLASH_SLICES * p.params.cells_x);
+  for (std::size_t row = 0; (row + 1) * slices < p.cell_start.size(); ++row) {
+    const int end = p.cell_start[(row + 1) * slices];
+    for (int first = p.cell_start[row * slices]; first < end; first += kGroup) {
       starts.push_back(first);
     }
   }

@@ -27,8 +27,7 @@ double way_of(int particles) {
 
 /// A paddle that goes to and fro in the corner, slowly.
 Scene stirred(int particles) {
-  Scene scene =
-      read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
+  Scene scene = read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
   scene.fluid.particles = particles;
   BodySettings paddle;
   paddle.name = "paddle";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/source_folder.hpp"
 #include "tests/validation/run.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <sys/resource.h>
 
