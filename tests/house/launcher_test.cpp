@@ -192,7 +192,8 @@ TEST_F(Launcher, HelpOnACommandListsWhatThereIs) {
   EXPECT_THAT(launch("bench --help").output,
               testing::ContainsRegex("\n  validation +Runs the validation cases"));
   EXPECT_THAT(launch("help test").output, HasSubstr("--filter REGEX"));
-  for (const char* name : {"demo", "run", "service", "test", "bench", "build", "clean", "help"}) {
+  for (const char* name :
+       {"demo", "run", "service", "test", "bench", "build", "bundle", "clean", "help"}) {
     EXPECT_THAT(launch(std::string(name) + " --help").output, HasSubstr(name)) << name;
     EXPECT_EQ(launch(std::string("help ") + name).exit_code, 0) << name;
   }
@@ -209,6 +210,7 @@ TEST_F(Launcher, WordsThatAreNoCommandsGetTheNearestOne) {
   const CommandResult foreign = launch("test --rig stereo");
   EXPECT_EQ(foreign.exit_code, 64);
   EXPECT_THAT(foreign.output, HasSubstr("--rig is for demo, run, service"));
+  EXPECT_THAT(launch("test --out x").output, HasSubstr("--out is for demo, run, bundle"));
 }
 
 }  // namespace

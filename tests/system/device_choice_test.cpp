@@ -79,6 +79,17 @@ TEST_F(DeviceChoice, AGpuThatStandsItsTestIsTaken) {
               ContainsRegex("device  0: basic.*: asked for"));
 }
 
+TEST_F(DeviceChoice, TheListIsOfThoseMeant) {
+  const auto list = [this](const Arguments& more) {
+    Arguments arguments{"--list-devices"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return simulate("sound", arguments).text;
+  };
+  EXPECT_THAT(list({}), AllOf(HasSubstr("0: basic"), HasSubstr("1: pthread")));
+  EXPECT_THAT(list({"--device", "cpu"}), AllOf(Not(HasSubstr("basic")), HasSubstr("1: pthread")));
+  EXPECT_THAT(list({"--device", "gpu"}), AllOf(HasSubstr("0: basic"), Not(HasSubstr("pthread"))));
+}
+
 struct Broken {
   const char* way;
   const char* said;

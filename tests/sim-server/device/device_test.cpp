@@ -55,6 +55,17 @@ TEST(Devices, TheDefaultIsTheFirstOfThoseMeant) {
   EXPECT_EQ(Device(device.facts().index).facts().name, device.facts().name);
 }
 
+TEST(Devices, HaveTheKernelsOfGpusWhereTheEnvironmentAsksForThem) {
+  const int usual = Device().lanes();
+  setenv("SPLASH_SCALAR", "1", 1);
+  const int scalar = Device().lanes();
+  const int asked_for = Device(-1, false, 8).lanes();
+  unsetenv("SPLASH_SCALAR");
+  EXPECT_EQ(scalar, 1);
+  EXPECT_EQ(asked_for, 8) << "who names a width gets it";
+  EXPECT_EQ(Device().lanes(), usual);
+}
+
 TEST(Devices, OutOfRangeIsAnsweredWithThoseThereAre) {
   const auto list = list_devices();
   for (const int index : {static_cast<int>(list.size()), 1000}) {
