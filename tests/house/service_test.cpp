@@ -116,11 +116,11 @@ TEST_F(Service, KnowsItsScenesAndRigs) {
   EXPECT_EQ(launch("pool --rig trumpet").exit_code, 66);
 }
 
-/// The numbers in README.md, the units and the header are the same.
+/// The numbers in docs/running.md, the units and the header are the same.
 TEST(ExitCodes, AreToldAsTheyAre) {
   const fs::path root = SPLASH_SOURCE_DIR;
   const std::string header = read_text(root / "protocol" / "exit_codes.hpp");
-  const std::string readme = read_text(root / "README.md");
+  const std::string readme = read_text(root / "docs/running.md");
   static const std::regex kCode(R"(kExit\w+ = (\d+),)");
   int codes = 0;
   for (std::sregex_iterator it(header.begin(), header.end(), kCode), end; it != end; ++it) {

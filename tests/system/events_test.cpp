@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "protocol/event_log.hpp"
 #include "protocol/status.hpp"
@@ -105,6 +106,66 @@ TEST_F(Events, ReportStatesTheRun) {
   EXPECT_GE(report.at("wall_seconds").get<double>(), 2.95);
   EXPECT_GT(report.at("steps_per_second").get<double>(), 0.0);
   EXPECT_TRUE(report.at("late").is_number_unsigned()) << "the synth answered";
+}
+
+/// The counts of a report that a status has, too.
+protocol::SimStatus counts_of(const Json& report) {
+  const Json& skipped = report.at("skipped");
+  protocol::SimStatus status;
+  status.steps = report.at("steps");
+  status.impacts = report.at("events").at("impacts");
+  status.bubbles = report.at("events").at("bubbles");
+  status.late = report.at("behind");
+  status.skipped = skipped.at("idle_frames").get<std::uint64_t>() +
+                   skipped.at("contact_passes").get<std::uint64_t>() +
+                   skipped.at("bubble_passes").get<std::uint64_t>() +
+                   skipped.at("cavity_searches").get<std::uint64_t>();
+  return status;
+}
+
+// Asked until the last second of the run, each count is that of the report, but for what follows.
+TEST_F(Events, StatusIsThatOfTheReport) {
+  const SmallScene scene(plunging());
+  Simulator simulator(
+      {"--scene", scene.path(), "--target", "127.0.0.1:9", "--duration", "4", "--report", report_});
+  std::optional<protocol::SimStatus> last;
+  double seconds = 0.0;  // by its steps, each of one length
+  do {
+    const auto status = protocol::to_sim_status(simulator.ask({"/status", {}}, "/status.reply"));
+    if (!status) break;
+    last = status;
+    seconds = last->steps_per_second > 0.0F
+                  ? static_cast<double>(last->steps) / static_cast<double>(last->steps_per_second) *
+                        static_cast<double>(last->real_time_factor)
+                  : 0.0;
+  } while (seconds < 3.2);
+  ASSERT_TRUE(last) << simulator.process().output();
+  ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  std::ifstream file(report_);
+  const Json report = Json::parse(file);
+  const protocol::SimStatus whole = counts_of(report);
+  EXPECT_EQ(last->particles, report.at("particles"));
+  for (const auto count : {&protocol::SimStatus::steps, &protocol::SimStatus::impacts,
+                           &protocol::SimStatus::bubbles, &protocol::SimStatus::skipped}) {
+    EXPECT_LE((*last).*count, whole.*count);
+    EXPECT_GE(2 * (*last).*count, whole.*count) << "three of the four seconds had passed";
+    EXPECT_GT((*last).*count, 0U);
+  }
+  EXPECT_LE(last->late, whole.late);
+  EXPECT_EQ(last->cavities, 0U);
+  EXPECT_EQ(last->resets, 0U);
+  EXPECT_LE(last->unsent, report.at("send_failures").get<std::uint64_t>());
+  EXPECT_GT(last->real_time_factor, 0.0F);
+  EXPECT_LT(last->real_time_factor, 1.1F);
+  const double length =
+      report.at("simulated_seconds").get<double>() / report.at("steps").get<double>();
+  EXPECT_NEAR(
+      static_cast<double>(last->real_time_factor) / static_cast<double>(last->steps_per_second),
+      length, 0.3 * length)
+      << "both are of the last second";
+  EXPECT_GT(last->density_error, 0.0F);
+  EXPECT_LT(static_cast<double>(last->density_error),
+            report.at("maximum_density_error").get<double>());
 }
 
 TEST_F(Events, EachOfTwoTargetsGetsAll) {
