@@ -11,18 +11,18 @@ readonly kLeast=10      # a part is not begun with less time left than this [s]
 readonly kEvery=30      # between two lines on a part that takes long [s]
 readonly kMostParticles=16000000
 
-# name | time it may take at most, of ten minutes [s] | what is held or measured
+# name | its share of the time that is left, beside the others that are left | what is held or measured
 readonly kParts="
-self-test  |  60 | densities and accelerations of a cube against sums in double precision, twice the same bits
-programs   |  60 | two seconds of the basin by sim-server, and the sound of its events by synth-server
-kernels    | 200 | kernels of water, bodies and detectors against sums by brute force in double precision
-validation | 150 | twelve published cases and closed forms, each at one resolution
-scenes     | 120 | each built-in scene twice: the real-time factor; both runs end in the same bits
-determinism |  60 | the same seed gives the same events and bits, kernels of all widths the same water
-faults     |  90 | faults put into the water are seen, never told, and mended
-yardstick  |  60 | the two main kernels beside C++ by hand on this machine's processor: the same sums
-size       |  90 | time of a step from 2,000 to 16 million particles, as memory and time allow
-stages     |  60 | launches, bytes and arithmetic of each kernel against what the device can do
+self-test  |  30 | densities and accelerations of a cube against sums in double precision, twice the same bits
+programs   |  40 | two seconds of the basin by sim-server, and the sound of its events by synth-server
+kernels    | 160 | kernels of water, bodies and detectors against sums by brute force in double precision
+validation | 110 | twelve published cases and closed forms, each at one resolution
+scenes     | 110 | each built-in scene twice: the real-time factor; both runs end in the same bits
+determinism | 30 | the same seed gives the same events and bits, kernels of all widths the same water
+faults     |  60 | faults put into the water are seen, never told, and mended
+yardstick  |  30 | the two main kernels beside C++ by hand on this machine's processor: the same sums
+size       |  80 | time of a step from 2,000 to 16 million particles, as memory and time allow
+stages     |  50 | launches, bytes and arithmetic of each kernel against what the device can do
 "
 
 say() { printf '%s\n' "$*"; }
@@ -47,8 +47,8 @@ TEXT
 }
 
 parts_of() {  # name or ''; lines "  name   what"
-  local name most what
-  while IFS='|' read -r name most what; do
+  local name share what
+  while IFS='|' read -r name share what; do
     name=${name// /}
     [[ -z $name || ( -n $1 && $1 != "$name" ) ]] || printf '  %-12s%s\n' "$name" "$what"
   done <<<"$kParts"
@@ -93,9 +93,13 @@ note() {  # part, verdict, seconds, words
   say "          $2 after $(clock "$3")${4:+: $4}"
 }
 
-run_part() {  # name, most seconds of ten minutes, what
-  local name=$1 most=$(($2 * minutes / 10)) what=$3 began code=0 words=''
-  ((${#wanted[@]} == 0)) || [[ " ${wanted[*]} " == *" $name "* ]] || return 0
+is_wanted() { ((${#wanted[@]} == 0)) || [[ " ${wanted[*]} " == *" $1 "* ]]; }
+
+# What a part does not use is the others'.
+run_part() {  # name, share, what
+  local name=$1 what=$3 most began code=0 words=''
+  most=$(($(left) * $2 / shares))
+  shares=$((shares - $2))
   say "$(printf '%6s' "$(clock $(($(date +%s) - start)))")    $name: $what"
   if (($(left) < kLeast)); then
     note "$name" skipped 0 "the $minutes minutes are over"
@@ -299,7 +303,7 @@ parse() {
 
 main() {
   local wish='' scalar='' minutes=10 out=splash-device-report wanted=() verdicts=() energy=''
-  local device device_line device_name start end starts name most what row bad=0 missing=0
+  local device device_line device_name start end starts name share what row shares=0 bad=0 missing=0
   parse "$@"
   mkdir -p -- "$out" || fail 74 "$out cannot be made"
   out=$(readlink -f -- "$out")
@@ -311,8 +315,11 @@ main() {
   [[ -z $scalar ]] || export SPLASH_SCALAR=1
   choose_device
   say "Taken: $device_line"
-  while IFS='|' read -r name most what; do
-    [[ -z ${name// /} ]] || run_part "${name// /}" "${most// /}" "${what# }"
+  while IFS='|' read -r name share what; do
+    ! is_wanted "${name// /}" || shares=$((shares + ${share:-0}))
+  done <<<"$kParts"
+  while IFS='|' read -r name share what; do
+    [[ -z ${name// /} ]] || ! is_wanted "${name// /}" || run_part "${name// /}" "${share// /}" "${what# }"
   done <<<"$kParts"
   for row in "${verdicts[@]}"; do
     case $row in

@@ -285,11 +285,18 @@ TEST_F(CheckOfADevice, GoesOnAfterAFailureAndSaysWhat) {
 }
 
 TEST_F(CheckOfADevice, KeepsItsTimeAndNamesWhatDidNotFit) {
-  write_program(bin_ / "bench-fluid", "sleep 100");
-  const Ended checked = check({"--minutes", "1", "--part", "yardstick", "--part", "scenes"});
+  write_program(bin_ / "sim-server",
+                "case \"$*\" in *--list*) echo '0: Slow (CPU)';; *--check*) sleep 100;; esac");
+  const Ended checked = check({"--minutes", "1"});
   EXPECT_EQ(checked.code, 2) << checked.text;
-  EXPECT_THAT(report(), AllOf(HasSubstr("| yardstick | cut off | 0:1"),
-                              HasSubstr("| scenes | held |"), Not(HasSubstr("| kernels |"))));
+  EXPECT_THAT(report(),
+              AllOf(HasSubstr("| self-test | cut off | 0:1"), HasSubstr("| size | held |")));
+}
+
+TEST_F(CheckOfADevice, DoesThePartsThatAreAskedFor) {
+  EXPECT_EQ(check({"--part", "scenes", "--part", "size"}).code, 0);
+  EXPECT_THAT(report(),
+              AllOf(HasSubstr("| scenes |"), HasSubstr("| size |"), Not(HasSubstr("| kernels |"))));
 }
 
 TEST_F(CheckOfADevice, RefusesWhatIsNoPartNoTimeAndNoDevice) {
