@@ -105,8 +105,7 @@ constexpr ArgumentRow kForce[] = {{'i', "body", "1", 0, 255, "index of the body 
                                   {'f', "ty", "N m", -1e6, 1e6, "same"},
                                   {'f', "tz", "N m", -1e6, 1e6, "same"}};
 
-constexpr ArgumentRow kNotify[] = {
-    {'i', "streams", "1", 0, 3, "sum of 1: events, 2: forces; 0 ends both"}};
+constexpr ArgumentRow kNotify[] = {{'i', "streams", "1", 0, 1, "1: events; 0 ends them"}};
 constexpr ArgumentRow kSync[] = {{'i', "id", "1", -kLastInt - 1, kLastInt, "returned in /synced"}};
 constexpr ArgumentRow kDumpOsc[] = {
     {'i', "level", "1", 0, 3, "0: off, 1: text, 2: hexadecimal, 3: both"}};
@@ -180,7 +179,8 @@ constexpr auto kTable = std::to_array<AddressRow>({
      "Behind a sender's last /frame: what was sent sounds to its end, and no more is waited for",
      {}},
     {"/body/pose", Direction::to_sim, "Pose of a tracked body", kBodyPose},
-    {"/force", Direction::subscribers, "Force and torque of the water on a body", kForce},
+    {"/force", Direction::subscribers,
+     "Reserved, never sent: force and torque of the water on a body", kForce},
     {"/notify", Direction::to_both, "Subscribes the sender to streams; answered by /done", kNotify},
     {"/status", Direction::to_both, "Asks for /status.reply", {}},
     {"/version", Direction::to_both, "Asks for /version.reply", {}},
@@ -188,8 +188,9 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/clearSched", Direction::to_both, "Drops what waits for its time; answered by /done", {}},
     {"/mute", Direction::synth_alone,
      "Fades all channels out in 20 ms, or opens them within two seconds; answered by /done", kMute},
-    {"/dumpOSC", Direction::to_both, "Prints incoming packets", kDumpOsc},
-    {"/error", Direction::to_both, "Turns the report of failures on or off", kError},
+    {"/dumpOSC", Direction::to_both, "Prints incoming packets; answered by /done", kDumpOsc},
+    {"/error", Direction::to_both, "Turns the report of failures on or off; answered by /done",
+     kError},
     {"/quit", Direction::to_both, "Ends the program; answered by /done; only from loopback", {}},
     {"/ping", Direction::to_both, "Measures the clocks; answered by /pong", kPing},
     {"/done", Direction::reply, "A command was carried out", kDone},

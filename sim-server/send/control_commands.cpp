@@ -17,8 +17,6 @@
 namespace splash::sim {
 namespace {
 
-constexpr std::int32_t kEventStream = 1;  // of /notify
-
 /// The first argument of a message that keeps its row of the address table.
 std::int32_t first_int(const protocol::Message& message) {
   return std::get<std::int32_t>(message.arguments.front());
@@ -131,9 +129,6 @@ void ControlServer::notify(const Request& request) {
   const auto streams = first_int(request.message);
   if (streams == 0) {
     targets_.unsubscribe(request.from);
-  } else if (streams != kEventStream) {
-    fail(request, "only events are sent: /notify 1");
-    return;
   } else if (!targets_.subscribe(request.from)) {
     fail(request, "full: " + std::to_string(kMaxSubscribers) + " subscribers");
     return;
@@ -143,10 +138,12 @@ void ControlServer::notify(const Request& request) {
 
 void ControlServer::dump_osc(const Request& request) {
   dump_level_ = static_cast<DumpLevel>(first_int(request.message));
+  reply(request, protocol::done(request.message.address));
 }
 
 void ControlServer::error(const Request& request) {
   complains_ = first_int(request.message) != 0;
+  reply(request, protocol::done(request.message.address));
 }
 
 /// Poses are taken at once and events are the synth's to hold: nothing is scheduled here.
