@@ -81,7 +81,7 @@ void CavityWatch::follow(std::size_t body, double time) {
     first.place = first.place - ago * extent.state.velocity;
     watch.hollow.emplace(first, watch.slam->level, gravity_);
     watch.hollow->go_on(now);
-  } else if (time > watch.slam->time + closes) {
+  } else if (down <= 0.0 && time > watch.slam->time + closes) {
     ++none_.afloat;
     watch = {};
   }

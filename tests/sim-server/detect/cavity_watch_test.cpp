@@ -187,18 +187,19 @@ TEST(CavityWatch, NeedsDeepWater) {
   EXPECT_EQ(tell(story).cavities.size(), 1U);
 }
 
-// A board of 40 cm, turned by 60 degrees, stops when its middle is 13 cm deep: its upper end sticks
-// out.
+// A board of 40 by 2 cm, turned by 60 degrees, goes in at 1 m/s until its middle is under, 0.17 s
+// after its lower end. At that speed its upper end sticks out when its hollow closes.
 TEST(CavityWatch, NeedsABodyThatGoesUnder) {
-  Story story = plain();
-  story.size = "[0.4, 0.02, 0.01]";
-  const std::string turn = ", rotation: [0, 0.5, 0, 0.8660254]}";
-  story.path =
-      "{time: 0, position: [0, 0, 0.58]" + turn + ", {time: 0.31, position: [0, 0, 0.27]" + turn;
-  story.slap = 0.01;
-  const Told told = tell(story);
-  EXPECT_TRUE(told.cavities.empty());
-  EXPECT_EQ(told.none.afloat, 1U);
+  for (const double then : {1.0, 2.0}) {
+    Story story = plain();
+    story.size = "[0.4, 0.02, 0.01]";
+    const std::string turn = ", rotation: [0, 0.5, 0, 0.8660254]}";
+    story.path = "{time: 0, position: [0, 0, 0.58]" + turn +
+                 ", {time: 0.18, position: [0, 0, 0.4]" + turn + ", {time: 0.3, position: [0, 0, " +
+                 std::to_string(0.4 - 0.12 * then) + "]" + turn;
+    story.slap = 0.01;
+    EXPECT_EQ(tell(story).none.afloat, then < 1.5 ? 1U : 0U) << then;
+  }
 }
 
 TEST(CavityWatch, NeedsABodyThatDoesNotComeOut) {
