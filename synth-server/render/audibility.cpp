@@ -39,12 +39,6 @@ double quiet_threshold_db(double frequency) noexcept {
          1e-3 * khz * khz * khz * khz;
 }
 
-/// How far the output's band turns a sine down [dB, positive]: fourth-order Butterworth both ways.
-double cut_db(const Band& band, double frequency) noexcept {
-  return 10.0 * std::log10(1.0 + std::pow(band.low / frequency, 8.0)) +
-         10.0 * std::log10(1.0 + std::pow(frequency / band.high, 8.0));
-}
-
 /// A voice's pitch at -120 dB, in parts of that at its start: 1 + 0.2 ln 10^6 with the literal
 /// chirp.
 constexpr double kRiseAtMost = 3.77 * 1.06;  // and a twelfth of an octave, to the next entry
@@ -58,6 +52,11 @@ double touch_threshold_db(double frequency) noexcept {
 
 double hearing_threshold_db(double frequency) noexcept {
   return quiet_threshold_db(frequency) - quiet_threshold_db(kHearingReference);
+}
+
+double cut_db(const Band& band, double frequency) noexcept {
+  return 10.0 * std::log10(1.0 + std::pow(band.low / frequency, 8.0)) +
+         10.0 * std::log10(1.0 + std::pow(frequency / band.high, 8.0));
 }
 
 Audibility::Audibility(const Output& output, bool by_threshold) {

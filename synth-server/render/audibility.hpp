@@ -18,6 +18,9 @@ namespace splash::synth {
 /// 1: 3.64 f^-0.8 - 6.5 e^(-0.6 (f - 3.3)^2) + 0.001 f^4 dB SPL with f in kHz.
 [[nodiscard]] double hearing_threshold_db(double frequency) noexcept;
 
+/// How far the output's band turns a sine down [dB, positive]: fourth-order Butterworth both ways.
+[[nodiscard]] double cut_db(const Band& band, double frequency) noexcept;
+
 /// The least amplitude worth rendering for one output, by the pitch at which a voice begins.
 class Audibility {
  public:

@@ -22,6 +22,7 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       routing_(rig, {settings.skip_out_of_band, settings.skip_unfelt}),
       routes_(static_cast<std::size_t>(routing_.max_routes())),
       bubbles_(make_bubble_pool(pool_settings(rig, settings, routing_))),
+      impact_level_(rig),
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       masking_(channel_count(rig), settings.sample_rate) {}
 
@@ -42,8 +43,8 @@ Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
   const ImpactSound& sound = settings_.sound.impact;
   const double speed =
       impact_speed(sound, static_cast<double>(impact.speed), static_cast<double>(impact.approach));
-  const double amplitude = impact_amplitude(sound, speed);
-  const Routing::Reach reach = routing_.route({impact.position, impact.body, 0.0}, routes_);
+  const auto [amplitude, parts] = impact_level_.at(sound, speed);
+  const Routing::Reach reach = routing_.route({impact.position, impact.body, 0.0, parts}, routes_);
   const double floor = reach.floor / gain_of(sound.gain_db);
   const VoiceLife life = impact_life(sound, amplitude, settings_.sample_rate, floor);
   if (reach.result != Routing::Result::heard || life.length <= 0) {

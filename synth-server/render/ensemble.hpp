@@ -10,6 +10,7 @@
 #include "synth-server/render/bubble_pool.hpp"
 #include "synth-server/render/counters.hpp"
 #include "synth-server/render/engine.hpp"
+#include "synth-server/render/impact_level.hpp"
 #include "synth-server/render/impact_pool.hpp"
 #include "synth-server/render/masking.hpp"
 #include "synth-server/render/routing.hpp"
@@ -54,6 +55,7 @@ class Ensemble {
   Routing routing_;
   std::vector<Route> routes_;  ///< of the voice that is being started
   std::unique_ptr<BubblePool> bubbles_;
+  ImpactLevel impact_level_;
   ImpactPool impacts_;
   Masking masking_;
   int starts_ = 0;  ///< in this cell

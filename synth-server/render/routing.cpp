@@ -78,10 +78,11 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
     in_band = true;
     if (output.body >= 0 && output.body != source.body) continue;
     spread(output, source.position, gains_.data());
+    const double part = source.parts.empty() ? 1.0 : source.parts[o];
     double loudest = 0.0;
     for (int c = 0; c < channels; ++c) {
       const auto level = static_cast<std::size_t>(begin) + static_cast<std::size_t>(c);
-      const double gain = gains_[static_cast<std::size_t>(c)] * levels_[level];
+      const double gain = gains_[static_cast<std::size_t>(c)] * levels_[level] * part;
       if (gain <= 0.0 || static_cast<std::size_t>(reach.routes) == routes.size()) continue;
       routes[static_cast<std::size_t>(reach.routes++)] = {begin + c, gain};
       loudest = std::max(loudest, gain);

@@ -23,6 +23,7 @@ struct Source {
   protocol::Vec3 position;
   std::int32_t body = -1;
   double frequency = 0.0;  ///< lowest it sounds at [Hz]: outputs whose band ends below are left out
+  std::span<const double> parts = {};  ///< of its amplitude, on each output [1]; empty: 1 on all
 };
 
 class Routing {

@@ -22,6 +22,13 @@ struct ImpactSound {
   /// Sharpness of the resonance [1]: 84 Hz wide, so that it rings for 26 ms (60 dB), well within
   /// the release, and the burst keeps the character of noise. The paper gives no value.
   double q = 5.0;
+  /// 0: the amplitude is the power law's; 1: what is felt grows evenly with the logarithm of the
+  /// speed (render/impact_level.hpp); between: mixed, in decibels.
+  double sensation = 0.0;
+  double slow = 0.05;     ///< at this speed [m/s] ...
+  double slow_db = 6.0;   ///< ... it is felt at this level over the threshold [dB]
+  double fast = 5.0;      ///< and at this one [m/s] ...
+  double fast_db = 36.0;  ///< ... at this [dB]
 };
 
 /// A bubble, or a cavity, which is the same formula with a large radius (bubble_model.hpp).

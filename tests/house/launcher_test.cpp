@@ -158,7 +158,8 @@ TEST_F(Launcher, TellsTheSynthWhereTheScenesMiddleLies) {
                 "echo \"$@\" >'" + synth_call().string() + "'; echo 'listening: here'; sleep 60");
   const CommandResult right = launch("run pool --out '" + (build() / "out").string() + "'");
   EXPECT_EQ(right.exit_code, 0) << right.output;
-  EXPECT_THAT(text_of(synth_call()), HasSubstr("/stereo.yaml --listen 127.0.0.1:573"));
+  EXPECT_THAT(text_of(synth_call()), HasSubstr("/stereo.yaml --sound "));
+  EXPECT_THAT(text_of(synth_call()), HasSubstr("/calibrated.yaml --listen 127.0.0.1:573"));
   EXPECT_THAT(text_of(synth_call()), HasSubstr(" --middle=0.915,0.5,0.25\n"));
 
   fs::remove(synth_call());

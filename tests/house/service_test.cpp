@@ -71,8 +71,9 @@ TEST_F(Service, HasThisTreesPaths) {
   const std::string configs = std::string(SPLASH_SOURCE_DIR) + "/configs/";
   EXPECT_THAT(sim, HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
                              "scenes/pool.yaml\" --target 127.0.0.1:57310\n"));
-  EXPECT_THAT(synth, HasSubstr("/bin/synth-server\" --rig \"" + configs +
-                               "rigs/tiles36.yaml\" --middle=0.915,0.5,0.25 "));
+  EXPECT_THAT(
+      synth, HasSubstr("/bin/synth-server\" --rig \"" + configs + "rigs/tiles36.yaml\" --sound \"" +
+                       configs + "sounds/calibrated.yaml\" --middle=0.915,0.5,0.25 "));
   for (const std::string& text : {sim, synth}) {
     EXPECT_THAT(text, Not(testing::ContainsRegex("@[A-Z]+@")));
     EXPECT_THAT(text, HasSubstr("\nType=notify\n"));
@@ -114,6 +115,7 @@ TEST_F(Service, FindsOnesOwnScenesAndRigsByName) {
 TEST_F(Service, KnowsItsScenesAndRigs) {
   EXPECT_EQ(launch("puddle").exit_code, 66);
   EXPECT_EQ(launch("pool --rig trumpet").exit_code, 66);
+  EXPECT_EQ(launch("pool --sound brass").exit_code, 66);
 }
 
 /// The numbers in docs/running.md, the units and the header are the same.

@@ -96,8 +96,8 @@ TEST(Names, LauncherAndSimulatorKnowTheSameOptions) {
   int found = 0;
   for (std::sregex_iterator it(help.text.begin(), help.text.end(), kOption), end; it != end; ++it) {
     const std::string option = (*it)[1].str();
-    if (option == "--rig" || option == "--out" || option == "--preset") continue;
-    if (option == "--build-dir") continue;
+    if (option == "--rig" || option == "--sound" || option == "--out") continue;
+    if (option == "--preset" || option == "--build-dir") continue;
     EXPECT_THAT(simulator, HasSubstr("  " + option + " "));
     ++found;
   }

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// What is felt of a sound: of impacts by their speed, and of the three components in recorded
+// scenes, measured on the samples that a rig gets.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "protocol/event_log.hpp"
+#include "synth-server/output/rig_reader.hpp"
+#include "synth-server/render/engine.hpp"
+#include "synth-server/replay/replay.hpp"
+#include "synth-server/sound/sound_reader.hpp"
+#include "tests/synth-server/sound/sensation_level.hpp"
+
+namespace splash::synth {
+namespace {
+
+constexpr int kRate = 48000;
+constexpr double kThreshold = -52.0;  ///< of handheld.yaml [dB]
+const std::filesystem::path kRoot = SPLASH_SOURCE_DIR;
+
+Sound shipped(const std::string& name) {
+  return read_sound(kRoot / "configs/sounds" / (name + ".yaml")).sound;
+}
+
+Rig handheld() {
+  return read_rig(kRoot / "configs/rigs/handheld.yaml");
+}
+
+/// What a hand gets of bursts at one speed.
+struct Felt {
+  double rms_db = 0.0;        ///< of the first 125 ms [dB re full scale]
+  double level_db = 0.0;      ///< over the threshold
+  std::uint64_t limited = 0;  ///< samples that the limiter turned down
+};
+
+Felt bursts(const Sound& sound, double speed, const Rig& rig = handheld()) {
+  constexpr int kBursts = 24;
+  constexpr int kApart = kRate;  // each has died away
+  EngineSettings settings;
+  settings.sample_rate = kRate;
+  settings.start_ramp = 0.0;
+  settings.sound = sound;
+  Engine engine(rig, settings);
+  std::vector<float> out(kApart);
+  float* channel = out.data();
+  ThirdPowers mean{};
+  double power = 0.0;
+  constexpr auto kCount = static_cast<std::size_t>(kSensationWindow * kRate);
+  for (int burst = 0; burst < kBursts; ++burst) {
+    protocol::Impact impact;
+    impact.id = burst;
+    impact.speed = impact.approach = static_cast<float>(speed);
+    engine.schedule({impact, engine.clock()});
+    for (int done = 0; done < kApart; done += 4000) {
+      float* piece = channel + done;
+      engine.render(&piece, 4000);
+    }
+    const auto window = std::span<const float>(out).first(kCount);
+    const ThirdPowers powers = third_powers(window, kRate);
+    for (std::size_t third = 0; third < kThirds; ++third) mean[third] += powers[third] / kBursts;
+    for (const float s : window) power += static_cast<double>(s) * static_cast<double>(s);
+  }
+  return {10.0 * std::log10(power / kBursts / static_cast<double>(kCount) + 1e-30),
+          sensation_level_db(mean, rig.outputs[0].threshold.level_db), engine.counters().limited};
+}
+
+void print_row(double speed, const Felt& felt) {
+  std::printf("| %.2f | %.0f | %.1f | %llu |\n", speed, felt.rms_db, felt.level_db,
+              static_cast<unsigned long long>(felt.limited));
+}
+
+// The measure, and what the paper's cube of the speed makes of it.
+TEST(Calibration, Cirio2013IsFeltInOneDecadeOfSpeed) {
+  const Sound sound = shipped("cirio2013");
+  std::printf("| speed [m/s] | rms of 125 ms [dB] | over the threshold [dB] | limited |\n");
+  const auto at = [&](double speed) {
+    const Felt felt = bursts(sound, speed);
+    print_row(speed, felt);
+    return felt;
+  };
+  EXPECT_LT(at(0.2).level_db, -30.0);
+  EXPECT_LT(at(0.5).level_db, -10.0) << "a gentle step is not felt";
+  EXPECT_NEAR(at(1.0).level_db, 4.0, 1.5);
+  EXPECT_NEAR(at(2.0).level_db, 22.0, 1.5);
+  const Felt brisk = at(3.0);
+  const Felt fast = at(5.0);
+  EXPECT_LT(fast.level_db, brisk.level_db + 1.0) << "saturated";
+  EXPECT_GT(fast.limited, 100U);
+}
+
+TEST(Calibration, CalibratedIsFeltEvenlyFromAGentleStepToABlow) {
+  const Sound sound = shipped("calibrated");
+  double before = 0.0;
+  double last = 0.0;
+  std::printf("| speed [m/s] | rms of 125 ms [dB] | over the threshold [dB] | limited |\n");
+  for (const double speed :
+       {0.05, 0.1, 0.2, 0.3, 0.5, 0.65, 0.8, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0}) {
+    const Felt felt = bursts(sound, speed);
+    print_row(speed, felt);
+    const double wanted = 6.0 + 30.0 * std::log(speed / 0.05) / std::log(100.0);
+    EXPECT_NEAR(felt.level_db, wanted, 1.0) << speed << " m/s";
+    EXPECT_EQ(felt.limited, 0U) << speed << " m/s: nothing is cut at the ceiling";
+    if (before > 0.0) {  // equal ratios of speed, equal steps
+      EXPECT_GT(felt.level_db, last);
+      EXPECT_NEAR((felt.level_db - last) / std::log(speed / before), 30.0 / std::log(100.0), 0.7);
+    }
+    before = speed;
+    last = felt.level_db;
+  }
+}
+
+// The level is found for whatever burst and transducer, not for the shipped ones alone.
+TEST(Calibration, HoldsForOtherBurstsAndTransducers) {
+  Rig rig = handheld();
+  rig.outputs[0].threshold.level_db = -70.0;
+  rig.outputs[0].full_scale = 0.002;
+  rig.outputs[0].band = {50.0, 500.0};
+  ImpactSound dull{.attack = 0.02, .release = 0.15, .frequency = 90.0, .q = 1.5};
+  ImpactSound ringing{.release = 2.0, .frequency = 270.0, .q = 20.0};
+  for (ImpactSound* impact : {&dull, &ringing}) {
+    impact->sensation = 1.0;
+    EXPECT_NEAR(bursts({*impact, {}, {}}, 0.5, rig).level_db, 21.0, 1.5) << impact->q;
+  }
+}
+
+/// What a hand gets of one component of a log.
+std::vector<double> levels_of(const std::filesystem::path& log, const Sound& sound,
+                              unsigned component) {
+  ReplaySettings settings;
+  settings.engine.sample_rate = kRate;
+  settings.engine.sound = sound;
+  settings.engine.components = component;
+  std::vector<float> signal;
+  static_cast<void>(replay(protocol::read_log(log), handheld(), settings,
+                           [&](const float* const* channels, int frames) {
+                             signal.insert(signal.end(), channels[0], channels[0] + frames);
+                           }));
+  return sensation_levels(signal, kRate, kThreshold);
+}
+
+/// Of the half windows in which anything is felt, the part in which one component is more than
+/// 20 dB over both others; what is under the threshold counts as at it.
+double lopsided(const std::array<std::vector<double>, 3>& levels) {
+  int felt = 0;
+  int over = 0;
+  for (std::size_t i = 0; i < levels[0].size(); ++i) {
+    std::array<double, 3> now{};
+    for (std::size_t c = 0; c < 3; ++c) now[c] = std::max(0.0, levels[c][i]);
+    std::sort(now.begin(), now.end());
+    if (now[2] > 0.0) ++felt;
+    if (now[2] - now[1] > 20.0) ++over;
+  }
+  return felt > 0 ? static_cast<double>(over) / felt : 1.0;
+}
+
+class CalibrationOf : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, CalibrationOf, testing::Values("basin", "pool", "beach"));
+
+TEST_P(CalibrationOf, EachComponentIsFeltAndNoneCoversTheOthersMostOfTheTime) {
+  const auto log = kRoot / "tests/data" / (std::string(GetParam()) + ".osc");
+  std::array<std::vector<double>, 3> levels;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const unsigned component = 1U << c;
+    levels[c] = levels_of(log, shipped("calibrated"), component);
+    const double most = *std::max_element(levels[c].begin(), levels[c].end());
+    std::printf("%s, component %u: %.0f dB over the threshold at most\n", GetParam(), component,
+                most);
+    if (component == kCavities && most < -200.0) continue;  // waves close none
+    EXPECT_GT(most, 10.0) << component;
+    EXPECT_LT(most, 40.0) << component;
+  }
+  EXPECT_LT(lopsided(levels), 0.5);
+}
+
+}  // namespace
+}  // namespace splash::synth
