@@ -44,14 +44,14 @@ kernel void multiply_add(global float* out, float s, int rounds) {
   const wide f = s, g = 1e-5f;
   wide a = s, b = a + 1, c = a + 2, d = a + 3, e = a + 4, h = a + 5, i = a + 6, j = a + 7;
   for (int round = 0; round < rounds; ++round) {
-    a = mad(a, f, g);
-    b = mad(b, f, g);
-    c = mad(c, f, g);
-    d = mad(d, f, g);
-    e = mad(e, f, g);
-    h = mad(h, f, g);
-    i = mad(i, f, g);
-    j = mad(j, f, g);
+    a = a * f + g;
+    b = b * f + g;
+    c = c * f + g;
+    d = d * f + g;
+    e = e * f + g;
+    h = h * f + g;
+    i = i * f + g;
+    j = j * f + g;
   }
   a += b + c + d + e + h + i + j;
 #if LANES == 1
