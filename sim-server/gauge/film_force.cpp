@@ -15,7 +15,7 @@ namespace splash::sim {
 namespace {
 
 constexpr double kGap = 2.0;     ///< of the widest film [spacings]
-constexpr double kApart = 3.0;   ///< from there on solids have nobody between them [spacings]
+constexpr double kApart = 3.0;   ///< from there on no particle counts as between solids [spacings]
 constexpr double kLeast = 0.01;  ///< what those between the solids count without others [1]
 constexpr double kNoDirection = 0.003;  ///< square of the share of the areas that is none [1]
 

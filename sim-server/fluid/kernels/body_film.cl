@@ -38,6 +38,34 @@
 #define FILM_WET 6    // sum of |A_i| [m2]
 #define FILM_BELOW 7  // of |A_s| where p > 0 and no solid is near [m2]
 
+// What a group of particles is to a body beside it.
+typedef struct {
+  Lever area, arm;  // A_i [m2]; from the body's centre [m]
+  lanes size;       // |A_i| [m2]
+  lanes pressure;   // p_i [Pa]
+  lanes between;    // w_i [1]
+} Beside;
+
+// Of the particles from `i` on, whose reach of the free body `k`, the scene's `body`, is known.
+static Beside beside(constant FluidParams* p, float piston, constant BodyShape* shapes,
+                     global const float* meshes, global const BodyStep* bodies, int body_count,
+                     int body, global const float* position, global const float* density,
+                     global const float* pressure, global float* reach, int k, int i) {
+  const int n = p->capacity;
+  const Reach r = load_reach(p, reach, k, i);
+  const lanes rho = LOAD(density, i);
+  const lanes x = LOAD(position, i), y = LOAD(position + n, i), z = LOAD(position + 2 * n, i);
+  const Gap gap = gap_at(p, piston, shapes, meshes, bodies, body_count, body, x, y, z);
+  const BodyFace own = nearest_face(shapes + body, meshes, bodies + body, 0, 1, x, y, z);
+  Beside w;
+  w.area = areas_of(p, &r, rho);
+  w.arm = lever_of(p, position, bodies[body], i);
+  w.size = length_of(w.area.x, w.area.y, w.area.z);
+  w.pressure = LOAD(pressure, i) * rho * rho;
+  w.between = between(p, &own, &gap);
+  return w;
+}
+
 // One work-item for each free body and part of its skin and of the water: how far it is from other
 // solids, and what the rim's pressure is.
 kernel void measure_rims(constant FluidParams* p, float piston, int free_count,
@@ -50,7 +78,7 @@ kernel void measure_rims(constant FluidParams* p, float piston, int free_count,
   const int item = get_global_id(0);
   if (item >= free_count * SPLASH_PUSH_PARTS) return;
   const int k = item / SPLASH_PUSH_PARTS, part = item % SPLASH_PUSH_PARTS;
-  const int body = frees[k].body, n = p->capacity;
+  const int body = frees[k].body;
   global const BodyStep* bodies = steps + first_body;
   const BodyStep b = bodies[body];
   Gap nearest = {FAR_AWAY, FAR_AWAY, 0.0f, 0.0f, 0.0f};
@@ -69,20 +97,15 @@ kernel void measure_rims(constant FluidParams* p, float piston, int free_count,
     const int groups = group_count(p);
     for (int group = part; group < groups; group += SPLASH_PUSH_PARTS) {
       if (!reached[k * groups + group]) continue;
-      const int i = group * LANES;
-      const Reach r = load_reach(p, reach, k, i);
-      const lanes rho = LOAD(density, i);
-      const Lever area = areas_of(p, &r, rho), arm = lever_of(p, position, b, i);
-      const lanes x = LOAD(position, i), y = LOAD(position + n, i), z = LOAD(position + 2 * n, i);
-      const Gap gap = gap_at(p, piston, shapes, meshes, bodies, body_count, body, x, y, z);
-      const BodyFace own = nearest_face(shapes + body, meshes, bodies + body, 0, 1, x, y, z);
-      const lanes size = length_of(area.x, area.y, area.z), none = 0.0f;
-      const lanes counts = select(none, fmax(1.0f - between(p, &own, &gap), LEAST), size > none);
-      const lanes level = select(
-          none,
-          LOAD(pressure, i) * rho * rho - (weight.x * arm.x + weight.y * arm.y + weight.z * arm.z),
-          size > none);
-      const lanes part[4] = {counts * size, counts * area.x, counts * area.y, counts * area.z};
+      const Beside w = beside(p, piston, shapes, meshes, bodies, body_count, body, position,
+                              density, pressure, reach, k, group * LANES);
+      const lanes none = 0.0f;
+      const lanes counts = select(none, fmax(1.0f - w.between, LEAST), w.size > none);
+      const lanes level =
+          select(none, w.pressure - (weight.x * w.arm.x + weight.y * w.arm.y + weight.z * w.arm.z),
+                 w.size > none);
+      const lanes part[4] = {counts * w.size, counts * w.area.x, counts * w.area.y,
+                             counts * w.area.z};
       sum[FILM_AREA] += part[0];
       sum[FILM_AREA + 1] += level * part[0];
       for (int axis = 0; axis < 3; ++axis) {
@@ -161,7 +184,7 @@ kernel void press_films(constant FluidParams* p, float dt, float piston, int fre
   const int item = get_global_id(0);
   if (item >= free_count * SPLASH_PUSH_PARTS) return;
   const int k = item / SPLASH_PUSH_PARTS, part = item % SPLASH_PUSH_PARTS;
-  const int body = frees[k].body, n = p->capacity;
+  const int body = frees[k].body;
   global const BodyStep* bodies = steps + first_body;
   const BodyStep b = bodies[body];
   const Film film = film_of(p, dt, rims, kept, k);
@@ -182,18 +205,11 @@ kernel void press_films(constant FluidParams* p, float dt, float piston, int fre
   const int groups = group_count(p);
   for (int group = part; group < groups; group += SPLASH_PUSH_PARTS) {
     if (!reached[k * groups + group]) continue;
-    const int i = group * LANES;
-    const Reach r = load_reach(p, reach, k, i);
-    const lanes rho = LOAD(density, i);
-    const Lever area = areas_of(p, &r, rho), arm = lever_of(p, position, b, i);
-    const lanes x = LOAD(position, i), y = LOAD(position + n, i), z = LOAD(position + 2 * n, i);
-    const Gap gap = gap_at(p, piston, shapes, meshes, bodies, body_count, body, x, y, z);
-    const BodyFace own = nearest_face(shapes + body, meshes, bodies + body, 0, 1, x, y, z);
-    const lanes level = pressure_at(&film, weight, arm);
-    const lanes more = LOAD(pressure, i) * rho * rho - level;
-    const lanes size = length_of(area.x, area.y, area.z);
-    press(level + between(p, &own, &gap) * more, arm, area, size > 0.0f, &sum);
-    sum.of[FILM_WET] += size;
+    const Beside w = beside(p, piston, shapes, meshes, bodies, body_count, body, position, density,
+                            pressure, reach, k, group * LANES);
+    const lanes level = pressure_at(&film, weight, w.arm);
+    press(level + w.between * (w.pressure - level), w.arm, w.area, w.size > 0.0f, &sum);
+    sum.of[FILM_WET] += w.size;
   }
   for (int e = 0; e < SPLASH_FILM_ENTRIES; ++e) {
     parts[item * SPLASH_FILM_ENTRIES + e] = total(sum.of[e]);

@@ -2,7 +2,7 @@
 // Where films are (body_film.cl): how far a place is from what is not the body, whether it lies
 // between the two, and the faces that a pressure acts on, of the body's skin and of particles.
 
-#define APART 3.0f  // from there on solids have nobody between them [spacings]
+#define APART 3.0f  // from there on no particle counts as between solids [spacings]
 
 typedef struct {
   lanes held, next;  // distance from solids that go their way, from other free bodies [m]
