@@ -112,6 +112,13 @@ constexpr ArgumentRow kDumpOsc[] = {
 constexpr ArgumentRow kError[] = {
     {'i', "on", "1", 0, 1, "1: failures are reported in the log, 0: not"}};
 constexpr ArgumentRow kMute[] = {{'i', "on", "1", 0, 1, "1: silent, 0: heard"}};
+constexpr ArgumentRow kSet[] = {
+    text("name", "row of the sound or level of the rig, such as impact/q or rig/hand/gain_db"),
+    {'f', "value", "its own", -1e6, 1e6, "where it goes; each name has a range of its own"}};
+constexpr ArgumentRow kGet[] = {text("name", "as in /set")};
+constexpr ArgumentRow kPreset[] = {
+    text("name", "of a sound: one's own or a shipped one, no path"),
+    {'f', "seconds", "s", 0, 600, "within which it goes there, 0.02 at least"}};
 constexpr ArgumentRow kPing[] = {stamp("t0", "sender's clock when it sent the ping")};
 
 constexpr ArgumentRow kDone[] = {
@@ -119,6 +126,8 @@ constexpr ArgumentRow kDone[] = {
     {'i', "value", "1", -kLastInt - 1, kLastInt, "its result, if it has one", {}, true}};
 constexpr ArgumentRow kFail[] = {text("command", "address of the command"),
                                  text("reason", "why, and what is allowed; cut at 64 characters")};
+constexpr ArgumentRow kValue[] = {text("name", "as in /set"),
+                                  {'f', "value", "its own", -1e6, 1e6, "where it goes, or is"}};
 constexpr ArgumentRow kSynced[] = {{'i', "id", "1", -kLastInt - 1, kLastInt, "as given to /sync"}};
 constexpr ArgumentRow kPong[] = {stamp("t0", "as given to /ping"),
                                  stamp("t1", "answerer's clock when the ping came"),
@@ -188,6 +197,10 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/clearSched", Direction::to_both, "Drops what waits for its time; answered by /done", {}},
     {"/mute", Direction::synth_alone,
      "Fades all channels out in 20 ms, or opens them within two seconds; answered by /done", kMute},
+    {"/set", Direction::synth_alone,
+     "Moves a number of the sound or of the rig's levels within 20 ms; answered by /value", kSet},
+    {"/get", Direction::synth_alone, "Asks for such a number; answered by /value", kGet},
+    {"/preset", Direction::synth_alone, "Goes over to another sound; answered by /done", kPreset},
     {"/dumpOSC", Direction::to_both, "Prints incoming packets; answered by /done", kDumpOsc},
     {"/error", Direction::to_both, "Turns the report of failures on or off; answered by /done",
      kError},
@@ -195,6 +208,8 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/ping", Direction::to_both, "Measures the clocks; answered by /pong", kPing},
     {"/done", Direction::reply, "A command was carried out", kDone},
     {"/fail", Direction::reply, "A command was refused", kFail},
+    {"/value", Direction::reply,
+     "Answers /set and /get, and tells clients of /notify what has changed", kValue},
     {"/synced", Direction::reply, "Answers /sync", kSynced},
     {"/pong", Direction::reply, "Answers /ping", kPong},
     {"/version.reply", Direction::reply, "Answers /version, laid out as scsynth's", kVersionReply},

@@ -81,17 +81,23 @@ std::vector<fs::path> config_folders(const std::string& kind) {
   return folders;
 }
 
+std::optional<fs::path> named_config(const std::string& kind, const std::string& name) {
+  if (fs::path(name).filename() != name) return std::nullopt;
+  for (const fs::path& folder : config_folders(kind)) {
+    const fs::path file = folder / (name + ".yaml");
+    if (is_file(file)) return plain(file);
+  }
+  return std::nullopt;
+}
+
 fs::path find_config(const std::string& option, const std::string& kind, const fs::path& wanted) {
   const auto readable = [&option](const fs::path& path) {
     require_readable(option, path);
     return path;
   };
   if (is_file(wanted) || wanted.has_parent_path()) return readable(wanted);
+  if (const auto file = named_config(kind, wanted.string())) return readable(*file);
   const std::vector<fs::path> folders = config_folders(kind);
-  for (const fs::path& folder : folders) {
-    const fs::path file = folder / (wanted.string() + ".yaml");
-    if (is_file(file)) return readable(plain(file));
-  }
   std::error_code ignored;
   if (fs::exists(wanted, ignored)) return readable(wanted);  // a folder or a device: says so
   const fs::path here = fs::current_path(ignored);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace splash::protocol {
 /// folder, $XDG_CONFIG_HOME/splash/<kind> (~/.config where that is not set), and the one that
 /// belongs to the program, share/splash/configs/<kind> beside its bin/, built or installed.
 [[nodiscard]] std::vector<std::filesystem::path> config_folders(const std::string& kind);
+
+/// <name>.yaml in the first of config_folders() that has one, never a file elsewhere: `name` is a
+/// name, no path.
+[[nodiscard]] std::optional<std::filesystem::path> named_config(const std::string& kind,
+                                                                const std::string& name);
 
 /// The file that `wanted` means: itself where it is a file or names a folder, else <wanted>.yaml in
 /// the first of config_folders() that has one. It can be read.

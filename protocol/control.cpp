@@ -27,6 +27,10 @@ Message fail(const std::string& command, const std::string& reason) {
   return {"/fail", {fit(command), fit(reason)}};
 }
 
+Message value_of(const std::string& name, double value) {
+  return {"/value", {fit(name), static_cast<float>(value)}};
+}
+
 Message synced(std::int32_t id) {
   return {"/synced", {id}};
 }

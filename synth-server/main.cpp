@@ -17,7 +17,7 @@
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay_file.hpp"
 #include "synth-server/server.hpp"
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound_choice.hpp"
 #include "synth-server/test_tone.hpp"
 
 namespace {
@@ -39,8 +39,8 @@ bool at_terminal() {
 }
 
 /// A signal of `signals`, or SIGHUP, that comes within 50 ms; 0: none. Without a terminal SIGHUP
-/// asks a daemon to begin its files anew, and SIGHUP it is; a terminal that closes takes its
-/// programs along, as SIGTERM does.
+/// asks a daemon to begin its files anew and to read its sound again, and SIGHUP it is; a terminal
+/// that closes takes its programs along, as SIGTERM does.
 int await_signal(sigset_t signals, bool hangs_up) {
   sigaddset(&signals, SIGHUP);
   const timespec slice{0, 50'000'000};
@@ -58,6 +58,16 @@ bool say_scheduling(const Server& server) {
   return !scheduling.empty();
 }
 
+/// Takes what has changed in the sound's file. A file that is wrong is said, and changes nothing.
+void reload_sound(const Options& options, Server& server) {
+  if (options.sound.file.empty()) return;
+  try {
+    server.play(chosen_sound(options.sound), Desk::kSeconds);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "synth-server: %s. The sound stays as it is\n", error.what());
+  }
+}
+
 /// Until a signal, /quit or the end of --duration. A second signal then ends the program at once.
 void play(const Options& options, Server& server, protocol::ServiceNotice& service) {
   const sigset_t signals = ending_signals();
@@ -72,6 +82,7 @@ void play(const Options& options, Server& server, protocol::ServiceNotice& servi
     if (!knows_scheduling) knows_scheduling = say_scheduling(server);
     if (signal == SIGHUP) {
       server.reopen();
+      reload_sound(options, server);
     } else if (signal != 0 || server.asked_to_quit()) {
       break;
     }
@@ -101,18 +112,6 @@ Rig load_rig(const std::filesystem::path& wanted) {
   return protocol::failing_with(protocol::kExitConfig, [&] { return read_rig(path); });
 }
 
-/// The sound that was chosen, into `options`.
-void load_sound(Options& options) {
-  NamedSound chosen;
-  if (!options.sound.file.empty()) {
-    const auto path = protocol::find_config("--sound", "sounds", options.sound.file);
-    chosen = protocol::failing_with(protocol::kExitConfig, [&] { return read_sound(path); });
-  }
-  apply(options.sound, chosen.sound);
-  options.engine.sound = chosen.sound;
-  options.sound_name = chosen.name;
-}
-
 /// Blocked before any thread starts, so that all inherit it and only who waits for them sees them.
 /// What nohup ignores stays ignored.
 sigset_t block_signals() {
@@ -129,7 +128,9 @@ void run(Options options) {
   protocol::ServiceNotice service;
   Rig rig = load_rig(options.rig);
   centre(rig, options.middle);
-  load_sound(options);
+  const NamedSound sound = chosen_sound(options.sound);
+  options.engine.sound = sound.sound;
+  options.sound_name = sound.name;
   if (!options.replay.empty()) {
     protocol::require_readable("--replay", options.replay);
     return render_log(options, rig);

@@ -12,6 +12,7 @@
 #include "protocol/failure.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"
+#include "synth-server/sound_choice.hpp"
 
 namespace splash::synth {
 namespace {
@@ -41,7 +42,7 @@ Server::Playing::Playing(const Rig& rig, const EngineSettings& engine_settings, 
     : engine(rig, engine_settings), player(engine, queue, recorder, player_settings) {}
 
 Server::Server(const Options& options, const Rig& rig)
-    : options_(options), rig_(rig), muted_(options.muted) {
+    : options_(options), rig_(rig), muted_(options.muted), desk_(rig, options.engine.sound) {
   protocol::UdpSocket socket = protocol::failing_with(
       protocol::kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
   OpenedOutput opened = protocol::failing_with(
@@ -70,6 +71,7 @@ std::unique_ptr<Server::Playing> Server::make_playing(int sample_rate, Recorder*
   settings.schedule = {options_.latency, options_.late_window, options_.horizon};
   EngineSettings engine = engine_settings(options_, sample_rate);
   engine.watch = watch;
+  engine.controls = &desk_.box();
   return std::make_unique<Playing>(rig_, engine, queue_, recorder, settings);
 }
 
@@ -78,6 +80,7 @@ BlockSource& Server::adapt(const AudioFormat& format) {
       " Hz: what sounded is gone, counts begin anew" +
       (recorder_ != nullptr || event_recorder_ != nullptr ? ", and the recording ends here" : ""));
   auto next = make_playing(format.sample_rate, nullptr, nullptr);
+  desk_.repeat();
   const std::lock_guard lock(mutex_);
   playing_ = std::move(next);
   return playing_->player;
@@ -159,8 +162,33 @@ void Server::start_receiver(protocol::UdpSocket socket) {
     muted_ = on;
     push(on ? Command::Kind::mute : Command::Kind::unmute);
   };
+  add_desk(actions);
   receiver_ = std::make_unique<Receiver>(std::move(socket), queue_,
                                          Control(std::move(actions), options_.allow), log);
+}
+
+void Server::add_desk(ControlActions& actions) {
+  actions.set = [this](const std::string& name, double value) { return desk_.set(name, value); };
+  actions.get = [this](const std::string& name) { return desk_.get(name); };
+  actions.preset = [this](const std::string& name, double seconds) {
+    try {
+      play(sound_called(name), seconds);
+      return std::string();
+    } catch (const std::exception& error) {
+      log("/preset " + name + ": " + error.what());
+      return std::string(error.what());
+    }
+  };
+  actions.changes = [this](std::size_t most) {
+    std::vector<ControlActions::Value> values;
+    for (auto& [name, value] : desk_.take_changes(most)) values.push_back({std::move(name), value});
+    return values;
+  };
+}
+
+void Server::play(const NamedSound& sound, double seconds) {
+  desk_.play(sound.sound, seconds);
+  log("sound: " + sound.name);
 }
 
 void Server::warn_of_latency(const AudioFormat& format) const {

@@ -11,6 +11,7 @@
 
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"
+#include "synth-server/desk.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/output/wav_file.hpp"
@@ -20,6 +21,7 @@
 #include "synth-server/render/engine.hpp"
 #include "synth-server/replay/event_recorder.hpp"
 #include "synth-server/server_text.hpp"
+#include "synth-server/sound/sound_reader.hpp"
 
 namespace splash::synth {
 
@@ -37,6 +39,8 @@ class Server {
   [[nodiscard]] std::string state() const;
   /// Whether both sound and receiver have moved on since this was last asked.
   [[nodiscard]] bool alive();
+  /// Goes over to another sound [s].
+  void play(const NamedSound& sound, double seconds);
   /// Begins the recording anew, if somebody has moved its file away.
   void reopen();
   [[nodiscard]] const Rig& rig() const noexcept { return rig_; }
@@ -67,6 +71,7 @@ class Server {
   /// In the recorder's thread.
   void record(const float* const* channels, int frames);
   void start_receiver(protocol::UdpSocket socket);
+  void add_desk(ControlActions& actions);
   void introduce() const;
   void warn_of_latency(const AudioFormat& format) const;
   void await_silence() const;
@@ -80,6 +85,7 @@ class Server {
   std::atomic<bool> muted_{false};
   double started_ = 0.0;  ///< [s, monotonic]
   CommandQueue queue_;
+  Desk desk_;
   AudioFormat format_;  ///< at the start
   std::unique_ptr<WavFile> recording_;
   std::atomic<bool> renew_recording_{false};

@@ -44,7 +44,8 @@ void OutputGuard::forget() noexcept {
   limiter_.reset();
 }
 
-void OutputGuard::process(const double* in, const double* fade, float* out, int count) noexcept {
+void OutputGuard::process(const double* in, const double* fade, float* out, int count,
+                          const double* ceilings) noexcept {
   // What changes with every sample is kept out of memory meanwhile: each sample waits for the last.
   BandFilter band = band_;
   Limiter limiter = limiter_;
@@ -65,7 +66,8 @@ void OutputGuard::process(const double* in, const double* fade, float* out, int 
     const double tame = std::clamp(checked(in[i]), -kMostInput, kMostInput);
     // Checked again: no filter of ours is unstable, but this is the place to be sure.
     const double even = checked(equaliser_.process(checked(band.process(tame))));
-    const double limit = heat.limit();
+    double limit = heat.limit();
+    if (ceilings != nullptr) limit = std::min(limit, rounded_down(ceilings[i]));
     const double quiet = limiter.process(even, limit);
     if (limiter.limiting()) ++limited;
     last += std::clamp(quiet - last, -slew_, slew_);

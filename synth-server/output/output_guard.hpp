@@ -29,7 +29,9 @@ class OutputGuard {
   OutputGuard(const Output& output, double sample_rate, int channel = 0);
 
   /// `in`: the mix [full scale]; `fade`: its gain, sample by sample; `out`: what the device gets.
-  void process(const double* in, const double* fade, float* out, int count) noexcept;
+  /// `ceilings`: where they are not null and under the output's own, they count [full scale].
+  void process(const double* in, const double* fade, float* out, int count,
+               const double* ceilings = nullptr) noexcept;
 
   /// To be called at rest points only (no input for a while): takes vanishing states for nil and
   /// says whether all are, so that silent input gives exactly silent output and can be skipped.

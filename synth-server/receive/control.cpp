@@ -68,6 +68,7 @@ protocol::Message Control::carry_out(const protocol::Message& message, const Arr
   if (address == "/sync") return protocol::synced(integer(message));
   if (address == "/notify") return notify(message, arrived);
   if (address == "/quit") return quit(arrived.from);
+  if (address == "/set" || address == "/get" || address == "/preset") return change(message);
   if (address == "/clearSched") {
     actions_.clear_scheduled();
   } else if (address == "/mute") {
@@ -80,6 +81,19 @@ protocol::Message Control::carry_out(const protocol::Message& message, const Arr
     return protocol::fail(address, "not a command of synth-server");
   }
   return protocol::done(address);
+}
+
+protocol::Message Control::change(const protocol::Message& message) {
+  const std::string& name = std::get<std::string>(message.arguments[0]);
+  if (message.address != "/get") {
+    const auto number = static_cast<double>(std::get<float>(message.arguments[1]));
+    const bool set = message.address == "/set";
+    const std::string reason = set ? actions_.set(name, number) : actions_.preset(name, number);
+    if (!reason.empty()) return protocol::fail(message.address, reason);
+    if (!set) return protocol::done(message.address);
+  }
+  const std::optional<double> value = actions_.get(name);
+  return value ? protocol::value_of(name, *value) : protocol::fail(message.address, "no such row");
 }
 
 // Who cannot be told that it is a client is none.
@@ -100,6 +114,16 @@ protocol::Message Control::quit(const protocol::Endpoint& from) {
   if (!is_loopback(from)) return protocol::fail("/quit", "only from the synth's own host");
   actions_.quit();
   return protocol::done("/quit");
+}
+
+void Control::tell_changes(std::vector<Reply>& replies) const {
+  constexpr std::size_t kMostAtOnce = 64;  // the next time the rest
+  if (clients_.empty()) return;
+  for (const auto& [name, value] : actions_.changes(kMostAtOnce)) {
+    for (const auto& client : clients_) {
+      replies.push_back({client, protocol::value_of(name, value)});
+    }
+  }
 }
 
 void Control::say_goodbye(std::vector<Reply>& replies) const {

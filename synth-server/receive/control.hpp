@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,21 @@ struct ControlActions {
   std::function<void()> clear_scheduled;
   std::function<void()> quit;
   std::function<void(bool)> mute;  ///< true: silent, false: heard
+
+  struct Value {
+    std::string name;
+    double value = 0.0;
+  };
+  /// The first two give the reason why not, or nothing.
+  std::function<std::string(const std::string&, double)> set = [](auto&&...) { return "no rows"; };
+  std::function<std::string(const std::string&, double)> preset = set;
+  std::function<std::optional<double>(const std::string&)> get = [](auto&&...) {
+    return std::nullopt;
+  };
+  /// At most so many values that have changed since they were last asked for.
+  std::function<std::vector<Value>(std::size_t)> changes = [](auto&&...) {
+    return std::vector<Value>();
+  };
 };
 
 /// Where and when a command came, and what its datagram may still draw.
@@ -48,6 +64,8 @@ class Control {
   /// `status`: what the receiving side knows of it.
   void handle(const protocol::Message& message, const Arrived& arrived,
               const protocol::SynthStatus& status, std::vector<Reply>& replies);
+  /// To all who asked with /notify: what has changed.
+  void tell_changes(std::vector<Reply>& replies) const;
   /// To all who asked with /notify: the program ends.
   void say_goodbye(std::vector<Reply>& replies) const;
 
@@ -64,6 +82,7 @@ class Control {
                                             const Arrived& arrived,
                                             const protocol::SynthStatus& status);
   [[nodiscard]] protocol::Message notify(const protocol::Message& message, const Arrived& arrived);
+  [[nodiscard]] protocol::Message change(const protocol::Message& message);
   [[nodiscard]] protocol::Message quit(const protocol::Endpoint& from);
 
   /// Sends `reply` if the question is as long and `limit` lets it.

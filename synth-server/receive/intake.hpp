@@ -47,6 +47,8 @@ class Intake {
   void tick(double now);
   /// To all clients, at the end.
   void say_goodbye(std::vector<Reply>& replies) const { control_.say_goodbye(replies); }
+  /// To its clients: what has changed.
+  void tell_changes(std::vector<Reply>& replies) const { control_.tell_changes(replies); }
 
   [[nodiscard]] IntakeCounters counters() const;
   [[nodiscard]] const Control& control() const noexcept { return control_; }

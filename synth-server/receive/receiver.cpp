@@ -59,6 +59,7 @@ void Receiver::run() {
       since_tick = 0;
       const std::lock_guard lock(mutex_);
       intake_.tick(protocol::monotonic_now());
+      intake_.tell_changes(replies);
     }
     send(replies);
     dropped_by_kernel_ = socket_.dropped_by_kernel();

@@ -16,6 +16,7 @@
 #include "synth-server/render/ensemble.hpp"
 #include "synth-server/render/event_queue.hpp"
 #include "synth-server/render/flush_denormals.hpp"
+#include "synth-server/render/live_controls.hpp"
 
 namespace splash::synth {
 namespace {
@@ -36,11 +37,13 @@ const Rig& checked(const Rig& rig, double sample_rate) {
 struct Engine::State {
   State(const Rig& rig, const EngineSettings& s);
 
+  void begin_cell() noexcept;
   void render_piece(float* const* channels, int done, int count) noexcept;
   void guard_channel(std::size_t channel, float* out, int count) noexcept;
   void end_cell() noexcept;
 
   EngineSettings settings;
+  LiveControls controls;
   Ensemble ensemble;
   EventQueue queue;
   Mix mix;
@@ -48,6 +51,7 @@ struct Engine::State {
   std::vector<char> idle;  ///< per channel: its guard is at rest
   Fade fade;
   std::array<double, kCell> fade_gains{};
+  std::array<double, kCell> ceilings{};
   std::int64_t clock = 0;
   std::atomic<bool> silent{false};
   std::atomic<bool> silenced{false};
@@ -60,6 +64,7 @@ struct Engine::State {
 
 Engine::State::State(const Rig& rig, const EngineSettings& s)
     : settings(checked(s)),
+      controls(rig, s.sound, s.sample_rate, s.controls),
       ensemble(checked(rig, s.sample_rate), s),
       queue(s.max_scheduled),
       mix(static_cast<std::size_t>(channel_count(rig))),
@@ -70,9 +75,18 @@ Engine::State::State(const Rig& rig, const EngineSettings& s)
   idle.assign(guards.size(), 1);
 }
 
+void Engine::State::begin_cell() noexcept {
+  controls.begin_cell();
+  ensemble.follow(controls);
+  mix.impacts = controls.component(0);
+  mix.bubbles = controls.component(1);
+  mix.cavities = controls.component(2);
+}
+
 /// `count` samples from the clock on, within one cell; `done`: samples of the block before them.
 void Engine::State::render_piece(float* const* channels, int done, int count) noexcept {
   const std::int64_t end = clock + count;
+  if (clock % kCell == 0) begin_cell();
   while (queue.due(end)) {
     const EventQueue::Waiting next = queue.pop();
     const std::int64_t sample = std::max(next.sample, clock);
@@ -93,8 +107,17 @@ void Engine::State::guard_channel(std::size_t channel, float* out, int count) no
     std::fill_n(out, count, 0.0F);
     return;
   }
-  const double* in = mix.samples.data() + channel * kCell + static_cast<std::size_t>(clock % kCell);
-  guards[channel].process(in, fade_gains.data(), out, count);
+  const auto first = static_cast<int>(clock % kCell);
+  double* const in = mix.samples.data() + channel * kCell + static_cast<std::size_t>(first);
+  const CellGain& gain = controls.channel(channel);
+  for (int n = 0; n < count && !gain.is_one(); ++n) in[n] *= gain.at(first + n);
+  const double* limits = nullptr;
+  if (!controls.has_rigs_ceiling(channel)) {
+    const CellGain& ceiling = controls.ceiling(channel);
+    for (int n = 0; n < count; ++n) ceilings[static_cast<std::size_t>(n)] = ceiling.at(first + n);
+    limits = ceilings.data();
+  }
+  guards[channel].process(in, fade_gains.data(), out, count, limits);
 }
 
 /// The cell is complete: find the channels that have come to rest, and begin the next one.

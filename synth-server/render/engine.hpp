@@ -9,6 +9,7 @@
 #include "protocol/event.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/render/bubble_pool.hpp"
+#include "synth-server/render/control_box.hpp"
 #include "synth-server/render/counters.hpp"
 #include "synth-server/voices/bubble_model.hpp"
 
@@ -56,6 +57,7 @@ struct EngineSettings {
   bool skip_masked = true;       ///< leave out what louder bubbles cover, see render/masking.hpp
   double mask_from = 0.5;        ///< the latter only while this part of max_voices sounds, 0 to 1
   StartWatch* watch = nullptr;   ///< may be null; outlives the engine
+  ControlBox* controls = nullptr;  ///< what changes sound and levels; may be null; outlives it
 };
 
 /// Every method but counters() and silence() belongs to one thread, the rendering one.

@@ -26,6 +26,11 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       masking_(channel_count(rig), settings.sample_rate) {}
 
+void Ensemble::follow(const LiveControls& controls) noexcept {
+  settings_.sound = controls.sound();
+  routing_.follow(controls);
+}
+
 void Ensemble::start(const protocol::Event& event, std::int64_t sample) noexcept {
   const Outcome outcome =
       std::visit([&](const auto& kind) { return start_kind(kind, sample); }, event);
@@ -112,12 +117,6 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t
 }
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
-  const auto steady = [](double decibels) {
-    return CellGain{gain_of(decibels), gain_of(decibels)};
-  };
-  mix.impacts = steady(settings_.sound.impact.gain_db);
-  mix.bubbles = steady(settings_.sound.bubble.gain_db);
-  mix.cavities = steady(settings_.sound.cavity.gain_db);
   impacts_.mix(from, to, mix);
   bubbles_->mix(from, to, mix);
 }

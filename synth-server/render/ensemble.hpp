@@ -12,6 +12,7 @@
 #include "synth-server/render/engine.hpp"
 #include "synth-server/render/impact_level.hpp"
 #include "synth-server/render/impact_pool.hpp"
+#include "synth-server/render/live_controls.hpp"
 #include "synth-server/render/masking.hpp"
 #include "synth-server/render/routing.hpp"
 
@@ -20,6 +21,9 @@ namespace splash::synth {
 class Ensemble {
  public:
   Ensemble(const Rig& rig, const EngineSettings& settings);
+
+  /// At the beginning of a cell.
+  void follow(const LiveControls& controls) noexcept;
 
   /// A voice begins at `sample`, within the cell that is being mixed and not before what was mixed.
   /// However many bubbles there are, impacts and cavities find a place.

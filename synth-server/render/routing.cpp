@@ -58,8 +58,13 @@ Routing::Routing(const Rig& rig, const Skips& skips) : skips_(skips), outputs_(r
     const std::int64_t product = std::int64_t{groups_} * (1 + places_of(output));
     groups_ = static_cast<int>(std::min<std::int64_t>(kMostGroups, product));
   }
+  turned_.assign(outputs_.size(), 1.0);
   groups_ *= kGroupParts;
   gains_.resize(widest);
+}
+
+void Routing::follow(const LiveControls& controls) noexcept {
+  for (std::size_t o = 0; o < turned_.size(); ++o) turned_[o] = controls.output_gain(o);
 }
 
 Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noexcept {
@@ -92,7 +97,8 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
     const Place place = place_in(output, source.position);
     group += 1U + static_cast<unsigned>(place.tile);
     if (output.kind == OutputKind::tiles) quarter = place.quarter;
-    reach.floor = std::min(reach.floor, audibility_[o].floor(source.frequency) / loudest);
+    reach.floor =
+        std::min(reach.floor, audibility_[o].floor(source.frequency) / (loudest * turned_[o]));
   }
   const auto tiles = static_cast<unsigned>(groups_ / kGroupParts);
   reach.group = static_cast<int>(group % tiles) * kGroupParts + quarter;

@@ -9,6 +9,7 @@
 #include "protocol/event.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/render/audibility.hpp"
+#include "synth-server/render/live_controls.hpp"
 #include "synth-server/render/seating.hpp"
 
 namespace splash::synth {
@@ -34,6 +35,9 @@ class Routing {
   };
   Routing(const Rig& rig, const Skips& skips);
 
+  /// Where an output is turned up, weaker voices are worth rendering.
+  void follow(const LiveControls& controls) noexcept;
+
   enum class Result { heard, out_of_band, unheard };
   struct Reach {
     Result result = Result::unheard;
@@ -53,6 +57,7 @@ class Routing {
   std::vector<Output> outputs_;
   std::vector<Audibility> audibility_;  ///< of each output
   std::vector<double> levels_;          ///< of each channel [1/m]
+  std::vector<double> turned_;          ///< gain of each output over the rig's [1]
   std::vector<double> gains_;           ///< of one output's channels, for spread()
   int max_routes_ = 0;
   int groups_ = 1;

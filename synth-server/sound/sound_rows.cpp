@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/sound/sound_rows.hpp"
 
+#include <utility>
+
 namespace splash::synth {
 namespace {
 
@@ -76,16 +78,8 @@ std::vector<Field<ToneSound>> tone_fields(const std::string& what) {
            &ToneSound::physical}};
 }
 
-}  // namespace
-
-std::vector<Field<NamedSound>> sound_fields() {
-  return {{{.key = "name", .unit = "", .meaning = "what the sound is called", .required = true},
-           &NamedSound::name},
-          {{.key = "description", .unit = "", .meaning = "one line for lists"},
-           &NamedSound::description}};
-}
-
-std::vector<Field<ImpactSound>> impact_fields() {
+/// The burst, and its amplitude by a power of the speed.
+std::vector<Field<ImpactSound>> burst_fields() {
   return {
       {{.key = "gain_db",
         .unit = "dB",
@@ -141,7 +135,12 @@ std::vector<Field<ImpactSound>> impact_fields() {
         .min = 0.6,
         .max = 50.0,
         .source = "ours: the paper gives none"},
-       &ImpactSound::q},
+       &ImpactSound::q}};
+}
+
+/// Its amplitude by what is felt.
+std::vector<Field<ImpactSound>> felt_fields() {
+  return {
       {{.key = "sensation",
         .unit = "1",
         .meaning = "0: the amplitude is that of the two rows above; 1: what is felt grows evenly "
@@ -179,6 +178,21 @@ std::vector<Field<ImpactSound>> impact_fields() {
         .max = 60.0,
         .source = "strong, and short of the ceiling of the shipped rigs"},
        &ImpactSound::fast_db}};
+}
+
+}  // namespace
+
+std::vector<Field<NamedSound>> sound_fields() {
+  return {{{.key = "name", .unit = "", .meaning = "what the sound is called", .required = true},
+           &NamedSound::name},
+          {{.key = "description", .unit = "", .meaning = "one line for lists"},
+           &NamedSound::description}};
+}
+
+std::vector<Field<ImpactSound>> impact_fields() {
+  std::vector<Field<ImpactSound>> all = burst_fields();
+  for (auto&& field : felt_fields()) all.push_back(std::move(field));
+  return all;
 }
 
 std::vector<Field<ToneSound>> bubble_fields() {

@@ -92,8 +92,8 @@ TEST(AddressTable, OnlyCommandsMayBeFilledUp) {
       }
     }
   }
-  EXPECT_EQ(commands, 10) << "/notify /status /version /sync /clearSched /mute /dumpOSC /error "
-                             "/quit /ping";
+  EXPECT_EQ(commands, 13) << "/notify /status /version /sync /clearSched /mute /set /get /preset "
+                             "/dumpOSC /error /quit /ping";
 }
 
 TEST(AddressTable, FillingDoesNotStandInForArguments) {

@@ -25,7 +25,25 @@ class ControlTest : public testing::Test {
               status.voices = 7;
               return status;
             },
-            [this] { ++cleared_; }, [this] { ++quits_; }, [this](bool on) { muted_ = on; }};
+            [this] { ++cleared_; },
+            [this] { ++quits_; },
+            [this](bool on) { muted_ = on; },
+            [this](const std::string& name, double value) {
+              if (name != "impact/q") return std::string("no such row");
+              q_ = value;
+              return std::string();
+            },
+            [](const std::string& name, double /*seconds*/) {
+              return std::string(name == "calibrated" ? "" : "no sound is called so");
+            },
+            [this](const std::string& name) {
+              return name == "impact/q" ? std::optional(q_) : std::nullopt;
+            },
+            [this](std::size_t most) {
+              std::vector<ControlActions::Value> all(std::min<std::size_t>(most, 1));
+              all[0] = {"impact/q", q_};
+              return all;
+            }};
   }
   /// The one reply; a new second for each command, so that the limit is not met.
   Message ask(const Message& message, const protocol::Endpoint& from = kLocal) {
@@ -46,6 +64,7 @@ class ControlTest : public testing::Test {
   int cleared_ = 0;
   int quits_ = 0;
   bool muted_ = false;
+  double q_ = 5.0;
   double now_ = 0.0;
   Control control_;
 };
@@ -62,6 +81,35 @@ TEST_F(ControlTest, Mutes) {
   EXPECT_EQ(ask({"/mute", {0}}, kFriend).address, "/done");
   EXPECT_FALSE(muted_);
   EXPECT_EQ(ask({"/mute", {2}}).address, "/fail");
+}
+
+TEST_F(ControlTest, SetsAndGetsByName) {
+  const auto value = [](float q) { return Message{"/value", {std::string("impact/q"), q}}; };
+  EXPECT_EQ(ask({"/get", {std::string("impact/q")}}), value(5.0F));
+  EXPECT_EQ(ask({"/set", {std::string("impact/q"), 2.5F}}), value(2.5F));
+  EXPECT_EQ(ask({"/get", {std::string("impact/q")}}, kFriend), value(2.5F));
+  EXPECT_EQ(ask({"/set", {std::string("impact"), 2.5F}}),
+            (Message{"/fail", {std::string("/set"), std::string("no such row")}}));
+  EXPECT_EQ(ask({"/get", {std::string("impact")}}).address, "/fail");
+  EXPECT_EQ(ask({"/set", {std::string("impact/q"), 7}}).address, "/fail") << "an integer";
+  EXPECT_EQ(ask({"/preset", {std::string("calibrated"), 2.0F}}),
+            (Message{"/done", {std::string("/preset")}}));
+  EXPECT_EQ(ask({"/preset", {std::string("loud"), 2.0F}}).address, "/fail");
+  EXPECT_EQ(ask({"/preset", {std::string("calibrated"), 601.0F}}).address, "/fail");
+}
+
+TEST_F(ControlTest, TellsItsClientsWhatHasChanged) {
+  std::vector<Reply> told;
+  control_.tell_changes(told);
+  EXPECT_TRUE(told.empty()) << "there are none";
+  (void)ask({"/notify", {1}});
+  (void)ask({"/notify", {1}}, kFriend);
+  (void)ask({"/set", {std::string("impact/q"), 3.0F}}, kFriend);
+  control_.tell_changes(told);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0].to, kLocal);
+  EXPECT_EQ(told[1].to, kFriend);
+  EXPECT_EQ(told[0].message, (Message{"/value", {std::string("impact/q"), 3.0F}}));
 }
 
 TEST_F(ControlTest, StatusJoinsBothSides) {

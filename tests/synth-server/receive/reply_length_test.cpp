@@ -25,9 +25,12 @@ constexpr Endpoint kFriend{0x0A000005, 9000};
 constexpr std::size_t kHeaders = 28;  // of IPv4 and UDP [bytes]
 
 Control control_for(std::uint32_t allowed, bool& muted) {
-  return Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {},
-                  [&muted](bool on) { muted = on; }},
-                 {allowed});
+  return Control(
+      {[](protocol::SynthStatus status) { return status; }, [] {}, [] {},
+       [&muted](bool on) { muted = on; }, [](const std::string&, double) { return std::string(); },
+       [](const std::string&, double) { return std::string(); },
+       [](const std::string&) { return std::optional(2.0); }},
+      {allowed});
 }
 
 std::size_t bytes_of(const std::vector<Reply>& replies) {
@@ -75,7 +78,9 @@ TEST_F(SynthReplyLength, EachCommandIsAnsweredAsSoonAsItIsAsLongAsItsAnswer) {
   for (const Message& command :
        {Message{"/status", {}}, Message{"/version", {}}, Message{"/clearSched", {}},
         Message{"/sync", {1}}, Message{"/mute", {0}}, Message{"/dumpOSC", {0}},
-        Message{"/error", {1}}, Message{"/notify", {0}}, protocol::ping({5})}) {
+        Message{"/error", {1}}, Message{"/notify", {0}}, Message{"/get", {std::string("impact/q")}},
+        Message{"/set", {std::string("impact/q"), 2.0F}},
+        Message{"/preset", {std::string("calibrated"), 1.0F}}, protocol::ping({5})}) {
     const auto at_home = drawn_by(command, kHere);
     ASSERT_EQ(at_home.size(), 1U) << command.address << " of this host";
     const std::size_t size = protocol::encode(at_home[0].message).size();

@@ -19,6 +19,7 @@
 #include <string>
 #include <thread>
 
+#include "synth-server/render/live_controls.hpp"
 #include "tests/synth-server/render/forbidden_calls.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
@@ -99,6 +100,10 @@ TEST(Realtime, ScheduleAndRenderDoNothingForbidden) {
   settings.max_block = 256;
   Rig rig = floor_rig();
   rig.outputs.push_back(open_rig().outputs.front());
+  ControlTargets targets{control_values(rig, {}), {}};
+  targets.seconds.assign(targets.values.size(), 0.02F);
+  ControlBox box(targets, std::vector<char>(targets.values.size(), 0));
+  settings.controls = &box;
   Engine engine(rig, settings);
   const auto events = splashes(4000, 48000);
   Channels out(37, std::vector<float>(256));
@@ -109,6 +114,9 @@ TEST(Realtime, ScheduleAndRenderDoNothingForbidden) {
     for (int block = 0; block < 400; ++block) {
       for (int i = 0; i < 10; ++i) engine.schedule(events[next++ % events.size()]);
       if (block == 200) engine.clear();
+      // Every number moves a little, and back. The copy is the sender's; nothing of it grows.
+      for (double& value : targets.values) value *= block % 2 == 0 ? 0.99 : 1.0 / 0.99;
+      box.send(targets);
       engine.silence(block % 50 == 49);
       engine.render(pointers.data(), block % 3 == 0 ? 256 : 100);
     }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The real program's sound is changed while it plays: over OSC, by a preset's name, and by SIGHUP.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+
+namespace splash::synth {
+namespace {
+
+using protocol::Message;
+using testing::HasSubstr;
+
+class LiveSound : public testing::Test {
+ protected:
+  LiveSound() {
+    std::filesystem::create_directories(config_ / "splash/sounds");
+    write(own("dull"), "name: dull\nimpact: {frequency: 90, q: 2}\n");
+    write(file_, "name: mine\nimpact: {q: 3}\n");
+  }
+  ~LiveSound() override {
+    std::filesystem::remove_all(config_);
+    std::filesystem::remove(file_);
+  }
+  [[nodiscard]] std::filesystem::path own(const std::string& name) const {
+    return config_ / "splash/sounds" / (name + ".yaml");
+  }
+  static void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path) << text;
+  }
+  static Message set(const std::string& name, float value) { return {"/set", {name, value}}; }
+  static Message preset(const std::string& name) { return {"/preset", {name, 0.1F}}; }
+  static float value(tests::Synth& synth, const std::string& name) {
+    const Message reply = synth.ask({"/get", {name}}, "/value");
+    return reply.arguments.size() == 2 ? std::get<float>(reply.arguments[1]) : -1.0F;
+  }
+  /// Waits until the number is that.
+  static void expect_value(tests::Synth& synth, const std::string& name, float wanted) {
+    const double limit = protocol::monotonic_now() + 20.0;
+    while (value(synth, name) != wanted && protocol::monotonic_now() < limit) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(150));  // ten replies a second
+    }
+    EXPECT_EQ(value(synth, name), wanted) << name;
+  }
+
+  std::filesystem::path config_ = tests::temporary_path("config");
+  std::string file_ = tests::temporary_path("mine.yaml");
+};
+
+TEST_F(LiveSound, IsSetAndPresetAndReadAgain) {
+  tests::Synth synth(
+      {"--rig", tests::rig_path("handheld.yaml"), "--device", "null", "--sound", file_},
+      {{"XDG_CONFIG_HOME", config_.string()}});
+  EXPECT_THAT(synth.process().output(), HasSubstr("sound: mine\n"));
+  EXPECT_EQ(value(synth, "impact/q"), 3.0F);
+  EXPECT_EQ(synth.ask(set("impact/q", 4.0F), "/value"),
+            (Message{"/value", {std::string("impact/q"), 4.0F}}));
+  EXPECT_EQ(synth.ask(set("rig/hand/gain_db", -6.0F), "/value").arguments.size(), 2U);
+  const Message refused = synth.ask(set("impact/q", 99.0F), "/fail");
+  EXPECT_THAT(std::get<std::string>(refused.arguments.at(1)), HasSubstr("allowed 0.6 to 50"));
+
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // ten replies a second
+  EXPECT_EQ(synth.ask(preset("dull"), "/done").address, "/done");
+  EXPECT_EQ(value(synth, "impact/frequency"), 90.0F);
+  EXPECT_EQ(value(synth, "rig/hand/gain_db"), -6.0F) << "levels stay";
+  EXPECT_EQ(synth.ask(preset("../sounds/dull"), "/fail").address, "/fail") << "no paths";
+  EXPECT_EQ(synth.ask(preset(file_.substr(0, 60)), "/fail").address, "/fail");
+
+  write(file_, "name: mine\nimpact: {q: 8}\n");
+  synth.process().signal(SIGHUP);
+  expect_value(synth, "impact/q", 8.0F);
+  write(file_, "name: mine\nimpact: {q: 800}\n");
+  synth.process().signal(SIGHUP);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_EQ(value(synth, "impact/q"), 8.0F) << "a wrong file changes nothing";
+  synth.process().signal(SIGTERM);
+  ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  EXPECT_THAT(synth.process().output(), HasSubstr(file_ + ":2:13: error: key 'impact.q'"));
+}
+
+TEST_F(LiveSound, ClientsAreToldOfEachChange) {
+  tests::Synth synth({"--rig", tests::rig_path("handheld.yaml"), "--device", "null"});
+  EXPECT_EQ(synth.ask({"/notify", {1}}, "/done").address, "/done");
+  protocol::UdpSocket other({INADDR_LOOPBACK, 0});
+  other.send_to(synth.endpoint(), protocol::encode(set("bubble/pitch", 0.5F)));
+  const Message told = synth.ask({"/sync", {1}}, "/value");
+  EXPECT_EQ(told, (Message{"/value", {std::string("bubble/pitch"), 0.5F}}));
+}
+
+}  // namespace
+}  // namespace splash::synth
