@@ -108,6 +108,7 @@ run_part() {  # name, share, what
   ((most >= kLeast)) || most=$kLeast
   ((most <= $(left))) || most=$(left)
   began=$(date +%s)
+  : >"$out/$name.log"  # of another run
   "part_${name//-/_}" "$most" "$out/$name.log" || code=$?
   note "$name" "$(verdict "$code")" $(($(date +%s) - began)) "$words"
 }

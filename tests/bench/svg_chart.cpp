@@ -119,9 +119,8 @@ void draw_log_chart(const std::filesystem::path& file, const std::string& title,
   const double middle = kLeft + kWidth / 2.0;
   write_text(out, middle, 24.0, "middle", title);
   write_text(out, middle, kTop + kHeight + 44.0, "middle", x_label);
-  out << "<g transform=\"rotate(-90 20 " << kTop + kHeight / 2.0 << ")\">";
-  write_text(out, 20.0, kTop + kHeight / 2.0, "middle", y_label);
-  out << "</g>\n</svg>\n";
+  write_text(out, kLeft, kTop - 10.0, "middle", y_label);
+  out << "</svg>\n";
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
