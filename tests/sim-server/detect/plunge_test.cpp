@@ -103,8 +103,8 @@ TEST_P(Plunge, EntrapsAir) {
   EXPECT_GT(first, hit - run.frame);
   EXPECT_LT(first, hit + 1.0);
   // A slower disc (v^2 / (g R) = 0.26) draws no deep cavity. A faster one stops 0.1 s after it went
-  // in, long before its hollow closes (0.23 s), which then is shut first where the water is deepest,
-  // at the disc.
+  // in, long before its hollow closes (0.23 s), which then is shut first where the water is
+  // deepest, at the disc.
   EXPECT_EQ(run.found.cavities.size(), speed == 1.0 ? 1U : 0U);
   EXPECT_EQ(run.totals.bubbles_dropped, 0U);
 }
