@@ -75,6 +75,22 @@ class MadeBundle : public Bundle {
   }
 };
 
+/// Of each row "package | version | files | licence", in full.
+void expect_licences(const fs::path& top) {
+  std::ifstream rows(top / "share/libraries.txt");
+  std::string row;
+  std::string files;
+  std::getline(rows, row);  // the heading
+  while (std::getline(rows, row)) {
+    const std::string package = row.substr(0, row.find(' '));
+    EXPECT_GT(fs::file_size(top / "share/licences" / package), 100U) << row;
+    EXPECT_THAT(row, ContainsRegex("^[^ ]+ . [0-9][^ ]* . [^|]+ . ")) << row;
+    files += row;
+  }
+  EXPECT_THAT(files, AllOf(HasSubstr(" libOpenCL.so.1 "), HasSubstr("ld-linux-x86-64.so.2 "),
+                           HasSubstr(" libstdc++.so.6 "), HasSubstr("(compiled in)")));
+}
+
 TEST_F(MadeBundle, IsTheSameBytesTwiceAndRunsFromAnotherPlace) {
   fs::create_directories(folder() / "moved here");
   make(folder() / "once.tar");
@@ -90,9 +106,7 @@ TEST_F(MadeBundle, IsTheSameBytesTwiceAndRunsFromAnotherPlace) {
     EXPECT_THAT(files, HasSubstr(std::string("/") + wanted + "\n"));
   }
   EXPECT_THAT(files, Not(ContainsRegex("lib/lib(c|m|GL|cuda|nvidia)[.-]")));
-  EXPECT_THAT(text_of(top / "share/libraries.txt"),
-              ContainsRegex("ocl-icd-libopencl1 . [0-9.-]+ . libOpenCL.so.1 . BSD"));
-  EXPECT_THAT(text_of(top / "share/licences/libyaml-cpp0.7"), HasSubstr("Permission is hereby"));
+  expect_licences(top);
 
   const Ended check = run({top / "bin/sim-server", "--scene", "pool", "--check"});
   EXPECT_EQ(check.code, 0);
