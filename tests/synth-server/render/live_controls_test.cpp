@@ -219,10 +219,11 @@ TEST(LiveControls, AnOutputThatIsTurnedUpGetsWeakerVoices) {
 
 // A reader never sees a part of one message and a part of another.
 TEST(ControlBox, HandsOverWhole) {
-  constexpr int kMessages = 200000;
-  ControlTargets targets{std::vector<double>(40, 0.0), std::vector<float>(40, 0.0F)};
-  ControlBox box(targets, std::vector<char>(40, 0));
-  std::thread writer([&] {
+  constexpr int kMessages = 20000;
+  constexpr std::size_t kNumbers = 4000;  // it takes a while to write or read them
+  ControlTargets targets{std::vector<double>(kNumbers, 0.0), std::vector<float>(kNumbers, 0.0F)};
+  ControlBox box(targets, std::vector<char>(kNumbers, 0));
+  const std::jthread writer([&] {
     for (int message = 1; message <= kMessages; ++message) {
       std::fill(targets.values.begin(), targets.values.end(), message);
       box.send(targets);
@@ -238,7 +239,6 @@ TEST(ControlBox, HandsOverWhole) {
     ASSERT_GT(found->values[0], last) << "in their order";
     last = found->values[0];
   }
-  writer.join();
   EXPECT_GT(taken, 1);
   EXPECT_EQ(box.take(), nullptr);
 }

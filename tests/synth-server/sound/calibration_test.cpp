@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 
 #include "protocol/event_log.hpp"
 #include "synth-server/output/rig_reader.hpp"
@@ -158,23 +159,64 @@ double lopsided(const std::array<std::vector<double>, 3>& levels) {
   return felt > 0 ? static_cast<double>(over) / felt : 1.0;
 }
 
-class CalibrationOf : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, CalibrationOf, testing::Values("basin", "pool", "beach"));
+struct Heard {
+  const char* scene;
+  const char* sound;
+};
+
+class CalibrationOf : public testing::TestWithParam<Heard> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, CalibrationOf,
+                         testing::Values(Heard{"basin", "calibrated"}, Heard{"pool", "calibrated"},
+                                         Heard{"beach", "calibrated"}, Heard{"pool", "deep"},
+                                         Heard{"pool", "drops"}));
 
 TEST_P(CalibrationOf, EachComponentIsFeltAndNoneCoversTheOthersMostOfTheTime) {
-  const auto log = kRoot / "tests/data" / (std::string(GetParam()) + ".osc");
+  const auto log = kRoot / "tests/data" / (std::string(GetParam().scene) + ".osc");
   std::array<std::vector<double>, 3> levels;
   for (std::size_t c = 0; c < 3; ++c) {
     const unsigned component = 1U << c;
-    levels[c] = levels_of(log, shipped("calibrated"), component);
+    levels[c] = levels_of(log, shipped(GetParam().sound), component);
     const double most = *std::max_element(levels[c].begin(), levels[c].end());
-    std::printf("%s, component %u: %.0f dB over the threshold at most\n", GetParam(), component,
-                most);
+    std::printf("%s, %s, component %u: %.0f dB over the threshold at most\n", GetParam().scene,
+                GetParam().sound, component, most);
     if (component == kCavities && most < -200.0) continue;  // waves close none
     EXPECT_GT(most, 10.0) << component;
     EXPECT_LT(most, 40.0) << component;
   }
   EXPECT_LT(lopsided(levels), 0.5);
+}
+
+/// Root of the mean square of the frequencies that the right loudspeaker plays of the pool [Hz].
+double mean_pitch(const std::string& name) {
+  ReplaySettings settings;
+  settings.engine.sample_rate = kRate;
+  settings.engine.sound = shipped(name);
+  double power = 0.0;
+  double steps = 0.0;
+  double last = 0.0;
+  double peak = 0.0;
+  static_cast<void>(replay(protocol::read_log(kRoot / "tests/data/pool.osc"),
+                           read_rig(kRoot / "configs/rigs/stereo.yaml"), settings,
+                           [&](const float* const* channels, int frames) {
+                             for (int i = 0; i < frames; ++i) {
+                               const auto now = static_cast<double>(channels[1][i]);
+                               power += now * now;
+                               steps += (now - last) * (now - last);
+                               peak = std::max(peak, std::abs(now));
+                               last = now;
+                             }
+                           }));
+  const double pitch = kRate / std::numbers::pi * std::asin(0.5 * std::sqrt(steps / power));
+  std::printf("%s: %.0f Hz, peak %.2f\n", name.c_str(), pitch, peak);
+  EXPECT_GT(peak, 0.02) << name;
+  EXPECT_LT(peak, 0.6) << name << " is too near the ceiling";
+  return pitch;
+}
+
+TEST(Sounds, AreHigherOrLowerAsTheySay) {
+  const double calibrated = mean_pitch("calibrated");
+  EXPECT_GT(mean_pitch("loudspeaker"), 1.4 * calibrated);
+  EXPECT_LT(mean_pitch("deep"), 0.8 * calibrated);
 }
 
 }  // namespace
