@@ -14,7 +14,7 @@ constexpr double kNearly = 0.85;  ///< [1]
 
 /// Of the wetting, at the end of a step.
 struct Stage {
-  double mass = 0.0, area = 0.0, after = 0.0;
+  double mass = 0.0, momentum = 0.0, area = 0.0, after = 0.0;
 };
 
 }  // namespace
@@ -33,6 +33,7 @@ double added_mass(double area, double aspect) {
 void Patch::add(const Wetting& skin) {
   area_ += skin.area;
   backed_ += skin.area * skin.ahead;
+  pressed_ += skin.area * skin.ahead * skin.speed;
   for (std::size_t a = 0; a < 3; ++a) {
     first_[a] += skin.area * skin.place[a];
     for (std::size_t b = 0; b < 3; ++b) {
@@ -69,7 +70,7 @@ Growth growth_of(std::vector<Wetting> wettings, double step) {
     if (skin.after <= kAtOnce) at_once.add(skin);
   }
   growth.area_at_once = at_once.backed();
-  growth.mass_at_once = at_once.mass();
+  growth.momentum_at_once = at_once.momentum();
   std::vector<Stage> stages(1);
   Patch patch;
   auto next = wettings.begin();
@@ -80,6 +81,7 @@ Growth growth_of(std::vector<Wetting> wettings, double step) {
       stage.after = next->after;
     }
     stage.mass = patch.mass();
+    stage.momentum = patch.momentum();
     stage.area = patch.area();
     stages.push_back(stage);
   }
@@ -91,7 +93,7 @@ Growth growth_of(std::vector<Wetting> wettings, double step) {
     if (stages[k].mass - stages[k - 1].mass < kNearly * steepest) continue;
     growth.rise = stages[k].after;
     growth.area = stages[k].area;
-    growth.mass = stages[k].mass;
+    growth.momentum = stages[k].momentum;
     break;
   }
   return growth;

@@ -22,6 +22,7 @@ struct Wetting {
   double after = 0.0;  ///< the first touch [s]
   double area = 0.0;   ///< projected onto the water's surface [m2]
   double ahead = 0.0;  ///< matter that backs the water there [1]
+  double speed = 0.0;  ///< at which it presses on the water [m/s]
   Vector3 place = {0.0, 0.0, 0.0};
 };
 
@@ -36,14 +37,19 @@ class Patch {
   [[nodiscard]] double mass() const {
     return area_ > 0.0 ? backed_ / area_ * added_mass(area_, aspect()) : 0.0;
   }
+  /// That mass, as fast as the skin is on average, by area [N s].
+  [[nodiscard]] double momentum() const {
+    return backed_ > 0.0 ? pressed_ / backed_ * mass() : 0.0;
+  }
 
  private:
   /// Of the rectangle with the same second moments: from the two larger variances, which are the
   /// roots of  l^2 - trace l + minors = 0  since a flat patch has no third.
   [[nodiscard]] double aspect() const;
 
-  double area_ = 0.0;    ///< [m2]
-  double backed_ = 0.0;  ///< [m2]
+  double area_ = 0.0;     ///< [m2]
+  double backed_ = 0.0;   ///< [m2]
+  double pressed_ = 0.0;  ///< sum of its parts times their speeds [m3/s]
   Vector3 first_ = {0.0, 0.0, 0.0};
   std::array<Vector3, 3> second_ = {};
 };
@@ -54,11 +60,11 @@ inline constexpr double kAtOnce = 0.030;
 
 /// How the added mass of a blow grows.
 struct Growth {
-  double area_at_once = 0.0;  ///< wet within kAtOnce, with water behind the surface [m2]
-  double mass_at_once = 0.0;  ///< its added mass [kg]
-  double rise = 0.0;          ///< after the first touch the blow is strongest [s]
-  double area = 0.0;          ///< wet until then [m2]
-  double mass = 0.0;          ///< added until then [kg]
+  double area_at_once = 0.0;      ///< wet within kAtOnce, with water behind the surface [m2]
+  double momentum_at_once = 0.0;  ///< of its added mass [N s]
+  double rise = 0.0;              ///< after the first touch the blow is strongest [s]
+  double area = 0.0;              ///< wet until then [m2]
+  double momentum = 0.0;          ///< given to the water until then [N s]
 };
 
 /// Of skin that gets wet, looked at in steps of `step` seconds. The blow is strongest when in one

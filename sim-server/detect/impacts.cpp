@@ -80,7 +80,8 @@ struct ImpactWatch::Meeting {
   double after = kNever;               ///< time until the surfaces meet [s]
   double approach = 0.0;               ///< speed of a level plate that would press as much [m/s]
   double own = 0.0;                    ///< the body's part of it [m/s]
-  double flow = 0.0;                   ///< of the water along `inward` [m/s]
+  Vector3 water = {0.0, 0.0, 0.0};     ///< velocity of the water [m/s]
+  double flow = 0.0;                   ///< its part along `inward` [m/s]
   double speed = 0.0;                  ///< [m/s]
   double surface = 0.0;                ///< how far along `inward` the water begins [m]
   Vector3 velocity = {0.0, 0.0, 0.0};  ///< of the foremost point [m/s]
@@ -161,14 +162,13 @@ void ImpactWatch::average(Meeting& meeting, const std::vector<SurfacePoint>& poi
   const double share = 1.0 / static_cast<double>(meeting.points.size());
   double facing = 0.0;
   double pressing = 0.0;
-  Vector3 water = {0.0, 0.0, 0.0};
   double foremost = -kNever;
   std::size_t leader = meeting.points.front();
   for (const std::size_t i : meeting.points) {
     const Touch& touch = points[i].touch;
     const double along = dot(position_of(touch), meeting.inward);
     meeting.surface += share * (along + gaps[i]);
-    water = water + share * water_velocity_of(touch);
+    meeting.water = meeting.water + share * water_velocity_of(touch);
     facing += std::max(dot(normal_of(touch), meeting.inward), kFacing);
     pressing += dot(velocity_of(touch), normal_of(touch));
     meeting.approach += dot(velocity_of(touch) - water_velocity_of(touch), normal_of(touch));
@@ -179,7 +179,7 @@ void ImpactWatch::average(Meeting& meeting, const std::vector<SurfacePoint>& poi
   }
   meeting.velocity = velocity_of(points[leader].touch);
   meeting.gap = meeting.surface - foremost;
-  meeting.flow = dot(water, meeting.inward);
+  meeting.flow = dot(meeting.water, meeting.inward);
   meeting.own = pressing / facing;
   meeting.approach /= facing;
   meeting.speed = length(meeting.velocity);
@@ -211,13 +211,15 @@ void ImpactWatch::weigh(Meeting& meeting, const std::vector<SurfacePoint>& point
     if (facing <= kFacing || speed <= 0.0 || dot(way_of(touch), normal_of(touch)) <= 0.0) continue;
     const Vector3 place = position_of(touch);
     const double depth = dot(place, meeting.inward) - meeting.surface;
+    const double pressing = dot(velocity_of(touch) - meeting.water, normal_of(touch)) / facing;
     wettings.push_back({std::max(-depth / speed - first, 0.0), facing * points[i].area,
-                        -depth > reach / 2.0 ? backing : static_cast<double>(touch.ahead), place});
+                        -depth > reach / 2.0 ? backing : static_cast<double>(touch.ahead),
+                        std::max(pressing, 0.0), place});
   }
   const Growth growth = growth_of(std::move(wettings), step);
   meeting.area_at_once = growth.area_at_once;
-  meeting.momentum_at_once = meeting.approach * growth.mass_at_once;
-  meeting.momentum = meeting.approach * growth.mass;
+  meeting.momentum_at_once = growth.momentum_at_once;
+  meeting.momentum = growth.momentum;
   meeting.area = growth.area;
   meeting.rise = std::max(growth.rise, kCushion);
 }

@@ -195,6 +195,34 @@ TEST(Glancing, SolesPressByTheirNormalSpeed) {
   EXPECT_TRUE(of_a_sole(-30.0).empty());
 }
 
+// A turned-up corner goes first, and ploughs at 4.6 m/s along its normal; the sole that follows
+// sinks at 1 m/s. Each part of the skin gives the water its own speed.
+TEST(Glancing, MomentumIsThatOfAllSkinNotOfTheFirstToMeet) {
+  const double turn = 50.0 * 3.14159265 / 180.0;
+  ImpactWatch watch({kUnderside}, {}, surface_distance());
+  std::vector<DetectedImpact> all;
+  for (int k = 0; k * kFrame < 0.1; ++k) {
+    const double corner = 0.04 - k * kFrame;
+    std::vector<SurfacePoint> points;
+    add_body(points, 0, {.underside = corner + 0.012, .speed = -1.0, .drift = 3.0});
+    std::vector<SurfacePoint> first;
+    add_body(first, 0, {.underside = corner, .speed = -1.0, .drift = 3.0});
+    points.push_back(first.back());
+    points.back().area = kUnderside / 50.0;
+    points.back().touch.nx = static_cast<float>(std::sin(turn));
+    points.back().touch.nz = static_cast<float>(-std::cos(turn));
+    for (const DetectedImpact& impact : watch.observe(k * kFrame, kFrame, points)) {
+      all.push_back(impact);
+    }
+  }
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NEAR(all[0].time, 0.04, 1.0e-3);
+  const double plough =
+      (3.0 * std::sin(turn) + std::cos(turn)) / 50.0;                  // its speed times its share
+  const double mean = (1.0 + plough) / (1.0 + std::cos(turn) / 50.0);  // [m/s]
+  EXPECT_NEAR(all[0].momentum / added_mass(kUnderside, 1.0), mean, 0.1);
+}
+
 TEST(NoImpact, FromABodyThatSlidesAlongTheWater) {
   const auto slide = [](double time) {
     return Scenery{.underside = 0.0, .speed = 0.02 * std::sin(20.0 * time), .drift = 3.0};
