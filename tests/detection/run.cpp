@@ -15,10 +15,16 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation.hpp"
 #include "sim-server/tracking/make_motion.hpp"
+#include "tests/detection/run_water.hpp"
 #include "tests/detection/shipped.hpp"
+#include "tests/detection/steps.hpp"
 
 namespace splash::detection {
 namespace {
+
+/// The surface of the particles is known to some tenths of this: skin that is farther from it is
+/// out of the water [spacings].
+constexpr double kOut = 0.5;
 
 /// Where a free body was at the end of each frame; between them on straight lines.
 struct Trace {
@@ -109,18 +115,61 @@ std::vector<Entry> contacts_of(const std::filesystem::path& file, const sim::Sce
   return entries;
 }
 
-std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
-                            const std::vector<Path>& paths, double level) {
+Limits limits_of(const sim::Scene& scene) {
   Limits limits;
   limits.impact_speed = scene.detect.impact_speed;
+  return limits;
+}
+
+/// The feet of a run, against the water that it has.
+struct Feet {
+  std::vector<Steps> steps;   ///< of skin that has surely left the water
+  std::vector<Steps> slight;  ///< of skin that may have
+  std::vector<Path> paths;
+  double reach = 0.0;  ///< of a blow of the largest of them [m]
+
+  Feet(const Case& item, const sim::Scene& scene, const Paths& known) : paths(known.all()) {
+    if (!item.feet) return;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const sim::Shape& shape = scene.bodies[b].shape;
+      steps.emplace_back(b, shape, limits_of(scene));
+      slight.emplace_back(b, shape, limits_of(scene));
+      const auto skin = sim::sample_skin(shape, 0, 0.01);
+      reach = std::max(reach, sim::reach_of_blow(sim::faces_of(skin, 1).front()));
+    }
+  }
+  void look(sim::Simulation& simulation) {
+    if (steps.empty()) return;
+    const RunWater there(simulation, reach);
+    const auto spacing = static_cast<double>(simulation.fluid().params().spacing);
+    const double release = simulation.scene().detect.impact_release;
+    const Water sure = there.water(std::max(kOut * spacing, release));
+    const Water unsure = there.water(release);
+    const double time = simulation.seconds();
+    for (std::size_t b = 0; b < steps.size(); ++b) {
+      steps[b].look(time, paths[b](time), sure);
+      slight[b].look(time, paths[b](time), unsure);
+    }
+  }
+  [[nodiscard]] std::vector<Entry> entries(std::size_t body) const {
+    return with_slight(steps[body].all(), slight[body].all());
+  }
+};
+
+/// `feet`: what is known of them; without, they are held against still water.
+std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
+                            const std::vector<Path>& paths, double level,
+                            const Feet* feet = nullptr) {
+  const Limits limits = limits_of(scene);
   std::vector<Entry> all;
   if (!item.truth.empty()) all = contacts_of(item.truth, scene);
   for (std::size_t b = 0; b < paths.size(); ++b) {
     if (!paths[b]) continue;
     const sim::Shape& shape = scene.bodies[b].shape;
     std::vector<Entry> mine =
-        item.feet ? steps_of(b, shape, paths[b], level, item.seconds, limits)
-                  : entries_of(b, shape, kWhole, paths[b], level, item.seconds, limits);
+        !item.feet        ? entries_of(b, shape, kWhole, paths[b], level, item.seconds, limits)
+        : feet == nullptr ? steps_of(b, shape, paths[b], level, item.seconds, limits)
+                          : feet->entries(b);
     for (Entry& entry : mine) {
       entry.wanted = entry.wanted && item.truth.empty();
       entry.time -= item.pulled;
@@ -153,10 +202,13 @@ Outcome run_case(sim::Device& device, const Case& item,
   const Paths paths(scene, item.tracker);
   sim::Simulation simulation(device, scene, item.tracker);
   Heard heard;
+  Feet feet(item, scene, paths);
   paths.note(simulation);
+  feet.look(simulation);
   while (simulation.seconds() < item.seconds) {
     const sim::FrameResult frame = simulation.advance();
     paths.note(simulation);
+    feet.look(simulation);
     for (const sim::DetectedImpact& impact : frame.found.impacts) {
       note_momentum(impact, heard.momenta);
     }
@@ -169,7 +221,8 @@ Outcome run_case(sim::Device& device, const Case& item,
   Outcome outcome;
   outcome.item = item;
   outcome.item.wishes.level = scene.water.front().upper[2];
-  const std::vector<Entry> truth = truth_of(item, scene, heard.paths, outcome.item.wishes.level);
+  const std::vector<Entry> truth =
+      truth_of(item, scene, heard.paths, outcome.item.wishes.level, &feet);
   outcome.score = score(truth, heard, outcome.item.wishes);
   if (simulation.totals().resets > 0) outcome.score.faults.emplace_back("the water was begun anew");
   outcome.particles = simulation.particles();

@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "sim-server/bodies/skin.hpp"
-#include "sim-server/detect/added_mass.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
@@ -26,14 +23,6 @@ constexpr int kPlaces = 17;
 /// Around the speed below which a body is silent either is right [1].
 constexpr double kSurelySlow = 0.9;
 constexpr double kSurelyFast = 1.15;
-
-/// Of a foot: its skin is looked at in places so far apart [m]; what goes in within this of each
-/// other is one roll [s]; skin that faces the water by less than this cosine passes along it; and
-/// around the least momentum and area that make an impact either is right [1].
-constexpr double kSkin = 0.005;
-constexpr double kRoll = 0.03;
-constexpr double kFacing = 0.5;
-constexpr double kSurely = 3.0;
 
 /// Places in body axes of which one is the lowest, however the body is turned [m].
 std::vector<Vector3> corners_of(const Shape& shape, const Part& part) {
@@ -101,80 +90,6 @@ class Underside {
   std::vector<Vector3> corners_;
 };
 
-/// A place on the skin below the level, and how far it is behind where it has been: so deep may the
-/// hollow be that it leaves behind itself.
-class Below {
- public:
-  /// Whether it has just come there.
-  bool go(bool below, double step) {
-    if (!below) deepest_ = way_ = 0.0;
-    const bool crosses = !std::exchange(below_, below) && below;
-    way_ += below ? step : 0.0;
-    deepest_ = std::max(deepest_, way_);
-    return crosses;
-  }
-  [[nodiscard]] double back() const { return deepest_ - way_; }
-
- private:
-  bool below_ = false;
-  double way_ = 0.0;      ///< along its normal [m]
-  double deepest_ = 0.0;  ///< the largest of it [m]
-};
-
-/// What goes in with pauses of up to kRoll is one roll.
-class Rolls {
- public:
-  Rolls(std::size_t body, double face, const Limits& limits)
-      : body_(body),
-        area_(limits.face * face),
-        momentum_(limits.momentum * added_mass(face, 1.0)) {}
-
-  void go_on(double time) {
-    if (rolls_.empty() || time - rolls_.back().entry.until > kRoll) {
-      rolls_.push_back({{body_, time, time, 0.0, 0.0, false}, {}, 0.0, 0.0});
-    }
-    rolls_.back().entry.until = time;
-  }
-  /// `speed`: at which that skin presses on the water, `down`: at which it sinks [m/s].
-  void add(double time, const Wetting& skin, double speed, double down) {
-    go_on(time);
-    Roll& roll = rolls_.back();
-    const double mass = roll.patch.mass();
-    roll.patch.add(skin);
-    const double more = std::max(roll.patch.mass() - mass, 0.0);
-    roll.momentum += speed * more;
-    roll.sinking += down * more;
-    // Of its beginning: that is what an impact tells.
-    if (time - roll.entry.time <= kRoll) roll.entry.down = roll.sinking / roll.patch.mass();
-  }
-  /// Those that are surely impacts as wanted; those that surely are none are left out, unless
-  /// nothing is known of their momentum.
-  [[nodiscard]] std::vector<Entry> all() const {
-    std::vector<Entry> all;
-    for (const Roll& roll : rolls_) {
-      Entry entry = roll.entry;
-      const double mass = roll.patch.mass();
-      if (mass > 0.0 && roll.momentum < momentum_ / kSurely) continue;
-      entry.wanted = mass > 0.0 && roll.momentum >= kSurely * momentum_ &&
-                     roll.patch.area() >= kSurely * area_;
-      all.push_back(entry);
-    }
-    return all;
-  }
-
- private:
-  struct Roll {
-    Entry entry;
-    Patch patch;
-    double momentum = 0.0;  ///< [N s]
-    double sinking = 0.0;   ///< sum of its speeds down, each times its added mass [kg m/s]
-  };
-  std::size_t body_;
-  double area_;      ///< least of an impact [m2]
-  double momentum_;  ///< least of an impact [N s]
-  std::vector<Roll> rolls_;
-};
-
 }  // namespace
 
 Vector3 lowest_point(const Shape& shape, const Part& part, const sim::BodyState& state) {
@@ -214,38 +129,6 @@ std::vector<Entry> entries_of(std::size_t body, const Shape& shape, const Part& 
     before = now;
   }
   return entries;
-}
-
-std::vector<Entry> steps_of(std::size_t body, const Shape& shape, const Path& path, double level,
-                            double end, const Limits& limits) {
-  const std::vector<SkinPoint> skin = sample_skin(shape, 0, kSkin);
-  const double face = faces_of(skin, 1).front();
-  std::vector<Below> places(skin.size());
-  Rolls through(body, face, limits);
-  Rolls hollow(body, face, limits);
-  const auto count = static_cast<int>(std::ceil(end / kStep));
-  for (int k = 0; k <= count; ++k) {
-    const double time = k * kStep;
-    const BodyState state = path(time);
-    double in_hollow = 0.0;
-    for (std::size_t i = 0; i < skin.size(); ++i) {
-      const Vector3 arm = rotate(state.rotation, skin[i].place);
-      const Vector3 normal = rotate(state.rotation, skin[i].normal);
-      const double pressing = dot(state.velocity + cross(state.spin, arm), normal);
-      const bool crosses = places[i].go(state.position[2] + arm[2] <= level, kStep * pressing);
-      const double facing = -normal[2];
-      const double speed = pressing / facing;
-      if (facing <= kFacing || speed < limits.impact_speed) continue;
-      const double down = -(state.velocity + cross(state.spin, arm))[2];
-      if (crosses && k > 0) through.add(time, {0.0, facing * skin[i].area, 1.0, arm}, speed, down);
-      if (places[i].back() >= limits.clear) in_hollow += facing * skin[i].area;
-    }
-    if (in_hollow >= limits.face * face) hollow.go_on(time);
-  }
-  std::vector<Entry> steps = through.all();
-  const std::vector<Entry> others = hollow.all();
-  steps.insert(steps.end(), others.begin(), others.end());
-  return steps;
 }
 
 }  // namespace splash::detection

@@ -49,12 +49,4 @@ struct Limits {
                                             const Part& part, const Path& path, double level,
                                             double end, const Limits& limits);
 
-/// Of a foot that rolls in: each roll is an entry, told once at any moment of it. Its momentum is
-/// von Karman's, P = sum of u dm_a over the skin that goes down through the level while it moves
-/// outward along its own normal n, u = v.n / (n.down): a plate knows no other speed. What gets wet
-/// within 30 ms after the last is one roll; `down` is how fast its first 30 ms sink.
-[[nodiscard]] std::vector<Entry> steps_of(std::size_t body, const sim::Shape& shape,
-                                          const Path& path, double level, double end,
-                                          const Limits& limits);
-
 }  // namespace splash::detection

@@ -12,6 +12,7 @@
 #include "tests/detection/recording.hpp"
 #include "tests/detection/score.hpp"
 #include "tests/detection/script.hpp"
+#include "tests/detection/steps.hpp"
 #include "tests/detection/table.hpp"
 
 namespace splash::detection {
@@ -102,21 +103,56 @@ TEST(Truth, OfAFootAsksNothingOfASoleThatGoesBackAlongItsNormal) {
   EXPECT_NEAR(steps(-1.0)[0].down, 1.0, 0.01);
 }
 
-// Drawn back by 3 cm under water and pushed on again, it may hit the water in its hollow until it
-// is where it had been.
-TEST(Truth, OfAFootAllowsAnImpactInTheHollowItHasMade) {
-  const Path path = [](double time) {
+// Drawn back by 3 cm from the hollow that it has made and pushed on again, it meets the water
+// there.
+TEST(Truth, OfAFootIsAgainstTheWaterThatIsThere) {
+  const double low = kLevel - 0.1;
+  const Path path = [=](double time) {
     sim::BodyState state;
     const double back = time < 0.2 ? 0.15 * time : time < 0.3 ? 0.03 - 0.3 * (time - 0.2) : 0.0;
-    state.position[2] = kLevel - 0.1 + back;
+    state.position[2] = low + 0.02 + back;
     state.velocity[2] = time < 0.2 ? 0.15 : time < 0.3 ? -0.3 : 0.0;
     return state;
   };
-  const auto steps = steps_of(0, hand(), path, kLevel, 0.5, {});
+  EXPECT_THAT(steps_of(0, hand(), path, kLevel, 0.5, {}), IsEmpty());
+  const auto steps = steps_of(0, hand(), path, low + 0.001, 0.5, {});
   ASSERT_THAT(steps, SizeIs(1));
-  EXPECT_FALSE(steps[0].wanted);
-  EXPECT_NEAR(steps[0].time, 0.2, 0.003);
-  EXPECT_NEAR(steps[0].until, 0.3 - 0.005 / 0.3, 0.005);
+  EXPECT_TRUE(steps[0].wanted);
+  EXPECT_NEAR(steps[0].time, 0.3 - 0.001 / 0.3, 1.0e-3);
+  EXPECT_NEAR(steps[0].down, 0.3, 1.0e-6);
+}
+
+// Water that goes along is not pressed on, a film as much as the matter behind it.
+TEST(Truth, OfAFootCountsWhatTheWaterTakesUp) {
+  const auto steps = [](double flow, double ahead) {
+    Steps foot(0, hand(), {});
+    for (int k = 0; k < 500; ++k) {
+      Water water = still_water(kLevel);
+      const auto still = water.at;
+      water.at = [=](const sim::Vector3& place) { return Met{still(place).gap, {0.0, 0.0, flow}}; };
+      water.ahead = [=](const sim::Vector3& /*place*/, const sim::Vector3& /*normal*/) {
+        return ahead;
+      };
+      foot.look(0.001 * k, falling(0.45, 1.0)(0.001 * k), water);
+    }
+    return foot.all();
+  };
+  EXPECT_THAT(steps(0.0, 1.0), SizeIs(1));
+  EXPECT_THAT(steps(-1.0, 1.0), IsEmpty());
+  EXPECT_THAT(steps(0.0, 0.0), IsEmpty());
+  ASSERT_THAT(steps(0.0, 0.1), SizeIs(1));
+  EXPECT_FALSE(steps(0.0, 0.1)[0].wanted);  // of too little water
+}
+
+// A roll that only skin makes which hardly left the water may be told; one that is known stays one.
+TEST(Truth, OfAFootAllowsWhatHardlyLeftTheWater) {
+  const Entry sure = {0, 1.0, 1.1, 0.5, 0.0, true};
+  const auto all =
+      with_slight({sure}, {{0, 1.02, 1.12, 0.4, 0.0, true}, {0, 2.0, 2.1, 0.3, 0.0, true}});
+  ASSERT_THAT(all, SizeIs(2));
+  EXPECT_TRUE(all[0].wanted);
+  EXPECT_EQ(all[1].time, 2.0);
+  EXPECT_FALSE(all[1].wanted);
 }
 
 sim::DetectedImpact impact(double time, double approach, double z = kLevel, int body = 0) {
