@@ -70,6 +70,7 @@ Growth growth_of(std::vector<Wetting> wettings, double step) {
     if (skin.after <= kAtOnce) at_once.add(skin);
   }
   growth.area_at_once = at_once.backed();
+  growth.mass_at_once = at_once.mass();
   growth.momentum_at_once = at_once.momentum();
   std::vector<Stage> stages(1);
   Patch patch;

@@ -61,7 +61,8 @@ inline constexpr double kAtOnce = 0.030;
 /// How the added mass of a blow grows.
 struct Growth {
   double area_at_once = 0.0;      ///< wet within kAtOnce, with water behind the surface [m2]
-  double momentum_at_once = 0.0;  ///< of its added mass [N s]
+  double mass_at_once = 0.0;      ///< its added mass [kg]
+  double momentum_at_once = 0.0;  ///< of that [N s]
   double rise = 0.0;              ///< after the first touch the blow is strongest [s]
   double area = 0.0;              ///< wet until then [m2]
   double momentum = 0.0;          ///< given to the water until then [N s]

@@ -93,6 +93,7 @@ struct ImpactWatch::Meeting {
   double rise = kCushion;         ///< that is so long after the first touch [s]
   double area_at_once = 0.0;      ///< [m2]
   double momentum_at_once = 0.0;  ///< [N s]
+  double most_at_once = 0.0;      ///< that, if all of it pressed as what meets first [N s]
 };
 
 ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
@@ -219,6 +220,7 @@ void ImpactWatch::weigh(Meeting& meeting, const std::vector<SurfacePoint>& point
   const Growth growth = growth_of(std::move(wettings), step);
   meeting.area_at_once = growth.area_at_once;
   meeting.momentum_at_once = growth.momentum_at_once;
+  meeting.most_at_once = meeting.approach * growth.mass_at_once;
   meeting.momentum = growth.momentum;
   meeting.area = growth.area;
   meeting.rise = std::max(growth.rise, kCushion);
@@ -237,11 +239,12 @@ bool ImpactWatch::is_fast(const Meeting& meeting) const {
   return settings_.impact_waves && meeting.approach >= std::max(wave, settings_.impact_speed);
 }
 
-/// Whether it has the weight of one.
+/// Whether it may have the weight of one: what follows the first skin turns by then, faster or
+/// slower.
 bool ImpactWatch::is_blow(const Meeting& meeting, int body) const {
   const double face = faces_[static_cast<std::size_t>(body)];
   return meeting.area_at_once >= kLeastFace * face &&
-         meeting.momentum_at_once >= kLeastSpeed * added_mass(face, 1.0);
+         meeting.most_at_once >= kLeastSpeed * added_mass(face, 1.0);
 }
 
 void ImpactWatch::meet(int body, double time, double frame, const std::vector<SurfacePoint>& points,
