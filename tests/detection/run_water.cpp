@@ -33,7 +33,8 @@ RunWater::RunWater(Simulation& simulation, double reach)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cells_[axis] = cell_along(axis, tank_.upper[axis]) + 1;
   }
-  from_.assign(static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]) + 1, 0);
+  from_.assign(
+      static_cast<std::size_t>(cells_[0] * cells_[1]) * static_cast<std::size_t>(cells_[2]) + 1, 0);
   std::vector<std::size_t> cell(count);
   for (std::size_t i = 0; i < count; ++i) {
     int at = 0;
@@ -72,7 +73,8 @@ RunWater::Seen RunWater::see(const Vector3& place) const {
   Seen seen;
   for (int z = low[2]; z <= high[2]; ++z) {
     for (int y = low[1]; y <= high[1]; ++y) {
-      const auto row = static_cast<std::size_t>((z * cells_[1] + y) * cells_[0]);
+      const auto row =
+          static_cast<std::size_t>(z * cells_[1] + y) * static_cast<std::size_t>(cells_[0]);
       const int first = from_[row + static_cast<std::size_t>(low[0])];
       const int last = from_[row + static_cast<std::size_t>(high[0]) + 1];
       for (int k = first; k < last; ++k) {
