@@ -138,7 +138,6 @@ class Pool final : public BubblePool {
   /// One channel alone piece by piece.
   void mix_some(std::span<const int> packs, std::int64_t cell, int begin, int end,
                 const Mix& mix) noexcept {
-    const bool as_they_are = mix.bubbles.is_one() && mix.cavities.is_one();
     const std::size_t count = std::min<std::size_t>(kMixedPacks<Real>, packs.size());
     // What is only needed within this call need not go to memory with the packs.
     const bool passing = kAfresh && begin == 0 && end == kCell;
@@ -163,7 +162,7 @@ class Pool final : public BubblePool {
         if (cell + from < sitters.calm_from || cell + to > sitters.calm_to) {
           shape(sitters, cell + from, to - from, rows);
         }
-        if (!as_they_are) scale(sitters.cavities, mix, from, to, rows);
+        scale(sitters.cavities, mix, from, to, rows);
       }
       mix_joined(from, to);
       from = to;
@@ -253,11 +252,18 @@ class Pool final : public BubblePool {
 
   /// Samples [from, to) of the cell by the gains of bubbles and cavities.
   static void scale(std::uint32_t cavities, const Mix& mix, int from, int to, Real* row) noexcept {
+    if (mix.bubbles.is_one() && (mix.cavities.is_one() || cavities == 0)) return;
+    std::array<Real, kPackLanes> first{};
+    std::array<Real, kPackLanes> step{};
+    for (std::size_t lane = 0; lane < kPackLanes; ++lane) {
+      const CellGain& gain = (cavities >> lane & 1U) != 0 ? mix.cavities : mix.bubbles;
+      first[lane] = static_cast<Real>(gain.begin);
+      step[lane] = static_cast<Real>((gain.end - gain.begin) / kCell);
+    }
     for (int n = from; n < to; ++n, row += kPackVoices) {
-      const auto bubble = static_cast<Real>(mix.bubbles.at(n));
-      const auto cavity = static_cast<Real>(mix.cavities.at(n));
+      const auto at = static_cast<Real>(n);
       for (std::size_t lane = 0; lane < kPackLanes; ++lane) {
-        row[lane] *= (cavities >> lane & 1U) != 0 ? cavity : bubble;
+        row[lane] *= first[lane] + step[lane] * at;
       }
     }
   }
