@@ -26,7 +26,7 @@ constexpr double kLongest = 2.0;
 constexpr double kNarrow = 2.0;
 
 /// Cavities of one place within this time are one [s].
-constexpr double kAtOnce = 0.050;
+constexpr double kOneMoment = 0.050;
 
 Front front_of(const BodyExtent& extent, double time) {
   return {time, extent.front, length(extent.state.velocity), extent.radius};
@@ -135,7 +135,7 @@ void CavityWatch::tell(std::size_t body, const Hollow::Air& air,
   cavity.life = ring_life(cavity.radius, depth, gravity_);
   cavity.position = air.centre;
   const bool known = std::any_of(told_.begin(), told_.end(), [&](const DetectedCavity& other) {
-    return cavity.body != other.body && cavity.time - other.time <= kAtOnce &&
+    return cavity.body != other.body && cavity.time - other.time <= kOneMoment &&
            length(cavity.position - other.position) <= cavity.radius + other.radius;
   });
   if (known) return;
@@ -168,7 +168,7 @@ std::vector<DetectedCavity> CavityWatch::observe(double time,
                                  [](const Watch& watch) { return watch.slam.has_value(); });
   if (gravity_ <= 0.0 || (!waits && impacts.empty() && !always_)) return found;
   air_.move_to(time, bodies);
-  std::erase_if(told_, [&](const DetectedCavity& c) { return time - c.time > 2.0 * kAtOnce; });
+  std::erase_if(told_, [&](const DetectedCavity& c) { return time - c.time > 2.0 * kOneMoment; });
   bool looks = always_ || !impacts.empty();
   for (std::size_t b = 0; b < watches_.size(); ++b) {
     follow(b, time);
