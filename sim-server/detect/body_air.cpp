@@ -167,9 +167,8 @@ AirCells BodyAir::fill(std::size_t body, double level) const {
   std::vector<Vector3> water;
   std::copy_if(water_.begin(), water_.end(), std::back_inserter(water),
                [&](const Vector3& place) { return box.holds(place, support_); });
-  for (const Vector3& place : with_images(std::move(water), tank_, support_)) {
-    air.add(place, volume_);
-  }
+  const std::vector<Vector3> all = with_images(std::move(water), tank_, support_);
+  for (const Vector3& place : all) air.add(place, volume_);
   for (const BodyPoint& point : bodies_->points()) {
     const BodyState& state = extents_[static_cast<std::size_t>(point.owner)].state;
     const Vector3 place = state.position + rotate(state.rotation, point.place);
