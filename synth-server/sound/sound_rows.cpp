@@ -154,7 +154,7 @@ std::vector<Field<ImpactSound>> felt_fields() {
         .meaning = "at this speed it is felt as slow_db says",
         .min = 0.001,
         .max = 1.0,
-        .source = "scenes' detect.impact_speed: slower ones are told by no scene"},
+        .source = "scenes' detect.impact_speed: no scene sends slower ones"},
        &ImpactSound::slow},
       {{.key = "slow_db",
         .unit = "dB",

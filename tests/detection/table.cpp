@@ -11,7 +11,7 @@ namespace splash::detection {
 namespace {
 
 const char* const kColumns =
-    " | impacts wanted | told | missed | false | moment, ms | approach, % | P / (m_a u) | "
+    " | impacts expected | detected | missed | false | moment, ms | approach, % | P / (m_a u) | "
     "cavities of an entry | stray (above) | closing / law | V / law | bubbles | faulty";
 const char* const kBegin = "<!-- begin: detection-bench -->\n";
 const char* const kEnd = "<!-- end: detection-bench -->\n";
