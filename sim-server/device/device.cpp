@@ -167,6 +167,10 @@ Device::Device(int index, bool profiling, const Profile& profile) : profile_(pro
   queue_ = cl::CommandQueue(context_, handle_, profiling ? CL_QUEUE_PROFILING_ENABLE : 0);
 }
 
+Device::~Device() {
+  if (queue_() != nullptr) clFinish(queue_());
+}
+
 std::size_t Device::vectors_of(int particles) const noexcept {
   const auto lanes = static_cast<std::size_t>(profile_.lanes);
   return (static_cast<std::size_t>(particles) + lanes - 1) / lanes;

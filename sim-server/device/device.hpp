@@ -41,6 +41,11 @@ class Device {
   explicit Device(int index = -1, bool profiling = false, int lanes = 0);
   /// Cuts work as `profile` says, whatever would suit the device.
   Device(int index, bool profiling, const Profile& profile);
+  /// Waits for the work that is still queued: a driver may run or compile a kernel on threads of
+  /// its own, which must not outlive what the process tears down when it exits.
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
 
   [[nodiscard]] const DeviceFacts& facts() const noexcept { return facts_; }
   [[nodiscard]] const cl::Context& context() const noexcept { return context_; }
