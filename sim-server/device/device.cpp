@@ -168,7 +168,7 @@ Device::Device(int index, bool profiling, const Profile& profile) : profile_(pro
 }
 
 Device::~Device() {
-  if (queue_() != nullptr) clFinish(queue_());
+  clFinish(queue_());
 }
 
 std::size_t Device::vectors_of(int particles) const noexcept {
