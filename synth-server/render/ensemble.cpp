@@ -24,7 +24,8 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       bubbles_(make_bubble_pool(pool_settings(rig, settings, routing_))),
       impact_level_(rig),
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
-      masking_(channel_count(rig), settings.sample_rate) {}
+      masking_(channel_count(rig), settings.sample_rate),
+      cloud_(settings.sample_rate) {}
 
 void Ensemble::follow(const LiveControls& controls) noexcept {
   settings_.sound = controls.sound();
@@ -108,8 +109,13 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t
   constexpr bool kIsCavity = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
   const ToneSound& sound = kIsCavity ? settings_.sound.cavity : settings_.sound.bubble;
   const double depth = settings_.water_level - static_cast<double>(event.position.z);
-  const BubbleTone tone = bubble_tone(sound, static_cast<double>(event.radius),
-                                      static_cast<double>(event.epsilon), std::max(0.0, depth));
+  const auto radius = static_cast<double>(event.radius);
+  BubbleTone tone =
+      bubble_tone(sound, radius, static_cast<double>(event.epsilon), std::max(0.0, depth));
+  if constexpr (!kIsCavity) {
+    tone.frequency *=
+        cloud_.enter(settings_.sound.cloud, event.position, radius, tone.frequency, sample);
+  }
   const Source source{event.position, event.body, tone.frequency};
   const protocol::Cavity* cavity = nullptr;
   if constexpr (kIsCavity) cavity = &event;

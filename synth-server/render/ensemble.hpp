@@ -15,6 +15,7 @@
 #include "synth-server/render/live_controls.hpp"
 #include "synth-server/render/masking.hpp"
 #include "synth-server/render/routing.hpp"
+#include "synth-server/voices/cloud.hpp"
 
 namespace splash::synth {
 
@@ -62,6 +63,7 @@ class Ensemble {
   ImpactLevel impact_level_;
   ImpactPool impacts_;
   Masking masking_;
+  Cloud cloud_;
   int starts_ = 0;  ///< in this cell
   Counts counts_;
 };

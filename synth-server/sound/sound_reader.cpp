@@ -29,10 +29,11 @@ void refuse_others(const ConfigMap& map) {
 NamedSound read_map(const ConfigMap& map) {
   refuse_others(map);
   NamedSound sound;
-  map.read(sound_fields(), {"impact", "bubble", "cavity"}, sound);
+  map.read(sound_fields(), {"impact", "bubble", "cavity", "cloud"}, sound);
   read_part(map, "impact", impact_fields(), sound.sound.impact);
   read_part(map, "bubble", bubble_fields(), sound.sound.bubble);
   read_part(map, "cavity", cavity_fields(), sound.sound.cavity);
+  read_part(map, "cloud", cloud_fields(), sound.sound.cloud);
   return sound;
 }
 

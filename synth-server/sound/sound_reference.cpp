@@ -34,7 +34,8 @@ std::string describe_sound_keys() {
   return "### A sound\n\n" + describe_fields(sound_fields(), paper) + "\n### `impact`\n\n" +
          describe_fields(impact_fields(), paper.sound.impact) + "\n### `bubble`\n\n" +
          describe_fields(bubble_fields(), paper.sound.bubble) + "\n### `cavity`\n\n" +
-         describe_fields(cavity_fields(), paper.sound.cavity);
+         describe_fields(cavity_fields(), paper.sound.cavity) + "\n### `cloud`\n\n" +
+         describe_fields(cloud_fields(), paper.sound.cloud);
 }
 
 }  // namespace splash::synth

@@ -203,4 +203,22 @@ std::vector<Field<ToneSound>> cavity_fields() {
   return tone_fields("cavities");
 }
 
+std::vector<Field<CloudSound>> cloud_fields() {
+  return {{{.key = "coupling",
+            .unit = "1",
+            .meaning = "0: each bubble sounds as if it were alone; 1: those around it lower its "
+                       "pitch at birth, so that dense clouds sound darker; between: their part",
+            .min = 0.0,
+            .max = 1.0,
+            .source = "Xue, Aronson, Wang, Langlois, James 2023"},
+           &CloudSound::coupling},
+          {{.key = "company",
+            .unit = "s",
+            .meaning = "a bubble counts for others so long after its birth",
+            .min = 0.001,
+            .max = 1.0,
+            .source = "ours: until most have rung"},
+           &CloudSound::company}};
+}
+
 }  // namespace splash::synth

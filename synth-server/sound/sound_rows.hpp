@@ -23,5 +23,6 @@ struct NamedSound {
 [[nodiscard]] std::vector<Field<ImpactSound>> impact_fields();
 [[nodiscard]] std::vector<Field<ToneSound>> bubble_fields();
 [[nodiscard]] std::vector<Field<ToneSound>> cavity_fields();
+[[nodiscard]] std::vector<Field<CloudSound>> cloud_fields();
 
 }  // namespace splash::synth

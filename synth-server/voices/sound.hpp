@@ -44,10 +44,17 @@ struct ToneSound {
   double physical = 0.0;    ///< 0: f0 and d are the paper's, 1: linear theory's, between: mixed [1]
 };
 
+/// Bubbles among others (cloud.hpp).
+struct CloudSound {
+  double coupling = 0.0;  ///< 0: each sounds as if it were alone, 1: as the theory has it [1]
+  double company = 0.05;  ///< a bubble counts for others so long after its birth [s]
+};
+
 struct Sound {
   ImpactSound impact;
   ToneSound bubble;
   ToneSound cavity;
+  CloudSound cloud;
 };
 
 /// The numbers of a sound in the order of its members.

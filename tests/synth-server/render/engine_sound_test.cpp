@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "synth-server/voices/cloud.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
@@ -79,6 +80,27 @@ TEST(Engine, HearsDepthInPhysicalBubblesAlone) {
   EXPECT_NE(at_depth(1.0, 3.0), at_depth(1.0, kNoWaterLevel));
   EXPECT_EQ(at_depth(1.0, 0.5), at_depth(1.0, kNoWaterLevel)) << "at the surface";
   EXPECT_EQ(at_depth(1.0, 0.2), at_depth(1.0, kNoWaterLevel)) << "above it";
+}
+
+// Five bubbles one after the other at one place: each is as much lower as the cloud says.
+TEST(Engine, LowersBubblesByThoseAroundThem) {
+  constexpr int kApart = 9600;
+  auto settings = file_settings();
+  settings.sound.cloud = {1.0, 1.0};
+  settings.sound.bubble.rise = 0.0;
+  Engine engine(open_rig(), settings);
+  for (int i = 0; i < 5; ++i) engine.schedule({bubble(0.005F), i * kApart});
+  for (int before = 0; before < 5; ++before) {
+    const auto out = render(engine, kApart)[0];
+    double power = 0.0;
+    double steps = 0.0;
+    for (std::size_t n = 1; n < out.size(); ++n) {
+      power += std::pow(static_cast<double>(out[n]), 2);
+      steps += std::pow(static_cast<double>(out[n]) - static_cast<double>(out[n - 1]), 2);
+    }
+    const double pitch = kRate / M_PI * std::asin(0.5 * std::sqrt(steps / power));
+    EXPECT_NEAR(pitch, 600.0 * lowered(0.5 * before), 3.0) << before;  // each adds its half
+  }
 }
 
 }  // namespace
