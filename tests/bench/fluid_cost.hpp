@@ -23,8 +23,18 @@ struct Until {
 struct Limits {
   double bandwidth = 0.0;   ///< [B/s]
   double arithmetic = 0.0;  ///< additions and multiplications, two to a fused one [1/s]
+  double scalar = 0.0;      ///< instructions that no vector saves [1/s]
+  double counts = 0.0;      ///< of a histogram, one after the other in each work-item [1/s]
+  double runs = 0.0;        ///< looked up and gone through, of a length that is not foreseen [1/s]
   double launch = 0.0;      ///< [s]
+  double begin =
+      0.0;  ///< that a short launch takes on the device beyond its share of a long one [s]
 };
+
+/// By kernels that do nothing else; `device` with profiling. The bandwidth is that of its memory.
+[[nodiscard]] Limits limits_of(sim::Device& device);
+/// Of three arrays that together have so many bytes, from where they are after a first pass [B/s].
+[[nodiscard]] double bandwidth_of(sim::Device& device, std::size_t bytes);
 
 /// In one run, on the same particles; `device` with profiling. `csv`: or null. Throws
 /// std::runtime_error when both do not give the same sums.

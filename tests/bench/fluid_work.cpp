@@ -69,6 +69,7 @@ class Search {
     const int from = slice(first) - SPLASH_SLICES;
     const int to = slice(last - 1) + SPLASH_SLICES + 1;
     const Box around = box(first, last);
+    ++met_.turns;
     for (int k = 0; k < 9; ++k) {
       const int base = (row + (k / 3 - 1) * p_.params.cells_y + k % 3 - 1) * slices;
       const int begin = start(base + from);
@@ -88,8 +89,33 @@ class Search {
   Met met_;
 };
 
-// Operations of the formulas, as the kernels write them (density.cl, acceleration.cl, near.h).
+// Operations of the formulas, as the kernels write them (density.cl, acceleration.cl, near.h), and
+// the numbers that they load of a neighbour: a CPU does that beside its arithmetic, a GPU instead.
 constexpr double kOfTest = 18.0, kOfDensity = 20.0, kOfForce = 46.0;
+constexpr double kLoadsOfDensity = 3.0, kLoadsOfForce = 7.0;
+// Of a group besides its pairs (group.h: its box; density.cl: the state equation).
+constexpr double kOfGroup = 60.0;
+// Scalar instructions: of a turn (group.h, rest.h), of a run (grid.h, near.h: two addresses and
+// look-ups, where to go on), of a point's cell (grid.h) with its loads and store, of a point that
+// is moved alone (points.h: eight numbers in and out) or a vector that stays together, of a point's
+// place in the sort.
+constexpr double kOfTurn = 100.0, kOfRun = 25.0, kOfCell = 28.0, kOfMove = 16.0, kOfPlace = 4.0;
+
+/// What both pair loops have in common beside their pairs.
+Work search_work(const Met& met, double n, const sim::Profile& profile) {
+  const double scalar = kOfTurn * met.turns + kOfRun * 9.0 * met.turns;
+  Work work = {.operations = kOfTest * met.tested + kOfGroup * n, .runs = 9.0 * met.turns};
+  (profile.lanes > 1 ? work.scalar : work.operations) += profile.lanes > 1 ? scalar : 2.0 * scalar;
+  return work;
+}
+
+Work pair_work(const Work& search, double bytes, double pairs, double operations, double loads,
+               const sim::Profile& profile) {
+  Work work = search;
+  work.bytes = bytes;
+  work.operations += pairs * (operations + (profile.lanes > 1 ? 0.0 : 2.0 * loads));
+  return work;
+}
 
 }  // namespace
 
@@ -105,6 +131,9 @@ Places places_of(sim::Device& device, Block& block) {
                       1);
   device.queue().enqueueReadBuffer(block.fluid.grid().cell_start(), CL_TRUE, 0,
                                    4 * p.cell_start.size(), p.cell_start.data());
+  p.source.resize(static_cast<std::size_t>(p.params.count));
+  device.queue().enqueueReadBuffer(block.fluid.grid().source(), CL_TRUE, 0, 4 * p.source.size(),
+                                   p.source.data());
   const auto full = std::find(p.cell_start.begin(), p.cell_start.end(), p.params.count);
   p.used = static_cast<int>(full - p.cell_start.begin());
   return p;
@@ -114,25 +143,50 @@ Met meet_all(const Places& places, int lanes) {
   return Search(places, lanes).all();
 }
 
+double moved_alone(const Places& places, const sim::Profile& profile) {
+  const auto count = places.source.size();
+  const auto lanes = static_cast<std::size_t>(profile.lanes);
+  const auto chunks = static_cast<std::size_t>(std::max(profile.sort_chunks, 1));
+  std::vector<std::size_t> place(count);
+  for (std::size_t k = 0; k < count; ++k) place[static_cast<std::size_t>(places.source[k])] = k;
+  const std::size_t size = (count + chunks - 1) / chunks;
+  std::size_t together = 0;
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    const std::size_t end = std::min((chunk + 1) * size, count);
+    for (std::size_t i = chunk * size; i + lanes <= end; i += lanes) {
+      bool apart = false;
+      for (std::size_t k = 1; k < lanes; ++k) apart = apart || place[i + k] != place[i] + k;
+      together += apart ? 0 : lanes;
+    }
+  }
+  return static_cast<double>(count - together);
+}
+
 std::map<std::string, Work> work_of(const Places& p, const sim::Profile& profile) {
   const Met met = meet_all(p, profile.lanes);
   const double n = p.params.count;
   const auto all = static_cast<double>(p.cell_start.size());
   const double used = p.used;
   const double counts = used * std::max(profile.sort_chunks, 1);
-  const double tests = kOfTest * met.tested;
-  return {{"compute_density", {36.0 * n + 4.0 * used, tests + kOfDensity * met.visited}},
-          {"compute_acceleration", {44.0 * n + 4.0 * used, tests + kOfForce * met.visited}},
-          {"integrate", {64.0 * n, 40.0 * n}},
-          {"count_cells", {16.0 * n + 12.0 * counts, 10.0 * n}},
-          {"sum_blocks", {4.0 * counts, counts}},
-          {"place_cells", {8.0 * counts + 4.0 * used, counts}},
-          {"sort_points", {64.0 * n + 8.0 * counts, 0.0}},
-          {"count_points", {28.0 * n, 10.0 * n}},
-          {"sum_cells", {4.0 * all, all}},
-          {"start_cells", {12.0 * all, all}},
-          {"gather_cells", {16.0 * n, 0.0}},
-          {"rank_points", {76.0 * n, 4.0 * n}}};
+  const Work search = search_work(met, n, profile);
+  const double alone = moved_alone(p, profile);
+  return {{"compute_density", pair_work(search, 36.0 * n + 4.0 * used, met.visited, kOfDensity,
+                                        kLoadsOfDensity, profile)},
+          {"compute_acceleration",
+           pair_work(search, 44.0 * n + 4.0 * used, met.visited, kOfForce, kLoadsOfForce, profile)},
+          {"integrate", {.bytes = 64.0 * n, .operations = 40.0 * n}},
+          {"count_cells", {.bytes = 16.0 * n + 12.0 * counts, .scalar = kOfCell * n, .counts = n}},
+          {"sum_blocks", {.bytes = 4.0 * counts, .scalar = counts}},
+          {"place_cells", {.bytes = 8.0 * counts + 4.0 * used, .scalar = 5.0 * counts}},
+          {"sort_points",
+           {.bytes = 64.0 * n + 8.0 * counts,
+            .scalar = kOfPlace * n + kOfMove * (alone + (n - alone) / profile.lanes),
+            .counts = n}},
+          {"count_points", {.bytes = 28.0 * n, .operations = 2.0 * kOfCell * n}},
+          {"sum_cells", {.bytes = 4.0 * all, .operations = all}},
+          {"start_cells", {.bytes = 12.0 * all, .operations = all}},
+          {"gather_cells", {.bytes = 16.0 * n}},
+          {"rank_points", {.bytes = 76.0 * n, .operations = 2.0 * (kOfMove + 4.0 * kOfPlace) * n}}};
 }
 
 }  // namespace splash::bench

@@ -61,6 +61,24 @@ TEST(StepWork, CountsThePairsThatKernelsVisit) {
   EXPECT_GT(wide.visited, neighbours);
   EXPECT_LT(wide.visited, 2.0 * around);
   EXPECT_GT(16.0 * wide.tested, wide.visited);
+  // A particle has a search of its own, a vector one for each row that it lies in.
+  EXPECT_EQ(meet_all(p, 1).turns, p.params.count);
+  double turns = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    turns += i % 16 == 0 || cells[i][1] != cells[i - 1][1] || cells[i][2] != cells[i - 1][2];
+  }
+  EXPECT_EQ(wide.turns, turns);
+}
+
+TEST(StepWork, CountsWhatTheSortMovesAlone) {
+  Places p;
+  for (int k = 0; k < 64; ++k) p.source.push_back(k);
+  sim::Profile profile = sim::cpu_profile(2);  // two chunks of two vectors
+  EXPECT_EQ(moved_alone(p, profile), 0.0);
+  std::swap(p.source[17], p.source[40]);  // in the second and in the third vector
+  EXPECT_EQ(moved_alone(p, profile), 32.0);
+  p.source.push_back(64);  // chunks of 33: one of each is left over
+  EXPECT_GT(moved_alone(p, profile), 32.0);
 }
 
 TEST(StepWork, GrowsWithTheWater) {

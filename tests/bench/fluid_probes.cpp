@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "protocol/time_tag.hpp"
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/program.hpp"
+#include "tests/bench/fluid_block.hpp"
+#include "tests/bench/fluid_cost.hpp"
+#include "tests/bench/opencl_ledger.hpp"
+
+namespace splash::bench {
+namespace {
+
+using namespace splash::sim;
+
+/// `wide`: a type of many floats, since a CPU's compiler need not find them by itself. Eight sums
+/// that do not wait for each other.
+const char* const kProbes = R"(
+#if LANES == 1
+typedef float wide;
+#define LAST(a) (a)
+#else
+typedef float16 wide;
+#define LAST(a) ((a).s0 + (a).sf)
+#endif
+kernel void triad(global const wide* a, global const wide* b, global wide* c, float s, int n) {
+  const int i = get_global_id(0);
+  if (i < n) c[i] = a[i] + s * b[i];
+}
+#define SUMS(name, type, last)                                                \
+  kernel void name(global float* out, float s, int rounds) {                  \
+    const type f = s, g = 1e-5f;                                              \
+    type a = s, b = a + 1, c = a + 2, d = a + 3;                              \
+    type e = a + 4, h = a + 5, i = a + 6, j = a + 7;                          \
+    for (int round = 0; round < rounds; ++round) {                            \
+      a = a * f + g, b = b * f + g, c = c * f + g, d = d * f + g;             \
+      e = e * f + g, h = h * f + g, i = i * f + g, j = j * f + g;             \
+    }                                                                         \
+    a += b + c + d + e + h + i + j;                                           \
+    out[get_global_id(0)] = last(a);                                          \
+  }
+SUMS(multiply_add, wide, LAST)
+// Scalar instructions that do not wait for each other: shifts, which no vector of eight has to save.
+kernel void shift(global uint* out, int rounds) {
+  uint a = get_global_id(0), b = a + 1, c = a + 2, d = a + 3, e = a + 4, f = a + 5;
+  for (int round = 0; round < rounds; ++round) {
+    a += b >> 1, b ^= c << 3, c += d >> 5, d ^= e << 7, e += f >> 9, f ^= a << 11;
+  }
+  out[get_global_id(0)] = a + b + c + d + e + f;
+}
+// As a counting sort does: each work-item has histograms of its own.
+kernel void count_up(global const int* cells, global int* count, int points, int size) {
+  const int item = get_global_id(0);
+  for (int i = item * points; i < (item + 1) * points; ++i) ++count[item * size + cells[i]];
+}
+// As near.h goes through the runs around a group: where each begins and ends is looked up, and its
+// length, of one to three vectors, is not foreseen.
+kernel void visit(global const int* start, global const wide* points, global float* out,
+                  int runs) {
+  const int item = get_global_id(0);
+  wide sum = 0.0f;
+  uint at = 977u * item;
+  for (int k = 0; k < runs; ++k) {
+    at = 1664525u * at + 1013904223u;
+    const int run = at >> 24;
+    const int last = start[run + 1];
+    for (int i = start[run]; i < last; ++i) sum += points[i];
+  }
+  out[item] = LAST(sum);
+}
+kernel void nothing(int n) { (void)n; }
+)";
+
+/// Fastest of a hundred runs, or of those of a second, without what the host takes [s].
+double fastest(Device& device, const std::function<void()>& launch) {
+  double best = 1.0e9;
+  const double end = protocol::monotonic_now() + 1.0;
+  for (int k = 0; k < 100 && (k < 3 || protocol::monotonic_now() < end); ++k) {
+    begin_ledger();
+    launch();
+    device.queue().finish();
+    double here = 0.0;
+    for (const auto& [name, launches] : end_ledger()) here += launches.seconds;
+    best = std::min(best, here);
+  }
+  return best;
+}
+
+cl::Program probes(Device& device) {
+  return build_program(device, {{"tests/bench/probes", kProbes}}, {}, false);
+}
+
+std::size_t width(const Device& device) {
+  return device.lanes() == 1 ? 1 : 16;
+}
+
+/// One busy work-item for each core of a CPU, many for each of a GPU's units.
+std::size_t busy_items(const Device& device) {
+  return device.facts().compute_units * std::size_t{device.lanes() == 1 ? 4096U : 1U};
+}
+
+constexpr int kRounds = 2048;
+
+/// Of a launch of so many rounds of eight fused operations in each lane [s].
+double computing(Device& device, const cl::Program& program, std::size_t items, int rounds) {
+  Kernel multiply_add(program, "multiply_add", device.profile().group);
+  Buffer<float> out(device, items);
+  return fastest(device,
+                 [&] { multiply_add.run(device.queue(), items, out.memory(), 0.999F, rounds); });
+}
+
+/// A number that looks drawn by lot.
+int mixed(std::size_t k) {
+  return static_cast<int>(static_cast<std::uint32_t>(k) * 2654435761U >> 9U);
+}
+
+double scalar(Device& device, const cl::Program& program) {
+  constexpr int kShifts = 16384;
+  const std::size_t items = device.facts().compute_units;
+  Buffer<int> out(device, items);
+  Kernel shift(program, "shift", 1);
+  const double seconds =
+      fastest(device, [&] { shift.run(device.queue(), items, out.memory(), kShifts); });
+  return 12.0 * static_cast<double>(items) * kShifts / seconds;
+}
+
+double counts(Device& device, const cl::Program& program) {
+  constexpr int kPoints = 16384, kCells = 4096;
+  const std::size_t items = device.facts().compute_units;
+  std::vector<int> cells(items * kPoints);
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = mixed(i) % kCells;
+  Buffer<int> of(device, std::span<const int>(cells)), count(device, items * kCells);
+  Kernel count_up(program, "count_up", 1);
+  const double seconds = fastest(device, [&] {
+    count_up.run(device.queue(), items, of.memory(), count.memory(), kPoints, kCells);
+  });
+  return static_cast<double>(cells.size()) / seconds;
+}
+
+double runs(Device& device, const cl::Program& program) {
+  constexpr int kRuns = 256, kVisits = 8192;
+  std::vector<int> start(kRuns + 1, 0);
+  for (std::size_t k = 1; k < start.size(); ++k) {
+    start[k] = start[k - 1] + 1 + mixed(k) % 3;
+  }
+  const std::size_t items = busy_items(device);
+  const int rounds = device.lanes() == 1 ? kVisits / 64 : kVisits;
+  Buffer<int> starts(device, std::span<const int>(start));
+  Buffer<float> points(device, std::size_t{4 * kRuns} * width(device)), out(device, items);
+  Kernel visit(program, "visit", device.profile().lanes == 1 ? device.profile().group : 1);
+  const double seconds = fastest(device, [&] {
+    visit.run(device.queue(), items, starts.memory(), points.memory(), out.memory(), rounds);
+  });
+  return static_cast<double>(items) * rounds / seconds;
+}
+
+}  // namespace
+
+double bandwidth_of(Device& device, std::size_t bytes) {
+  const std::size_t most = std::min(device.facts().allocation / 2, device.facts().memory / 8);
+  const std::size_t count = std::min(bytes / 3, most) / (sizeof(float) * width(device));
+  Kernel triad(probes(device), "triad");
+  using Array = Buffer<float>;
+  const std::size_t size = count * width(device);
+  const Array arrays[] = {Array(device, size), Array(device, size), Array(device, size)};
+  // Each is written in turn: in a step, too, a core reads what another one may have written.
+  const double seconds = fastest(device, [&] {
+    for (int k = 0; k < 3; ++k) {
+      triad.run(device.queue(), count, arrays[k].memory(), arrays[(k + 1) % 3].memory(),
+                arrays[(k + 2) % 3].memory(), 0.5F, static_cast<int>(count));
+    }
+  });
+  return 9.0 * static_cast<double>(size * sizeof(float)) / seconds;
+}
+
+Limits limits_of(Device& device) {
+  const cl::Program program = probes(device);
+  Limits limits;
+  // Three arrays of 128 MiB: beyond caches.
+  limits.bandwidth = bandwidth_of(device, std::size_t{384} << 20U);
+  const std::size_t items = std::size_t{device.lanes() == 1 ? 4U : 64U} * busy_items(device);
+  const double computes = computing(device, program, items, kRounds);
+  limits.arithmetic = 2.0 * 8.0 * static_cast<double>(items * width(device)) * kRounds / computes;
+  constexpr int kShort = 64;
+  limits.begin =
+      std::max(computing(device, program, items, kRounds / kShort) - computes / kShort, 0.0);
+  limits.scalar = scalar(device, program);
+  limits.counts = counts(device, program);
+  limits.runs = runs(device, program);
+  Kernel nothing(program, "nothing");
+  constexpr int kLaunches = 1000;
+  const auto empty = [&] {
+    for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, k);
+    device.queue().finish();
+  };
+  empty();
+  limits.launch = wall_time(empty, 5) / kLaunches;
+  return limits;
+}
+
+}  // namespace splash::bench
