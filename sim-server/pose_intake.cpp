@@ -35,26 +35,42 @@ PoseRefusal PoseIntake::give(const protocol::BodyPose& pose, const PoseMoment& m
 }
 
 void PoseIntake::take(const protocol::BodyPose& pose, const PoseMoment& moment) {
-  const PoseRefusal refusal = give(pose, moment);
-  if (refusal == PoseRefusal::none) return;
-  ++counts_[static_cast<std::size_t>(refusal)];
-  say(pose, refusal, moment.arrival);
+  note(pose.body, give(pose, moment), moment.arrival);
 }
 
-void PoseIntake::say(const protocol::BodyPose& pose, PoseRefusal refusal, double now) {
+bool PoseIntake::track(const protocol::Message& message, const PoseMoment& moment) {
+  const PoseStamp stamp = {moment.arrival, moment.sent};
+  return trackers_.take(message, stamp, [&](const MappedPose& pose) {
+    const auto body = static_cast<std::int32_t>(pose.body);
+    PoseRefusal refusal = pose.refusal;
+    LiveMotion* const live = simulation_.live_body(body);
+    if (refusal == PoseRefusal::none && live != nullptr) {
+      refusal = live->push(pose.position, pose.rotation, stamp);
+    }
+    note(body, refusal, moment.arrival);
+  });
+}
+
+void PoseIntake::note(std::int32_t body, PoseRefusal refusal, double now) {
+  if (refusal == PoseRefusal::none) return;
+  ++counts_[static_cast<std::size_t>(refusal)];
+  say(body, refusal, now);
+}
+
+void PoseIntake::say(std::int32_t body, PoseRefusal refusal, double now) {
   const bool for_good = refusal == PoseRefusal::no_body || refusal == PoseRefusal::not_tracked;
   if (for_good) {
-    const auto body = static_cast<std::size_t>(pose.body);
-    if (said_[body]) return;
-    said_[body] = true;
+    const auto index = static_cast<std::size_t>(body);
+    if (said_[index]) return;
+    said_[index] = true;
   } else if (now < next_line_) {
     return;
   } else {
     next_line_ = now + kLinePeriod;
   }
   std::fprintf(stderr, "sim-server: a pose of body %s was refused: %s (%llu refused so far)\n",
-               name_of(simulation_.scene(), pose.body).c_str(),
-               std::string(describe(refusal)).c_str(), static_cast<unsigned long long>(refused()));
+               name_of(simulation_.scene(), body).c_str(), std::string(describe(refusal)).c_str(),
+               static_cast<unsigned long long>(refused()));
 }
 
 std::uint64_t PoseIntake::refused() const noexcept {

@@ -9,19 +9,24 @@
 #include <cstdint>
 
 #include "protocol/event.hpp"
+#include "protocol/message.hpp"
 #include "sim-server/send/control.hpp"
 #include "sim-server/send/report.hpp"
 #include "sim-server/simulation.hpp"
 #include "sim-server/tracking/pose_refusal.hpp"
+#include "sim-server/tracking/tracker_map.hpp"
 
 namespace splash::sim {
 
 class PoseIntake {
  public:
-  explicit PoseIntake(const Simulation& simulation) : simulation_(simulation) {}
+  explicit PoseIntake(const Simulation& simulation)
+      : simulation_(simulation), trackers_(simulation.scene()) {}
 
   /// On the thread that listens, for each pose as it comes.
   void take(const protocol::BodyPose& pose, const PoseMoment& moment);
+  /// Same, for each message that is no command; false: the scene's `tracking` does not map it.
+  bool track(const protocol::Message& message, const PoseMoment& moment);
 
   /// All that were refused here. From any thread.
   [[nodiscard]] std::uint64_t refused() const noexcept;
@@ -30,9 +35,11 @@ class PoseIntake {
 
  private:
   [[nodiscard]] PoseRefusal give(const protocol::BodyPose& pose, const PoseMoment& moment) const;
-  void say(const protocol::BodyPose& pose, PoseRefusal refusal, double now);
+  void note(std::int32_t body, PoseRefusal refusal, double now);
+  void say(std::int32_t body, PoseRefusal refusal, double now);
 
   const Simulation& simulation_;
+  TrackerMap trackers_;
   std::array<std::atomic<std::uint64_t>, kPoseRefusals> counts_ = {};
   std::bitset<256> said_;   ///< of bodies that no pose can move
   double next_line_ = 0.0;  ///< monotonic [s]

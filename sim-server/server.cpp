@@ -71,6 +71,8 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
             {.listen = options_.listen, .allowed = options_.allow},
             {.pose = [this](const protocol::BodyPose& pose,
                             const PoseMoment& moment) { poses_.take(pose, moment); },
+             .track = [this](const protocol::Message& message,
+                             const PoseMoment& moment) { return poses_.track(message, moment); },
              .status =
                  [this] {
                    const std::lock_guard lock(status_mutex_);

@@ -223,6 +223,31 @@ struct ServeSettings {
   double latency_ms = 15.0;   ///< bubbles and cavities are played this long after they happened
 };
 
+/// A tracker's messages and the body that they move. They give the body's pose as the sender sees
+/// it; scene/tracking_reader has the words of each.
+struct TrackerSource {
+  std::size_t body = 0;            ///< index among the scene's
+  std::string address;             ///< OSC, of the messages with the position
+  std::vector<std::string> match;  ///< what their first arguments are; empty: anything
+  std::array<std::size_t, 3> position = {0, 1, 2};  ///< which arguments are x y z
+  std::string rotation_address;                     ///< OSC, of those with the rotation
+  std::vector<std::string> rotation_match;          ///< what their first arguments are
+  std::vector<std::size_t> rotation;  ///< which arguments; 4: x y z w, 3: angles about x y z
+  std::array<std::size_t, 3> order = {2, 0, 1};  ///< angles: axes in the order of the turns, fixed
+  double angle = 1.0;                            ///< of the sender's unit of angle [rad]
+  std::array<std::size_t, 3> axes = {0, 1, 2};   ///< the sender's axes that are the scene's x y z
+  Vector3 signs = {1.0, 1.0, 1.0};               ///< their senses [1]
+  double unit = 1.0;                             ///< of the sender's unit of length [m]
+  Keyframe mount;  ///< the body on the tracker, in its axes after `axes`
+};
+
+/// Trackers other than /body/pose.
+struct TrackingSettings {
+  Vector3 position = {0.0, 0.0, 0.0};  ///< the senders' origin in the scene [m]
+  double yaw = 0.0;                    ///< the senders' room is turned by this about z [deg]
+  std::vector<TrackerSource> sources;
+};
+
 struct Scene {
   std::string name;
   std::string description;
@@ -239,6 +264,7 @@ struct Scene {
   DetectSettings detect;
   SkipSettings skip;
   ServeSettings serve;
+  TrackingSettings tracking;
 };
 
 }  // namespace splash::sim

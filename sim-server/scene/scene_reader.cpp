@@ -18,6 +18,7 @@
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/tracking_reader.hpp"
 #include "sim-server/scene/water_reader.hpp"
 
 namespace splash::sim {
@@ -251,7 +252,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   Scene scene;
   map.read(scene_fields(),
            {"fluid", "tank", "slope", "wave_maker", "water", "gate", "flow", "bodies", "gauges",
-            "detect", "skip", "serve"},
+            "detect", "skip", "serve", "tracking"},
            scene);
   if (scene.name.empty()) scene.name = file_stem;
   read_basin(map, scene);
@@ -269,6 +270,9 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
     check_detect(*detect, scene.detect);
   }
   if (const auto serve = map.optional_child("serve")) serve->read(serve_fields(), {}, scene.serve);
+  if (const auto tracking = map.optional_child("tracking")) {
+    scene.tracking = read_tracking(*tracking, scene);
+  }
   return scene;
 }
 

@@ -95,7 +95,11 @@ std::string scene_reference() {
          section("### `probes` of the gauges: a list", gauge_fields()) +
          section("### `detect` (optional)", detect_fields()) +
          section("### `skip` (optional)", skip_fields()) +
-         section("### `serve` (optional)", serve_fields());
+         section("### `serve` (optional)", serve_fields()) +
+         section("### `tracking` (optional): trackers that do not send `/body/pose`",
+                 tracking_fields()) +
+         section("### `sources` of the tracking: a list", tracker_fields()) +
+         section("### `mount` of a source (optional): the body on its tracker", mount_fields());
 }
 
 }  // namespace splash::sim

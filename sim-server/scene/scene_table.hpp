@@ -3,6 +3,7 @@
 // configs/README.md all come from these tables.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,23 @@ struct GaugeEntry : GaugeSettings {
   std::string body_name;
 };
 
+/// A tracker's messages as their mapping spells them.
+struct TrackerEntry {
+  std::string body = {};
+  std::string preset = {};
+  std::string name = {};
+  std::string address = {};
+  std::vector<std::string> match = {};
+  std::vector<double> position = {0, 1, 2};
+  std::string rotation_address = {};
+  std::vector<std::string> rotation_match = {};
+  std::vector<double> rotation = {};
+  std::string euler = "xyz";
+  std::string angles = "degrees";
+  std::vector<std::string> axes = {"x", "y", "z"};
+  double unit = 1.0;
+};
+
 [[nodiscard]] const Fields<Scene>& scene_fields();
 [[nodiscard]] const Fields<FluidEntry>& fluid_fields();
 [[nodiscard]] const Fields<Tank>& tank_fields();
@@ -75,5 +93,10 @@ struct GaugeEntry : GaugeSettings {
 [[nodiscard]] const Fields<DetectSettings>& detect_fields();
 [[nodiscard]] const Fields<SkipSettings>& skip_fields();
 [[nodiscard]] const Fields<ServeSettings>& serve_fields();
+[[nodiscard]] const Fields<TrackingSettings>& tracking_fields();
+[[nodiscard]] const Fields<TrackerEntry>& tracker_fields();
+[[nodiscard]] const Fields<Keyframe>& mount_fields();
+/// What senders of the common kinds send, under the names of `preset`.
+[[nodiscard]] const std::map<std::string, TrackerEntry>& tracker_presets();
 
 }  // namespace splash::sim

@@ -43,6 +43,8 @@ struct PoseMoment {
 /// as it arrives; they must be quick. Empty ones are refused with /fail.
 struct ControlActions {
   std::function<void(const protocol::BodyPose& pose, const PoseMoment& moment)> pose = {};
+  /// A message that is no command: whether a tracker of the scene sends it.
+  std::function<bool(const protocol::Message& message, const PoseMoment& moment)> track = {};
   /// The program's numbers; the refused datagrams and messages are added here.
   std::function<protocol::SimStatus()> status = {};
   std::function<void()> quit = {};

@@ -62,7 +62,8 @@ void ControlServer::run(const Request& request) {
     // Answering replies and events would let two programs answer each other for ever.
     if (protocol::find_address(address) != nullptr) {
       count(&ControlCounts::unasked);
-    } else {
+    } else if (!actions_.track ||
+               !actions_.track(request.message, {request.monotonic, request.sent})) {
       fail(request, Command::unknown(address));
     }
   } else if (const auto reason = protocol::violation(request.message)) {

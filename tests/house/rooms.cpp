@@ -39,7 +39,10 @@ const std::vector<Room>& rooms() {
       {"protocol", {}, {"yaml-cpp/"}},
       {"sim-server/scene", {"protocol"}, {}},
       {"sim-server/device", {}, {"CL/"}},
-      {"sim-server/tracking", {"protocol/config.hpp", "sim-server/scene"}, {"Eigen/"}},
+      // Trackers tell their poses in messages: as plain values, whatever brought them.
+      {"sim-server/tracking",
+       {"protocol/config.hpp", "protocol/message.hpp", "sim-server/scene"},
+       {"Eigen/"}},
       {"sim-server/fluid", {"sim-server/scene", "sim-server/device"}, {"Random123/"}},
       // What the fluid gives a body to be sampled with, not the solver.
       {"sim-server/bodies",

@@ -22,6 +22,11 @@ struct TakenPose {
   sim::PoseMoment moment;
 };
 
+struct TrackedMessage {
+  protocol::Message message;
+  sim::PoseMoment moment;
+};
+
 class ControlFixture : public testing::Test {
  protected:
   void SetUp() override { start({.listen = {}}); }
@@ -32,6 +37,12 @@ class ControlFixture : public testing::Test {
     actions.pose = [this](const protocol::BodyPose& pose, const sim::PoseMoment& moment) {
       const std::lock_guard lock(mutex_);
       poses_.push_back({pose, moment});
+    };
+    actions.track = [this](const protocol::Message& message, const sim::PoseMoment& moment) {
+      const std::lock_guard lock(mutex_);
+      if (message.address != "/tracker") return false;
+      tracked_.push_back({message, moment});
+      return true;
     };
     actions.status = [] {
       return protocol::SimStatus{.particles = 15000, .steps = 42, .refused = 1000};
@@ -67,6 +78,10 @@ class ControlFixture : public testing::Test {
     const std::lock_guard lock(mutex_);
     return poses_;
   }
+  std::vector<TrackedMessage> tracked() {
+    const std::lock_guard lock(mutex_);
+    return tracked_;
+  }
   std::vector<std::string> lines() {
     const std::lock_guard lock(mutex_);
     return lines_;
@@ -83,6 +98,7 @@ class ControlFixture : public testing::Test {
  private:
   std::mutex mutex_;
   std::vector<TakenPose> poses_;
+  std::vector<TrackedMessage> tracked_;
   std::vector<std::string> lines_;
   int quits_ = 0;
 };

@@ -171,6 +171,17 @@ TEST_F(Control, QuitFromThisHostIsDoneAndObeyed) {
   EXPECT_EQ(quits(), 1);
 }
 
+TEST_F(Control, MessagesOfTrackersAreNoUnknownCommands) {
+  const double sent = 1.0e9 + 0.125;
+  const protocol::Message message = {"/tracker", {std::string("A"), 0.5F}};
+  peer_.send(server_->local(), protocol::encode(protocol::to_time_tag(sent), {message}));
+  settle();
+  ASSERT_EQ(tracked().size(), 1U);
+  EXPECT_EQ(tracked()[0].message, message);
+  EXPECT_NEAR(tracked()[0].moment.sent.value_or(0.0), sent, 1.0e-6);
+  EXPECT_EQ(server_->counts().failed, 0U);
+}
+
 TEST_F(Control, UnknownCommandsAreToldTheNearest) {
   const auto reply = ask({"/statsu", {}});
   EXPECT_EQ(std::get<std::string>(reply.arguments.at(0)), "/statsu");

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/tracking_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "protocol/address.hpp"
+#include "protocol/limits.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+
+namespace {
+
+using protocol::ConfigMap;
+
+/// {name} in a text is what the sender calls the tracker.
+std::string with_name(const ConfigMap& map, const std::string& key, std::string text,
+                      const std::string& name) {
+  static const std::string kHole = "{name}";
+  const std::size_t at = text.find(kHole);
+  if (at == std::string::npos) return text;
+  if (name.empty()) {
+    throw map.error(map.has(key) ? key : "name",
+                    "needs `name`: what the sender calls the tracker, as /dumpOSC 1 shows");
+  }
+  return text.replace(at, kHole.size(), name);
+}
+
+std::string read_address(const ConfigMap& map, const std::string& key, const std::string& text,
+                         const std::string& name) {
+  std::string address = with_name(map, key, text, name);
+  const auto is_allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string("/_.-").find(c) != std::string::npos;
+  };
+  const std::string shown_key = map.has(key) ? key : "name";
+  if (address.empty() || address.front() != '/' || address.size() > protocol::kMaxString ||
+      !std::all_of(address.begin(), address.end(), is_allowed)) {
+    throw map.error(shown_key, "makes the address '" + address +
+                                   "', which must be '/' and letters, digits, / _ . -, at most " +
+                                   std::to_string(protocol::kMaxString) + " characters");
+  }
+  if (protocol::find_address(address) != nullptr) {
+    throw map.error(shown_key, "'" + address + "' has a meaning of its own (protocol/README.md)");
+  }
+  return address;
+}
+
+std::vector<std::size_t> read_indices(const ConfigMap& map, const std::string& key,
+                                      const std::vector<double>& numbers) {
+  std::vector<std::size_t> indices;
+  for (const double number : numbers) {
+    if (number != std::floor(number)) throw map.error(key, "counts arguments: whole numbers only");
+    indices.push_back(static_cast<std::size_t>(number));
+    if (std::count(indices.begin(), indices.end(), indices.back()) > 1) {
+      throw map.error(key, "names an argument twice");
+    }
+  }
+  return indices;
+}
+
+std::vector<std::string> read_match(const ConfigMap& map, const std::string& key,
+                                    const TrackerEntry& entry,
+                                    const std::vector<std::string>& texts) {
+  std::vector<std::string> match;
+  for (const auto& text : texts) match.push_back(with_name(map, key, text, entry.name));
+  return match;
+}
+
+void read_axes(const ConfigMap& map, const TrackerEntry& entry, TrackerSource& source) {
+  static const std::string kSentence =
+      "must name each of the sender's axes x, y, z once, with or without a -, as in [z, -x, y]";
+  if (entry.axes.size() != 3) throw map.error("axes", kSentence);
+  std::array<int, 3> named = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string& axis = entry.axes[i];
+    const bool turned = axis.size() == 2 && axis.front() == '-';
+    const bool known = (turned || axis.size() == 1) && axis.back() >= 'x' && axis.back() <= 'z';
+    if (!known) throw map.error("axes", kSentence);
+    source.axes[i] = static_cast<std::size_t>(axis.back() - 'x');
+    source.signs[i] = turned ? -1.0 : 1.0;
+    if (++named[source.axes[i]] > 1) throw map.error("axes", kSentence);
+  }
+}
+
+void read_rotation(const ConfigMap& map, const TrackerEntry& entry, TrackerSource& source) {
+  source.rotation = read_indices(map, "rotation", entry.rotation);
+  const std::size_t count = source.rotation.size();
+  if (count != 0 && count != 3 && count != 4) {
+    throw map.error("rotation", "must be four arguments (a quaternion) or three (angles), got " +
+                                    std::to_string(count));
+  }
+  for (const char* key : {"rotation_address", "rotation_match"}) {
+    if (count == 0 && map.has(key)) throw map.error(key, "has no meaning without `rotation`");
+  }
+  for (const char* key : {"euler", "angles"}) {
+    if (count != 3 && map.has(key)) throw map.error(key, "has no meaning but for three angles");
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    source.order[i] = static_cast<std::size_t>(entry.euler[i] - 'x');
+  }
+  source.angle = entry.angles == "degrees" ? std::numbers::pi / 180.0 : 1.0;
+  source.rotation_address =
+      entry.rotation_address.empty()
+          ? source.address
+          : read_address(map, "rotation_address", entry.rotation_address, entry.name);
+  const bool own = !entry.rotation_match.empty() || !entry.rotation_address.empty();
+  source.rotation_match =
+      own ? read_match(map, "rotation_match", entry, entry.rotation_match) : source.match;
+}
+
+std::size_t find_tracked(const ConfigMap& map, const std::string& name, const Scene& scene) {
+  std::string known;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodySettings& body = scene.bodies[b];
+    if (body.motion.kind != MotionKind::osc) continue;
+    if (body.name == name) return b;
+    known += (known.empty() ? "" : ", ") + body.name;
+  }
+  throw map.error("body",
+                  "there is no body named '" + name +
+                      "' with motion: {kind: osc}; there are: " + (known.empty() ? "none" : known));
+}
+
+TrackerSource read_source(const ConfigMap& map, const Scene& scene) {
+  TrackerEntry entry;
+  map.read(tracker_fields(), {"mount"}, entry);
+  if (!entry.preset.empty()) {
+    TrackerEntry filled = tracker_presets().at(entry.preset);
+    map.read(tracker_fields(), {"mount"}, filled);
+    entry = filled;
+  } else if (!map.has("address")) {
+    throw map.error("address", "is missing: give it, or a `preset`");
+  }
+  TrackerSource source;
+  source.body = find_tracked(map, entry.body, scene);
+  source.address = read_address(map, "address", entry.address, entry.name);
+  source.match = read_match(map, "match", entry, entry.match);
+  const auto position = read_indices(map, "position", entry.position);
+  if (position.size() != 3) throw map.error("position", "must be three arguments: x, y and z");
+  std::copy(position.begin(), position.end(), source.position.begin());
+  read_rotation(map, entry, source);
+  read_axes(map, entry, source);
+  source.unit = entry.unit;
+  if (const auto mount = map.optional_child("mount")) {
+    mount->read(mount_fields(), {}, source.mount);
+    const Quaternion& q = source.mount.rotation;
+    if (std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) < 1.0e-3) {
+      throw mount->error("rotation", "is no rotation: its length is zero");
+    }
+    source.mount.rotation = unit(q);
+  }
+  return source;
+}
+
+}  // namespace
+
+TrackingSettings read_tracking(const ConfigMap& map, const Scene& scene) {
+  TrackingSettings tracking;
+  map.read(tracking_fields(), {"sources"}, tracking);
+  for (const ConfigMap& entry : map.list("sources")) {
+    tracking.sources.push_back(read_source(entry, scene));
+    for (std::size_t i = 0; i + 1 < tracking.sources.size(); ++i) {
+      if (tracking.sources[i].body != tracking.sources.back().body) continue;
+      throw entry.error("body", "another source moves it already");
+    }
+  }
+  if (tracking.sources.empty()) throw map.error("sources", "name at least one");
+  return tracking;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Messages of trackers to poses of bodies, as the scene's `tracking` says.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "protocol/message.hpp"
+#include "sim-server/scene/scene.hpp"
+#include "sim-server/tracking/pose_clock.hpp"
+#include "sim-server/tracking/pose_refusal.hpp"
+
+namespace splash::sim {
+
+/// What a tracker's message made of a body.
+struct MappedPose {
+  std::size_t body = 0;  ///< index among the scene's
+  PoseRefusal refusal = PoseRefusal::none;
+  Vector3 position = {0.0, 0.0, 0.0};          ///< of the body's origin [m]
+  Quaternion rotation = {0.0, 0.0, 0.0, 1.0};  ///< body to world, unit
+};
+
+class TrackerMap {
+ public:
+  explicit TrackerMap(const Scene& scene);
+
+  /// Calls `give` for each pose that the message completes, and for what is none. False: no source
+  /// has such a message.
+  bool take(const protocol::Message& message, const PoseStamp& stamp,
+            const std::function<void(const MappedPose&)>& give);
+
+ private:
+  /// A position and a rotation of one moment may come in two messages, in either order.
+  struct Source {
+    TrackerSource settings;
+    Quaternion rest = {0.0, 0.0, 0.0, 1.0};  ///< the body's, where the sender tells no rotation
+    std::optional<Vector3> position = {};  ///< in the scene's axes, its rotation not yet known [m]
+    std::optional<Quaternion> rotation = {};  ///< same, its position not yet known
+    PoseStamp stamp = {};                     ///< of the one that is known
+  };
+
+  /// Of a message that is the source's.
+  [[nodiscard]] std::optional<MappedPose> read(Source& source, const protocol::Message& message,
+                                               const PoseStamp& stamp, bool has_position,
+                                               bool has_rotation) const;
+  [[nodiscard]] MappedPose place(const Source& source) const;
+
+  Vector3 room_;     ///< the senders' origin [m]
+  Quaternion turn_;  ///< the senders' room to the scene
+  std::vector<Source> sources_;
+};
+
+}  // namespace splash::sim
