@@ -21,4 +21,8 @@ inline constexpr double kPeerLease = 0.3;        ///< three missed heartbeats: t
 inline constexpr std::uint16_t kSimPort = 57300;    ///< the simulator's control and poses (UDP)
 inline constexpr std::uint16_t kSynthPort = 57310;  ///< the synth's events and control (UDP)
 
+inline constexpr std::uint16_t kSimShowPort =
+    57301;  ///< where viewers find the simulator's frames (TCP)
+inline constexpr std::uint16_t kSynthShowPort = 57311;  ///< and the synth's (TCP)
+
 }  // namespace splash::protocol

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Frames for viewers (view-server/README.md): a kind, their size, a moment, and numbers, all little
+// endian.
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace splash::protocol {
+
+using Frame = std::vector<std::byte>;
+
+inline constexpr std::size_t kFrameHead = 16;              ///< bytes: kind, size, moment
+inline constexpr std::uint32_t kLargestFrame = 1U << 28U;  ///< bytes
+
+inline constexpr std::string_view kSceneFrame = "SPC1";
+inline constexpr std::string_view kStateFrame = "SPS1";
+inline constexpr std::string_view kRigFrame = "SPR1";
+inline constexpr std::string_view kLevelsFrame = "SPL1";
+inline constexpr std::string_view kSoundFrame = "SPA1";
+
+class FrameWriter {
+ public:
+  /// `kind`: four characters; `moment`: Unix time [s].
+  FrameWriter(std::string_view kind, double moment) {
+    text(kind);
+    put(std::uint32_t{0});
+    put(moment);
+  }
+
+  template <class Number>
+  requires std::integral<Number> || std::floating_point<Number>
+  void put(Number value) {
+    using Bits = std::conditional_t<
+        sizeof(Number) == 8, std::uint64_t,
+        std::conditional_t<sizeof(Number) == 4, std::uint32_t,
+                           std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint8_t>>>;
+    store(std::bit_cast<Bits>(value), sizeof(Number));
+  }
+  void text(std::string_view text) {
+    for (const char c : text) bytes_.push_back(static_cast<std::byte>(c));
+  }
+  /// Room for what follows [bytes].
+  void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
+
+  /// The frame, its size written.
+  [[nodiscard]] Frame take() && {
+    const auto size = static_cast<std::uint32_t>(bytes_.size());
+    for (std::size_t i = 0; i < 4; ++i) bytes_[4 + i] = static_cast<std::byte>(size >> (8 * i));
+    return std::move(bytes_);
+  }
+
+ private:
+  void store(std::uint64_t bits, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i)
+      bytes_.push_back(static_cast<std::byte>(bits >> (8 * i)));
+  }
+
+  Frame bytes_;
+};
+
+/// A little-endian number of a frame.
+template <class Number>
+[[nodiscard]] Number frame_number(const std::byte* bytes) noexcept {
+  using Bits = std::conditional_t<
+      sizeof(Number) == 8, std::uint64_t,
+      std::conditional_t<sizeof(Number) == 4, std::uint32_t,
+                         std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint8_t>>>;
+  Bits bits = 0;
+  for (std::size_t i = 0; i < sizeof(Number); ++i) {
+    bits = static_cast<Bits>(bits | static_cast<Bits>(bytes[i]) << (8 * i));
+  }
+  return std::bit_cast<Number>(bits);
+}
+
+/// Its four characters.
+[[nodiscard]] inline std::string_view frame_kind(const std::byte* frame) noexcept {
+  return {reinterpret_cast<const char*>(frame), 4};
+}
+
+}  // namespace splash::protocol

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Frames to viewers over TCP. A viewer gets a greeting, then a frame for each byte that it sends:
+// one that reads slowly asks rarely, and nothing is queued for it. A thread of its own writes.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "protocol/frame.hpp"
+#include "protocol/udp_socket.hpp"
+
+namespace splash::protocol {
+
+struct FrameStreamSettings {
+  Endpoint listen;
+  std::vector<std::uint32_t> allowed;  ///< hosts besides this one that may look (IPv4)
+  int most_asked = 1;                  ///< frames that a viewer may have asked for and not got
+};
+
+class FrameStream {
+ public:
+  static constexpr std::size_t kViewersMax = 8;
+
+  /// Listens. Throws std::runtime_error that names the port, the cause and what to do.
+  FrameStream(const FrameStreamSettings& settings, Frame greeting);
+  ~FrameStream();
+  FrameStream(const FrameStream&) = delete;
+  FrameStream& operator=(const FrameStream&) = delete;
+
+  // From any thread, without waiting for a viewer.
+
+  /// Somebody asked for a frame and has not got it.
+  [[nodiscard]] bool wanted() const noexcept { return wanted_.load(std::memory_order_acquire); }
+  /// To all who asked.
+  void offer(Frame frame);
+  [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
+  [[nodiscard]] std::size_t viewers() const noexcept { return viewers_count_; }
+  /// Where viewers are listened for.
+  [[nodiscard]] Endpoint local() const noexcept { return local_; }
+
+ private:
+  using Shared = std::shared_ptr<const Frame>;
+  struct Viewer {
+    int descriptor = -1;
+    int asked = 0;
+    std::deque<Shared> waiting;  ///< the first may have been sent in part
+    std::size_t sent = 0;        ///< of the first [bytes]
+  };
+
+  void run();
+  void welcome();
+  void hear(Viewer& viewer);
+  void write(Viewer& viewer);
+  void drop_gone();
+  /// It asked, and what it got before is on its way.
+  [[nodiscard]] bool is_open(const Viewer& viewer) const noexcept;
+  void note_wanted();
+
+  FrameStreamSettings settings_;
+  Shared greeting_;
+  int listener_ = -1;
+  int wake_ = -1;
+  Endpoint local_;
+  std::atomic<bool> ending_{false};
+  std::atomic<bool> wanted_{false};
+  std::atomic<std::uint64_t> offered_{0};
+  std::atomic<std::size_t> viewers_count_{0};
+  std::mutex mutex_;
+  std::vector<Viewer> viewers_;  ///< under mutex_
+  std::thread thread_;
+};
+
+}  // namespace splash::protocol
