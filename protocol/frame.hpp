@@ -13,7 +13,7 @@
 
 namespace splash::protocol {
 
-using Frame = std::vector<std::byte>;
+using ViewFrame = std::vector<std::byte>;
 
 inline constexpr std::size_t kFrameHead = 16;              ///< bytes: kind, size, moment
 inline constexpr std::uint32_t kLargestFrame = 1U << 28U;  ///< bytes
@@ -43,13 +43,14 @@ class FrameWriter {
     store(std::bit_cast<Bits>(value), sizeof(Number));
   }
   void text(std::string_view text) {
-    for (const char c : text) bytes_.push_back(static_cast<std::byte>(c));
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    bytes_.insert(bytes_.end(), bytes, bytes + text.size());
   }
   /// Room for what follows [bytes].
   void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
 
   /// The frame, its size written.
-  [[nodiscard]] Frame take() && {
+  [[nodiscard]] ViewFrame take() && {
     const auto size = static_cast<std::uint32_t>(bytes_.size());
     for (std::size_t i = 0; i < 4; ++i) bytes_[4 + i] = static_cast<std::byte>(size >> (8 * i));
     return std::move(bytes_);
@@ -57,11 +58,12 @@ class FrameWriter {
 
  private:
   void store(std::uint64_t bits, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      bytes_.push_back(static_cast<std::byte>(bits >> (8 * i)));
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + size);
+    for (std::size_t i = 0; i < size; ++i) bytes_[at + i] = static_cast<std::byte>(bits >> (8 * i));
   }
 
-  Frame bytes_;
+  ViewFrame bytes_;
 };
 
 /// A little-endian number of a frame.

@@ -50,9 +50,9 @@ int listen_at(Endpoint& local) {
 
 }  // namespace
 
-FrameStream::FrameStream(const FrameStreamSettings& settings, Frame greeting)
+FrameStream::FrameStream(const FrameStreamSettings& settings, ViewFrame greeting)
     : settings_(settings),
-      greeting_(std::make_shared<const Frame>(std::move(greeting))),
+      greeting_(std::make_shared<const ViewFrame>(std::move(greeting))),
       local_(settings.listen) {
   listener_ = listen_at(local_);
   wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
@@ -68,8 +68,8 @@ FrameStream::~FrameStream() {
   close(listener_);
 }
 
-void FrameStream::offer(Frame frame) {
-  const auto shared = std::make_shared<const Frame>(std::move(frame));
+void FrameStream::offer(ViewFrame frame) {
+  const auto shared = std::make_shared<const ViewFrame>(std::move(frame));
   {
     const std::lock_guard lock(mutex_);
     for (Viewer& viewer : viewers_) {
@@ -144,7 +144,7 @@ void FrameStream::hear(Viewer& viewer) {
 
 void FrameStream::write(Viewer& viewer) {
   while (viewer.descriptor >= 0 && !viewer.waiting.empty()) {
-    const Frame& frame = *viewer.waiting.front();
+    const ViewFrame& frame = *viewer.waiting.front();
     const ssize_t count = send(viewer.descriptor, frame.data() + viewer.sent,
                                frame.size() - viewer.sent, MSG_DONTWAIT | MSG_NOSIGNAL);
     if (count < 0) {

@@ -28,7 +28,7 @@ class FrameStream {
   static constexpr std::size_t kViewersMax = 8;
 
   /// Listens. Throws std::runtime_error that names the port, the cause and what to do.
-  FrameStream(const FrameStreamSettings& settings, Frame greeting);
+  FrameStream(const FrameStreamSettings& settings, ViewFrame greeting);
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
@@ -38,14 +38,14 @@ class FrameStream {
   /// Somebody asked for a frame and has not got it.
   [[nodiscard]] bool wanted() const noexcept { return wanted_.load(std::memory_order_acquire); }
   /// To all who asked.
-  void offer(Frame frame);
+  void offer(ViewFrame frame);
   [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
   [[nodiscard]] std::size_t viewers() const noexcept { return viewers_count_; }
   /// Where viewers are listened for.
   [[nodiscard]] Endpoint local() const noexcept { return local_; }
 
  private:
-  using Shared = std::shared_ptr<const Frame>;
+  using Shared = std::shared_ptr<const ViewFrame>;
   struct Viewer {
     int descriptor = -1;
     int asked = 0;

@@ -140,6 +140,9 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,
               compiled ? " (compiled; kept for the next start)" : "");
   std::printf("listening: %s\n", protocol::to_string(server.local()).c_str());
+  if (const auto shown = server.shown_at()) {
+    std::printf("viewers: %s\n", protocol::to_string(*shown).c_str());
+  }
   if (server.is_unheard()) {
     std::printf("no target: --target host:port sends the events to a synth\n");
   }

@@ -19,6 +19,7 @@ struct Texts {
   std::string listen = "127.0.0.1:" + std::to_string(protocol::kSimPort);
   std::vector<std::string> targets;
   std::vector<std::string> allow;
+  std::string show;
   bool fast = false;
 };
 
@@ -51,6 +52,10 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
                  "A further host that may send poses and control (repeatable); no reply to it is "
                  "longer than its question, see protocol/README.md")
       ->type_name("HOST");
+  app.add_option("--show", texts.show,
+                 "Show the water to viewers, such as view-server, at this TCP port; hosts other "
+                 "than this one need --allow")
+      ->type_name("HOST:PORT");
   app.add_option("--record", options.record, "Write the events to this log")->type_name("LOG");
   app.add_option("--report", options.report, "Write what the run achieved to this file")
       ->type_name("FILE.json");
@@ -88,6 +93,9 @@ void apply(const Texts& texts, Options& options) {
   }
   for (const auto& host : texts.allow) {
     options.allow.push_back(protocol::endpoint_of("--allow", host, 0).address);
+  }
+  if (!texts.show.empty()) {
+    options.show = protocol::endpoint_of("--show", texts.show, protocol::kSimShowPort);
   }
   options.real_time = !texts.fast;
 }

@@ -19,6 +19,8 @@ struct Options {
   protocol::Endpoint listen;
   std::vector<std::uint32_t> allow;  ///< hosts besides loopback that may control (IPv4)
 
+  std::optional<protocol::Endpoint> show;  ///< where viewers are let in; empty: nowhere
+
   std::filesystem::path record;  ///< event log to write; empty: none
   std::filesystem::path report;  ///< JSON to write; empty: none
   std::filesystem::path gauges;  ///< CSV to write the scene's gauges to; empty: none

@@ -40,6 +40,17 @@ void print_line(const std::string& line) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+std::vector<ShownBody> shown_bodies(const Simulation& simulation, double seconds) {
+  std::vector<ShownBody> shown;
+  for (std::size_t b = 0; b < simulation.bodies().count(); ++b) {
+    std::uint32_t flags = 0;
+    if (simulation.bodies().is_free(b)) flags |= kBodyFree;
+    if (simulation.live_body(static_cast<int>(b)) != nullptr) flags |= kBodyTracked;
+    shown.push_back({simulation.bodies().state(b, seconds), flags});
+  }
+  return shown;
+}
+
 protocol::UdpSocket open_socket(const Options& options) {
   return protocol::failing_with(protocol::kExitUnavailable, [&] {
     return protocol::UdpSocket(sending_endpoint(options.targets, options.listen));
@@ -82,7 +93,14 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
              .quit = [this] { quit_ = true; },
              .print = print_line},
             targets_);
-      })) {}
+      })) {
+  if (!options_.show) return;
+  protocol::failing_with(protocol::kExitUnavailable, [&] {
+    show_.emplace(
+        protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow},
+        simulation_.scene(), simulation_.fluid());
+  });
+}
 
 bool Server::is_over() const {
   return quit_ || (options_.duration > 0.0 && simulation_.seconds() >= options_.duration - 1e-9);
@@ -103,6 +121,7 @@ void Server::run(const std::function<bool()>& ended) {
     pacer_.wait_until(frame.seconds);
     const double due = protocol::monotonic_now();
     send(frame);
+    show(frame);
     note_gauges();
     note_status(frame);
     target_status_.poll();
@@ -143,6 +162,18 @@ void Server::send(const FrameResult& frame) {
   auto events = number_events(frame.found, simulation_, latency, ids_);
   keep_going([&] { sender_.send_step(time, std::move(events)); },
              [this] { sender_.stop_logging(); });
+}
+
+void Server::show(const FrameResult& frame) {
+  if (!show_) return;
+  show_->frame(protocol::monotonic_now(), simulation_.fluid(), [&] {
+    const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
+    return ShownState{.moment = pacer_.unix_origin() + frame.seconds + latency,
+                      .seconds = frame.seconds,
+                      .steps = simulation_.totals().steps,
+                      .bodies = shown_bodies(simulation_, frame.seconds),
+                      .bubbles = simulation_.bubble_places()};
+  });
 }
 
 void Server::keep_going(const std::function<void()>& write, const std::function<void()>& forget) {
@@ -253,6 +284,7 @@ RunReport Server::finish() {
   report.send_failures = unsent();
   report.late = target_status_.late();
   report.lost = target_status_.lost();
+  report.shown = show_ ? show_->shown() : 0;
   const ControlCounts wire = control_.counts();
   report.refused_poses = poses_.refusals(wire);
   for (std::size_t i = 1; i < wire.refused.size(); ++i) {

@@ -22,6 +22,7 @@
 #include "sim-server/send/recent_pace.hpp"
 #include "sim-server/send/report.hpp"
 #include "sim-server/send/target_status.hpp"
+#include "sim-server/show/show.hpp"
 #include "sim-server/simulation.hpp"
 
 namespace splash::sim {
@@ -48,6 +49,10 @@ class Server {
   [[nodiscard]] bool is_unheard() const noexcept {
     return options_.targets.empty() && options_.record.empty();
   }
+  /// Where viewers are let in; empty: nowhere.
+  [[nodiscard]] std::optional<protocol::Endpoint> shown_at() const {
+    return show_ ? std::optional(show_->local()) : std::nullopt;
+  }
   /// Where poses and control are listened for.
   [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 
@@ -55,6 +60,7 @@ class Server {
   /// On stderr, not more often than once a second.
   void say(const Mishap& mishap);
   void send(const FrameResult& frame);
+  void show(const FrameResult& frame);
   void note_status(const FrameResult& frame);
   [[nodiscard]] std::uint64_t unsent() const;
   void note_gauges();
@@ -73,6 +79,7 @@ class Server {
   protocol::UdpSocket socket_;
   std::optional<protocol::LogWriter> log_;
   std::optional<GaugeFile> gauges_;
+  std::optional<Show> show_;
   EventSender sender_;
   Pacer pacer_;
   Overload overload_;

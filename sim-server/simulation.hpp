@@ -90,6 +90,8 @@ class Simulation {
   /// Of each particle, by its id: what came to rest before time began, and what did not.
   [[nodiscard]] const std::vector<Holding>& holding() const noexcept { return holding_; }
   [[nodiscard]] Fluid& fluid() noexcept { return fluid_; }
+  /// Where the bubble particles are [m].
+  [[nodiscard]] std::vector<Vector3> bubble_places() const { return detector_.bubble_places(); }
   [[nodiscard]] double time_step() const noexcept { return largest_step_; }
   [[nodiscard]] float sound_speed() const noexcept {
     return fluid_.params().sound_speed;

@@ -64,6 +64,7 @@ class Bubbles {
   [[nodiscard]] std::vector<DetectedBubble> collect(double time, double frame, std::uint32_t step);
 
   [[nodiscard]] std::vector<PoolBubble>& pool() noexcept { return pool_; }
+  [[nodiscard]] const std::vector<PoolBubble>& pool() const noexcept { return pool_; }
   [[nodiscard]] std::size_t pool_size() const noexcept { return pool_.size(); }
   /// State of the bubbles that were carried, in grid order; id: index in the pool before collect.
   [[nodiscard]] const std::vector<BubbleState>& states() const noexcept { return states_; }

@@ -111,6 +111,12 @@ void Detector::enqueue_contacts(const Step& step) {
   touches_.enqueue_read(fluid_.device(), touches_read_);
 }
 
+std::vector<Vector3> Detector::bubble_places() const {
+  std::vector<Vector3> places;
+  for (const PoolBubble& bubble : bubbles_.pool()) places.push_back(bubble.position);
+  return places;
+}
+
 std::vector<SurfacePoint> Detector::surface() const {
   std::vector<SurfacePoint> points;
   points.reserve(touches_read_.size());

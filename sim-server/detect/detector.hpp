@@ -41,6 +41,8 @@ class Detector {
   [[nodiscard]] std::vector<cl::Buffer> state() const { return {bubbles_.memory()}; }
 
   [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
+  /// Where they are [m].
+  [[nodiscard]] std::vector<Vector3> bubble_places() const;
   [[nodiscard]] std::uint64_t cavity_searches() const noexcept {
     return cavities_ ? cavities_->searches() : 0;
   }

@@ -34,7 +34,7 @@ bool eventually(const std::function<bool()>& condition) {
   return true;
 }
 
-Frame numbered(std::uint32_t number, std::size_t more = 0) {
+ViewFrame numbered(std::uint32_t number, std::size_t more = 0) {
   FrameWriter writer(kStateFrame, 0.5);
   writer.put(number);
   for (std::size_t i = 0; i < more; ++i) writer.put(std::uint8_t{7});
@@ -66,8 +66,8 @@ class Viewer {
     pollfd readable{descriptor_, POLLIN, 0};
     return poll(&readable, 1, milliseconds) > 0;
   }
-  [[nodiscard]] Frame read() const {
-    Frame frame(kFrameHead);
+  [[nodiscard]] ViewFrame read() const {
+    ViewFrame frame(kFrameHead);
     take(frame.data(), frame.size());
     const auto size = frame_number<std::uint32_t>(&frame[4]);
     if (size < kFrameHead || size > (1U << 24U)) return {};
@@ -94,7 +94,7 @@ TEST(FrameWriter, WritesLittleEndianWhateverTheMachine) {
   writer.put(std::uint16_t{0x0102});
   writer.put(-2.0F);
   writer.put(std::uint8_t{9});
-  const Frame frame = std::move(writer).take();
+  const ViewFrame frame = std::move(writer).take();
   std::vector<int> bytes;
   for (const std::byte b : frame) bytes.push_back(std::to_integer<int>(b));
   EXPECT_THAT(bytes, ElementsAre('A', 'B', 'C', 'D', 23, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf8, 0x3f, 2,

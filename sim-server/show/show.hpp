@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The simulation for viewers: read back from the device while somebody looks, and only then.
+#pragma once
+
+#include <functional>
+
+#include "protocol/frame_stream.hpp"
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/show/state_frame.hpp"
+
+namespace splash::sim {
+
+class Show {
+ public:
+  /// Listens. Throws std::runtime_error that says what to do.
+  Show(const protocol::FrameStreamSettings& settings, const Scene& scene, const Fluid& fluid);
+
+  /// Between two frames: shows what `state` tells and the water, if somebody waits for it. `now`:
+  /// monotonic [s].
+  void frame(double now, Fluid& fluid, const std::function<ShownState()>& state);
+
+  /// So often the water was read back.
+  [[nodiscard]] std::uint64_t shown() const noexcept { return shown_; }
+  [[nodiscard]] protocol::Endpoint local() const noexcept { return stream_.local(); }
+
+ private:
+  void read(Fluid& fluid);
+
+  protocol::FrameStream stream_;
+  ShownWater water_;
+  double next_ = 0.0;  ///< monotonic [s]
+  std::uint64_t shown_ = 0;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/show/state_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "protocol/limits.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kCounts = std::numeric_limits<std::uint16_t>::max();
+constexpr std::size_t kBodyBytes = 32;
+constexpr std::size_t kParticleBytes = 8;
+
+/// The box that places are counted on.
+class Box {
+ public:
+  void add(std::size_t axis, double place) {
+    if (!std::isfinite(place)) return;
+    lower_[axis] = std::min(lower_[axis], place);
+    upper_[axis] = std::max(upper_[axis], place);
+  }
+  /// All is added: the corner and the unit are those that the frame tells.
+  void close() {
+    double extent = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool empty = lower_[axis] > upper_[axis];
+      corner_[axis] = empty ? 0.0F : static_cast<float>(lower_[axis]);
+      if (!empty) extent = std::max(extent, upper_[axis] - static_cast<double>(corner_[axis]));
+    }
+    unit_ = extent > 0.0 ? static_cast<float>(extent / kCounts) : 1.0F;
+  }
+  [[nodiscard]] std::uint64_t counts(std::size_t axis, double place) const {
+    const double way = (place - static_cast<double>(corner_[axis])) / static_cast<double>(unit_);
+    if (!(way > 0.0)) return 0;  // nor a number that is none
+    return static_cast<std::uint64_t>(std::lround(std::min(way, kCounts)));
+  }
+  [[nodiscard]] const std::array<float, 3>& corner() const noexcept { return corner_; }
+  [[nodiscard]] float unit() const noexcept { return unit_; }
+
+ private:
+  Vector3 lower_ = {1e30, 1e30, 1e30};
+  Vector3 upper_ = {-1e30, -1e30, -1e30};
+  std::array<float, 3> corner_ = {};  // [m]
+  float unit_ = 1.0F;                 // [m]
+};
+
+double part(const std::vector<float>& vector, const ShownWater& water, std::size_t axis,
+            std::size_t i) {
+  return static_cast<double>(vector[axis * water.stride + i]);
+}
+
+Box box_around(const ShownWater& water, const std::vector<Vector3>& bubbles) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < water.count; ++i)
+      box.add(axis, part(water.position, water, axis, i));
+    for (const Vector3& bubble : bubbles) box.add(axis, bubble[axis]);
+  }
+  box.close();
+  return box;
+}
+
+std::uint64_t packed(const Box& box, const Vector3& place) {
+  return box.counts(0, place[0]) | box.counts(1, place[1]) << 16U | box.counts(2, place[2]) << 32U;
+}
+
+/// (s / 255)^2 of kShownSpeed.
+std::uint64_t speed_code(double speed) {
+  const double share = std::sqrt(speed / kShownSpeed);
+  if (!(share > 0.0)) return 0;
+  return static_cast<std::uint64_t>(std::lround(255.0 * std::min(share, 1.0)));
+}
+
+/// In the order of their ids.
+std::vector<std::uint64_t> packed(const ShownWater& water, const Box& box) {
+  std::vector<std::uint64_t> all(water.count);
+  for (std::size_t i = 0; i < water.count; ++i) {
+    Vector3 place;
+    double square = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      place[axis] = part(water.position, water, axis, i);
+      const double speed = part(water.velocity, water, axis, i);
+      square += speed * speed;
+    }
+    std::uint64_t flags = 0;
+    if (water.moving[i] == 0) flags |= kAsleep;
+    if (water.density[i] < water.least_density) flags |= kSpray;
+    all[static_cast<std::size_t>(water.id[i])] =
+        packed(box, place) | speed_code(std::sqrt(square)) << 48U | flags << 56U;
+  }
+  return all;
+}
+
+void put_body(const ShownBody& body, protocol::FrameWriter& writer) {
+  for (const double x : body.state.position) writer.put(static_cast<float>(x));
+  for (const double q : body.state.rotation) writer.put(static_cast<float>(q));
+  writer.put(body.flags);
+}
+
+}  // namespace
+
+protocol::ViewFrame state_frame(const ShownWater& water, const ShownState& state) {
+  const Box box = box_around(water, state.bubbles);
+  protocol::FrameWriter writer(protocol::kStateFrame, state.moment);
+  writer.reserve(40 + kBodyBytes * state.bodies.size() +
+                 kParticleBytes * (water.count + state.bubbles.size()));
+  writer.put(state.seconds);
+  writer.put(static_cast<std::uint32_t>(state.steps % protocol::kCounterWrap));
+  writer.put(static_cast<std::uint32_t>(water.count));
+  writer.put(static_cast<std::uint32_t>(state.bubbles.size()));
+  writer.put(static_cast<std::uint32_t>(state.bodies.size()));
+  for (const float x : box.corner()) writer.put(x);
+  writer.put(box.unit());
+  for (const ShownBody& body : state.bodies) put_body(body, writer);
+  for (const std::uint64_t particle : packed(water, box)) writer.put(particle);
+  for (const Vector3& bubble : state.bubbles) {
+    writer.put(packed(box, bubble) | std::uint64_t{kBubble} << 56U);
+  }
+  return std::move(writer).take();
+}
+
+}  // namespace splash::sim

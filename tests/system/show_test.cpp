@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The real programs and viewers that come, look and go.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "protocol/frame.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+using Json = nlohmann::json;
+using protocol::frame_kind;
+using protocol::frame_number;
+using protocol::ViewFrame;
+
+class Viewer {
+ public:
+  explicit Viewer(const protocol::Endpoint& where) : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(where.address);
+    address.sin_port = htons(where.port);
+    EXPECT_EQ(connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  }
+  ~Viewer() { close(descriptor_); }
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  void ask(std::size_t times = 1) const {
+    const std::string bytes(times, '.');
+    EXPECT_EQ(send(descriptor_, bytes.data(), times, MSG_NOSIGNAL), static_cast<ssize_t>(times));
+  }
+  /// Of at least a head; empty: none came within ten seconds.
+  [[nodiscard]] ViewFrame read() const {
+    ViewFrame frame(protocol::kFrameHead);
+    if (!take(frame.data(), frame.size())) return {};
+    frame.resize(frame_number<std::uint32_t>(&frame[4]));
+    if (!take(frame.data() + 16, frame.size() - 16)) return {};
+    return frame;
+  }
+
+ private:
+  bool take(std::byte* to, std::size_t size) const {
+    while (size > 0) {
+      pollfd readable{descriptor_, POLLIN, 0};
+      const ssize_t count =
+          poll(&readable, 1, 10'000) > 0 ? recv(descriptor_, to, size, 0) : ssize_t{0};
+      if (count <= 0) return false;
+      to += count;
+      size -= static_cast<std::size_t>(count);
+    }
+    return true;
+  }
+  int descriptor_;
+};
+
+/// Where a program that was started with --show lets viewers in.
+protocol::Endpoint shown_at(ChildProcess& process) {
+  EXPECT_TRUE(process.wait_for_text("viewers: "));
+  const std::string text = process.output();
+  const auto begin = text.find("viewers: ") + 9;
+  return protocol::parse_endpoint(text.substr(begin, text.find('\n', begin) - begin), 0);
+}
+
+Json text_of(const ViewFrame& frame) {
+  return Json::parse(reinterpret_cast<const char*>(&frame[16]),
+                     reinterpret_cast<const char*>(frame.data() + frame.size()));
+}
+
+Json end_with_report(Simulator& simulator, const std::string& report) {
+  simulator.process().signal(SIGTERM);
+  EXPECT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  std::ifstream file(report);
+  Json json = Json::parse(file);
+  std::filesystem::remove(report);
+  return json;
+}
+
+TEST(Show, TheWaterIsWhereItIsAndTheBodyMoves) {
+  const SmallScene scene(plunging());
+  const std::string report = temporary_path("shown.json");
+  Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
+  const protocol::Endpoint where = shown_at(simulator.process());
+  const Viewer viewer(where);
+  const ViewFrame first = viewer.read();
+  ASSERT_EQ(frame_kind(first.data()), protocol::kSceneFrame);
+  EXPECT_EQ(text_of(first).at("scene"), "small");
+  const auto particles = text_of(first).at("particles").get<std::uint32_t>();
+  double lowest = 1.0;
+  double highest = 0.0;
+  double last = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    viewer.ask();
+    const ViewFrame frame = viewer.read();
+    ASSERT_FALSE(frame.empty());
+    ASSERT_EQ(frame_kind(frame.data()), protocol::kStateFrame);
+    ASSERT_EQ(frame_number<std::uint32_t>(&frame[28]), particles);
+    const auto bubbles = frame_number<std::uint32_t>(&frame[32]);
+    ASSERT_EQ(frame.size(), 56U + 32U + 8U * (particles + bubbles));
+    ASSERT_GT(frame_number<double>(&frame[16]), last);
+    last = frame_number<double>(&frame[16]);
+    EXPECT_LT(std::abs(frame_number<double>(&frame[8]) - protocol::unix_now()), 1.0);
+    const auto height = static_cast<double>(frame_number<float>(&frame[64]));
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+    // All water lies in the tank, but for what splashes; its mean depth is half the level.
+    const auto z = static_cast<double>(frame_number<float>(&frame[48]));
+    const auto unit = static_cast<double>(frame_number<float>(&frame[52]));
+    double sum = 0.0;
+    for (std::uint32_t p = 0; p < particles; ++p) {
+      sum += z + unit * frame_number<std::uint16_t>(&frame[88 + 8 * p + 4]);
+    }
+    EXPECT_NEAR(sum / particles, 0.5 * SmallScene::kLevel, 0.02);
+  }
+  EXPECT_GT(highest - lowest, 0.1) << "the disc plunges once a second";
+  EXPECT_GE(end_with_report(simulator, report).at("shown_frames").get<int>(), 60);
+}
+
+TEST(Show, NothingIsReadBackWhileNobodyAsks) {
+  const SmallScene scene(plunging());
+  const std::string report = temporary_path("unseen.json");
+  Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
+  const Viewer idle(shown_at(simulator.process()));
+  EXPECT_EQ(frame_kind(idle.read().data()), protocol::kSceneFrame);
+  {
+    const Viewer once(shown_at(simulator.process()));
+    once.ask(500);
+    EXPECT_FALSE(once.read().empty());
+    EXPECT_FALSE(once.read().empty());
+  }
+  EXPECT_TRUE(simulator.process().wait_for_text("\n    2."));
+  EXPECT_LE(end_with_report(simulator, report).at("shown_frames").get<int>(), 3);
+}
+
+}  // namespace
+}  // namespace splash::tests
