@@ -20,6 +20,7 @@ namespace {
 struct Texts {
   std::string listen = "127.0.0.1:" + std::to_string(protocol::kSynthPort);
   std::vector<std::string> allow;
+  std::string show;
   VoiceTexts voices;
   double latency_ms = -1.0;
   double late_ms = 50.0;
@@ -45,6 +46,10 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
                  "A further host that may control (repeatable); no reply to it is longer than its "
                  "question, see protocol/README.md")
       ->type_name("HOST");
+  app.add_option("--show", texts.show,
+                 "Show levels and sound to viewers, such as view-server, at this TCP port; hosts "
+                 "other than this one need --allow")
+      ->type_name("HOST:PORT");
   auto* replay =
       app.add_option("--replay", options.replay, "Render this event log instead of playing live")
           ->type_name("LOG");
@@ -143,6 +148,9 @@ void apply(const Texts& texts, Options& options) {
   options.listen = protocol::endpoint_of("--listen", texts.listen, protocol::kSynthPort);
   for (const auto& host : texts.allow) {
     options.allow.push_back(protocol::endpoint_of("--allow", host, 0).address);
+  }
+  if (!texts.show.empty()) {
+    options.show = protocol::endpoint_of("--show", texts.show, protocol::kSynthShowPort);
   }
   apply(texts.voices, options.engine);
   options.latency = 1e-3 * texts.latency_ms;

@@ -21,6 +21,8 @@ struct Options {
   protocol::Endpoint listen;
   std::vector<std::uint32_t> allow;  ///< hosts besides loopback that may control (IPv4)
 
+  std::optional<protocol::Endpoint> show;  ///< where viewers are let in; empty: nowhere
+
   std::filesystem::path replay;  ///< a log; empty: play live
   std::filesystem::path render;  ///< the WAV file of a replay
   double fade_in = 0.0;          ///< of the file [s]

@@ -119,6 +119,11 @@ void Player::render_parts(const AudioBlock& block) noexcept {
     gate_.process(part_.data(), static_cast<int>(part_.size()), frames);
     meter_.note(part_.data(), frames);
     if (recorder_ != nullptr) recorder_->push(part_.data(), frames);
+    if (settings_.monitor != nullptr) {  // a block is played when the next one is asked for
+      settings_.monitor->push(part_.data(), frames,
+                              block.time + (block.frames + done) / settings_.sample_rate,
+                              settings_.sample_rate);
+    }
     done += frames;
   }
 }

@@ -12,6 +12,7 @@
 #include "synth-server/audio/recorder.hpp"
 #include "synth-server/gate.hpp"
 #include "synth-server/meter.hpp"
+#include "synth-server/monitor.hpp"
 #include "synth-server/receive/command_queue.hpp"
 #include "synth-server/receive/sample_clock.hpp"
 #include "synth-server/receive/schedule.hpp"
@@ -38,6 +39,7 @@ struct PlayerSettings {
   double start_ramp = 2.0;       ///< of the gate [s]
   bool muted = false;            ///< until /mute 0 comes
   ScheduleSettings schedule;
+  Monitor* monitor = nullptr;  ///< for viewers; null: none
 };
 
 class Player final : public BlockSource {

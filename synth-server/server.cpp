@@ -50,6 +50,7 @@ Server::Server(const Options& options, const Rig& rig)
   format_ = opened.output->format();
   warn_of_latency(format_);
   protocol::failing_with(protocol::kExitIo, [&] { start_recorder(); });
+  protocol::failing_with(protocol::kExitUnavailable, [&] { start_monitor(); });
   playing_ = make_playing(format_.sample_rate, recorder_.get(), event_recorder_.get());
   started_ = protocol::monotonic_now();
   protocol::failing_with(protocol::kExitUnavailable, [&] { start_output(std::move(opened)); });
@@ -68,6 +69,7 @@ std::unique_ptr<Server::Playing> Server::make_playing(int sample_rate, Recorder*
   settings.sample_rate = sample_rate;
   settings.max_block = kMaxBlock;
   settings.muted = muted_;
+  settings.monitor = monitor_.get();
   settings.schedule = {options_.latency, options_.late_window, options_.horizon};
   EngineSettings engine = engine_settings(options_, sample_rate);
   engine.watch = watch;
@@ -107,6 +109,13 @@ void Server::start_recorder() {
   recorder_ = std::make_unique<Recorder>(
       format_.channels, format_.sample_rate, kMaxBlock, kRecorderSeconds,
       [this](const float* const* channels, int frames) { record(channels, frames); });
+}
+
+void Server::start_monitor() {
+  if (!options_.show) return;
+  monitor_ = std::make_unique<Monitor>(
+      protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow}, rig_,
+      format_.sample_rate, [this] { return muted_.load(); });
 }
 
 void Server::record(const float* const* channels, int frames) {
@@ -211,6 +220,9 @@ void Server::introduce() const {
               milliseconds_text(latency).c_str(), milliseconds_text(options_.late_window).c_str());
   if (options_.muted) std::printf("muted: until /mute 0\n");
   if (recorder_ != nullptr) std::printf("recording: %s\n", options_.record_audio.c_str());
+  if (monitor_ != nullptr) {
+    std::printf("viewers: %s\n", protocol::to_string(monitor_->local()).c_str());
+  }
   std::printf("listening: %s\n", protocol::to_string(receiver_->local()).c_str());
   std::fflush(stdout);
 }

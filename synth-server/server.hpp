@@ -12,6 +12,7 @@
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"
 #include "synth-server/desk.hpp"
+#include "synth-server/monitor.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/output/wav_file.hpp"
@@ -68,6 +69,7 @@ class Server {
   BlockSource& adapt(const AudioFormat& format);
   void start_output(OpenedOutput opened);
   void start_recorder();
+  void start_monitor();
   /// In the recorder's thread.
   void record(const float* const* channels, int frames);
   void start_receiver(protocol::UdpSocket socket);
@@ -91,6 +93,7 @@ class Server {
   std::atomic<bool> renew_recording_{false};
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<EventRecorder> event_recorder_;
+  std::unique_ptr<Monitor> monitor_;
   mutable std::mutex mutex_;  ///< guards playing_; the audio thread never takes it
   std::unique_ptr<Playing> playing_;
   std::uint64_t blocks_seen_ = 0;

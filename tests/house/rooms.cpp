@@ -78,7 +78,7 @@ const std::vector<Room>& rooms() {
        {"protocol/time_tag.hpp"},
        {"RtAudio", "rtaudio/", "jack/", "alsa/", "boost/"}},
       {"synth-server/figure", {}, {"kissfft/", "kiss_fft", "CLI/"}},
-      {"synth-server", {"protocol", "synth-server"}, {"CLI/"}},
+      {"synth-server", {"protocol", "synth-server"}, {"CLI/", "boost/", "nlohmann/"}},
       {"pd-patches", {"protocol"}, {"CLI/"}},
       {"tests", {"protocol", "sim-server", "synth-server", "pd-patches"}, {}},
   };

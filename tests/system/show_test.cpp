@@ -15,6 +15,7 @@
 
 #include "protocol/frame.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -143,6 +144,62 @@ TEST(Show, NothingIsReadBackWhileNobodyAsks) {
   }
   EXPECT_TRUE(simulator.process().wait_for_text("\n    2."));
   EXPECT_LE(end_with_report(simulator, report).at("shown_frames").get<int>(), 3);
+}
+
+/// One impact of 2 m/s, at once.
+std::vector<std::byte> splash_now() {
+  protocol::Impact impact;
+  impact.body = 0;
+  impact.speed = 2.0F;
+  impact.approach = 2.0F;
+  return protocol::encode(protocol::kImmediately, {protocol::to_message(impact)});
+}
+
+TEST(Show, LevelsAndSoundAreThoseOfTheDevice) {
+  Synth synth({"--rig", rig_path("tiles36.yaml"), "--device", "null", "--show", "127.0.0.1:0"});
+  const protocol::Endpoint where = shown_at(synth.process());
+  { const Viewer gone(where); }
+  const Viewer viewer(where);
+  const ViewFrame rig = viewer.read();
+  ASSERT_EQ(frame_kind(rig.data()), protocol::kRigFrame);
+  const auto channels = text_of(rig).at("channels").size();
+  EXPECT_GE(channels, 36U);
+  sleep(2.5);  // the synth opens within two seconds
+  viewer.ask(16);
+  synth.send(splash_now());
+  double next = -1.0;
+  float loudest_level = 0.0F;
+  float loudest_sample = 0.0F;
+  int levels = 0;
+  for (int i = 0; i < 140; ++i) {  // of two seconds
+    const ViewFrame frame = viewer.read();
+    ASSERT_FALSE(frame.empty());
+    viewer.ask();
+    EXPECT_LT(std::abs(frame_number<double>(&frame[8]) - protocol::unix_now()), 1.0);
+    if (frame_kind(frame.data()) == protocol::kLevelsFrame) {
+      ++levels;
+      ASSERT_EQ(frame_number<std::uint32_t>(&frame[16]), channels);
+      ASSERT_EQ(frame.size(), 24 + 4 * channels);
+      for (std::size_t c = 0; c < channels; ++c) {
+        loudest_level = std::max(loudest_level, frame_number<float>(&frame[24 + 4 * c]));
+      }
+      continue;
+    }
+    ASSERT_EQ(frame_kind(frame.data()), protocol::kSoundFrame);
+    const auto frames = frame_number<std::uint32_t>(&frame[20]);
+    ASSERT_EQ(frame.size(), 32 + 8 * frames);
+    const double number = frame_number<double>(&frame[24]);
+    EXPECT_TRUE(next < 0.0 || number == next) << "frames of sound are missing";
+    next = number + frames;
+    for (std::size_t k = 0; k < 2 * std::size_t{frames}; ++k) {
+      const float sample = frame_number<float>(&frame[32 + 4 * k]);
+      ASSERT_TRUE(std::isfinite(sample));
+      loudest_sample = std::max(loudest_sample, std::abs(sample));
+    }
+  }
+  EXPECT_NEAR(levels, 40, 5) << "20 a second, beside 50 of sound";
+  EXPECT_GT(loudest_level, 1e-3F);
+  EXPECT_GT(loudest_sample, 1e-3F);
 }
 
 }  // namespace

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What the device gets, for viewers: levels of all channels and a stereo mix. The audio thread puts
+// both into lock-free rings while somebody looks; a thread of its own makes frames of them. What
+// does not fit is left out here, never in the output.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "protocol/frame_stream.hpp"
+#include "synth-server/rig_frame.hpp"
+
+namespace splash::synth {
+
+class Monitor {
+ public:
+  /// Listens; `sample_rate` [Hz] is the device's at the start. Throws std::runtime_error that says
+  /// what to do.
+  Monitor(const protocol::FrameStreamSettings& settings, const Rig& rig, int sample_rate,
+          std::function<bool()> is_muted);
+  ~Monitor();
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+
+  /// From the audio thread: channels[c][i] leave the device from `time` on [s, monotonic].
+  void push(const float* const* channels, int frames, double time, double sample_rate) noexcept;
+
+  [[nodiscard]] protocol::Endpoint local() const noexcept { return stream_.local(); }
+
+ private:
+  static constexpr int kSlotFrames = 256;
+  struct Slot {
+    double time = 0.0;         ///< of its first frame [s, monotonic]
+    double number = 0.0;       ///< of that frame since the start
+    double sample_rate = 0.0;  ///< [Hz]
+    int frames = 0;
+    std::array<float, std::size_t{2} * kSlotFrames> sound;  ///< left, right, left, ...
+  };
+
+  void put(const float* const* channels, int from, int frames, double time,
+           double sample_rate) noexcept;
+  void run();
+  bool take();
+  void tell_sound();
+  void tell_levels();
+
+  std::vector<Pan> pans_;
+  std::function<bool()> is_muted_;
+  std::uint64_t frames_ = 0;  ///< since the start; of the audio thread, as these two
+  Slot written_;
+  std::vector<float> peaks_written_;
+  boost::lockfree::spsc_queue<Slot> slots_;
+  boost::lockfree::spsc_queue<float> slot_peaks_;  ///< of each slot, every channel's
+
+  Slot read_;  ///< of the thread that makes frames, as what follows
+  std::vector<float> peaks_read_;
+  std::vector<float> peaks_;  ///< since the last levels
+  int peak_frames_ = 0;
+  Slot first_;  ///< where the sound begins that is not told yet
+  std::vector<float> sound_;
+
+  protocol::FrameStream stream_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace splash::synth
