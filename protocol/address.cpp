@@ -97,6 +97,9 @@ constexpr ArgumentRow kBodyPose[] = {
     component("qy", "same"),
     component("qz", "same"),
     component("qw", "same, the real part")};
+constexpr ArgumentRow kBodyGrab[] = {
+    {'i', "body", "1", 0, 255, "index of the body in the scene"},
+    {'i', "on", "1", 0, 1, "1: it follows /body/pose from now on, 0: its own motion"}};
 constexpr ArgumentRow kForce[] = {{'i', "body", "1", 0, 255, "index of the body in the scene"},
                                   {'f', "fx", "N", -1e6, 1e6, "force of the water on the body"},
                                   {'f', "fy", "N", -1e6, 1e6, "same"},
@@ -188,6 +191,8 @@ constexpr auto kTable = std::to_array<AddressRow>({
      "Behind a sender's last /frame: what was sent sounds to its end, and no more is waited for",
      {}},
     {"/body/pose", Direction::to_sim, "Pose of a tracked body", kBodyPose},
+    {"/body/grab", Direction::to_sim,
+     "Grabs a body that has a motion of its own, or lets it go; answered by /done", kBodyGrab},
     {"/force", Direction::subscribers,
      "Reserved, never sent: force and torque of the water on a body", kForce},
     {"/notify", Direction::to_both, "Subscribes the sender to streams; answered by /done", kNotify},

@@ -25,7 +25,7 @@ std::string name_of(const Scene& scene, std::int32_t body) {
 PoseRefusal PoseIntake::give(const protocol::BodyPose& pose, const PoseMoment& moment) const {
   const auto bodies = simulation_.scene().bodies.size();
   if (static_cast<std::size_t>(pose.body) >= bodies) return PoseRefusal::no_body;
-  LiveMotion* body = simulation_.live_body(pose.body);
+  PosedMotion* body = simulation_.live_body(pose.body);
   if (body == nullptr) return PoseRefusal::not_tracked;
   const Vector3 position = {as_double(pose.position.x), as_double(pose.position.y),
                             as_double(pose.position.z)};

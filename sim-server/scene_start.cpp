@@ -10,6 +10,7 @@
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/tracking/grabbed_motion.hpp"
 #include "sim-server/tracking/make_motion.hpp"
 
 namespace splash::sim {
@@ -37,11 +38,14 @@ Scene with_sound(Scene scene, const Bodies& bodies) {
 }  // namespace
 
 Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
-                   std::vector<LiveMotion*>& live) {
+                   std::vector<PosedMotion*>& live) {
   std::vector<std::unique_ptr<Motion>> motions;
   for (const BodySettings& body : scene.bodies) {
-    motions.push_back(make_motion(body, tracker));
-    live.push_back(dynamic_cast<LiveMotion*>(motions.back().get()));
+    auto motion = make_motion(body, tracker);
+    const bool grabbable = !is_free(body) && body.motion.kind != MotionKind::osc;
+    if (grabbable) motion = std::make_unique<GrabbedMotion>(std::move(motion));
+    motions.push_back(std::move(motion));
+    live.push_back(dynamic_cast<PosedMotion*>(motions.back().get()));
   }
   const double support = scene_support(scene);
   return {sample_bodies(scene.bodies, particle_spacing(scene), support), std::move(motions),

@@ -18,7 +18,7 @@ namespace splash::sim {
 /// one entry a body: what an OSC tracker moves it by, or null. Throws protocol::ConfigError for
 /// motions that cannot be read.
 [[nodiscard]] Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
-                                 std::vector<LiveMotion*>& live);
+                                 std::vector<PosedMotion*>& live);
 
 /// Where the bodies are when time begins, one entry each.
 [[nodiscard]] std::vector<Keyframe> poses_at_start(const Bodies& bodies);

@@ -45,10 +45,24 @@ std::vector<ShownBody> shown_bodies(const Simulation& simulation, double seconds
   for (std::size_t b = 0; b < simulation.bodies().count(); ++b) {
     std::uint32_t flags = 0;
     if (simulation.bodies().is_free(b)) flags |= kBodyFree;
-    if (simulation.live_body(static_cast<int>(b)) != nullptr) flags |= kBodyTracked;
+    if (const PosedMotion* posed = simulation.live_body(static_cast<int>(b))) {
+      if (posed->is_tracked()) flags |= kBodyTracked;
+      if (posed->is_held()) flags |= kBodyGrabbed;
+    }
     shown.push_back({simulation.bodies().state(b, seconds), flags});
   }
   return shown;
+}
+
+/// Why a body cannot be grabbed; empty: it is, or let go.
+std::string grab(const Simulation& simulation, int body, bool on) {
+  if (static_cast<std::size_t>(body) >= simulation.bodies().count()) {
+    return "the scene has " + std::to_string(simulation.bodies().count()) + " bodies, from 0";
+  }
+  PosedMotion* posed = simulation.live_body(body);
+  if (posed == nullptr) return "the water moves this body";
+  posed->grab(on);
+  return {};
 }
 
 protocol::UdpSocket open_socket(const Options& options) {
@@ -84,6 +98,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
                             const PoseMoment& moment) { poses_.take(pose, moment); },
              .track = [this](const protocol::Message& message,
                              const PoseMoment& moment) { return poses_.track(message, moment); },
+             .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
              .status =
                  [this] {
                    const std::lock_guard lock(status_mutex_);

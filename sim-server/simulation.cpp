@@ -291,7 +291,7 @@ FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   return result;
 }
 
-LiveMotion* Simulation::live_body(int body) const noexcept {
+PosedMotion* Simulation::live_body(int body) const noexcept {
   const bool known = body >= 0 && static_cast<std::size_t>(body) < live_.size();
   return known ? live_[static_cast<std::size_t>(body)] : nullptr;
 }

@@ -18,7 +18,7 @@
 #include "sim-server/needs.hpp"
 #include "sim-server/recovery.hpp"
 #include "sim-server/scene/holding.hpp"
-#include "sim-server/tracking/live_motion.hpp"
+#include "sim-server/tracking/posed_motion.hpp"
 
 namespace splash::sim {
 
@@ -96,8 +96,8 @@ class Simulation {
   [[nodiscard]] float sound_speed() const noexcept {
     return fluid_.params().sound_speed;
   }  ///< [m/s]
-  /// The body that an OSC tracker moves, or null.
-  [[nodiscard]] LiveMotion* live_body(int body) const noexcept;
+  /// The body that poses can move, or null: the water moves it, or there is none.
+  [[nodiscard]] PosedMotion* live_body(int body) const noexcept;
   /// Index of the body nearest to a place when events were last looked for, -1 without bodies.
   [[nodiscard]] int nearest_body(const Vector3& place) const {
     return bodies_.nearest(place, detected_at_);
@@ -130,7 +130,7 @@ class Simulation {
   [[nodiscard]] FrameResult give_up(Mishap& mishap, double frame);
 
   Scene scene_;
-  std::vector<LiveMotion*> live_;
+  std::vector<PosedMotion*> live_;
   Bodies bodies_;
   std::vector<Holding> holding_;
   Fluid fluid_;

@@ -45,6 +45,8 @@ struct ControlActions {
   std::function<void(const protocol::BodyPose& pose, const PoseMoment& moment)> pose = {};
   /// A message that is no command: whether a tracker of the scene sends it.
   std::function<bool(const protocol::Message& message, const PoseMoment& moment)> track = {};
+  /// Grabs a body or lets it go; why it cannot, or nothing.
+  std::function<std::string(std::int32_t body, bool on)> grab = {};
   /// The program's numbers; the refused datagrams and messages are added here.
   std::function<protocol::SimStatus()> status = {};
   std::function<void()> quit = {};
@@ -103,6 +105,7 @@ class ControlServer {
   void count(std::uint64_t ControlCounts::*counter);
 
   void body_pose(const Request& request);
+  void body_grab(const Request& request);
   void status(const Request& request);
   void version(const Request& request);
   void sync(const Request& request);

@@ -28,9 +28,10 @@ struct ControlServer::Command {
   const char* address;
   void (ControlServer::*run)(const Request&);
 
-  static const std::array<Command, 10>& all() {
-    static constexpr std::array<Command, 10> kCommands = {{
+  static const std::array<Command, 11>& all() {
+    static constexpr std::array<Command, 11> kCommands = {{
         {"/body/pose", &ControlServer::body_pose},
+        {"/body/grab", &ControlServer::body_grab},
         {"/status", &ControlServer::status},
         {"/version", &ControlServer::version},
         {"/sync", &ControlServer::sync},
@@ -102,6 +103,17 @@ void ControlServer::body_pose(const Request& request) {
   } else {
     actions_.pose(*pose, {request.monotonic, request.sent});
     count(&ControlCounts::poses);
+  }
+}
+
+void ControlServer::body_grab(const Request& request) {
+  const bool on = std::get<std::int32_t>(request.message.arguments[1]) != 0;
+  const std::string reason =
+      actions_.grab ? actions_.grab(first_int(request.message), on) : "no body can be grabbed";
+  if (reason.empty()) {
+    reply(request, protocol::done(request.message.address));
+  } else {
+    fail(request, reason);
   }
 }
 

@@ -9,10 +9,9 @@
 #include <mutex>
 #include <vector>
 
-#include "sim-server/tracking/motion.hpp"
-#include "sim-server/tracking/pose_clock.hpp"
 #include "sim-server/tracking/pose_fit.hpp"
 #include "sim-server/tracking/pose_gate.hpp"
+#include "sim-server/tracking/posed_motion.hpp"
 
 namespace splash::sim {
 
@@ -25,25 +24,16 @@ struct LiveGap {
   bool hold = false;
 };
 
-/// A piece of time, on both clocks.
-struct PlayedFrame {
-  double seconds = 0.0;  ///< simulated time at its start [s]
-  double wall = 0.0;     ///< our clock then [s]
-  double length = 0.0;   ///< simulated [s]
-};
-
-/// `push` may be called from another thread than the rest.
-class LiveMotion : public Motion {
+class LiveMotion : public PosedMotion {
  public:
   /// `delay_limit`: poses that arrive unevenly are played later by as much as evens them out, but
   /// by no more [s].
   explicit LiveMotion(const Keyframe& rest, const LiveLimits& limits = {}, const LiveGap& gap = {},
                       double delay_limit = 0.030);
 
-  /// Quaternions need not have unit length.
-  PoseRefusal push(const Vector3& position, const Quaternion& rotation, const PoseStamp& stamp);
-  /// What came until now is what `at` knows until the next frame begins.
-  void begin(const PlayedFrame& frame);
+  PoseRefusal push(const Vector3& position, const Quaternion& rotation,
+                   const PoseStamp& stamp) override;
+  void begin(const PlayedFrame& frame) override;
   [[nodiscard]] BodyState at(double seconds) const override;
 
   /// How much later than they could be the poses are played [s].

@@ -78,7 +78,7 @@ Drive nonsense() {
   return [k = 0](Simulation& s) mutable {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     const double t = s.seconds();
-    sim::LiveMotion& body = *s.live_body(0);
+    sim::PosedMotion& body = *s.live_body(0);
     const std::array<std::pair<Keyframe, double>, 7> poses = {
         {{{t, {kNaN, 0.2, 0.2}, {0, 0, 0, 1}}, t},
          {{t, {0.2, 0.2, 0.2}, {0, 0, 0, 0}}, t},
