@@ -29,7 +29,8 @@ const Room* find_room(std::string_view folder) {
 }
 
 bool is_ours(std::string_view header) {
-  return lies_in_any(header, {"protocol", "sim-server", "synth-server", "pd-patches", "tests"});
+  return lies_in_any(
+      header, {"protocol", "sim-server", "synth-server", "view-server", "pd-patches", "tests"});
 }
 
 }  // namespace
@@ -79,8 +80,9 @@ const std::vector<Room>& rooms() {
        {"RtAudio", "rtaudio/", "jack/", "alsa/", "boost/"}},
       {"synth-server/figure", {}, {"kissfft/", "kiss_fft", "CLI/"}},
       {"synth-server", {"protocol", "synth-server"}, {"CLI/", "boost/", "nlohmann/"}},
+      {"view-server", {"protocol"}, {"CLI/", "boost/"}},
       {"pd-patches", {"protocol"}, {"CLI/"}},
-      {"tests", {"protocol", "sim-server", "synth-server", "pd-patches"}, {}},
+      {"tests", {"protocol", "sim-server", "synth-server", "view-server", "pd-patches"}, {}},
   };
   return kRooms;
 }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// view-server: from the command line to an exit code.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "protocol/failure.hpp"
+#include "protocol/service_notice.hpp"
+#include "view-server/server.hpp"
+
+namespace {
+
+using namespace splash;
+
+void run(const view::Options& options) {
+  protocol::ServiceNotice service;
+  view::Server server(options);
+  const std::string place = protocol::to_string(server.local());
+  std::printf("listening: %s\nopen http://%s/\n", place.c_str(), place.c_str());
+  std::fflush(stdout);
+  service.ready("http://" + place + "/");
+  server.run();
+  service.stopping();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto [options, exit_code] = view::parse_options(argc, argv);
+  if (!options) return exit_code;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
+  try {
+    run(*options);
+    return protocol::kExitOk;
+  } catch (const protocol::Failure& failure) {
+    std::cerr << "view-server: " << failure.what() << '\n';
+    return failure.code();
+  } catch (const std::exception& error) {
+    std::cerr << "view-server: " << error.what() << '\n';
+    return protocol::kExitInternal;
+  }
+}
