@@ -43,7 +43,7 @@ bool PoseIntake::track(const protocol::Message& message, const PoseMoment& momen
   return trackers_.take(message, stamp, [&](const MappedPose& pose) {
     const auto body = static_cast<std::int32_t>(pose.body);
     PoseRefusal refusal = pose.refusal;
-    LiveMotion* const live = simulation_.live_body(body);
+    PosedMotion* const live = simulation_.live_body(body);
     if (refusal == PoseRefusal::none && live != nullptr) {
       refusal = live->push(pose.position, pose.rotation, stamp);
     }
