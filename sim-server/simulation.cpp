@@ -173,6 +173,7 @@ void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs,
     if (k + 1 == plan.size()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
     if (hook_) hook_(fluid_, step, Moment::between);
     fluid_.advance(step);
+    fluid_.device().queue().flush();  // else a driver may begin with nothing before the end
   }
   fluid_.enqueue_survey();
   fluid_.device().queue().finish();
