@@ -11,6 +11,11 @@ void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
       ->check(CLI::Range(-1e6, 1e6))
       ->check(protocol::refuse_nan)
       ->type_name("M");
+  app.add_option("--floor-level", engine.floor_level,
+                 "z of the floor, for bubbles whose pitch follows their place (default: far away)")
+      ->check(CLI::Range(-1e6, 1e6))
+      ->check(protocol::refuse_nan)
+      ->type_name("M");
   app.add_option("--precision", texts.precision,
                  "Bubbles within -140 dB of their formula, or within -95 dB for half the time")
       ->check(CLI::IsMember({"exact", "fast"}))

@@ -44,6 +44,7 @@ struct EngineSettings {
   std::uint64_t seed = 1;              ///< of the impacts' noise
   Sound sound;                         ///< the paper's
   double water_level = kNoWaterLevel;  ///< z of the surface, for the depths of physical bubbles [m]
+  double floor_level = kNoFloor;       ///< z of the floor, for bubbles near it [m]
   unsigned components = kAllComponents;
   Precision precision = Precision::exact;
   InstructionSet instructions = InstructionSet::best;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <variant>
+
+#include "synth-server/voices/place_pitch.hpp"
 
 namespace splash::synth {
 namespace {
@@ -25,7 +28,8 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       impact_level_(rig),
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       masking_(channel_count(rig), settings.sample_rate),
-      cloud_(settings.sample_rate) {}
+      cloud_(settings.sample_rate),
+      fine_(rig, settings.sample_rate, settings.seed) {}
 
 void Ensemble::follow(const LiveControls& controls) noexcept {
   settings_.sound = controls.sound();
@@ -108,34 +112,46 @@ template <class BubbleOrCavity>
 Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t sample) noexcept {
   constexpr bool kIsCavity = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
   const ToneSound& sound = kIsCavity ? settings_.sound.cavity : settings_.sound.bubble;
-  const double depth = settings_.water_level - static_cast<double>(event.position.z);
   const auto radius = static_cast<double>(event.radius);
-  BubbleTone tone =
-      bubble_tone(sound, radius, static_cast<double>(event.epsilon), std::max(0.0, depth));
+  const auto epsilon = static_cast<double>(event.epsilon);
+  const auto z = static_cast<double>(event.position.z);
+  const double depth = settings_.water_level - z;
+  const bool surface = settings_.water_level > kNoWaterLevel;
+  BubbleTone tone = in_place(
+      sound, bubble_tone(sound, radius, epsilon, std::max(0.0, depth)), radius,
+      {surface ? depth : std::numeric_limits<double>::infinity(), z - settings_.floor_level});
   if constexpr (!kIsCavity) {
     tone.frequency *=
         cloud_.enter(settings_.sound.cloud, event.position, radius, tone.frequency, sample);
   }
-  const Source source{event.position, event.body, tone.frequency};
+  const Routing::Reach reach =
+      routing_.route({event.position, event.body, tone.frequency}, routes_);
   const protocol::Cavity* cavity = nullptr;
-  if constexpr (kIsCavity) cavity = &event;
-  return start_tone(tone, routing_.route(source, routes_), cavity, sample);
+  if constexpr (kIsCavity) {
+    cavity = &event;
+  } else {
+    fine_.add(settings_.sound, epsilon, {routes_.data(), static_cast<std::size_t>(reach.routes)});
+  }
+  return start_tone(tone, reach, cavity, sample);
 }
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
   impacts_.mix(from, to, mix);
   bubbles_->mix(from, to, mix);
+  fine_.mix(from, to, mix);
 }
 
 void Ensemble::end_cell(std::int64_t sample) noexcept {
   impacts_.release(sample);
   bubbles_->release(sample);
+  fine_.end_cell();
   starts_ = 0;
 }
 
 void Ensemble::fade_all(std::int64_t sample) noexcept {
   impacts_.fade_all(sample);
   bubbles_->fade_all(sample);
+  fine_.clear();
 }
 
 }  // namespace splash::synth

@@ -10,6 +10,7 @@
 #include "synth-server/render/bubble_pool.hpp"
 #include "synth-server/render/counters.hpp"
 #include "synth-server/render/engine.hpp"
+#include "synth-server/render/fine_water.hpp"
 #include "synth-server/render/impact_level.hpp"
 #include "synth-server/render/impact_pool.hpp"
 #include "synth-server/render/live_controls.hpp"
@@ -64,6 +65,7 @@ class Ensemble {
   ImpactPool impacts_;
   Masking masking_;
   Cloud cloud_;
+  FineWater fine_;
   int starts_ = 0;  ///< in this cell
   Counts counts_;
 };

@@ -29,11 +29,12 @@ void refuse_others(const ConfigMap& map) {
 NamedSound read_map(const ConfigMap& map) {
   refuse_others(map);
   NamedSound sound;
-  map.read(sound_fields(), {"impact", "bubble", "cavity", "cloud"}, sound);
+  map.read(sound_fields(), {"impact", "bubble", "cavity", "cloud", "fine"}, sound);
   read_part(map, "impact", impact_fields(), sound.sound.impact);
   read_part(map, "bubble", bubble_fields(), sound.sound.bubble);
   read_part(map, "cavity", cavity_fields(), sound.sound.cavity);
   read_part(map, "cloud", cloud_fields(), sound.sound.cloud);
+  read_part(map, "fine", fine_fields(), sound.sound.fine);
   return sound;
 }
 

@@ -35,7 +35,8 @@ std::string describe_sound_keys() {
          describe_fields(impact_fields(), paper.sound.impact) + "\n### `bubble`\n\n" +
          describe_fields(bubble_fields(), paper.sound.bubble) + "\n### `cavity`\n\n" +
          describe_fields(cavity_fields(), paper.sound.cavity) + "\n### `cloud`\n\n" +
-         describe_fields(cloud_fields(), paper.sound.cloud);
+         describe_fields(cloud_fields(), paper.sound.cloud) + "\n### `fine`\n\n" +
+         describe_fields(fine_fields(), paper.sound.fine);
 }
 
 }  // namespace splash::synth

@@ -75,7 +75,16 @@ std::vector<Field<ToneSound>> tone_fields(const std::string& what) {
                        "surface tension, depth); between: mixed",
             .min = 0.0,
             .max = 1.0},
-           &ToneSound::physical}};
+           &ToneSound::physical},
+          {{.key = "place",
+            .unit = "1",
+            .meaning = "0: the same everywhere; 1: f0 is higher near the surface and lower near a "
+                       "floor, and the pitch rises only as the bubble does, instead of by `rise`; "
+                       "between: mixed. It takes --water-level and --floor-level",
+            .min = 0.0,
+            .max = 1.0,
+            .source = "Strasberg 1953, Mendelson 1967"},
+           &ToneSound::place}};
 }
 
 /// The burst, and its amplitude by a power of the speed.
@@ -219,6 +228,32 @@ std::vector<Field<CloudSound>> cloud_fields() {
             .max = 1.0,
             .source = "ours: until most have rung"},
            &CloudSound::company}};
+}
+
+std::vector<Field<FineSound>> fine_fields() {
+  return {
+      {{.key = "amount",
+        .unit = "1",
+        .meaning = "0: none; 1: the bubbles that are too small for the simulator as a noise from "
+                   "1 to 16 kHz, on outputs that reach there, as loud as measured sizes have it",
+        .min = 0.0,
+        .max = 10.0,
+        .source = "Deane, Stokes 2002"},
+       &FineSound::amount},
+      {{.key = "attack",
+        .unit = "s",
+        .meaning = "time constant within which they follow a bubble of the simulator's",
+        .min = 0.0005,
+        .max = 0.2,
+        .source = "ours: within the splash that makes both"},
+       &FineSound::attack},
+      {{.key = "release",
+        .unit = "s",
+        .meaning = "time constant with which their power falls",
+        .min = 0.002,
+        .max = 2.0,
+        .source = "ours, same"},
+       &FineSound::release}};
 }
 
 }  // namespace splash::synth

@@ -24,5 +24,6 @@ struct NamedSound {
 [[nodiscard]] std::vector<Field<ToneSound>> bubble_fields();
 [[nodiscard]] std::vector<Field<ToneSound>> cavity_fields();
 [[nodiscard]] std::vector<Field<CloudSound>> cloud_fields();
+[[nodiscard]] std::vector<Field<FineSound>> fine_fields();
 
 }  // namespace splash::synth

@@ -13,6 +13,9 @@ namespace splash::synth {
 /// No surface is known: bubbles are taken to lie right under it.
 inline constexpr double kNoWaterLevel = -std::numeric_limits<double>::infinity();
 
+/// No floor is known: bubbles are far from it.
+inline constexpr double kNoFloor = -std::numeric_limits<double>::infinity();
+
 /// How a bubble of this `radius` [m] and `epsilon` [1] sounds, whose middle lies `depth` [m] under
 /// the surface, which only linear theory asks for.
 [[nodiscard]] BubbleTone bubble_tone(const ToneSound& sound, double radius, double epsilon,

@@ -42,6 +42,7 @@ struct ToneSound {
   double rise = 0.1;        ///< the phase is 2 pi f0 t (1 + rise d t) [1]; paper section 5.2.1: xi
   double excitation = 1.0;  ///< A0 = epsilon^excitation r [1]; paper section 5.2: 1
   double physical = 0.0;    ///< 0: f0 and d are the paper's, 1: linear theory's, between: mixed [1]
+  double place = 0.0;  ///< how far pitch and rise follow surface and floor (place_pitch.hpp) [1]
 };
 
 /// Bubbles among others (cloud.hpp).
@@ -50,11 +51,19 @@ struct CloudSound {
   double company = 0.05;  ///< a bubble counts for others so long after its birth [s]
 };
 
+/// Bubbles too small for the simulator (render/fine_water.hpp).
+struct FineSound {
+  double amount = 0.0;    ///< of their amplitude by the law [1]
+  double attack = 0.005;  ///< after a bubble of the simulator's they come up within this [s] ...
+  double release = 0.02;  ///< ... and fade: time constants of their power [s]
+};
+
 struct Sound {
   ImpactSound impact;
   ToneSound bubble;
   ToneSound cavity;
   CloudSound cloud;
+  FineSound fine;
 };
 
 /// The numbers of a sound in the order of its members.

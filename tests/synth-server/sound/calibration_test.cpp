@@ -3,9 +3,13 @@
 // scenes, measured on the samples that a rig gets.
 #include <gtest/gtest.h>
 
+#include <unsupported/Eigen/FFT>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
@@ -125,7 +129,7 @@ TEST(Calibration, HoldsForOtherBurstsAndTransducers) {
   ImpactSound ringing{.release = 2.0, .frequency = 270.0, .q = 20.0};
   for (ImpactSound* impact : {&dull, &ringing}) {
     impact->sensation = 1.0;
-    EXPECT_NEAR(bursts({*impact, {}, {}, {}}, 0.5, rig).level_db, 21.0, 1.5) << impact->q;
+    EXPECT_NEAR(bursts({*impact, {}, {}, {}, {}}, 0.5, rig).level_db, 21.0, 1.5) << impact->q;
   }
 }
 
@@ -217,6 +221,50 @@ TEST(Sounds, AreHigherOrLowerAsTheySay) {
   const double calibrated = mean_pitch("calibrated");
   EXPECT_GT(mean_pitch("loudspeaker"), 1.4 * calibrated);
   EXPECT_LT(mean_pitch("deep"), 0.8 * calibrated);
+}
+
+/// Energy of the pool's or the plunge's bubbles in the loudspeakers: all, and above 2 kHz.
+std::array<double, 2> energies(const std::string& scene, const Sound& sound) {
+  ReplaySettings settings;
+  settings.engine.sample_rate = kRate;
+  settings.engine.sound = sound;
+  settings.engine.components = kBubbles;
+  std::array<std::vector<double>, 2> sides;
+  static_cast<void>(replay(protocol::read_log(kRoot / "tests/data" / (scene + ".osc")),
+                           read_rig(kRoot / "configs/rigs/stereo.yaml"), settings,
+                           [&](const float* const* channels, int frames) {
+                             for (std::size_t c = 0; c < 2; ++c) {
+                               sides[c].insert(sides[c].end(), channels[c], channels[c] + frames);
+                             }
+                           }));
+  std::array<double, 2> sums{};
+  for (std::vector<double>& side : sides) {
+    side.resize(std::bit_ceil(side.size()));
+    std::vector<std::complex<double>> spectrum;
+    Eigen::FFT<double>().fwd(spectrum, side);
+    for (std::size_t k = 1; k < side.size() / 2; ++k) {
+      const double power = std::norm(spectrum[k]);
+      sums[0] += power;
+      if (static_cast<double>(k) * kRate / static_cast<double>(side.size()) > 2000.0) {
+        sums[1] += power;
+      }
+    }
+  }
+  return sums;
+}
+
+TEST(Sounds, LetLoudspeakersHearFineWater) {
+  for (const char* scene : {"pool", "plunge", "basin", "beach"}) {
+    Sound sound = shipped("loudspeaker");
+    const auto [all, high] = energies(scene, sound);
+    sound.fine.amount = 0.0;
+    const auto [boom, least] = energies(scene, sound);
+    const double with_db = 10.0 * std::log10(high / all);
+    std::printf("%s: above 2 kHz %.1f dB of the bubbles' energy, %.1f dB without fine water\n",
+                scene, with_db, 10.0 * std::log10(least / boom));
+    EXPECT_GT(with_db, -20.0) << scene;
+    EXPECT_LT(with_db, -10.0) << scene;
+  }
 }
 
 }  // namespace

@@ -57,11 +57,11 @@ std::string all_rows(const std::string& part, const std::vector<Field<Part>>& fi
 }
 
 TEST(Sound, HasARowForEachOfItsNumbers) {
-  const NamedSound sound = parse_sound("name: all\n" + all_rows("impact", impact_fields(), {}) +
-                                           all_rows("bubble", bubble_fields(), {}) +
-                                           all_rows("cavity", cavity_fields(), {}) +
-                                           all_rows("cloud", cloud_fields(), {}),
-                                       "all.yaml");
+  const NamedSound sound = parse_sound(
+      "name: all\n" + all_rows("impact", impact_fields(), {}) +
+          all_rows("bubble", bubble_fields(), {}) + all_rows("cavity", cavity_fields(), {}) +
+          all_rows("cloud", cloud_fields(), {}) + all_rows("fine", fine_fields(), {}),
+      "all.yaml");
   const SoundNumbers paper = numbers_of(Sound{});
   const SoundNumbers set = numbers_of(sound.sound);
   for (std::size_t i = 0; i < kSoundNumbers; ++i) EXPECT_NE(set[i], paper[i]) << "number " << i;
@@ -88,6 +88,7 @@ TEST(Sound, EveryRowHasAUnitAMeaningAndARangeAroundThePapersValue) {
   expect_rows_complete(bubble_fields());
   expect_rows_complete(cavity_fields());
   expect_rows_complete(cloud_fields());
+  expect_rows_complete(fine_fields());
 }
 
 struct Broken {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "synth-server/render/fine_water.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "synth-server/voices/paper_bubble.hpp"
+
+namespace splash::synth {
+namespace {
+
+constexpr double kLowest = 1000.0;  // edge of the first band [Hz]
+constexpr double kHinze = 0.001;    // [m]
+constexpr double kSilent = 1e-16;   // mean square: -160 dB of full scale
+
+/// N(r), 1 at the Hinze scale.
+double density(double radius) noexcept {
+  return std::pow(radius / kHinze, radius < kHinze ? -1.5 : -10.0 / 3.0);
+}
+
+/// N_told, in closed form.
+double told() noexcept {
+  const auto below = [](double radius) {
+    return -3.0 / 7.0 * kHinze * std::pow(radius / kHinze, -7.0 / 3.0);
+  };
+  return below(0.030) - below(0.003);
+}
+
+}  // namespace
+
+double fine_frequency(std::size_t band) noexcept {
+  return kLowest * std::exp2((static_cast<double>(band) + 0.5) / 3.0);
+}
+
+double fine_energy(const ToneSound& bubble, std::size_t band) noexcept {
+  constexpr int kSteps = 16;  // evenly in ln r
+  const double middle = bubble.minnaert * bubble.pitch / fine_frequency(band);
+  const double step = std::numbers::ln2 / 3.0 / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double r = middle * std::exp((i + 0.5 - 0.5 * kSteps) * step);
+    sum += density(r) * r * r / (4.0 * bubble.damping * paper_damping(r, bubble)) * r * step;
+  }
+  return sum / told();
+}
+
+FineWater::FineWater(const Rig& rig, double sample_rate, std::uint64_t seed)
+    : sample_rate_(sample_rate) {
+  for (const Output& output : rig.outputs) {
+    for (int c = 0; c < channel_count(output); ++c) {
+      Channel channel;
+      channel.reaches = output.band.high > kLowest;
+      constexpr std::uint64_t kOthers = std::uint64_t{1} << 48U;  // no impact has such a number
+      channel.noise = Noise(seed, kOthers + channels_.size());
+      channels_.push_back(channel);
+    }
+  }
+  const double q = 1.0 / (std::exp2(1.0 / 6.0) - std::exp2(-1.0 / 6.0));
+  for (std::size_t b = 0; b < kFineBands; ++b) {
+    const double frequency = std::min(fine_frequency(b), 0.45 * sample_rate);
+    const double w = 2.0 * std::numbers::pi * frequency / sample_rate;
+    const double alpha = std::sin(w) / (2.0 * q);
+    a1_[b] = -2.0 * std::cos(w) / (1.0 + alpha);
+    a2_[b] = (1.0 - alpha) / (1.0 + alpha);
+    gain_[b] = std::sqrt((1.0 - a2_[b]) / 2.0);
+  }
+}
+
+void FineWater::tune(const Sound& sound) noexcept {
+  fine_ = sound.fine;
+  const ToneSound& b = sound.bubble;
+  const bool same = power_ > 0.0 && b.minnaert == known_.minnaert && b.pitch == known_.pitch &&
+                    b.radiation == known_.radiation && b.thermal == known_.thermal &&
+                    b.damping == known_.damping;
+  if (same) return;
+  known_ = b;
+  power_ = 0.0;
+  for (std::size_t band = 0; band < kFineBands; ++band) {
+    const bool plays = fine_frequency(band) < 0.45 * sample_rate_;
+    const double energy = plays ? fine_energy(b, band) : 0.0;
+    levels_[band] = std::sqrt(energy);
+    power_ += energy;
+  }
+}
+
+void FineWater::add(const Sound& sound, double epsilon, std::span<const Route> routes) noexcept {
+  if (sound.fine.amount <= 0.0) return;
+  tune(sound);
+  const double amplitude = fine_.amount * std::pow(epsilon, sound.bubble.excitation);
+  for (const Route& route : routes) {
+    Channel& channel = channels_[static_cast<std::size_t>(route.channel)];
+    if (!channel.reaches) continue;
+    channel.told += route.gain * route.gain * amplitude * amplitude / fine_.release;
+  }
+}
+
+void FineWater::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
+  const double fall = std::exp(-1.0 / (fine_.release * sample_rate_));
+  const double follow = -std::expm1(-1.0 / (fine_.attack * sample_rate_));
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    Channel& channel = channels_[c];
+    if (!channel.sounds) continue;
+    mix.touched[c] = 1;
+    const auto first = static_cast<int>(from % kCell);
+    double* const out = mix.samples.data() + c * kCell + static_cast<std::size_t>(first);
+    for (int n = 0; n < static_cast<int>(to - from); ++n) {
+      channel.envelope += follow * (channel.falling - channel.envelope);
+      channel.falling *= fall;
+      const double white = channel.noise.at(static_cast<std::uint64_t>(from + n));
+      Bands sound{};
+      for (std::size_t b = 0; b < kFineBands; ++b) {  // the same as Resonator, side by side
+        const double band = gain_[b] * white + channel.first[b];
+        channel.first[b] = channel.second[b] - a1_[b] * band;
+        channel.second[b] = -gain_[b] * white - a2_[b] * band;
+        sound[b] = levels_[b] * band;
+      }
+      double sum = 0.0;
+      for (const double band : sound) sum += band;
+      out[n] += std::sqrt(channel.envelope) * mix.bubbles.at(first + n) * sum;
+    }
+  }
+}
+
+void FineWater::end_cell() noexcept {
+  for (Channel& channel : channels_) {
+    channel.falling += channel.told;
+    channel.told = 0.0;
+    const bool sounds = std::max(channel.falling, channel.envelope) * power_ > kSilent;
+    if (channel.sounds && !sounds) {
+      channel.falling = channel.envelope = 0.0;
+      channel.first = channel.second = {};
+    }
+    channel.sounds = sounds;
+  }
+}
+
+void FineWater::clear() noexcept {
+  for (Channel& channel : channels_) channel.falling = channel.told = 0.0;
+}
+
+}  // namespace splash::synth
