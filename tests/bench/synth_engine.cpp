@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "synth-server/render/routing.hpp"
+#include "synth-server/voices/cloud.hpp"
 #include "synth-server/voices/paper_bubble.hpp"
 #include "tests/bench/synth_timing.hpp"
 
@@ -193,6 +194,46 @@ OnsetCase measure_onsets(const std::string& precision, const std::string& instru
   }
   result.onsets = kPerCell * kCells / median(times);
   return result;
+}
+
+double measure_flood(bool everything) {
+  constexpr int kBirths = 10000;  // per second
+  constexpr int kSeconds = 4;
+  constexpr int kTiles = 6;
+  EngineSettings settings = settings_of("exact", "best", 16384);
+  if (everything) {
+    settings.sound.cloud.coupling = 1.0;
+    settings.sound.fine.amount = 1.0;
+    settings.sound.bubble.gain_db = -6.0;
+  }
+  Engine engine(rig_of(kTiles, 1.0), settings);
+  Draw draw;
+  for (int i = 0; i < kBirths * kSeconds; ++i) {  // sizes as r^-3
+    protocol::Bubble bubble;
+    const double u = draw();
+    bubble.radius = static_cast<float>(0.003 / std::sqrt(1.0 - 0.99 * u));
+    bubble.epsilon = static_cast<float>(0.01 + 0.09 * draw());
+    bubble.position = place(draw, kTiles);
+    engine.schedule({bubble, static_cast<std::int64_t>(i * kRate / kBirths)});
+  }
+  Player player(engine, 256);
+  const double start = cpu_seconds();
+  player.play(static_cast<std::int64_t>(kSeconds * kRate));
+  return (cpu_seconds() - start) / kSeconds;
+}
+
+double measure_clouds() {
+  constexpr int kBirths = 10000;
+  Draw draw;
+  synth::Cloud cloud(kRate);
+  const synth::CloudSound sound{1.0, 1.0};
+  return median_time(kRuns, [&] {
+    double sum = 0.0;
+    for (int i = 0; i < kBirths; ++i) {
+      sum += cloud.enter(sound, place(draw, 6), 0.003 + 0.02 * draw(), 300.0, i);
+    }
+    consume(&sum);
+  });
 }
 
 }  // namespace splash::bench
