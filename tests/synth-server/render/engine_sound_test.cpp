@@ -82,6 +82,21 @@ TEST(Engine, HearsDepthInPhysicalBubblesAlone) {
   EXPECT_EQ(at_depth(1.0, 0.2), at_depth(1.0, kNoWaterLevel)) << "above it";
 }
 
+TEST(Engine, LetsPitchFollowPlaceWhereTheSoundSaysSo) {
+  const auto played = [](double place, double level, double floor) {
+    auto settings = file_settings();
+    settings.sound.bubble.place = place;
+    settings.water_level = level;
+    settings.floor_level = floor;
+    Engine engine(open_rig(), settings);
+    engine.schedule({bubble(0.005F, 0.05F, {0.0F, 0.0F, 0.5F}), 0});
+    return render(engine, 4800);
+  };
+  EXPECT_EQ(played(0.0, 0.506, 0.494), played(0.0, kNoWaterLevel, kNoFloor));
+  EXPECT_NE(played(1.0, 0.506, kNoFloor), played(1.0, kNoWaterLevel, kNoFloor));
+  EXPECT_NE(played(1.0, kNoWaterLevel, 0.494), played(1.0, kNoWaterLevel, kNoFloor));
+}
+
 // Five bubbles one after the other at one place: each is as much lower as the cloud says.
 TEST(Engine, LowersBubblesByThoseAroundThem) {
   constexpr int kApart = 9600;
