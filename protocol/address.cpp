@@ -97,6 +97,14 @@ constexpr ArgumentRow kBodyPose[] = {
     component("qy", "same"),
     component("qz", "same"),
     component("qw", "same, the real part")};
+constexpr ArgumentRow kNamedPose[] = {text("body", "name of the body in the scene"),
+                                      kBodyPose[1],
+                                      kBodyPose[2],
+                                      kBodyPose[3],
+                                      kBodyPose[4],
+                                      kBodyPose[5],
+                                      kBodyPose[6],
+                                      kBodyPose[7]};
 constexpr ArgumentRow kBodyGrab[] = {
     {'i', "body", "1", 0, 255, "index of the body in the scene"},
     {'i', "on", "1", 0, 1, "1: it follows /body/pose from now on, 0: its own motion"}};
@@ -191,6 +199,7 @@ constexpr auto kTable = std::to_array<AddressRow>({
      "Behind a sender's last /frame: what was sent sounds to its end, and no more is waited for",
      {}},
     {"/body/pose", Direction::to_sim, "Pose of a tracked body", kBodyPose},
+    {"/body/pose", Direction::to_sim, "The same, the body by its name", kNamedPose},
     {"/body/grab", Direction::to_sim,
      "Grabs a body that has a motion of its own, or lets it go; answered by /done", kBodyGrab},
     {"/force", Direction::subscribers,

@@ -50,7 +50,7 @@ struct AddressRow {
 /// The row's type string with its comma, optional arguments included.
 [[nodiscard]] std::string type_tags(const AddressRow& row);
 
-/// First row of an address (only /status.reply has two); nullptr: no such address.
+/// First row of an address (/body/pose and /status.reply have two); nullptr: no such address.
 [[nodiscard]] const AddressRow* find_address(std::string_view address) noexcept;
 
 /// Whether a message has the row's address, types and ranges.

@@ -86,19 +86,21 @@ bool conforms(const Message& message, const AddressRow& row) noexcept {
 }
 
 std::optional<std::string> violation(const Message& message) {
-  std::optional<std::string> reason = "unknown address";
+  std::string expected;
   for (const auto& row : address_table()) {
     if (row.address != message.address) continue;
     if (conforms(message, row)) return std::nullopt;
-    reason = "types are " + type_tags(message) + ", expected " + type_tags(row);
-    if (!has_types(message, row)) continue;
+    expected += (expected.empty() ? "" : " or ") + type_tags(row);
+  }
+  for (const auto& row : address_table()) {
+    if (row.address != message.address || !has_types(message, row)) continue;
     for (std::size_t i = 0; i < told_count(message, row); ++i) {
       if (in_range(message.arguments[i], row.arguments[i])) continue;
-      reason = describe_range(message.arguments[i], row.arguments[i]);
-      break;
+      return describe_range(message.arguments[i], row.arguments[i]);
     }
   }
-  return reason;
+  if (expected.empty()) return "unknown address";
+  return "types are " + type_tags(message) + ", expected " + expected;
 }
 
 }  // namespace splash::protocol

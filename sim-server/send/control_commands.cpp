@@ -94,6 +94,14 @@ void ControlServer::fail(const Request& request, const std::string& reason) {
 }
 
 void ControlServer::body_pose(const Request& request) {
+  if (const auto* name = std::get_if<std::string>(&request.message.arguments.front())) {
+    if (actions_.track && actions_.track(request.message, {request.monotonic, request.sent})) {
+      count(&ControlCounts::poses);
+    } else {
+      fail(request, "no body named '" + *name + "' is moved over OSC");
+    }
+    return;
+  }
   const auto pose = protocol::to_body_pose(request.message);
   if (!pose) {
     count(&ControlCounts::no_rotations);

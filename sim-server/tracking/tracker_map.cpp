@@ -104,32 +104,48 @@ bool is_one_moment(const PoseStamp& a, const PoseStamp& b) {
   return a.sent.has_value() == b.sent.has_value() && std::abs(a.arrival - b.arrival) <= kTogether;
 }
 
+/// /body/pose with a name in place of a number, which needs no `tracking`.
+TrackerSource named_pose(std::size_t body, const std::string& name) {
+  TrackerSource source;
+  source.body = body;
+  source.address = source.rotation_address = "/body/pose";
+  source.match = source.rotation_match = {name};
+  source.position = {1, 2, 3};
+  source.rotation = {4, 5, 6, 7};
+  return source;
+}
+
 }  // namespace
 
-TrackerMap::TrackerMap(const Scene& scene)
-    : room_(scene.tracking.position),
-      turn_(from_turn({0.0, 0.0, std::numbers::pi / 180.0 * scene.tracking.yaw})) {
+TrackerMap::TrackerMap(const Scene& scene) {
+  const Quaternion turn = from_turn({0.0, 0.0, std::numbers::pi / 180.0 * scene.tracking.yaw});
   for (const TrackerSource& source : scene.tracking.sources) {
-    sources_.push_back({source, scene.bodies.at(source.body).rest.rotation});
+    const Quaternion& rest = scene.bodies.at(source.body).rest.rotation;
+    sources_.push_back({source, scene.tracking.position, turn, rest});
+  }
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (scene.bodies[b].motion.kind == MotionKind::osc) {
+      sources_.push_back({named_pose(b, scene.bodies[b].name)});
+    }
   }
 }
 
-MappedPose TrackerMap::place(const Source& source) const {
+MappedPose TrackerMap::place(const Source& source) {
   const Keyframe& mount = source.settings.mount;
   const Vector3 position = source.position.value_or(Vector3{});
   const bool turns = source.rotation.has_value();
   const Quaternion tracker = source.rotation.value_or(Quaternion{0.0, 0.0, 0.0, 1.0});
   MappedPose pose;
   pose.body = source.settings.body;
-  pose.position = room_ + rotate(turn_, position + rotate(tracker, mount.position));
+  pose.position = source.room + rotate(source.turn, position + rotate(tracker, mount.position));
   pose.rotation =
-      turns ? unit(compose(turn_, compose(tracker, mount.rotation))) : unit(source.rest);
+      turns ? unit(compose(source.turn, compose(tracker, mount.rotation))) : unit(source.rest);
   return pose;
 }
 
 std::optional<MappedPose> TrackerMap::read(Source& source, const protocol::Message& message,
                                            const PoseStamp& stamp, bool has_position,
-                                           bool has_rotation) const {
+                                           bool has_rotation) {
   const TrackerSource& settings = source.settings;
   const bool known = source.position || source.rotation;
   if (known && !is_one_moment(source.stamp, stamp)) source.position = {}, source.rotation = {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Messages of trackers to poses of bodies, as the scene's `tracking` says.
+// Messages of trackers to poses of bodies: as the scene's `tracking` says, and those of /body/pose
+// that name their body.
 #pragma once
 
 #include <functional>
@@ -34,6 +35,8 @@ class TrackerMap {
   /// A position and a rotation of one moment may come in two messages, in either order.
   struct Source {
     TrackerSource settings;
+    Vector3 room = {0.0, 0.0, 0.0};          ///< the sender's origin in the scene [m]
+    Quaternion turn = {0.0, 0.0, 0.0, 1.0};  ///< the sender's room to the scene
     Quaternion rest = {0.0, 0.0, 0.0, 1.0};  ///< the body's, where the sender tells no rotation
     std::optional<Vector3> position = {};  ///< in the scene's axes, its rotation not yet known [m]
     std::optional<Quaternion> rotation = {};  ///< same, its position not yet known
@@ -41,13 +44,12 @@ class TrackerMap {
   };
 
   /// Of a message that is the source's.
-  [[nodiscard]] std::optional<MappedPose> read(Source& source, const protocol::Message& message,
-                                               const PoseStamp& stamp, bool has_position,
-                                               bool has_rotation) const;
-  [[nodiscard]] MappedPose place(const Source& source) const;
+  [[nodiscard]] static std::optional<MappedPose> read(Source& source,
+                                                      const protocol::Message& message,
+                                                      const PoseStamp& stamp, bool has_position,
+                                                      bool has_rotation);
+  [[nodiscard]] static MappedPose place(const Source& source);
 
-  Vector3 room_;     ///< the senders' origin [m]
-  Quaternion turn_;  ///< the senders' room to the scene
   std::vector<Source> sources_;
 };
 

@@ -49,9 +49,15 @@ TEST(AddressTable, EveryRowKeepsTheWiresLimits) {
 // Vanilla Pd, Unity and others know no time tags as arguments: only control has them.
 TEST(AddressTable, EventsUseOnlyIntegersAndFloats) {
   for (const auto& row : address_table()) {
-    if (row.direction != Direction::to_synth && row.direction != Direction::to_sim) continue;
+    if (row.direction != Direction::to_synth) continue;
     EXPECT_EQ(type_tags(row).find_first_not_of(",if"), std::string::npos) << row.address;
   }
+}
+
+TEST(AddressTable, AMisreadMessageIsToldAllTypesOfItsAddress) {
+  EXPECT_EQ(violation({"/body/pose", {1, 2}}), "types are ,ii, expected ,ifffffff or ,sfffffff");
+  EXPECT_EQ(violation({"/body/pose", {300, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F}}),
+            "body 300, allowed 0 to 255");
 }
 
 TEST(AddressTable, OneStepOutsideEachBoundIsAViolation) {

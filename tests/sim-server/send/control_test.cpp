@@ -182,6 +182,12 @@ TEST_F(Control, MessagesOfTrackersAreNoUnknownCommands) {
   EXPECT_EQ(server_->counts().failed, 0U);
 }
 
+TEST_F(Control, BodiesThatNobodyTracksAreNamed) {
+  const auto reply =
+      ask({"/body/pose", {std::string("foot"), 0.1F, 0.2F, 0.3F, 0.0F, 0.0F, 0.0F, 1.0F}});
+  EXPECT_THAT(reason(reply), HasSubstr("no body named 'foot'"));
+}
+
 TEST_F(Control, UnknownCommandsAreToldTheNearest) {
   const auto reply = ask({"/statsu", {}});
   EXPECT_EQ(std::get<std::string>(reply.arguments.at(0)), "/statsu");

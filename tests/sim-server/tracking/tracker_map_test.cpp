@@ -198,6 +198,16 @@ TEST(TrackerMap, LeavesTheRotationWhereNoneIsSent) {
   mapped.expect_one({0.1, 0.2, 0.3}, of({0.0, 0.0, 0.6, 0.8}));
 }
 
+TEST(TrackerMap, TakesABodyByItsName) {
+  Mapped mapped("  yaw: 90\n  sources: [{body: hand, preset: vmc, name: A}]\n");
+  EXPECT_TRUE(mapped.take(
+      {"/body/pose", {std::string("hand"), 0.1F, 0.2F, 0.3F, 0.1F, 0.7F, -0.1F, 0.7F}}));
+  EXPECT_FALSE(
+      mapped.take({"/body/pose", {std::string("post"), 0.1F, 0.2F, 0.3F, 0.1F, 0.7F, -0.1F, 0.7F}}))
+      << "it stands still";
+  mapped.expect_one({0.1, 0.2, 0.3}, of(kRotation));
+}
+
 constexpr double kPeriod = 1.0 / 60.0;  // [s]
 const protocol::Message kHalfTurn = {"/tracking/trackers/1/rotation", {0.0F, 180.0F, 0.0F}};
 const protocol::Message kNoTurn = {"/tracking/trackers/1/rotation", {0.0F, 0.0F, 0.0F}};
