@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// The web server at the hands of a browser that the test plays, byte by byte.
+#include "view-server/server.hpp"
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "protocol/frame_stream.hpp"
+#include "protocol/limits.hpp"
+#include "protocol/message.hpp"
+
+namespace splash::view {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Browser {
+ public:
+  explicit Browser(const protocol::Endpoint& where) : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(where.address);
+    address.sin_port = htons(where.port);
+    EXPECT_EQ(connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  }
+  ~Browser() { close(descriptor_); }
+  Browser(const Browser&) = delete;
+  Browser& operator=(const Browser&) = delete;
+
+  bool say(const std::string& bytes) const {
+    return send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(bytes.size());
+  }
+  /// What comes until `text` did, or the end, or five seconds.
+  std::string hear(const std::string& text) {
+    pollfd readable{descriptor_, POLLIN, 0};
+    while (heard_.find(text) == std::string::npos && poll(&readable, 1, 5000) > 0) {
+      std::array<char, 65536> buffer;
+      const ssize_t count = recv(descriptor_, buffer.data(), buffer.size(), 0);
+      if (count <= 0) break;
+      heard_.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+    return std::exchange(heard_, {});
+  }
+
+ private:
+  int descriptor_;
+  std::string heard_;
+};
+
+std::string upgrade(const std::string& host, const std::string& origin) {
+  return "GET /view HTTP/1.1\r\nHost: " + host + "\r\nOrigin: " + origin +
+         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+}
+
+/// A whole message of a client, its mask zero.
+std::string message(char opcode, const std::string& text) {
+  std::string frame = {static_cast<char>(0x80 | opcode)};
+  if (text.size() < 126) {
+    frame += static_cast<char>(0x80 | text.size());
+  } else {
+    frame += static_cast<char>(0xfe);
+    frame += static_cast<char>(text.size() >> 8U);
+    frame += static_cast<char>(text.size() & 255U);
+  }
+  return frame + std::string(4, '\0') + text;
+}
+
+std::string osc(const protocol::Message& said) {
+  const auto bytes = protocol::encode(said);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+protocol::ViewFrame frame_of(std::string_view kind, std::string_view text) {
+  protocol::FrameWriter writer(kind, 0.0);
+  writer.text(text);
+  return std::move(writer).take();
+}
+
+class ViewServer : public testing::Test {
+ protected:
+  ViewServer()
+      : water_({}, frame_of(protocol::kSceneFrame, "the scene")),
+        sound_({.listen = {}, .allowed = {}, .most_asked = 16},
+               frame_of(protocol::kRigFrame, "the rig")),
+        sim_(protocol::Endpoint{}),
+        synth_(protocol::Endpoint{}),
+        server_({.listen = {},
+                 .sim = sim_.local(),
+                 .synth = synth_.local(),
+                 .sim_show = water_.local(),
+                 .synth_show = sound_.local(),
+                 .origins = {}}),
+        thread_([this] { server_.run(); }) {}
+  ~ViewServer() override {
+    server_.stop();
+    thread_.join();
+  }
+
+  [[nodiscard]] std::string host() const { return protocol::to_string(server_.local()); }
+  [[nodiscard]] std::unique_ptr<Browser> open() const {
+    auto browser = std::make_unique<Browser>(server_.local());
+    browser->say(upgrade(host(), "http://" + host()));
+    EXPECT_THAT(browser->hear("the scene"), HasSubstr("101 Switching"));
+    return browser;
+  }
+  /// Whether a program gets this message within five seconds.
+  static bool gets(protocol::UdpSocket& program, const std::string& address) {
+    std::array<std::byte, protocol::kMaxDatagram> buffer;
+    for (int i = 0; i < 100; ++i) {
+      const auto got = program.receive(buffer.data(), buffer.size(), 5.0);
+      if (!got) return false;
+      const auto read = protocol::decode({buffer.data(), got->size});
+      if (!read.packet.messages.empty() && read.packet.messages[0].address == address) return true;
+    }
+    return false;
+  }
+
+  protocol::FrameStream water_;
+  protocol::FrameStream sound_;
+  protocol::UdpSocket sim_;
+  protocol::UdpSocket synth_;
+  Server server_;
+  std::thread thread_;
+};
+
+TEST_F(ViewServer, ServesItsPageAndRefusesForeigners) {
+  const auto ask = [&](const std::string& path, const std::string& host_name) {
+    Browser browser(server_.local());
+    browser.say("GET " + path + " HTTP/1.1\r\nHost: " + host_name + "\r\n\r\n");
+    return browser.hear("\r\n\r\n");
+  };
+  EXPECT_THAT(ask("/", host()), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(ask("/../main.cpp", host()), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(ask("/", "evil.example"), StartsWith("HTTP/1.1 403"));
+  Browser foreign(server_.local());
+  foreign.say(upgrade(host(), "http://evil.example"));
+  EXPECT_THAT(foreign.hear("\r\n\r\n"), StartsWith("HTTP/1.1 403"));
+}
+
+TEST_F(ViewServer, PassesFramesOnWhenThePageAsks) {
+  const auto page = open();
+  EXPECT_FALSE(water_.wanted()) << "the page has not asked";
+  page->say(message(2, ""));
+  for (int i = 0; i < 1000 && !water_.wanted(); ++i) usleep(5000);
+  ASSERT_TRUE(water_.wanted());
+  water_.offer(frame_of(protocol::kStateFrame, "first state."));
+  EXPECT_THAT(page->hear("first state."), HasSubstr("SPS1"));
+  usleep(50'000);
+  EXPECT_FALSE(water_.wanted()) << "nothing is fetched for a page that does not draw";
+}
+
+TEST_F(ViewServer, CommandsReachTheProgramsAndWhatWasGrabbedIsLetGo) {
+  {
+    const auto page = open();
+    page->say(message(2, osc({"/mute", {1}})));
+    EXPECT_TRUE(gets(synth_, "/mute"));
+    page->say(message(2, osc({"/body/grab", {2, 1}})));
+    EXPECT_TRUE(gets(sim_, "/body/grab"));
+    page->say(message(2, osc({"/quit", {}})));
+    EXPECT_THAT(page->hear("a page may not say this"), HasSubstr("/quit"));
+  }
+  EXPECT_TRUE(gets(sim_, "/body/grab")) << "the page has gone";
+}
+
+/// Mutated frames of a client, many to a connection: it serves the next page as if nothing was.
+TEST_F(ViewServer, LivesThroughMutatedFrames) {
+  std::mt19937 random(1);
+  const std::array<std::string, 5> seeds = {message(2, ""), message(2, osc({"/mute", {1}})),
+                                            message(2, osc({"/body/grab", {0, 1}})),
+                                            message(1, "{}"), message(9, std::string(200, 'x'))};
+  constexpr int kFrames = 20'000;
+  for (int sent = 0; sent < kFrames;) {
+    const Browser browser(server_.local());
+    browser.say(upgrade(host(), "http://" + host()));
+    for (int i = 0; i < 200; ++i, ++sent) {
+      std::string frame = seeds[random() % seeds.size()];
+      for (unsigned change = random() % 4; change > 0; --change) {
+        frame[random() % frame.size()] = static_cast<char>(random());
+      }
+      if (random() % 8 == 0) frame.resize(random() % frame.size());
+      if (!browser.say(frame)) break;
+    }
+  }
+  EXPECT_NE(open(), nullptr);
+}
+
+}  // namespace
+}  // namespace splash::view
