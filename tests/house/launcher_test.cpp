@@ -122,7 +122,7 @@ TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
   const CommandResult command = launch("dmeo");
   EXPECT_EQ(command.exit_code, 64);
   EXPECT_THAT(command.output,
-              AllOf(HasSubstr("dmeo"), HasSubstr("there are demo, run, service, test")));
+              AllOf(HasSubstr("dmeo"), HasSubstr("there are demo, run, play, service, test")));
   EXPECT_EQ(launch("demo --no-instal").exit_code, 64);
   EXPECT_EQ(run_command(std::string(SPLASH_SOURCE_DIR) + "/splash test --filter").exit_code, 64);
   EXPECT_EQ(launch("run").exit_code, 64);
@@ -210,8 +210,8 @@ TEST_F(Launcher, WordsThatAreNoCommandsGetTheNearestOne) {
   EXPECT_THAT(option.output, HasSubstr("did you mean --duration?"));
   const CommandResult foreign = launch("test --rig stereo");
   EXPECT_EQ(foreign.exit_code, 64);
-  EXPECT_THAT(foreign.output, HasSubstr("--rig is for demo, run, service"));
-  EXPECT_THAT(launch("test --out x").output, HasSubstr("--out is for demo, run, bundle"));
+  EXPECT_THAT(foreign.output, HasSubstr("--rig is for demo, run, play, service"));
+  EXPECT_THAT(launch("test --out x").output, HasSubstr("--out is for demo, run, play, bundle"));
 }
 
 }  // namespace
