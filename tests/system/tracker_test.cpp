@@ -74,6 +74,22 @@ TEST(Tracker, OnePlungeIsOneImpact) {
   std::cout << "speed " << impacts[0].speed << " m/s at " << impacts[0].position.z << " m\n";
 }
 
+// Of a body that stays where it is: what moves it is the hand alone.
+TEST(Tracker, AGrabbedBodyPlungesOnce) {
+  const SmallScene scene("{kind: fixed}\n    rest: {position: [0, 0, 0.35]}");
+  const std::string log = temporary_path("grabbed.osc");
+  Simulator simulator({"--scene", scene.path(), "--record", log});
+  EXPECT_EQ(simulator.ask({"/body/grab", {7, 1}}, "/fail").arguments.size(), 2U) << "no such body";
+  EXPECT_FALSE(simulator.ask({"/body/grab", {0, 1}}, "/done").arguments.empty());
+  drive(simulator);
+  simulator.process().signal(SIGTERM);
+  ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  const auto impacts = impacts_in(log);
+  std::filesystem::remove(log);
+  ASSERT_EQ(impacts.size(), 1U) << simulator.process().output();
+  EXPECT_NEAR(static_cast<double>(impacts[0].speed), kSpeed, 0.5 * kSpeed);
+}
+
 TEST(Tracker, WithoutPosesNothingMoves) {
   const SmallScene scene(tracked());
   const std::string log = temporary_path("untracked.osc");
