@@ -134,6 +134,7 @@ TEST(FrameStream, AViewerThatNeverReadsGetsOneFrameAtATime) {
   for (int i = 0; i < 50; ++i) {
     EXPECT_FALSE(stream.wanted()) << "a second frame would wait in memory";
     stream.offer(numbered(2, kLarge));
+    deaf.ask();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   const Viewer other(stream.local());
