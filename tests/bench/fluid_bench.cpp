@@ -43,7 +43,7 @@ struct Options {
   }
   [[nodiscard]] Limits other_device() const {
     if (there.empty()) return {};
-    return {1e9 * there[0], 1e9 * there[1], 1e-6 * there[2]};
+    return {.bandwidth = 1e9 * there[0], .arithmetic = 1e9 * there[1], .launch = 1e-6 * there[2]};
   }
 
   [[nodiscard]] bool wants(const char* part) const {
