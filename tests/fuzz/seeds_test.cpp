@@ -19,6 +19,7 @@ namespace {
 int mutants(const std::string& target) {
   if (target == "gate") return 700000;
   if (target == "packet") return 270000;
+  if (target == "tracker") return 60000;
   return target == "scene" || target == "rig" ? 3000 : 12000;
 }
 
@@ -134,7 +135,8 @@ std::string name_of(const testing::TestParamInfo<std::string>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Readers, Fuzz,
-                         testing::Values("gate", "packet", "intake", "log", "scene", "rig", "mesh"),
+                         testing::Values("gate", "packet", "intake", "log", "scene", "rig", "mesh",
+                                         "tracker"),
                          name_of);
 
 }  // namespace

@@ -32,12 +32,13 @@ const std::vector<Target>& targets() {
   static const fs::path kYaml = here("yaml.dict");
   static const std::vector<Target> kTargets = {
       {"gate", try_gate, 1600, {here("seeds/packet")}, kOsc, 0.40},
-      {"packet", try_packet, 1600, {here("seeds/packet")}, kOsc, 0.30},
+      {"packet", try_packet, 1600, {here("seeds/packet")}, kOsc, 0.25},
       {"intake", try_intake, 3000, {here("seeds/intake")}, kOsc, 0.05},
       {"log", try_log, 4000, {here("seeds/log")}, kOsc, 0.10},
       {"scene", try_scene, 3000, {here("seeds/scene"), configs("scenes")}, kYaml, 0.05},
       {"rig", try_rig, 3000, {here("seeds/rig"), configs("rigs")}, kYaml, 0.05},
       {"mesh", try_mesh, 3000, {here("seeds/mesh")}, here("mesh.dict"), 0.05},
+      {"tracker", try_tracker, 1600, {here("seeds/tracker")}, kOsc, 0.05},
   };
   return kTargets;
 }

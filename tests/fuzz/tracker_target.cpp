@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Datagrams of trackers through the gate and a body for every preset: what comes out is a pose.
+#include <cmath>
+#include <string>
+
+#include "protocol/message.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/scene_table.hpp"
+#include "sim-server/tracking/tracker_map.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace splash::fuzz {
+namespace {
+
+/// A body for each preset, whose tracker is called 1.
+sim::Scene scene_of_all_presets() {
+  std::string bodies;
+  std::string sources;
+  for (const auto& [preset, entry] : sim::tracker_presets()) {
+    bodies +=
+        "  - {name: " + preset +
+        ", shape: {size: [0.1, 0.1, 0.1]}, motion: {kind: osc}, rest: {position: [0, 0, 1]}}\n";
+    sources += "    - {name: '1', body: " + preset + ", preset: " + preset + "}\n";
+  }
+  return sim::parse_scene(
+      "fluid: {particles: 500}\ntank: {lower: [0, 0, 0], upper: [1, 1, 1]}\n"
+      "water: [{lower: [0, 0, 0], upper: [1, 1, 0.5]}]\nbodies:\n" +
+          bodies + "tracking:\n  yaw: 30\n  sources:\n" + sources,
+      "presets.yaml");
+}
+
+void check(const sim::MappedPose& pose, std::size_t bodies) {
+  promise(pose.body < bodies, "a pose of no body");
+  if (pose.refusal != sim::PoseRefusal::none) {
+    promise(pose.refusal == sim::PoseRefusal::malformed ||
+                pose.refusal == sim::PoseRefusal::no_rotation,
+            "a refusal that is not of a pose");
+    return;
+  }
+  for (const double part : pose.position) promise(std::isfinite(part), "a place that is no number");
+  double square = 0.0;
+  for (const double part : pose.rotation) square += part * part;
+  promise(std::abs(square - 1.0) < 1.0e-9, "a rotation that is none");
+}
+
+}  // namespace
+
+bool try_tracker(Bytes input) {
+  static const sim::Scene kScene = scene_of_all_presets();
+  const std::vector<std::byte> tight(input.begin(), input.end());
+  const protocol::DecodeResult decoded = protocol::decode(tight);
+  sim::TrackerMap map(kScene);
+  bool taken = false;
+  for (const protocol::Message& message : decoded.packet.messages) {
+    taken |= map.take(message, {},
+                      [](const sim::MappedPose& pose) { check(pose, kScene.bodies.size()); });
+  }
+  return taken;
+}
+
+}  // namespace splash::fuzz
