@@ -84,9 +84,8 @@ void FrameStream::offer(ViewFrame frame) {
 }
 
 void FrameStream::run() {
-  std::vector<pollfd> polled;
   while (!ending_) {
-    polled = {{listener_, POLLIN, 0}, {wake_, POLLIN, 0}};
+    std::vector<pollfd> polled = {{listener_, POLLIN, 0}, {wake_, POLLIN, 0}};
     {
       const std::lock_guard lock(mutex_);
       for (const Viewer& viewer : viewers_) {

@@ -2,6 +2,7 @@
 #include "synth-server/monitor.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -96,8 +97,7 @@ bool Monitor::take() {
   const double next = first_.number + 0.5 * static_cast<double>(sound_.size());
   if (!sound_.empty() && read_.number != next) sound_.clear();  // after a gap it begins anew
   if (sound_.empty()) first_ = read_;
-  sound_.insert(sound_.end(), read_.sound.begin(),
-                read_.sound.begin() + std::ptrdiff_t{2} * read_.frames);
+  std::copy_n(read_.sound.begin(), std::ptrdiff_t{2} * read_.frames, std::back_inserter(sound_));
   if (static_cast<double>(sound_.size()) >= 2.0 * read_.sample_rate / kSoundRate) tell_sound();
   if (peak_frames_ >= read_.sample_rate / kLevelsRate) tell_levels();
   return true;

@@ -43,7 +43,7 @@ kernel void triad(global const wide* a, global const wide* b, global wide* c, fl
     out[get_global_id(0)] = last(a);                                          \
   }
 SUMS(multiply_add, wide, LAST)
-// Scalar instructions that do not wait for each other: shifts, which no vector of eight has to save.
+// Scalar instructions that do not wait for each other: shifts, which no vector saves.
 kernel void shift(global uint* out, int rounds) {
   uint a = get_global_id(0), b = a + 1, c = a + 2, d = a + 3, e = a + 4, f = a + 5;
   for (int round = 0; round < rounds; ++round) {
