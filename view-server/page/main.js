@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// Puts the parts of the page together and draws a picture whenever the browser takes one.
+import { Camera } from './camera.js';
+import { Strip, drawMeters, drawScope } from './charts.js';
+import { Gamepads } from './gamepad.js';
+import { Grabs } from './grab.js';
+import { LightMaps } from './light.js';
+import { Link } from './link.js';
+import { Panel } from './panel.js';
+import { Particles } from './particles.js';
+import { Playout } from './playout.js';
+import { Points } from './points.js';
+import { Pointers } from './pointer.js';
+import { Film, savePicture } from './record.js';
+import { Rings } from './rings.js';
+import { Solids } from './solids.js';
+import { Sound } from './sound.js';
+import { between, mix } from './vector.js';
+import { Water } from './water.js';
+
+const at = (id) => document.getElementById(id);
+const options = new URLSearchParams(location.search); // ?points, ?share=0.5
+const canvas = at('water');
+const gl = canvas.getContext('webgl2', { antialias: false, powerPreference: 'high-performance' });
+if (!gl) {
+  at('state').textContent = 'This browser has no WebGL 2, without which nothing can be drawn.';
+  throw new Error('no WebGL 2');
+}
+canvas.addEventListener('webglcontextlost', () => location.reload());
+const smooth = gl.getExtension('EXT_color_buffer_float') && !options.has('points');
+
+const camera = new Camera();
+const particles = new Particles(gl);
+const solids = new Solids(gl);
+const rings = new Rings(gl);
+const playout = new Playout();
+const strip = new Strip(at('strip'));
+const lights = smooth ? new LightMaps(gl) : null;
+const water = smooth ? new Water(gl) : null;
+const points = smooth ? null : new Points(gl);
+
+const FALL = 0.8; // of a shown peak from one frame of levels to the next
+
+let world = null; // the scene
+let peaks = null; // of all channels
+let tiles = [0, 0, 1, 0];
+let tilesFirst = 0;
+let muted = false;
+let alive = { sim: false, synth: false };
+let wantsPicture = false;
+const status = {};
+const shown = []; // lag of events to the picture [s]
+
+const link = new Link({
+  open: () => grabs.again(),
+  closed: () => { alive = { sim: false, synth: false }; playout.clear(); },
+  told: (said) => { alive = said; },
+  SPC1: (scene) => {
+    world = scene;
+    world.level = null;
+    grabs.letAllGo();
+    grabs.bound(scene.tank);
+    playout.clear();
+    solids.build(scene);
+    at('scene').textContent = scene.name;
+    document.title = `${scene.name} - splash`;
+  },
+  SPS1: (state) => {
+    playout.push(state, link.now());
+    if (world && world.level === null) setLevel(state);
+  },
+  SPR1: (rig) => {
+    const floor = rig.outputs.find(({ kind }) => kind === 'tiles');
+    tiles = floor ? [floor.place[0], floor.place[1], floor.tile_size, floor.tiles[0]] : [0, 0, 1, 0];
+    tilesFirst = floor?.first ?? 0;
+    panel.build(rig);
+  },
+  SPL1: (levels) => {
+    muted = levels.muted;
+    pressed('mute', muted);
+    const before = peaks?.length === levels.peaks.length ? peaks : levels.peaks;
+    peaks = levels.peaks.map((peak, i) => Math.max(peak, FALL * before[i]));
+  },
+  SPA1: (frame) => sound.take(frame),
+  osc: ({ address, values, time }) => {
+    if (address === '/status.reply') status[values[0]] = values;
+    else if (address === '/value') panel.value(values);
+    else if (address === '/fail') warn(`${values[0]}: ${values[1]}`);
+    else if (address in EVENTS) happen(address, values, time);
+  },
+});
+const sound = new Sound(link);
+const grabs = new Grabs(link);
+const panel = new Panel(at('rows'), at('preset'), link);
+const pointers = new Pointers(canvas, camera, solids, grabs);
+const gamepads = new Gamepads(camera, solids, grabs);
+const film = new Film(canvas, sound);
+
+/// Still water's height: that of nine tenths of the particles at the start.
+function setLevel(state) {
+  const places = new Uint16Array(state.particles.buffer, state.particles.byteOffset);
+  const heights = new Uint16Array(state.count);
+  for (let i = 0; i < state.count; ++i) heights[i] = places[4 * i + 2];
+  heights.sort();
+  world.level = state.lower[2] + state.unit * heights[Math.floor(0.9 * state.count)] + world.spacing / 2;
+  camera.aspect = canvas.width / canvas.height;
+  camera.frame(world.tank);
+}
+
+/// Where the place and the moment after the bundle stand, and how strong it is drawn.
+const EVENTS = {
+  '/impact': (v) => ({ place: v.slice(4, 7), after: v[7], strength: Math.min(1, v[3] / 2) }),
+  '/bubble': (v) => ({ place: v.slice(4, 7), after: v[7], strength: Math.min(1, v[2] / 0.012) }),
+  '/cavity': (v) => ({ place: v.slice(4, 7), after: v[7], strength: Math.min(1, v[2] / 0.06) }),
+};
+
+function happen(kind, values, bundle) {
+  const { place, after, strength } = EVENTS[kind](values);
+  const event = { kind, place, strength, values, time: (bundle ?? link.now()) + after / 1000 };
+  rings.add(event);
+  strip.add(event);
+  window.splash.events.push(event);
+  if (window.splash.events.length > 1000) window.splash.events.shift();
+}
+
+let warned = 0;
+function warn(text) {
+  at('state').textContent = text;
+  at('state').className = 'warning';
+  warned = performance.now();
+}
+
+function tellState() {
+  if (performance.now() - warned < 4000) return;
+  const [sim, synth] = [status['sim-server'], status['synth-server']];
+  let text;
+  let bad = true;
+  if (!link.isOpen) text = 'view-server does not answer; connecting again';
+  else if (!alive.sim) text = 'No simulator yet: it is started with --show';
+  else if (!world || !playout.states.length) text = 'The water comes to rest';
+  else if (sim && sim[11] < 0.9 && sim[11] > 0) {
+    text = `Slower than real time: ${sim[11].toFixed(2)} simulated seconds a second`;
+  } else if (!alive.synth) text = 'No synth: the water is seen, not heard';
+  else {
+    bad = false;
+    text = muted ? 'Muted' : world.description;
+    if (synth && synth[3] > 0) text += ` (${synth[3]} events late)`;
+  }
+  if (at('state').textContent !== text) at('state').textContent = text;
+  at('state').className = bad ? 'warning' : '';
+}
+
+function tellFigures() {
+  const ms = (x) => `${Math.round(1000 * x)} ms`;
+  const sim = status['sim-server'];
+  const parts = [`${world.particles} particles`, `${rate.toFixed(0)} pictures/s`,
+    `95 % of pictures younger than ${ms(playout.age)}`];
+  if (sound.lag !== null) {
+    const picture = shown.length ? shown.reduce((a, b) => a + b) / shown.length : 0;
+    parts.push(`event to picture ${ms(picture)}, to sound ${ms(sound.lag)}, apart ${
+      ms(Math.abs(sound.lag - picture))}`);
+  }
+  if (sim) parts.push(`${sim[11].toFixed(2)} of real time`, `${sim[3]} impacts, ${sim[4]} bubbles, ${sim[5]} cavities`);
+  at('figures').textContent = parts.join('  ·  ');
+}
+
+/// Sharpness of the water, given up where pictures come too slowly.
+let share = Number(options.get('share')) || 1;
+let rate = 60;
+let meanTook = 1000 / 60; // [ms]
+let before = performance.now();
+function keepPace() {
+  const now = performance.now();
+  const took = Math.min(now - before, 2000);
+  before = now;
+  meanTook += Math.min(took / 1000, 0.2) * (took - meanTook); // over about a second
+  rate = 1000 / Math.max(meanTook, 1);
+  if (options.has('share')) return;
+  if (rate < 45) share = Math.max(0.4, share - 0.005);
+  else if (rate > 57) share = Math.min(1, share + 0.002);
+}
+
+function poseBodies({ older, newer, share: t }) {
+  newer.bodies.forEach((body, i) => {
+    const from = older.bodies[i] ?? body;
+    solids.pose(i, mix(from.place, body.place, t), between(from.turn, body.turn, t));
+    solids.bodies[i].glow = grabs.holds(i) ? 1 : pointers.hovered === i ? 0.45 : 0;
+  });
+}
+
+let pictures = 0;
+let answered = null; // the newest state that was drawn and answered with a question for the next
+function picture() {
+  requestAnimationFrame(picture);
+  keepPace();
+  gamepads.poll();
+  const dense = Math.min(window.devicePixelRatio, 2);
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  camera.aspect = width / height;
+  const now = link.now();
+  const view = world && playout.at(now, sound.lag === null ? 0 : sound.lag - 0.025);
+  if (view) {
+    shown.push(now - view.moment);
+    if (shown.length > 60) shown.shift();
+    particles.show(view);
+    poseBodies(view);
+    drawAll({ width, height, share }, view.moment);
+    if (wantsPicture) savePicture(canvas, world.name);
+    wantsPicture = false;
+    ++pictures;
+    if (pictures % 3 === 0) drawCharts(now);
+  }
+  const newest = playout.states.at(-1);
+  if (newest && newest !== answered) {
+    answered = newest;
+    link.ask();
+  }
+}
+
+function drawAll(size, moment) {
+  const seen = camera.matrices();
+  const marks = () => rings.draw(seen, moment, camera.size);
+  if (points) return points.draw(size, seen, world, particles, solids, marks);
+  lights.draw(world, particles, solids.bodies);
+  const levels = new Float32Array(64);
+  if (peaks) levels.set(peaks.slice(tilesFirst, tilesFirst + 64));
+  const rig = { tiles, levels };
+  return water.draw(size, seen, world, particles, lights.uniforms,
+    () => solids.draw(seen, lights.uniforms, rig), marks);
+}
+
+function drawCharts(now) {
+  strip.draw(now);
+  drawMeters(at('meters'), peaks);
+  if (at('scope').clientWidth > 0) drawScope(at('scope'), sound);
+}
+
+const pressed = (id, on) => at(id).setAttribute('aria-pressed', on);
+const ACTS = {
+  sound: async () => {
+    if (sound.isOn) await sound.stop();
+    else await sound.start();
+    pressed('sound', sound.isOn);
+  },
+  mute: () => link.send('/mute', ',i', muted ? 0 : 1),
+  look: () => world && camera.frame(world.tank),
+  picture: () => { wantsPicture = true; },
+  film: () => {
+    if (film.isOn) return film.stop();
+    film.start(world?.name ?? 'splash', () => pressed('film', false));
+    return pressed('film', true);
+  },
+  more: () => {
+    at('panel').hidden = !at('panel').hidden;
+    at('more').setAttribute('aria-expanded', !at('panel').hidden);
+  },
+};
+const KEYS = { s: 'sound', m: 'mute', v: 'look', p: 'picture', f: 'film', o: 'more' };
+for (const [id, act] of Object.entries(ACTS)) at(id).addEventListener('click', act);
+window.addEventListener('keydown', (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest('input, select')) return;
+  if (KEYS[event.key]) ACTS[KEYS[event.key]]();
+  const turn = { ArrowLeft: [0.06, 0], ArrowRight: [-0.06, 0], ArrowUp: [0, 0.06],
+    ArrowDown: [0, -0.06] }[event.key];
+  if (turn && document.activeElement === canvas) camera.orbit(...turn);
+});
+canvas.addEventListener('pointerdown', () => at('hint').classList.add('done'));
+document.addEventListener('visibilitychange', () => document.hidden && grabs.letAllGo());
+window.addEventListener('pagehide', () => grabs.letAllGo());
+
+setInterval(() => {
+  tellState();
+  if (world) tellFigures();
+}, 250);
+
+/// For tests and for whoever looks with the browser's tools.
+window.splash = { camera, solids, playout, sound, link, grabs, events: [], peaks: () => peaks,
+  rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, share: () => share, world: () => world };
+requestAnimationFrame(picture);

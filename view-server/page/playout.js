@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Which two states a picture lies between. States are shown by their moments, held back by what
+// nine of ten of them came late after the one before them, so that motion is even.
+
+const HOLD_MAX = 0.05; // [s]
+const KEEP = 90; // arrivals, and shown ages, that are looked at
+
+export function quantile(values, share) {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 0;
+}
+
+export class Playout {
+  constructor() {
+    this.clear();
+  }
+
+  clear() {
+    this.states = [];
+    this.lateness = [];
+    this.ages = [];
+    this.hold = 0;
+  }
+
+  push(state, now) {
+    const last = this.states.at(-1);
+    if (last && (state.moment <= last.moment || state.count !== last.count)) this.states = [];
+    else if (last) this.lateness.push(now - last.moment);
+    if (this.lateness.length > KEEP) this.lateness.shift();
+    this.states.push(state);
+    if (this.states.length > 8) this.states.shift();
+  }
+
+  /// {older, newer, share} at this moment; null before the first state.
+  at(now, extra = 0) {
+    if (this.states.length === 0) return null;
+    const wanted = Math.min(Math.max(quantile(this.lateness, 0.9), extra, 0), HOLD_MAX);
+    this.hold += 0.05 * (wanted - this.hold);
+    const shown = now - this.hold;
+    while (this.states.length > 2 && this.states[1].moment <= shown) this.states.shift();
+    const [older, newer = older] = this.states;
+    const span = newer.moment - older.moment;
+    const share = span > 0 ? Math.min(Math.max((shown - older.moment) / span, 0), 1) : 1;
+    const moment = older.moment + share * span;
+    this.ages.push(now - moment);
+    if (this.ages.length > KEEP) this.ages.shift();
+    return { older, newer, share, moment };
+  }
+
+  /// How old 95 of 100 shown pictures were at most [s].
+  get age() {
+    return quantile(this.ages, 0.95);
+  }
+}
