@@ -2,9 +2,9 @@
 #include "synth-server/monitor.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "protocol/time_tag.hpp"
