@@ -131,7 +131,7 @@ void FrameStream::welcome() {
 }
 
 void FrameStream::hear(Viewer& viewer) {
-  std::array<std::byte, 256> bytes;
+  std::array<std::byte, 256> bytes{};
   const ssize_t count = recv(viewer.descriptor, bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (count <= 0) {
