@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace splash::protocol {
@@ -24,6 +25,13 @@ inline constexpr std::string_view kRigFrame = "SPR1";
 inline constexpr std::string_view kLevelsFrame = "SPL1";
 inline constexpr std::string_view kSoundFrame = "SPA1";
 
+/// The unsigned integer of a number's size.
+template <class Number>
+using FrameBits = std::conditional_t<
+    sizeof(Number) == 8, std::uint64_t,
+    std::conditional_t<sizeof(Number) == 4, std::uint32_t,
+                       std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint8_t>>>;
+
 class FrameWriter {
  public:
   /// `kind`: four characters; `moment`: Unix time [s].
@@ -35,13 +43,7 @@ class FrameWriter {
 
   template <class Number>
   requires std::integral<Number> || std::floating_point<Number>
-  void put(Number value) {
-    using Bits = std::conditional_t<
-        sizeof(Number) == 8, std::uint64_t,
-        std::conditional_t<sizeof(Number) == 4, std::uint32_t,
-                           std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint8_t>>>;
-    store(std::bit_cast<Bits>(value), sizeof(Number));
-  }
+  void put(Number value) { store(std::bit_cast<FrameBits<Number>>(value), sizeof(Number)); }
   void text(std::string_view text) {
     const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
     bytes_.insert(bytes_.end(), bytes, bytes + text.size());
@@ -69,10 +71,7 @@ class FrameWriter {
 /// A little-endian number of a frame.
 template <class Number>
 [[nodiscard]] Number frame_number(const std::byte* bytes) noexcept {
-  using Bits = std::conditional_t<
-      sizeof(Number) == 8, std::uint64_t,
-      std::conditional_t<sizeof(Number) == 4, std::uint32_t,
-                         std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint8_t>>>;
+  using Bits = FrameBits<Number>;
   Bits bits = 0;
   for (std::size_t i = 0; i < sizeof(Number); ++i) {
     bits = static_cast<Bits>(bits | static_cast<Bits>(bytes[i]) << (8 * i));

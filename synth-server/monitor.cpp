@@ -95,15 +95,15 @@ bool Monitor::take() {
   for (std::size_t c = 0; c < peaks_.size(); ++c) peaks_[c] = std::max(peaks_[c], peaks_read_[c]);
   peak_frames_ += read_.frames;
   const double next = first_.number + 0.5 * static_cast<double>(sound_.size());
-  if (!sound_.empty() && read_.number != next) sound_.clear();  // after a gap it begins anew
+  if (!sound_.empty() && read_.number != next) sound_.clear();  // a gap: the next frame starts here
   if (sound_.empty()) first_ = read_;
   std::copy_n(read_.sound.begin(), std::ptrdiff_t{2} * read_.frames, std::back_inserter(sound_));
-  if (static_cast<double>(sound_.size()) >= 2.0 * read_.sample_rate / kSoundRate) tell_sound();
-  if (peak_frames_ >= read_.sample_rate / kLevelsRate) tell_levels();
+  if (static_cast<double>(sound_.size()) >= 2.0 * read_.sample_rate / kSoundRate) send_sound();
+  if (peak_frames_ >= read_.sample_rate / kLevelsRate) send_levels();
   return true;
 }
 
-void Monitor::tell_sound() {
+void Monitor::send_sound() {
   if (stream_.wanted()) {
     protocol::FrameWriter writer(protocol::kSoundFrame, to_unix(first_.time));
     writer.reserve(16 + sizeof(float) * sound_.size());
@@ -116,7 +116,7 @@ void Monitor::tell_sound() {
   sound_.clear();
 }
 
-void Monitor::tell_levels() {
+void Monitor::send_levels() {
   if (stream_.wanted()) {
     protocol::FrameWriter writer(protocol::kLevelsFrame,
                                  to_unix(read_.time + read_.frames / read_.sample_rate));

@@ -39,15 +39,15 @@ class Monitor {
     double number = 0.0;       ///< of that frame since the start
     double sample_rate = 0.0;  ///< [Hz]
     int frames = 0;
-    std::array<float, std::size_t{2} * kSlotFrames> sound;  ///< left, right, left, ...
+    std::array<float, std::size_t{2} * kSlotFrames> sound{};  ///< left, right, left, ...
   };
 
   void put(const float* const* channels, int from, int frames, double time,
            double sample_rate) noexcept;
   void run();
   bool take();
-  void tell_sound();
-  void tell_levels();
+  void send_sound();
+  void send_levels();
 
   std::vector<Pan> pans_;
   std::function<bool()> is_muted_;
@@ -61,7 +61,7 @@ class Monitor {
   std::vector<float> peaks_read_;
   std::vector<float> peaks_;  ///< since the last levels
   int peak_frames_ = 0;
-  Slot first_;  ///< where the sound begins that is not told yet
+  Slot first_;  ///< start of the sound that is to be sent next
   std::vector<float> sound_;
 
   protocol::FrameStream stream_;

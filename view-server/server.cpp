@@ -312,7 +312,8 @@ class Server::Hub final : public PageOwner {
   void accept() {
     acceptor_.async_accept([this](const error_code& error, tcp::socket socket) {
       if (!error) {
-        socket.set_option(tcp::no_delay(true));
+        error_code ignored;  // a browser may be gone again
+        socket.set_option(tcp::no_delay(true), ignored);
         std::make_shared<Visit>(
             std::move(socket), options_.origins,
             [this](auto stream, const Request& request) { welcome(std::move(stream), request); })

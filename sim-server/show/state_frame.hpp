@@ -40,7 +40,7 @@ struct ShownState {
   std::vector<Vector3> bubbles;  ///< [m]
 };
 
-inline constexpr double kShownSpeed = 8.0;  ///< the fastest that is told apart [m/s]
+inline constexpr double kShownSpeed = 8.0;  ///< faster particles are shown at this speed [m/s]
 
 [[nodiscard]] protocol::ViewFrame state_frame(const ShownWater& water, const ShownState& state);
 

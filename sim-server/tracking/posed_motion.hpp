@@ -21,13 +21,13 @@ class PosedMotion : public Motion {
   /// Quaternions need not have unit length.
   virtual PoseRefusal push(const Vector3& position, const Quaternion& rotation,
                            const PoseStamp& stamp) = 0;
-  /// What came until now is what `at` knows until the next frame begins.
+  /// Starts a frame: until the next one, `at` uses the poses received so far.
   virtual void begin(const PlayedFrame& frame) = 0;
   /// From now on it follows its poses, or its own motion.
   virtual void grab(bool /*on*/) {}
-  /// Whether poses move it now that else follows its own motion.
+  /// True while poses move a body that also has a motion of its own.
   [[nodiscard]] virtual bool is_held() const noexcept { return false; }
-  /// Whether poses alone move it.
+  /// True for a body that only poses move.
   [[nodiscard]] virtual bool is_tracked() const noexcept { return true; }
 };
 

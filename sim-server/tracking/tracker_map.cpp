@@ -98,8 +98,9 @@ std::optional<Quaternion> rotation_of(const TrackerSource& source,
   return along(source, unit({numbers[0], numbers[1], numbers[2], numbers[3]}));
 }
 
-/// Whether two messages tell of one moment.
-bool is_one_moment(const PoseStamp& a, const PoseStamp& b) {
+/// True if two messages describe the tracker at the same time: by their time tags or, without
+/// tags, by their arrival.
+bool are_simultaneous(const PoseStamp& a, const PoseStamp& b) {
   if (a.sent && b.sent) return *a.sent == *b.sent;
   return a.sent.has_value() == b.sent.has_value() && std::abs(a.arrival - b.arrival) <= kTogether;
 }
@@ -148,7 +149,7 @@ std::optional<MappedPose> TrackerMap::read(Source& source, const protocol::Messa
                                            bool has_rotation) {
   const TrackerSource& settings = source.settings;
   const bool known = source.position || source.rotation;
-  if (known && !is_one_moment(source.stamp, stamp)) source.position = {}, source.rotation = {};
+  if (known && !are_simultaneous(source.stamp, stamp)) source.position = {}, source.rotation = {};
   source.stamp = stamp;
   if (has_position) {
     const auto numbers = numbers_at(message, settings.position);

@@ -43,7 +43,8 @@ class TrackerMap {
     PoseStamp stamp = {};                     ///< of the one that is known
   };
 
-  /// Of a message that is the source's.
+  /// Takes in a message that the source's addresses match; a pose once it is complete, or why it
+  /// is refused.
   [[nodiscard]] static std::optional<MappedPose> read(Source& source,
                                                       const protocol::Message& message,
                                                       const PoseStamp& stamp, bool has_position,

@@ -19,8 +19,8 @@ double density(double radius) noexcept {
   return std::pow(radius / kHinze, radius < kHinze ? -1.5 : -10.0 / 3.0);
 }
 
-/// N_told, in closed form.
-double told() noexcept {
+/// N_sim, in closed form.
+double simulated() noexcept {
   const auto below = [](double radius) {
     return -3.0 / 7.0 * kHinze * std::pow(radius / kHinze, -7.0 / 3.0);
   };
@@ -42,7 +42,7 @@ double fine_energy(const ToneSound& bubble, std::size_t band) noexcept {
     const double r = middle * std::exp((i + 0.5 - 0.5 * kSteps) * step);
     sum += density(r) * r * r / (4.0 * bubble.damping * paper_damping(r, bubble)) * r * step;
   }
-  return sum / told();
+  return sum / simulated();
 }
 
 FineWater::FineWater(const Rig& rig, double sample_rate, std::uint64_t seed)
@@ -91,7 +91,7 @@ void FineWater::add(const Sound& sound, double epsilon, std::span<const Route> r
   for (const Route& route : routes) {
     Channel& channel = channels_[static_cast<std::size_t>(route.channel)];
     if (!channel.reaches) continue;
-    channel.told += route.gain * route.gain * amplitude * amplitude / fine_.release;
+    channel.added += route.gain * route.gain * amplitude * amplitude / fine_.release;
   }
 }
 
@@ -124,8 +124,8 @@ void FineWater::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
 
 void FineWater::end_cell() noexcept {
   for (Channel& channel : channels_) {
-    channel.falling += channel.told;
-    channel.told = 0.0;
+    channel.falling += channel.added;
+    channel.added = 0.0;
     const bool sounds = std::max(channel.falling, channel.envelope) * power_ > kSilent;
     if (channel.sounds && !sounds) {
       channel.falling = channel.envelope = 0.0;
@@ -136,7 +136,7 @@ void FineWater::end_cell() noexcept {
 }
 
 void FineWater::clear() noexcept {
-  for (Channel& channel : channels_) channel.falling = channel.told = 0.0;
+  for (Channel& channel : channels_) channel.falling = channel.added = 0.0;
 }
 
 }  // namespace splash::synth

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Bubbles too small for the simulator, for outputs that reach above 1 kHz: thousands for each that
-// it tells, so that their sum is noise. In a third of an octave their energy per bubble told is
-//   E = integral of N(r) / N_told (eps r)^2 / (4 d(r)) dr
+// Bubbles too small for the simulator, for outputs that reach above 1 kHz: thousands for each
+// simulated one, so that their sum is noise. In a third of an octave their energy per simulated
+// bubble is
+//   E = integral of N(r) / N_sim (eps r)^2 / (4 d(r)) dr
 // over the radii that sound there; N(r) ~ r^(-10/3) above the Hinze scale of 1 mm and r^(-3/2)
-// under it (G. B. Deane, M. D. Stokes 2002, Nature 418), N_told its integral from 3 to 30 mm, which
-// the simulator tells. Twelve such bands from 1 to 16 kHz; the energy is spread over some 20 ms
-// after each bubble. What it costs does not depend on how many there are.
+// under it (G. B. Deane, M. D. Stokes 2002, Nature 418), N_sim its integral from 3 to 30 mm, the
+// radii that the simulator has. Twelve such bands from 1 to 16 kHz; the energy is spread over some
+// 20 ms after each bubble. What it costs does not depend on how many there are.
 #pragma once
 
 #include <array>
@@ -32,13 +33,13 @@ class FineWater {
  public:
   FineWater(const Rig& rig, double sample_rate, std::uint64_t seed);
 
-  /// A bubble of this `epsilon` [1] was told, which goes to these channels. Heard from the next
-  /// cell on.
+  /// A simulated bubble of this `epsilon` [1] starts on these channels; its fine water sounds from
+  /// the next cell on.
   void add(const Sound& sound, double epsilon, std::span<const Route> routes) noexcept;
   /// Adds samples [from, to) of all channels; both within one cell.
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
   void end_cell() noexcept;
-  /// Forgets all that was told.
+  /// No bubble excites it any more; what sounds decays.
   void clear() noexcept;
 
  private:
@@ -46,8 +47,8 @@ class FineWater {
   struct Channel {
     bool reaches = false;  ///< above 1 kHz
     bool sounds = false;
-    double told = 0.0;        ///< in this cell [full scale^2 / s], of unit bands
-    double falling = 0.0;     ///< what was told, falling
+    double added = 0.0;       ///< in this cell [full scale^2 / s], of unit bands
+    double falling = 0.0;     ///< the sum of what was added, decaying
     double envelope = 0.0;    ///< the same with its attack: mean square of unit bands
     Bands first{}, second{};  ///< the filters' states
     Noise noise;

@@ -4,8 +4,8 @@
 // Synthesis using Coupled Bubbles"; their modes: M y'' + K y = 0, M_ij = (d_ij^2 / (r_i r_j) +
 // 4)^(-1/2), M_ii = 1, K_ii = w_i^2). A new bubble's pitch follows at its birth from those around
 // it,
-//   f' = f / sqrt(1 + S / (1 + S / 5)),   S = sum_j r_j min(1, (f_j / f)^2) / sqrt(d_j^2 + 4 r
-//   r_j):
+//   f' = f / sqrt(1 + S / (1 + S / 5)),
+//   S  = sum_j r_j min(1, (f_j / f)^2) / sqrt(d_j^2 + 4 r r_j):
 // S is the water that the others add to the bubble's own when they follow it, the stiff ones
 // wholly, soft ones by their pitch. It counts ever less: in a large crowd the others hold each
 // other back, and a part of the bubble's power stays in modes near its own pitch. The 5 is ours:

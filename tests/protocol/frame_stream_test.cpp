@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "protocol/frame_stream.hpp"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -16,12 +12,14 @@
 #include <thread>
 
 #include "protocol/time_tag.hpp"
+#include "tests/support/frame_viewer.hpp"
 
 namespace splash::protocol::test {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::FrameViewer;
 
 constexpr double kPatience = 5.0;  // [s]
 
@@ -40,54 +38,6 @@ ViewFrame numbered(std::uint32_t number, std::size_t more = 0) {
   for (std::size_t i = 0; i < more; ++i) writer.put(std::uint8_t{7});
   return std::move(writer).take();
 }
-
-class Viewer {
- public:
-  explicit Viewer(const Endpoint& where, int receive_buffer = 0)
-      : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
-    if (receive_buffer > 0) {
-      setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
-    }
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(where.address);
-    address.sin_port = htons(where.port);
-    EXPECT_EQ(connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  }
-  ~Viewer() { close(descriptor_); }
-  Viewer(const Viewer&) = delete;
-  Viewer& operator=(const Viewer&) = delete;
-
-  void ask(std::size_t times = 1) const {
-    const std::string bytes(times, '.');
-    EXPECT_EQ(send(descriptor_, bytes.data(), times, MSG_NOSIGNAL), static_cast<ssize_t>(times));
-  }
-  [[nodiscard]] bool has_more(int milliseconds = 100) const {
-    pollfd readable{descriptor_, POLLIN, 0};
-    return poll(&readable, 1, milliseconds) > 0;
-  }
-  [[nodiscard]] ViewFrame read() const {
-    ViewFrame frame(kFrameHead);
-    take(frame.data(), frame.size());
-    const auto size = frame_number<std::uint32_t>(&frame[4]);
-    if (size < kFrameHead || size > (1U << 24U)) return {};
-    frame.resize(size);
-    take(frame.data() + kFrameHead, size - kFrameHead);
-    return frame;
-  }
-
- private:
-  void take(std::byte* to, std::size_t size) const {
-    std::size_t done = 0;
-    while (done < size && has_more(5000)) {
-      const ssize_t count = recv(descriptor_, to + done, size - done, 0);
-      if (count <= 0) break;
-      done += static_cast<std::size_t>(count);
-    }
-    EXPECT_EQ(done, size);
-  }
-  int descriptor_;
-};
 
 TEST(FrameWriter, WritesLittleEndianWhateverTheMachine) {
   FrameWriter writer("ABCD", 1.5);
@@ -108,7 +58,7 @@ TEST(FrameStream, ShowsAFrameForEachThatWasAskedFor) {
   FrameStream stream({}, numbered(0));
   EXPECT_FALSE(stream.wanted());
   stream.offer(numbered(1));  // nobody is there
-  const Viewer viewer(stream.local());
+  const FrameViewer viewer(stream.local());
   EXPECT_EQ(viewer.read(), numbered(0));
   EXPECT_FALSE(stream.wanted());
   viewer.ask();
@@ -127,7 +77,7 @@ TEST(FrameStream, ShowsAFrameForEachThatWasAskedFor) {
 TEST(FrameStream, AViewerThatNeverReadsGetsOneFrameAtATime) {
   constexpr std::size_t kLarge = 4U << 20U;
   FrameStream stream({}, numbered(0));
-  const Viewer deaf(stream.local(), 4096);
+  const FrameViewer deaf(stream.local(), 4096);
   deaf.ask(1000);
   ASSERT_TRUE(eventually([&] { return stream.wanted(); }));
   stream.offer(numbered(1, kLarge));
@@ -137,7 +87,7 @@ TEST(FrameStream, AViewerThatNeverReadsGetsOneFrameAtATime) {
     deaf.ask();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  const Viewer other(stream.local());
+  const FrameViewer other(stream.local());
   EXPECT_EQ(other.read(), numbered(0));
   other.ask();
   ASSERT_TRUE(eventually([&] { return stream.wanted(); }));
@@ -147,7 +97,7 @@ TEST(FrameStream, AViewerThatNeverReadsGetsOneFrameAtATime) {
 
 TEST(FrameStream, AsksAreKeptThatComeBeforeTheGreetingIsRead) {
   FrameStream stream({}, numbered(0, 8U << 20U));
-  const Viewer viewer(stream.local(), 4096);
+  const FrameViewer viewer(stream.local(), 4096);
   viewer.ask();
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_FALSE(stream.wanted());
@@ -158,7 +108,7 @@ TEST(FrameStream, AsksAreKeptThatComeBeforeTheGreetingIsRead) {
 TEST(FrameStream, ViewersComeAndGo) {
   FrameStream stream({}, numbered(0));
   for (int i = 0; i < 20; ++i) {
-    const Viewer viewer(stream.local());
+    const FrameViewer viewer(stream.local());
     EXPECT_EQ(viewer.read(), numbered(0));
     viewer.ask();
     ASSERT_TRUE(eventually([&] { return stream.wanted(); }));
@@ -168,12 +118,12 @@ TEST(FrameStream, ViewersComeAndGo) {
 
 TEST(FrameStream, NoMoreViewersThanTheLimit) {
   FrameStream stream({}, numbered(0));
-  std::vector<std::unique_ptr<Viewer>> viewers;
+  std::vector<std::unique_ptr<FrameViewer>> viewers;
   for (std::size_t i = 0; i < FrameStream::kViewersMax; ++i) {
-    viewers.push_back(std::make_unique<Viewer>(stream.local()));
+    viewers.push_back(std::make_unique<FrameViewer>(stream.local()));
     EXPECT_EQ(viewers.back()->read(), numbered(0));
   }
-  const Viewer late(stream.local());
+  const FrameViewer late(stream.local());
   ASSERT_TRUE(late.has_more(5000)) << "it is closed";
   EXPECT_EQ(stream.viewers(), FrameStream::kViewersMax);
 }

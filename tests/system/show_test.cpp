@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The real programs and viewers that come, look and go.
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
@@ -15,6 +11,7 @@
 
 #include "protocol/frame.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/support/frame_viewer.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"
@@ -26,47 +23,6 @@ using Json = nlohmann::json;
 using protocol::frame_kind;
 using protocol::frame_number;
 using protocol::ViewFrame;
-
-class Viewer {
- public:
-  explicit Viewer(const protocol::Endpoint& where) : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(where.address);
-    address.sin_port = htons(where.port);
-    EXPECT_EQ(connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  }
-  ~Viewer() { close(descriptor_); }
-  Viewer(const Viewer&) = delete;
-  Viewer& operator=(const Viewer&) = delete;
-
-  void ask(std::size_t times = 1) const {
-    const std::string bytes(times, '.');
-    EXPECT_EQ(send(descriptor_, bytes.data(), times, MSG_NOSIGNAL), static_cast<ssize_t>(times));
-  }
-  /// Of at least a head; empty: none came within ten seconds.
-  [[nodiscard]] ViewFrame read() const {
-    ViewFrame frame(protocol::kFrameHead);
-    if (!take(frame.data(), frame.size())) return {};
-    frame.resize(frame_number<std::uint32_t>(&frame[4]));
-    if (!take(frame.data() + 16, frame.size() - 16)) return {};
-    return frame;
-  }
-
- private:
-  bool take(std::byte* to, std::size_t size) const {
-    while (size > 0) {
-      pollfd readable{descriptor_, POLLIN, 0};
-      const ssize_t count =
-          poll(&readable, 1, 10'000) > 0 ? recv(descriptor_, to, size, 0) : ssize_t{0};
-      if (count <= 0) return false;
-      to += count;
-      size -= static_cast<std::size_t>(count);
-    }
-    return true;
-  }
-  int descriptor_;
-};
 
 /// Where a program that was started with --show lets viewers in.
 protocol::Endpoint shown_at(ChildProcess& process) {
@@ -95,7 +51,7 @@ TEST(Show, TheWaterIsWhereItIsAndTheBodyMoves) {
   const std::string report = temporary_path("shown.json");
   Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
   const protocol::Endpoint where = shown_at(simulator.process());
-  const Viewer viewer(where);
+  const FrameViewer viewer(where);
   const ViewFrame first = viewer.read();
   ASSERT_EQ(frame_kind(first.data()), protocol::kSceneFrame);
   EXPECT_EQ(text_of(first).at("scene"), "small");
@@ -134,10 +90,10 @@ TEST(Show, NothingIsReadBackWhileNobodyAsks) {
   const SmallScene scene(plunging());
   const std::string report = temporary_path("unseen.json");
   Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
-  const Viewer idle(shown_at(simulator.process()));
+  const FrameViewer idle(shown_at(simulator.process()));
   EXPECT_EQ(frame_kind(idle.read().data()), protocol::kSceneFrame);
   {
-    const Viewer once(shown_at(simulator.process()));
+    const FrameViewer once(shown_at(simulator.process()));
     once.ask(500);
     EXPECT_FALSE(once.read().empty());
     EXPECT_FALSE(once.read().empty());
@@ -158,8 +114,8 @@ std::vector<std::byte> splash_now() {
 TEST(Show, LevelsAndSoundAreThoseOfTheDevice) {
   Synth synth({"--rig", rig_path("tiles36.yaml"), "--device", "null", "--show", "127.0.0.1:0"});
   const protocol::Endpoint where = shown_at(synth.process());
-  { const Viewer gone(where); }
-  const Viewer viewer(where);
+  { const FrameViewer gone(where); }
+  const FrameViewer viewer(where);
   const ViewFrame rig = viewer.read();
   ASSERT_EQ(frame_kind(rig.data()), protocol::kRigFrame);
   const auto channels = text_of(rig).at("channels").size();
