@@ -26,6 +26,6 @@ struct Admitted {
 };
 
 /// One OSC message of a page.
-[[nodiscard]] Admitted admit(protocol::Bytes packet);
+[[nodiscard]] Admitted admit(protocol::Bytes bytes);
 
 }  // namespace splash::view

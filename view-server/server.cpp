@@ -119,7 +119,8 @@ class Page : public std::enable_shared_from_this<Page> {
     socket_.set_option(beast::websocket::stream_base::timeout::suggested(beast::role_type::server));
     socket_.read_message_max(protocol::kMaxDatagram);
     socket_.auto_fragment(false);
-    socket_.async_accept(request, [self = shared_from_this(), accepted](const error_code& error) {
+    socket_.async_accept(request, [self = shared_from_this(),
+                                   accepted = std::move(accepted)](const error_code& error) {
       if (error) return self->end();
       accepted();
       self->read();
