@@ -8,7 +8,7 @@
 #include <string>
 
 #include "pd-patches/event_list.hpp"
-#include "protocol/refuse_nan.hpp"
+#include "program/refuse_nan.hpp"
 
 namespace {
 
@@ -50,11 +50,11 @@ int main(int argc, char** argv) {
   app.add_option("list", options.list, "text to write")->required();
   app.add_option("--rate", options.sample_rate, "sample rate of the rendering [Hz]")
       ->check(CLI::Range(8000.0, 384000.0))
-      ->check(splash::protocol::refuse_nan)
+      ->check(splash::program::refuse_nan)
       ->capture_default_str();
   app.add_option("--tail", options.tail, "rendered after the last event [s]")
       ->check(CLI::Range(0.0, 3600.0))
-      ->check(splash::protocol::refuse_nan)
+      ->check(splash::program::refuse_nan)
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "program/write_error.hpp"
 #include "protocol/limits.hpp"
-#include "protocol/write_error.hpp"
 
 namespace splash::protocol {
 namespace {
@@ -81,7 +81,7 @@ std::uint32_t read_size(const std::filesystem::path& path, std::uintmax_t offset
 LogWriter::LogWriter(const std::filesystem::path& path) : path_(path) {
   errno = 0;
   file_.open(path, std::ios::binary | std::ios::trunc);
-  if (!file_) throw WriteError(cannot("create", path_), errno);
+  if (!file_) throw program::WriteError(cannot("create", path_), errno);
 }
 
 void LogWriter::append(double seconds, const std::vector<Message>& messages) {
@@ -101,7 +101,7 @@ void LogWriter::append(double seconds, const std::vector<Message>& messages) {
 }
 
 void LogWriter::give_up() {
-  const WriteError error(cannot("write", path_), errno);
+  const program::WriteError error(cannot("write", path_), errno);
   file_.close();
   std::error_code ignored;  // a device cannot be cut, and the first error is the one to tell
   if (std::filesystem::is_regular_file(path_, ignored)) {
@@ -116,7 +116,7 @@ std::vector<LogEntry> read_log(const std::filesystem::path& path) {
   const auto total = std::filesystem::file_size(path, error);
   if (error) throw unreadable(path, error.message());
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw unreadable(path, write_error(errno));
+  if (!file) throw unreadable(path, program::write_error(errno));
   return read_log(file, total, path);
 }
 
@@ -132,7 +132,7 @@ std::vector<LogEntry> read_log(std::istream& file, std::uintmax_t total,
   for (std::uintmax_t offset = 0; offset < total;) {
     const auto size = read_size(path, offset, total - offset, file);
     if (!file.read(reinterpret_cast<char*>(packet.data()), size))
-      throw unreadable(path, write_error(errno));
+      throw unreadable(path, program::write_error(errno));
     auto entry = to_entry(path, offset, Bytes(packet).first(size));
     if (!entries.empty() && entry.seconds < entries.back().seconds) {
       refuse(path, offset,

@@ -11,13 +11,14 @@
 #include <iostream>
 #include <memory>
 
-#include "protocol/config.hpp"
-#include "protocol/config_file.hpp"
-#include "protocol/failure.hpp"
-#include "protocol/service_notice.hpp"
-#include "protocol/this_program.hpp"
+#include "program/config.hpp"
+#include "program/config_file.hpp"
+#include "program/failure.hpp"
+#include "program/service_notice.hpp"
+#include "program/this_program.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
+#include "sim-server/bodies/motion/digging.hpp"
 #include "sim-server/device/cache.hpp"
 #include "sim-server/device/cache_seal.hpp"
 #include "sim-server/device/device.hpp"
@@ -25,15 +26,14 @@
 #include "sim-server/device/device_error.hpp"
 #include "sim-server/device/last_words.hpp"
 #include "sim-server/device/program.hpp"
-#include "sim-server/device_trials.hpp"
-#include "sim-server/missing_water.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/self_test.hpp"
-#include "sim-server/server.hpp"
-#include "sim-server/tracking/digging.hpp"
-#include "sim-server/unsettled.hpp"
+#include "sim-server/serve/server.hpp"
+#include "sim-server/simulation/missing_water.hpp"
+#include "sim-server/simulation/unsettled.hpp"
+#include "sim-server/start/device_trials.hpp"
+#include "sim-server/start/self_test.hpp"
 
 namespace {
 
@@ -69,7 +69,7 @@ void take_signals() {
 
 /// All, or those that --device means, the first to be taken first.
 void print_devices(const std::string& wish) {
-  const auto devices = protocol::failing_with(protocol::kExitUnavailable, [&] {
+  const auto devices = program::failing_with(program::kExitUnavailable, [&] {
     return wish.empty() ? list_devices() : meant_devices(list_devices(), wish);
   });
   for (const auto& device : devices) std::printf("%s\n", describe(device).c_str());
@@ -81,15 +81,15 @@ void require_use(const std::filesystem::path& tracker, const Scene& scene) {
     return body.motion.kind == MotionKind::trc;
   });
   if (tracker.empty() || used) return;
-  throw protocol::Failure(protocol::kExitUsage, "--tracker " + tracker.string() +
-                                                    " moves nothing: no body of the scene '" +
-                                                    scene.name + "' has a motion of kind trc");
+  throw program::Failure(program::kExitUsage, "--tracker " + tracker.string() +
+                                                  " moves nothing: no body of the scene '" +
+                                                  scene.name + "' has a motion of kind trc");
 }
 
 /// Nobody is to wait for kernels only to be told that the port is taken.
 void require_free(const protocol::Endpoint& listen) {
-  protocol::failing_with(protocol::kExitUnavailable,
-                         [&] { static_cast<void>(protocol::UdpSocket(listen)); });
+  program::failing_with(program::kExitUnavailable,
+                        [&] { static_cast<void>(protocol::UdpSocket(listen)); });
 }
 
 /// What whoever prepares for a scene needs to know of it, as ./splash reads it.
@@ -164,7 +164,7 @@ std::function<void(const KernelCount&)> telling_how_far_compiling_is() {
 
 /// Much water takes minutes to come to rest: nobody is to wonder what is going on, and no service
 /// manager to give up.
-Progress telling_how_it_settles(protocol::ServiceNotice& service) {
+Progress telling_how_it_settles(program::ServiceNotice& service) {
   constexpr double kPeriod = 3.0;     // [s]
   constexpr double kPatience = 60.0;  // between two words, some steps of four million particles [s]
   return [&service, start = 0.0, done = 0.0, last = 0.0](double share) mutable {
@@ -185,7 +185,7 @@ Progress telling_how_it_settles(protocol::ServiceNotice& service) {
   };
 }
 
-void serve(Server& server, protocol::ServiceNotice& service) {
+void serve(Server& server, program::ServiceNotice& service) {
   server.run([&] {
     if (service.is_due() && server.listens()) service.alive();
     if (asked_to_reopen != 0) {
@@ -215,7 +215,7 @@ auto doubting(CacheSeal& seal, const Build& build) {
 /// For whoever asks which device to take (device_trials.hpp), and for people.
 void check_device(int number, const std::filesystem::path& cache) {
   CacheSeal seal(cache);
-  LastWords last_words(cache, protocol::kExitUnavailable);
+  LastWords last_words(cache, program::kExitUnavailable);
   doubting(seal, [&] {
     Device device(number);
     last_words.devices_known();
@@ -245,14 +245,14 @@ class Start {
   Start(const Options& options, const Scene& scene, const std::filesystem::path& cache)
       : options_(options),
         scene_(scene),
-        trials_(cache, protocol::this_program()),
+        trials_(cache, program::this_program()),
         seal_(cache),
-        last_words_(cache, protocol::kExitUnavailable) {}
+        last_words_(cache, program::kExitUnavailable) {}
 
   /// On the best device that can do it. One that was not asked for and fails is named and passed
   /// over.
   Started start(const Progress& tell) {
-    auto meant = protocol::failing_with(protocol::kExitUnavailable, [this] {
+    auto meant = program::failing_with(program::kExitUnavailable, [this] {
       return meant_devices(list_devices(), options_.device);
     });
     for (;;) {
@@ -308,12 +308,12 @@ class Start {
 
 void run(const Options& options) {
   if (options.list_devices) return print_devices(options.device);
-  protocol::ServiceNotice service;
+  program::ServiceNotice service;
   const auto cache_folder = [] {
-    return protocol::failing_with(protocol::kExitUnavailable, prepare_kernel_cache);
+    return program::failing_with(program::kExitUnavailable, prepare_kernel_cache);
   };
   if (options.check_device >= 0) return check_device(options.check_device, cache_folder());
-  const Scene scene = read_scene(protocol::find_config("--scene", "scenes", options.scene));
+  const Scene scene = read_scene(program::find_config("--scene", "scenes", options.scene));
   require_use(options.tracker, scene);
   if (options.check) return describe_scene(scene);
   say_what_digs(scene, options.tracker);
@@ -340,18 +340,18 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // nor does a file as long as it may be: that is a full disk
   try {
     naming_opencl_errors([&chosen = *options] { run(chosen); });
-    return protocol::kExitOk;
-  } catch (const protocol::ConfigError& error) {
+    return program::kExitOk;
+  } catch (const program::ConfigError& error) {
     std::cerr << error.what() << '\n';
-    return protocol::kExitConfig;
+    return program::kExitConfig;
   } catch (const DeviceError& error) {
     std::cerr << "sim-server: " << error.what() << '\n';
-    return protocol::kExitUnavailable;
-  } catch (const protocol::Failure& failure) {
+    return program::kExitUnavailable;
+  } catch (const program::Failure& failure) {
     std::cerr << "sim-server: " << failure.what() << '\n';
     return failure.code();
   } catch (const std::exception& error) {
     std::cerr << "sim-server: " << error.what() << '\n';
-    return protocol::kExitInternal;
+    return program::kExitInternal;
   }
 }

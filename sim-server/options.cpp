@@ -5,11 +5,11 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "program/exit_codes.hpp"
+#include "program/refuse_nan.hpp"
+#include "program/unknown_option.hpp"
 #include "protocol/control.hpp"
-#include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
-#include "protocol/refuse_nan.hpp"
-#include "protocol/unknown_option.hpp"
 
 namespace splash::sim {
 namespace {
@@ -35,7 +35,7 @@ void add_scene(CLI::App& app, Options& options) {
   app.add_option("--duration", options.duration,
                  "End after so many simulated seconds (default: never)")
       ->check(CLI::Range(0.0, 1e9))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("S");
 }
 
@@ -108,7 +108,7 @@ std::vector<std::string> names_of(const CLI::App& app) {
 
 ParsedOptions refuse(const std::string& text) {
   std::cerr << "sim-server: " << text << " (sim-server --help lists the options)\n";
-  return {std::nullopt, protocol::kExitUsage};
+  return {std::nullopt, program::kExitUsage};
 }
 
 }  // namespace
@@ -127,15 +127,15 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     check(options);
     apply(texts, options);
   } catch (const CLI::Success& help) {
-    return {std::nullopt, app.exit(help) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+    return {std::nullopt, app.exit(help) == 0 ? program::kExitOk : program::kExitUsage};
   } catch (const CLI::ExtrasError&) {
-    return refuse(protocol::unknown_option(app.remaining(), names_of(app)));
+    return refuse(program::unknown_option(app.remaining(), names_of(app)));
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
   }
-  return {options, protocol::kExitOk};
+  return {options, program::kExitOk};
 }
 
 }  // namespace splash::sim

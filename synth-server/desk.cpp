@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "protocol/nearest_name.hpp"
+#include "program/nearest_name.hpp"
 #include "synth-server/output/rig_rows.hpp"
 #include "synth-server/render/live_controls.hpp"
 #include "synth-server/sound/sound_rows.hpp"
@@ -22,13 +22,13 @@ void add_rows(const std::string& name, const std::vector<Field<Part>>& fields, c
   const auto* const first = reinterpret_cast<const double*>(&sound);
   for (const Field<Part>& field : fields) {
     const double& number = part.*std::get<double Part::*>(field.member);
-    const protocol::Row& row = field.row;
+    const program::Row& row = field.row;
     knobs[static_cast<std::size_t>(&number - first)] = {name + '/' + row.key, row.min, row.max,
                                                         row.min > 0.0 && row.unit != "dB"};
   }
 }
 
-const protocol::Row& row_of(const std::vector<Field<OutputEntry>>& rows, const char* key) {
+const program::Row& row_of(const std::vector<Field<OutputEntry>>& rows, const char* key) {
   return std::find_if(rows.begin(), rows.end(),
                       [&](const auto& field) { return field.row.key == key; })
       ->row;
@@ -50,9 +50,9 @@ std::vector<Knob> knobs_of(const Rig& rig) {
     knobs[ControlLayout::solo(c)].name = std::string(kComponents[c]) + "/solo";
   }
   const auto rows = output_fields();
-  const protocol::Row& gain = row_of(rows, "gain_db");
-  const protocol::Row& trim = row_of(rows, "trims_db");
-  const protocol::Row& ceiling = row_of(rows, "ceiling");
+  const program::Row& gain = row_of(rows, "gain_db");
+  const program::Row& trim = row_of(rows, "trims_db");
+  const program::Row& ceiling = row_of(rows, "ceiling");
   for (std::size_t o = 0; o < rig.outputs.size(); ++o) {
     const std::string name = "rig/" + rig.outputs[o].name;
     const auto at = [&](ControlLayout::OutputNumber number) -> Knob& {
@@ -120,7 +120,7 @@ std::string Desk::set(const std::string& name, double value) {
   if (knob == nullptr) {
     std::vector<std::string> names;
     for (const Knob& known : knobs_) names.push_back(known.name);
-    const std::string nearest = protocol::nearest_name(name, names);
+    const std::string nearest = program::nearest_name(name, names);
     return "no such row" + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
   }
   // The wire's floats are no doubles: the bounds are met as the wire has them.

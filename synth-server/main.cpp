@@ -7,10 +7,10 @@
 #include <exception>
 #include <iostream>
 
-#include "protocol/config_file.hpp"
-#include "protocol/failure.hpp"
-#include "protocol/input_file.hpp"
-#include "protocol/service_notice.hpp"
+#include "program/config_file.hpp"
+#include "program/failure.hpp"
+#include "program/input_file.hpp"
+#include "program/service_notice.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
 #include "synth-server/options.hpp"
@@ -69,7 +69,7 @@ void reload_sound(const Options& options, Server& server) {
 }
 
 /// Until a signal, /quit or the end of --duration. A second signal then ends the program at once.
-void play(const Options& options, Server& server, protocol::ServiceNotice& service) {
+void play(const Options& options, Server& server, program::ServiceNotice& service) {
   const sigset_t signals = ending_signals();
   const bool hangs_up = at_terminal();
   const double start = protocol::monotonic_now();
@@ -99,7 +99,7 @@ void play(const Options& options, Server& server, protocol::ServiceNotice& servi
 
 void print_devices(const std::string& api) {
   const auto devices =
-      protocol::failing_with(protocol::kExitUnavailable, [&] { return list_devices(api); });
+      program::failing_with(program::kExitUnavailable, [&] { return list_devices(api); });
   if (devices.empty()) std::printf("%s\n", why_no_device(api).c_str());
   for (const auto& device : devices) {
     std::printf("%s: '%s', %d outputs, prefers %d Hz%s\n", device.api.c_str(), device.name.c_str(),
@@ -108,8 +108,8 @@ void print_devices(const std::string& api) {
 }
 
 Rig load_rig(const std::filesystem::path& wanted) {
-  const std::filesystem::path path = protocol::find_config("--rig", "rigs", wanted);
-  return protocol::failing_with(protocol::kExitConfig, [&] { return read_rig(path); });
+  const std::filesystem::path path = program::find_config("--rig", "rigs", wanted);
+  return program::failing_with(program::kExitConfig, [&] { return read_rig(path); });
 }
 
 /// Blocked before any thread starts, so that all inherit it and only who waits for them sees them.
@@ -125,14 +125,14 @@ sigset_t block_signals() {
 
 void run(Options options) {
   if (options.list_devices) return print_devices(options.api);
-  protocol::ServiceNotice service;
+  program::ServiceNotice service;
   Rig rig = load_rig(options.rig);
   centre(rig, options.middle);
   const NamedSound sound = chosen_sound(options.sound);
   options.engine.sound = sound.sound;
   options.sound_name = sound.name;
   if (!options.replay.empty()) {
-    protocol::require_readable("--replay", options.replay);
+    program::require_readable("--replay", options.replay);
     return render_log(options, rig);
   }
   const sigset_t signals = block_signals();
@@ -153,12 +153,12 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // nor does a file as long as it may be: that is a full disk
   try {
     run(*options);
-    return protocol::kExitOk;
-  } catch (const protocol::Failure& failure) {
+    return program::kExitOk;
+  } catch (const program::Failure& failure) {
     std::cerr << "synth-server: " << failure.what() << '\n';
     return failure.code();
   } catch (const std::exception& error) {
     std::cerr << "synth-server: " << error.what() << '\n';
-    return protocol::kExitInternal;
+    return program::kExitInternal;
   }
 }

@@ -13,22 +13,23 @@
 #include <vector>
 
 #include "protocol/frame_stream.hpp"
+#include "synth-server/play/block_tap.hpp"
 #include "synth-server/rig_frame.hpp"
 
 namespace splash::synth {
 
-class Monitor {
+class Monitor final : public BlockTap {
  public:
   /// Listens; `sample_rate` [Hz] is the device's at the start. Throws std::runtime_error that says
   /// what to do.
   Monitor(const protocol::FrameStreamSettings& settings, const Rig& rig, int sample_rate,
           std::function<bool()> is_muted);
-  ~Monitor();
+  ~Monitor() override;
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  /// From the audio thread: channels[c][i] leave the device from `time` on [s, monotonic].
-  void push(const float* const* channels, int frames, double time, double sample_rate) noexcept;
+  void push(const float* const* channels, int frames, double time,
+            double sample_rate) noexcept override;
 
   [[nodiscard]] protocol::Endpoint local() const noexcept { return stream_.local(); }
 

@@ -6,11 +6,11 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "program/exit_codes.hpp"
+#include "program/refuse_nan.hpp"
+#include "program/unknown_option.hpp"
 #include "protocol/control.hpp"
-#include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
-#include "protocol/refuse_nan.hpp"
-#include "protocol/unknown_option.hpp"
 #include "synth-server/voice_options.hpp"
 
 namespace splash::synth {
@@ -36,7 +36,7 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
                  "from both sides alike; sim-server --check tells it")
       ->delimiter(',')
       ->check(CLI::Range(-1000.0, 1000.0))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("X,Y,Z");
   app.add_option("--listen", texts.listen,
                  "Address and port for events and control; 0.0.0.0 for other hosts")
@@ -61,7 +61,7 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
                  "With --render: the file opens within so many seconds, as live sound does in 2")
       ->needs(render)
       ->check(CLI::Range(0.0, 60.0))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("S")
       ->capture_default_str();
   app.add_flag("--stems", options.stems,
@@ -101,24 +101,24 @@ void add_playing(CLI::App& app, Options& options, Texts& texts) {
                  "Added to each time tag; 0 for a simulator whose tags lie ahead (default: 1.5 "
                  "blocks, 5 ms or more)")
       ->check(CLI::Range(0.0, 1000.0))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("MS");
   app.add_option("--late-ms", texts.late_ms,
                  "What is later than this is dropped, what is less late plays at once")
       ->check(CLI::Range(0.0, 10000.0))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("MS")
       ->capture_default_str();
   app.add_option("--horizon-ms", texts.horizon_ms,
                  "What is further ahead than this has a wrong clock and plays by its arrival")
       ->check(CLI::Range(100.0, 60000.0))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("MS")
       ->capture_default_str();
   app.add_flag("--muted", options.muted, "Silent until /mute 0 comes");
   app.add_option("--duration", options.duration, "End after so many seconds (default: never)")
       ->check(CLI::Range(0.0, 1e9))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("S");
   app.add_flag("--verbose", options.verbose, "A line on the state every second");
 }
@@ -166,7 +166,7 @@ std::vector<std::string> names_of(const CLI::App& app) {
 
 ParsedOptions refuse(const std::string& text) {
   std::cerr << "synth-server: " << text << " (synth-server --help lists the options)\n";
-  return {std::nullopt, protocol::kExitUsage};
+  return {std::nullopt, program::kExitUsage};
 }
 
 }  // namespace
@@ -187,15 +187,15 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     check(options);
     apply(texts, options);
   } catch (const CLI::Success& help) {
-    return {std::nullopt, app.exit(help) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+    return {std::nullopt, app.exit(help) == 0 ? program::kExitOk : program::kExitUsage};
   } catch (const CLI::ExtrasError&) {
-    return refuse(protocol::unknown_option(app.remaining(), names_of(app)));
+    return refuse(program::unknown_option(app.remaining(), names_of(app)));
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
   }
-  return {options, protocol::kExitOk};
+  return {options, program::kExitOk};
 }
 
 }  // namespace splash::synth

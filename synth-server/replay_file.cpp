@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "program/failure.hpp"
 #include "protocol/event_log.hpp"
-#include "protocol/failure.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/output_choice.hpp"
 #include "synth-server/replay/replay.hpp"
@@ -71,27 +71,27 @@ void require_renderable(const std::filesystem::path& path,
                 "its last packet is at %.0f s; at most a week (%.0f s) is rendered, from the log's "
                 "beginning",
                 log.back().seconds, kLongest);
-  throw protocol::Failure(protocol::kExitData, "event log '" + path.string() + "': " + text);
+  throw program::Failure(program::kExitData, "event log '" + path.string() + "': " + text);
 }
 
 }  // namespace
 
 void render_log(const Options& options, const Rig& rig) {
-  const auto log = protocol::failing_with(protocol::kExitData,
-                                          [&] { return protocol::read_log(options.replay); });
+  const auto log =
+      program::failing_with(program::kExitData, [&] { return protocol::read_log(options.replay); });
   require_renderable(options.replay, log);
   ReplaySettings settings;
   settings.engine = options.engine;
   settings.fade_in = options.fade_in;
   settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
-  const auto report = protocol::failing_with(
-      protocol::kExitIo, [&] { return render_to(options.render, log, rig, settings); });
+  const auto report = program::failing_with(
+      program::kExitIo, [&] { return render_to(options.render, log, rig, settings); });
   print(report, options.render, rig, static_cast<int>(settings.engine.sample_rate));
   if (!options.stems) return;
   for (const Stem& stem : kStems) {
     settings.engine.components = stem.components;
     const auto path = stem_path(options.render, stem.name);
-    protocol::failing_with(protocol::kExitIo, [&] { return render_to(path, log, rig, settings); });
+    program::failing_with(program::kExitIo, [&] { return render_to(path, log, rig, settings); });
     std::printf("%s: %s alone\n", path.c_str(), stem.name);
   }
 }

@@ -8,8 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "program/failure.hpp"
 #include "protocol/control.hpp"
-#include "protocol/failure.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"
 #include "synth-server/sound_choice.hpp"
@@ -43,17 +43,17 @@ Server::Playing::Playing(const Rig& rig, const EngineSettings& engine_settings, 
 
 Server::Server(const Options& options, const Rig& rig)
     : options_(options), rig_(rig), muted_(options.muted), desk_(rig, options.engine.sound) {
-  protocol::UdpSocket socket = protocol::failing_with(
-      protocol::kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
-  OpenedOutput opened = protocol::failing_with(
-      protocol::kExitUnavailable, [&] { return open_output(options, channel_count(rig), log); });
+  protocol::UdpSocket socket = program::failing_with(
+      program::kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
+  OpenedOutput opened = program::failing_with(
+      program::kExitUnavailable, [&] { return open_output(options, channel_count(rig), log); });
   format_ = opened.output->format();
   warn_of_latency(format_);
-  protocol::failing_with(protocol::kExitIo, [&] { start_recorder(); });
-  protocol::failing_with(protocol::kExitUnavailable, [&] { start_monitor(); });
+  program::failing_with(program::kExitIo, [&] { start_recorder(); });
+  program::failing_with(program::kExitUnavailable, [&] { start_monitor(); });
   playing_ = make_playing(format_.sample_rate, recorder_.get(), event_recorder_.get());
   started_ = protocol::monotonic_now();
-  protocol::failing_with(protocol::kExitUnavailable, [&] { start_output(std::move(opened)); });
+  program::failing_with(program::kExitUnavailable, [&] { start_output(std::move(opened)); });
   start_receiver(std::move(socket));
   introduce();
 }
@@ -294,7 +294,7 @@ void Server::finish() {
   const Totals all = stop();
   if (recorder_ != nullptr) {
     recorder_->finish();
-    protocol::failing_with(protocol::kExitIo, [&] {
+    program::failing_with(program::kExitIo, [&] {
       if (!recorder_->error().empty()) throw std::runtime_error(recorder_->error());
       recording_->close();
     });
@@ -302,7 +302,7 @@ void Server::finish() {
   if (event_recorder_ != nullptr) {
     event_recorder_->finish();
     if (!event_recorder_->error().empty()) {
-      throw protocol::Failure(protocol::kExitIo, event_recorder_->error());
+      throw program::Failure(program::kExitIo, event_recorder_->error());
     }
   }
   std::printf("%s", summary(all).c_str());

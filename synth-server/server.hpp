@@ -17,7 +17,7 @@
 #include "synth-server/output/rig.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/output_choice.hpp"
-#include "synth-server/player.hpp"
+#include "synth-server/play/player.hpp"
 #include "synth-server/receive/receiver.hpp"
 #include "synth-server/render/engine.hpp"
 #include "synth-server/replay/event_recorder.hpp"

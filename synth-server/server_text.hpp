@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "synth-server/audio/audio_output.hpp"
-#include "synth-server/player.hpp"
+#include "synth-server/play/player.hpp"
 #include "synth-server/receive/intake.hpp"
 #include "synth-server/render/counters.hpp"
 

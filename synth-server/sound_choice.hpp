@@ -9,11 +9,11 @@
 
 namespace splash::synth {
 
-/// What --sound names, with what other options change of it. Throws protocol::Failure.
+/// What --sound names, with what other options change of it. Throws program::Failure.
 [[nodiscard]] NamedSound chosen_sound(const SoundOptions& options);
 
 /// The sound called `name` among one's own and the shipped ones: no path, no file elsewhere. Throws
-/// protocol::Failure, or protocol::ConfigError where it is wrong.
+/// program::Failure, or program::ConfigError where it is wrong.
 [[nodiscard]] NamedSound sound_called(const std::string& name);
 
 }  // namespace splash::synth

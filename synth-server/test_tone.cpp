@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/test_tone.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 
-#include "protocol/failure.hpp"
+#include "program/failure.hpp"
 #include "synth-server/audio/recorder.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/output_choice.hpp"
+#include "synth-server/play/test_tone.hpp"
 #include "synth-server/server_text.hpp"
 
 namespace splash::synth {
@@ -43,9 +41,9 @@ std::vector<int> wanted_channels(const std::string& text, int channels) {
     if (text == "all" || text == std::to_string(c + 1)) all.push_back(c);
   }
   if (!all.empty()) return all;
-  throw protocol::Failure(protocol::kExitUsage, "--test-tone " + text + ": must be all or 1 to " +
-                                                    std::to_string(channels) +
-                                                    ", a channel of the rig");
+  throw program::Failure(program::kExitUsage, "--test-tone " + text + ": must be all or 1 to " +
+                                                  std::to_string(channels) +
+                                                  ", a channel of the rig");
 }
 
 /// False when a signal came first.
@@ -87,50 +85,10 @@ bool play_each(TestTone& tone, const std::vector<int>& channels,
 
 }  // namespace
 
-TestTone::TestTone(const Rig& rig, double sample_rate)
-    : sample_rate_(sample_rate), fade_(Fade::kSeconds, sample_rate) {
-  for (const Output& output : rig.outputs) {
-    const double high = std::min(output.band.high, 0.4 * sample_rate);
-    const double middle = std::sqrt(output.band.low * high);
-    for (int c = 0; c < channel_count(output); ++c) {
-      voices_.push_back({2.0 * std::numbers::pi * middle / sample_rate, kLevel * output.ceiling,
-                         OutputGuard(output, sample_rate, c)});
-    }
-  }
-}
-
-double TestTone::frequency(int channel) const {
-  return voices_[static_cast<std::size_t>(channel)].step * sample_rate_ / (2.0 * std::numbers::pi);
-}
-
-double TestTone::next(double gain) noexcept {
-  if (playing_ == kNone) return 0.0;
-  const Voice& voice = voices_[static_cast<std::size_t>(playing_)];
-  phase_ = std::fmod(phase_ + voice.step, 2.0 * std::numbers::pi);
-  return gain * voice.amplitude * std::sin(phase_);
-}
-
-void TestTone::render(const AudioBlock& block) noexcept {
-  for (int i = 0; i < block.frames; ++i) {
-    const int chosen = chosen_;
-    const double gain = fade_.next(chosen == playing_ && playing_ != kNone);
-    if (chosen != playing_ && fade_.closed()) {
-      playing_ = chosen;
-      phase_ = 0.0;
-    }
-    const double tone = next(gain);
-    constexpr double kOpen = 1.0;
-    for (std::size_t c = 0; c < voices_.size(); ++c) {
-      const double in = static_cast<int>(c) == playing_ ? tone : 0.0;
-      voices_[c].guard.process(&in, &kOpen, block.channels[c] + i, 1);
-    }
-  }
-}
-
 void play_test_tone(const Options& options, const Rig& rig, const sigset_t& signals) {
   const int channels = channel_count(rig);
   const std::vector<int> wanted = wanted_channels(options.test_tone, channels);
-  const OpenedOutput opened = protocol::failing_with(protocol::kExitUnavailable, [&] {
+  const OpenedOutput opened = program::failing_with(program::kExitUnavailable, [&] {
     return open_output(options, channels, [](const std::string& line) {
       std::fprintf(stderr, "synth-server: %s\n", line.c_str());
     });
@@ -139,7 +97,7 @@ void play_test_tone(const Options& options, const Rig& rig, const sigset_t& sign
   std::unique_ptr<WavFile> file;
   std::unique_ptr<Recorder> recorder;
   if (!options.record_audio.empty()) {
-    file = protocol::failing_with(protocol::kExitIo, [&] {
+    file = program::failing_with(program::kExitIo, [&] {
       return std::make_unique<WavFile>(options.record_audio, channels, format.sample_rate);
     });
     recorder = std::make_unique<Recorder>(
@@ -155,8 +113,8 @@ void play_test_tone(const Options& options, const Rig& rig, const sigset_t& sign
   opened.output->stop();
   if (recorder == nullptr) return;
   recorder->finish();
-  if (!recorder->error().empty()) throw protocol::Failure(protocol::kExitIo, recorder->error());
-  protocol::failing_with(protocol::kExitIo, [&] { file->close(); });
+  if (!recorder->error().empty()) throw program::Failure(program::kExitIo, recorder->error());
+  program::failing_with(program::kExitIo, [&] { file->close(); });
 }
 
 }  // namespace splash::synth

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/voice_options.hpp"
 
-#include "protocol/refuse_nan.hpp"
+#include "program/refuse_nan.hpp"
 
 namespace splash::synth {
 
@@ -9,12 +9,12 @@ void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
   app.add_option("--water-level", engine.water_level,
                  "z of the surface, for the depths of physical bubbles (default: they lie at it)")
       ->check(CLI::Range(-1e6, 1e6))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("M");
   app.add_option("--floor-level", engine.floor_level,
                  "z of the floor, for bubbles whose pitch follows their place (default: far away)")
       ->check(CLI::Range(-1e6, 1e6))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("M");
   app.add_option("--precision", texts.precision,
                  "Bubbles within -140 dB of their formula, or within -95 dB for half the time")
@@ -51,7 +51,7 @@ void add_sound(CLI::App& app, SoundOptions& options) {
                  "An impact's amplitude grows with its speed into the water to this power, "
                  "whatever the sound says")
       ->check(CLI::Range(0.0, 6.0))
-      ->check(protocol::refuse_nan)
+      ->check(program::refuse_nan)
       ->type_name("N");
 }
 

@@ -5,8 +5,8 @@
 #include <exception>
 #include <iostream>
 
-#include "protocol/failure.hpp"
-#include "protocol/service_notice.hpp"
+#include "program/failure.hpp"
+#include "program/service_notice.hpp"
 #include "view-server/server.hpp"
 
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using namespace splash;
 
 void run(const view::Options& options) {
-  protocol::ServiceNotice service;
+  program::ServiceNotice service;
   view::Server server(options);
   const std::string place = protocol::to_string(server.local());
   std::printf("listening: %s\nopen http://%s/\n", place.c_str(), place.c_str());
@@ -32,12 +32,12 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
   try {
     run(*options);
-    return protocol::kExitOk;
-  } catch (const protocol::Failure& failure) {
+    return program::kExitOk;
+  } catch (const program::Failure& failure) {
     std::cerr << "view-server: " << failure.what() << '\n';
     return failure.code();
   } catch (const std::exception& error) {
     std::cerr << "view-server: " << error.what() << '\n';
-    return protocol::kExitInternal;
+    return program::kExitInternal;
   }
 }

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "program/exit_codes.hpp"
+#include "program/unknown_option.hpp"
 #include "protocol/control.hpp"
-#include "protocol/exit_codes.hpp"
 #include "protocol/limits.hpp"
-#include "protocol/unknown_option.hpp"
 
 namespace splash::view {
 namespace {
@@ -62,7 +62,7 @@ std::vector<std::string> names_of(const CLI::App& app) {
 
 ParsedOptions refuse(const std::string& text) {
   std::cerr << "view-server: " << text << " (view-server --help lists the options)\n";
-  return {std::nullopt, protocol::kExitUsage};
+  return {std::nullopt, program::kExitUsage};
 }
 
 }  // namespace
@@ -78,15 +78,15 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     app.parse(argc, argv);
     apply(texts, options);
   } catch (const CLI::Success& help) {
-    return {std::nullopt, app.exit(help) == 0 ? protocol::kExitOk : protocol::kExitUsage};
+    return {std::nullopt, app.exit(help) == 0 ? program::kExitOk : program::kExitUsage};
   } catch (const CLI::ExtrasError&) {
-    return refuse(protocol::unknown_option(app.remaining(), names_of(app)));
+    return refuse(program::unknown_option(app.remaining(), names_of(app)));
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
   }
-  return {options, protocol::kExitOk};
+  return {options, program::kExitOk};
 }
 
 }  // namespace splash::view

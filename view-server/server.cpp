@@ -17,8 +17,8 @@
 #include <set>
 #include <string>
 
+#include "program/failure.hpp"
 #include "protocol/control.hpp"
-#include "protocol/failure.hpp"
 #include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
 #include "view-server/admission.hpp"
@@ -242,10 +242,10 @@ tcp::acceptor listen_at(asio::io_context& context, const protocol::Endpoint& whe
   try {
     return {context, tcp::endpoint(asio::ip::address_v4(where.address), where.port)};
   } catch (const boost::system::system_error& error) {
-    throw protocol::Failure(protocol::kExitUnavailable,
-                            "cannot listen for browsers at " + protocol::to_string(where) + ": " +
-                                error.code().message() +
-                                "; use --listen host:port with another one, or port 0");
+    throw program::Failure(program::kExitUnavailable,
+                           "cannot listen for browsers at " + protocol::to_string(where) + ": " +
+                               error.code().message() +
+                               "; use --listen host:port with another one, or port 0");
   }
 }
 

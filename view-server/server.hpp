@@ -11,7 +11,7 @@ namespace splash::view {
 
 class Server {
  public:
-  /// Takes the port. Throws protocol::Failure.
+  /// Takes the port. Throws program::Failure.
   explicit Server(const Options& options);
   ~Server();
   Server(const Server&) = delete;

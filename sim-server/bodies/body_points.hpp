@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "sim-server/fluid/boundary_point.hpp"
+#include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {

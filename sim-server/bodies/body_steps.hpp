@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "sim-server/bodies/body_points.hpp"
-#include "sim-server/fluid/fluid_params.h"
-#include "sim-server/tracking/free_motion.hpp"
-#include "sim-server/tracking/motion.hpp"
+#include "sim-server/bodies/motion/free_motion.hpp"
+#include "sim-server/bodies/motion/motion.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
 
 namespace splash::sim {
 

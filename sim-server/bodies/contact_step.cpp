@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/params/fluid_params.h"
 
 namespace splash::sim {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {

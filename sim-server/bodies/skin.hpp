@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sim-server/fluid/boundary_point.hpp"
+#include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -26,8 +26,8 @@ struct SkinPoint {
 [[nodiscard]] std::vector<SkinPoint> sample_skins(const std::vector<BodySettings>& bodies,
                                                   double particle_spacing);
 
-/// The skin that a film presses on (fluid/kernels/body_film.cl): its areas close, and enclose the
-/// volume of the shape.
+/// The skin that a film presses on (fluid/free_bodies/body_film.cl): its areas close, and enclose
+/// the volume of the shape.
 [[nodiscard]] std::vector<SkinFace> film_skin(const Shape& shape, int owner,
                                               double particle_spacing);
 

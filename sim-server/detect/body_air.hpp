@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a body shows of itself as it moves, the water's level around it, and the air at it: filled
-// from the sky down, cell by cell (fluid/air_cells.hpp). Bodies and walls are solid; their matter
-// counts in the colour field as the water does that they displace.
+// from the sky down, cell by cell (fluid/air/air_cells.hpp). Bodies and walls are solid; their
+// matter counts in the colour field as the water does that they displace.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/bodies/skin.hpp"
-#include "sim-server/fluid/air_cells.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 
 namespace splash::sim {
 

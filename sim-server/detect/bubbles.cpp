@@ -16,7 +16,7 @@ static_assert(sizeof(Spawn) == 40 && sizeof(BubbleState) == 24);
 /// Spawns read without asking how many there are: more in one frame are rare.
 constexpr std::size_t kReadAtOnce = 128;
 
-constexpr float kSlow = -8.0F;  ///< a particle's memory: it was slow (kernels/bubble_spawn.cl)
+constexpr float kSlow = -8.0F;  ///< a particle's memory: it was slow (bubble_spawn.cl)
 
 /// Of the draws that a frame makes as a whole.
 constexpr auto kNoParticle = std::numeric_limits<std::uint32_t>::max();

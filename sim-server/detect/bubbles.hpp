@@ -14,7 +14,7 @@
 
 namespace splash::sim {
 
-/// As kernels/bubble_state.cl gives it.
+/// As bubble_state.cl gives it.
 struct BubbleState {
   float colour = 0.0F;                 ///< c_b [1]
   float upward = 0.0F;                 ///< gradient of c_p, in that of a flat surface [1]
@@ -22,7 +22,7 @@ struct BubbleState {
   int id = 0;                          ///< place in the pool
 };
 
-/// As kernels/bubble_spawn.cl gives it.
+/// As bubble_spawn.cl gives it.
 struct Spawn {
   int id = 0;
   float x = 0.0F, y = 0.0F, z = 0.0F;
@@ -71,7 +71,7 @@ class Bubbles {
   [[nodiscard]] const PointArrays& sorted() const noexcept { return sorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] const Buffer<BubbleState>& state_buffer() const noexcept { return state_buffer_; }
-  /// Of each particle by id (kernels/bubble_spawn.cl).
+  /// Of each particle by id (bubble_spawn.cl).
   [[nodiscard]] const cl::Buffer& memory() const noexcept { return memory_.memory(); }
   [[nodiscard]] int carried() const noexcept { return carried_; }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }

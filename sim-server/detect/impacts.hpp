@@ -23,7 +23,7 @@
 
 namespace splash::sim {
 
-/// A point of a body's skin and what it sees of the water; as kernels/body_touch.cl gives it.
+/// A point of a body's skin and what it sees of the water; as body_touch.cl gives it.
 struct Touch {
   float colour = 0.0F;                                   ///< c_f [1]
   float gx = 0.0F, gy = 0.0F, gz = 0.0F;                 ///< its gradient [1/m]

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 
 namespace splash::sim {
 namespace {

@@ -9,10 +9,10 @@
 namespace splash::sim {
 
 struct Profile {
-  int lanes = 1;            ///< particles per vector in kernels: 1, 8 or 16 (fluid/kernels/lanes.h)
-  std::size_t group = 64;   ///< work-items of a work-group, where each has a vector of its own
-  std::size_t team = 64;    ///< work-items that find a part of a sum together (kernels/team.h)
-  std::size_t parts = 256;  ///< of a sum over all particles, one to a team
+  int lanes = 1;             ///< particles per vector in kernels: 1, 8 or 16 (fluid/lanes/lanes.h)
+  std::size_t group = 64;    ///< work-items of a work-group, where each has a vector of its own
+  std::size_t team = 64;     ///< work-items that find a part of a sum together (lanes/team.h)
+  std::size_t parts = 256;   ///< of a sum over all particles, one to a team
   std::size_t judges = 256;  ///< work-items of the one work-group that adds up all parts
   int sort_chunks = 0;       ///< runs of points that are sorted side by side; 0: by rank
 };

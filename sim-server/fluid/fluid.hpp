@@ -7,16 +7,16 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
-#include "sim-server/fluid/boundary.hpp"
-#include "sim-server/fluid/boundary_point.hpp"
-#include "sim-server/fluid/fluid_params.h"
-#include "sim-server/fluid/free_bodies.hpp"
-#include "sim-server/fluid/health.hpp"
-#include "sim-server/fluid/neighbour_grid.hpp"
-#include "sim-server/fluid/outlines.hpp"
-#include "sim-server/fluid/parts.hpp"
-#include "sim-server/fluid/pressure_solver.hpp"
-#include "sim-server/fluid/sleep.hpp"
+#include "sim-server/fluid/boundary/boundary.hpp"
+#include "sim-server/fluid/boundary/outlines.hpp"
+#include "sim-server/fluid/free_bodies/free_bodies.hpp"
+#include "sim-server/fluid/health/health.hpp"
+#include "sim-server/fluid/neighbours/neighbour_grid.hpp"
+#include "sim-server/fluid/params/boundary_point.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.hpp"
+#include "sim-server/fluid/pressure/pressure_solver.hpp"
+#include "sim-server/fluid/sleep/sleep.hpp"
 #include "sim-server/fluid/step.hpp"
 
 namespace splash::sim {
@@ -42,7 +42,7 @@ struct Survey {
   Vector3 upper = {0.0, 0.0, 0.0};
 };
 
-/// Partial results of the survey; host and kernel agree on the layout (kernels/survey.cl).
+/// Partial results of the survey; host and kernel agree on the layout (health/survey.cl).
 struct SurveyPart {
   float speed2 = 0.0F;
   float acceleration2 = 0.0F;
@@ -61,7 +61,7 @@ struct Snapshot {
   std::vector<float> position;
   std::vector<float> velocity;
   std::vector<int> id;
-  std::vector<float> knit;      ///< densest since torn (kernels/stretch.h) [kg/m3]
+  std::vector<float> knit;      ///< densest since torn (pressure/stretch.h) [kg/m3]
   std::vector<float> pressure;  ///< what the solver keeps from step to step
 };
 
@@ -137,11 +137,11 @@ class Fluid {
   /// As they were before the step and its sort: grid().source() says where each was.
   [[nodiscard]] const PointArrays& particles_before() const noexcept { return unsorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
-  /// What goes on in each cell (kernels/sleep.h).
+  /// What goes on in each cell (sleep/sleep.h).
   [[nodiscard]] const cl::Buffer& stirred_cells() const noexcept { return sleep_.stir(); }
   [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
   [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
-  /// What kernels/body_image.h keeps of each particle near a body: R, its gradient and the nearest
+  /// What boundary/body_image.h keeps of each particle near a body: R, its gradient and the nearest
   /// body, part after part; others have what an earlier step left.
   [[nodiscard]] const Buffer<float>& body_images() const noexcept { return body_images_; }
   [[nodiscard]] const Buffer<float>& knit() const noexcept { return knit_; }

@@ -6,7 +6,6 @@ namespace kernels {
 std::vector<KernelSource> divergence_free();
 std::vector<KernelSource> fluid();
 std::vector<KernelSource> free_bodies();
-std::vector<KernelSource> mould();
 std::vector<KernelSource> survey();
 std::vector<KernelSource> shared();
 }  // namespace kernels
@@ -32,9 +31,6 @@ std::vector<KernelSource> divergence_free_sources() {
 }
 std::vector<KernelSource> free_body_sources() {
   return join(kernels::shared(), kernels::free_bodies());
-}
-std::vector<KernelSource> mould_sources() {
-  return kernels::mould();
 }
 std::vector<KernelSource> survey_sources() {
   return join(kernels::shared(), kernels::survey());

@@ -13,8 +13,6 @@ namespace splash::sim {
 [[nodiscard]] std::vector<KernelSource> divergence_free_sources();
 [[nodiscard]] std::vector<KernelSource> free_body_sources();
 [[nodiscard]] std::vector<KernelSource> survey_sources();
-/// What keeps water in a mould, which needs nothing of all that.
-[[nodiscard]] std::vector<KernelSource> mould_sources();
 /// The headers that other rooms' kernels need: parameters, lanes, smoothing, grid, walls, bodies.
 [[nodiscard]] std::vector<KernelSource> shared_sources();
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/lattice.hpp"
 #include "sim-server/scene/resolution.hpp"

@@ -3,7 +3,7 @@
 // set a limit.
 #pragma once
 
-#include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/params/fluid_params.h"
 
 namespace splash::sim {
 

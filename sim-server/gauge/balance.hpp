@@ -25,7 +25,7 @@ struct Spread {
 };
 
 /// Energy stored in water of this density and knit, per mass [J/kg]: the integral of p / rho^2 with
-/// the p of fluid/kernels/stretch.h, c0^2 (ln(rho/rho0) + rho0/rho - 1) of what is compressed and
+/// the p of fluid/pressure/stretch.h, c0^2 (ln(rho/rho0) + rho0/rho - 1) of what is compressed and
 /// b c0^2 (knit - rho)^2 / (2 rho0^2) of what is stretched.
 [[nodiscard]] double compression_energy(const WaterState& water, double density, double knit);
 

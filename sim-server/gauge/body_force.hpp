@@ -6,8 +6,8 @@
 
 #include "sim-server/bodies/body_points.hpp"
 #include "sim-server/bodies/body_steps.hpp"
+#include "sim-server/bodies/motion/motion.hpp"
 #include "sim-server/gauge/water_state.hpp"
-#include "sim-server/tracking/motion.hpp"
 
 namespace splash::sim {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the water does to each point of a body: the reaction to what the points do to the particles
-// around them in fluid/kernels/acceleration.cl, in double precision. A force acts at the particle's
-// place. R and its gradient: fluid/kernels/body_image.h; of a particle between two bodies each gets
-// the part of its own points.
+// around them in fluid/pressure/acceleration.cl, in double precision. A force acts at the
+// particle's place. R and its gradient: fluid/boundary/body_image.h; of a particle between two
+// bodies each gets the part of its own points.
 //   f_ib = m rho0 V_b (p_i / rho_i^2 (R_i grad W_ib + W_ib grad R_i) - pi_ib grad W_ib)
 //   pi_ib = (10 nu v.x + alpha c0 h min(v.x, 0)) / (rho0 (r^2 + 0.01 h^2)), h = H / 2
 #pragma once
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "sim-server/bodies/body_points.hpp"
+#include "sim-server/bodies/motion/motion.hpp"
 #include "sim-server/gauge/water_state.hpp"
-#include "sim-server/tracking/motion.hpp"
 
 namespace splash::sim {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sim-server/fluid/air_cells.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 
 namespace splash::sim {
 

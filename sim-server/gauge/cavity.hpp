@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Air below the water's level: a hollow that is open to the air above, and pockets that the water
-// has closed around (fluid/air_cells.hpp).
+// has closed around (fluid/air/air_cells.hpp).
 #pragma once
 
 #include <functional>

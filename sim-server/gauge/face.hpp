@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "sim-server/bodies/motion/motion.hpp"
 #include "sim-server/scene/scene.hpp"
-#include "sim-server/tracking/motion.hpp"
 
 namespace splash::sim {
 

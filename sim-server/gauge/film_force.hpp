@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The push of the film between a body and the walls and bodies that it touches, in double
-// precision: what fluid/kernels/body_film.cl says and computes for free bodies, for any body. What
-// free bodies that touch each other share is left out.
+// precision: what fluid/free_bodies/body_film.cl says and computes for free bodies, for any body.
+// What free bodies that touch each other share is left out.
 #pragma once
 
 #include <span>
 
 #include "sim-server/bodies/body_points.hpp"
 #include "sim-server/bodies/body_steps.hpp"
-#include "sim-server/fluid/films.hpp"
+#include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/gauge/water_state.hpp"
 
 namespace splash::sim {

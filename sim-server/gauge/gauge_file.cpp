@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <stdexcept>
 
-#include "protocol/write_error.hpp"
+#include "program/write_error.hpp"
 
 namespace splash::sim {
 
@@ -17,7 +17,7 @@ const Scene& with_probes(const Scene& scene) {
                               "(configs/README.md) or leave out --gauges");
 }
 
-protocol::WriteError cannot_write(const std::filesystem::path& path) {
+program::WriteError cannot_write(const std::filesystem::path& path) {
   return {"cannot write gauges to " + path.string(), errno};
 }
 

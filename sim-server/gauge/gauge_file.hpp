@@ -13,12 +13,12 @@ namespace splash::sim {
 class GaugeFile {
  public:
   /// Opens the file and writes the columns' names. Throws std::invalid_argument when the scene
-  /// names no gauges, protocol::WriteError when the file cannot be written.
+  /// names no gauges, program::WriteError when the file cannot be written.
   GaugeFile(const std::filesystem::path& path, const Scene& scene);
 
-  /// Writes a sample if one is due at `seconds`, the end of a frame. Throws protocol::WriteError.
+  /// Writes a sample if one is due at `seconds`, the end of a frame. Throws program::WriteError.
   void note(double seconds, Fluid& fluid, const Bodies& bodies);
-  /// Begins a new file at the same path, with the columns' names. Throws protocol::WriteError.
+  /// Begins a new file at the same path, with the columns' names. Throws program::WriteError.
   void reopen();
 
  private:

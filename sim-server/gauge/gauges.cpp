@@ -7,7 +7,7 @@
 #include <map>
 
 #include "sim-server/bodies/skin.hpp"
-#include "sim-server/fluid/images.hpp"
+#include "sim-server/fluid/air/images.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/gauge/body_force.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 
 namespace splash::sim {
 

@@ -14,9 +14,9 @@ struct WaterState {
   std::vector<Vector3> position;   ///< [m]
   std::vector<Vector3> velocity;   ///< [m/s]
   std::vector<double> density;     ///< [kg/m3]
-  std::vector<double> knit;        ///< from which on water pulls (fluid/kernels/stretch.h) [kg/m3]
+  std::vector<double> knit;        ///< from which on water pulls (fluid/pressure/stretch.h) [kg/m3]
   std::vector<double> pressure;    ///< [Pa]
-  std::vector<double> image;       ///< R of fluid/kernels/body_image.h; near bodies [1]
+  std::vector<double> image;       ///< R of fluid/boundary/body_image.h; near bodies [1]
   std::vector<Vector3> slope;      ///< grad R; near bodies [1/m]
   std::vector<Vector3> wall_push;  ///< what the walls do to each (wall_push.hpp) [m/s2]
 

@@ -13,7 +13,7 @@ namespace splash::sim {
 
 namespace {
 
-using protocol::ConfigMap;
+using program::ConfigMap;
 
 /// The keys that a kind needs, all of them; any other but name and kind is a mistake.
 const std::map<std::string, std::set<std::string>>& keys_of_kinds() {

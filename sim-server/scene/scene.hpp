@@ -18,7 +18,7 @@ using Quaternion = std::array<double, 4>;  ///< x y z w, unit
 /// Where pressure comes from: sim-server/fluid.
 enum class PressureKind { weakly_compressible, divergence_free };
 
-/// Over how much water a particle's quantities are smoothed: sim-server/fluid/smoothing.hpp.
+/// Over how much water a particle's quantities are smoothed: sim-server/fluid/params/smoothing.hpp.
 
 /// What of the water comes to rest before time begins: scene/holding.hpp. automatic: what something
 /// holds; always: all of it, wherever it flows meanwhile; never: none.

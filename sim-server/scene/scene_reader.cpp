@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "protocol/config.hpp"
-#include "protocol/printable.hpp"
+#include "program/config.hpp"
+#include "program/printable.hpp"
 #include "sim-server/scene/gauge_reader.hpp"
 #include "sim-server/scene/mesh/mesh_file.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
@@ -25,7 +25,7 @@ namespace splash::sim {
 
 namespace {
 
-using protocol::ConfigMap;
+using program::ConfigMap;
 
 /// Brings a quaternion to unit length.
 void normalise(const ConfigMap& map, Quaternion& q) {
@@ -43,7 +43,7 @@ std::filesystem::path find_file(const ConfigMap& map, const std::string& key,
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::is_regular_file(status)) return path;
   constexpr std::size_t kShown = 200;  // characters
-  const std::string shown = protocol::printable(path.string(), kShown);
+  const std::string shown = program::printable(path.string(), kShown);
   const bool found = status.type() != std::filesystem::file_type::not_found;
   if (found && error) throw map.error(key, shown + " cannot be read: " + error.message());
   throw map.error(key,

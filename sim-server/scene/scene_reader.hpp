@@ -9,7 +9,7 @@
 
 namespace splash::sim {
 
-/// Both throw protocol::ConfigError. Files named in the scene are taken relative to its folder and
+/// Both throw program::ConfigError. Files named in the scene are taken relative to its folder and
 /// must exist; quaternions come back with unit length; a scripted body rests at its first keyframe.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path);
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& file_name);

@@ -40,7 +40,7 @@ void print(std::ostream& out, const List& values) {
 
 /// Zero stands for "not given" where it is outside the row's range.
 template <class Value>
-bool is_default(const protocol::Row& row, const Value& value) {
+bool is_default(const program::Row& row, const Value& value) {
   if (row.required) return false;
   if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
     return static_cast<double>(value) >= row.min;
@@ -51,7 +51,7 @@ bool is_default(const protocol::Row& row, const Value& value) {
 /// The text of a row's default. Not inlined: where g++ 12 sees the object it warns of the variant's
 /// alternatives that this struct cannot have.
 template <class Struct>
-[[gnu::noinline]] std::string default_text(const protocol::Field<Struct>& field,
+[[gnu::noinline]] std::string default_text(const program::Field<Struct>& field,
                                            const Struct& defaults) {
   std::ostringstream text;
   std::visit(
@@ -65,13 +65,13 @@ template <class Struct>
 template <class Struct>
 std::string section(const std::string& heading, const Fields<Struct>& fields) {
   const Struct defaults;
-  std::vector<protocol::Row> rows;
+  std::vector<program::Row> rows;
   std::vector<std::string> texts;
   for (const auto& field : fields) {
     rows.push_back(field.row);
     texts.push_back(default_text(field, defaults));
   }
-  return heading + "\n\n" + protocol::describe(rows, texts) + "\n";
+  return heading + "\n\n" + program::describe(rows, texts) + "\n";
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace splash::sim {
 
 namespace {
 
-using protocol::ConfigMap;
+using program::ConfigMap;
 
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 /// Positions this close count as equal [m].

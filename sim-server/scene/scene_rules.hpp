@@ -2,33 +2,33 @@
 // The rules of a scene that span several keys: what cannot be said by one row's range.
 #pragma once
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
 
-// Each throws protocol::ConfigError at the mapping that breaks the rule.
-void check_tank(const protocol::ConfigMap& map, const Tank& tank);
-void check_slope(const protocol::ConfigMap& map, const Slope& slope, const Tank& tank);
-void check_wave_maker(const protocol::ConfigMap& map, const WaveMaker& maker, const Tank& tank);
+// Each throws program::ConfigError at the mapping that breaks the rule.
+void check_tank(const program::ConfigMap& map, const Tank& tank);
+void check_slope(const program::ConfigMap& map, const Slope& slope, const Tank& tank);
+void check_wave_maker(const program::ConfigMap& map, const WaveMaker& maker, const Tank& tank);
 /// `scene` holds the tank, the slope and the blocks before it in the file.
-void check_water(const protocol::ConfigMap& map, const WaterBlock& block, const Scene& scene);
+void check_water(const program::ConfigMap& map, const WaterBlock& block, const Scene& scene);
 /// No block of water on both sides of it, and no wave maker there.
-void check_gate(const protocol::ConfigMap& map, const Scene& scene);
+void check_gate(const program::ConfigMap& map, const Scene& scene);
 /// Inside the tank, or a region with a volume.
-void check_gauge(const protocol::ConfigMap& map, const GaugeSettings& gauge, const Tank& tank);
-void check_shape(const protocol::ConfigMap& map, const Shape& shape);
+void check_gauge(const program::ConfigMap& map, const GaugeSettings& gauge, const Tank& tank);
+void check_shape(const program::ConfigMap& map, const Shape& shape);
 /// Of a free motion: density or mass, one of them.
-void check_free(const protocol::ConfigMap& map, const MotionSettings& motion);
+void check_free(const program::ConfigMap& map, const MotionSettings& motion);
 /// A free body must start between the tank's walls; a body with a prescribed motion need not.
-void check_place(const protocol::ConfigMap& body, const Vector3& place, const Tank& tank);
-void check_detect(const protocol::ConfigMap& map, const DetectSettings& detect);
+void check_place(const program::ConfigMap& body, const Vector3& place, const Tank& tank);
+void check_detect(const program::ConfigMap& map, const DetectSettings& detect);
 /// Steps no longer than the solver's water stands at a speed of sound that is given.
-void check_time_step(const protocol::ConfigMap& map, const FluidSettings& fluid);
+void check_time_step(const program::ConfigMap& map, const FluidSettings& fluid);
 /// Sound that is given is fast enough for the scene's depth and for what falls and flows in it.
 /// `scene` has its bodies.
-void check_sound(const protocol::ConfigMap& fluid, const Scene& scene);
+void check_sound(const program::ConfigMap& fluid, const Scene& scene);
 /// Spacing or particles, one of them; a number of particles that can be simulated.
-void check_resolution(const protocol::ConfigMap& fluid, const Scene& scene);
+void check_resolution(const program::ConfigMap& fluid, const Scene& scene);
 
 }  // namespace splash::sim

@@ -141,7 +141,7 @@ const Fields<MeshEntry>& mesh_fields() {
 
 namespace {
 
-protocol::Field<Keyframe> position_field(bool required) {
+program::Field<Keyframe> position_field(bool required) {
   return {{.key = "position",
            .unit = "m",
            .meaning = "Of the body's centre; of a mesh's origin.",
@@ -151,7 +151,7 @@ protocol::Field<Keyframe> position_field(bool required) {
           &Keyframe::position};
 }
 
-protocol::Field<Keyframe> rotation_field() {
+program::Field<Keyframe> rotation_field() {
   return {{.key = "rotation",
            .unit = "1",
            .meaning = "Quaternion x y z w, body to world; brought to unit length.",

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
 
 template <class Struct>
-using Fields = std::vector<protocol::Field<Struct>>;
+using Fields = std::vector<program::Field<Struct>>;
 
 /// The fluid as its mapping spells it.
 struct FluidEntry : FluidSettings {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The geometry of bodies: what of them depends on their shape, but for how they are sampled
-// (bodies/body_points.hpp) and what kernels know of them (fluid/kernels/outline.h).
+// (bodies/body_points.hpp) and what kernels know of them (fluid/boundary/outline.h).
 #pragma once
 
 #include "sim-server/scene/scene.hpp"

@@ -15,7 +15,7 @@ namespace splash::sim {
 
 namespace {
 
-using protocol::ConfigMap;
+using program::ConfigMap;
 
 /// {name} in a text is what the sender calls the tracker.
 std::string with_name(const ConfigMap& map, const std::string& key, std::string text,

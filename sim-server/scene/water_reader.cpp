@@ -11,7 +11,7 @@ namespace splash::sim {
 
 namespace {
 
-using protocol::ConfigMap;
+using program::ConfigMap;
 
 WaterBlock read_block(const ConfigMap& map) {
   static const std::map<std::string, WaterForm> kForms = {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "protocol/frame.hpp"
+#include "sim-server/bodies/motion/motion.hpp"
 #include "sim-server/scene/scene.hpp"
-#include "sim-server/tracking/motion.hpp"
 
 namespace splash::sim {
 

@@ -4,13 +4,13 @@
 #include <map>
 #include <stdexcept>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "synth-server/output/rig_rows.hpp"
 
 namespace splash::synth {
 namespace {
 
-using protocol::ConfigMap;
+using program::ConfigMap;
 
 /// A mapping that only one kind of output has.
 void read_part(const ConfigMap& map, const std::string& key, bool allowed,
@@ -114,7 +114,7 @@ Rig read_map(const ConfigMap& map) {
     try {
       check(rig);
     } catch (const std::invalid_argument& broken) {
-      throw protocol::ConfigError(output.place(), broken.what());
+      throw program::ConfigError(output.place(), broken.what());
     }
   }
   if (rig.outputs.empty()) throw map.error("outputs", "must list one output or more");

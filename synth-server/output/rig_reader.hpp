@@ -9,7 +9,7 @@
 
 namespace splash::synth {
 
-/// Throws protocol::ConfigError: file, line, column, key, value, range and cure.
+/// Throws program::ConfigError: file, line, column, key, value, range and cure.
 [[nodiscard]] Rig read_rig(const std::filesystem::path& path);
 /// The same from text; `file_name` is what errors call it.
 [[nodiscard]] Rig parse_rig(const std::string& text, const std::string& file_name);

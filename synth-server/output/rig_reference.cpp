@@ -9,7 +9,7 @@
 namespace splash::synth {
 namespace {
 
-using protocol::Row;
+using program::Row;
 
 std::string text_of(double value) {
   std::array<char, 32> text{};
@@ -42,7 +42,7 @@ std::string describe_fields(const std::vector<Field<Struct>>& fields) {
     defaults.push_back(
         std::visit([&](auto member) { return text_of(kFallback.*member); }, field.member));
   }
-  return protocol::describe(rows, defaults);
+  return program::describe(rows, defaults);
 }
 
 }  // namespace

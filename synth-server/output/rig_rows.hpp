@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "synth-server/output/rig.hpp"
 
 namespace splash::synth {
 
-using protocol::Field;
+using program::Field;
 
 /// What the YAML says of an output beside Output's own members.
 struct OutputEntry : Output {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "protocol/write_error.hpp"
+#include "program/write_error.hpp"
 
 namespace splash::synth {
 namespace {
@@ -112,7 +112,7 @@ WavFile::~WavFile() {
 }
 
 void WavFile::fail(const std::string& action) const {
-  throw protocol::WriteError(path_.string() + ": cannot " + action, errno);
+  throw program::WriteError(path_.string() + ": cannot " + action, errno);
 }
 
 void WavFile::write_header() {

@@ -9,7 +9,7 @@
 
 namespace splash::synth {
 
-/// All methods throw protocol::WriteError when the disk refuses.
+/// All methods throw program::WriteError when the disk refuses.
 class WavFile {
  public:
   /// The largest RIFF file; a larger one is RF64, which most programs read as well.

@@ -11,7 +11,7 @@
 
 #include "protocol/gate.hpp"
 #include "protocol/udp_socket.hpp"
-#include "synth-server/receive/command_queue.hpp"
+#include "synth-server/play/command_queue.hpp"
 #include "synth-server/receive/control.hpp"
 #include "synth-server/receive/local_time.hpp"
 #include "synth-server/receive/sender.hpp"

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "protocol/text_limit.hpp"
+#include "program/text_limit.hpp"
 #include "protocol/udp_socket.hpp"
 #include "synth-server/receive/intake.hpp"
 
@@ -51,7 +51,7 @@ class Receiver {
   mutable std::mutex mutex_;  ///< guards intake_; the audio thread never takes it
   Intake intake_;
   std::vector<std::byte> buffer_;
-  protocol::TextLimit dumped_;
+  program::TextLimit dumped_;
   double next_refusal_ = 0.0;     ///< when the next line on one is due [s, monotonic]
   double next_unanswered_ = 0.0;  ///< same
   std::atomic<std::uint64_t> dropped_by_kernel_{0};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/sound/sound_reader.hpp"
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 
 namespace splash::synth {
 namespace {
 
-using protocol::ConfigMap;
+using program::ConfigMap;
 
 template <class Part>
 void read_part(const ConfigMap& map, const std::string& key, const std::vector<Field<Part>>& fields,

@@ -9,7 +9,7 @@
 
 namespace splash::synth {
 
-/// Throws protocol::ConfigError with file, line and column.
+/// Throws program::ConfigError with file, line and column.
 [[nodiscard]] NamedSound read_sound(const std::filesystem::path& path);
 [[nodiscard]] NamedSound parse_sound(const std::string& text, const std::string& file_name);
 

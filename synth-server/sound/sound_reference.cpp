@@ -17,14 +17,14 @@ std::string text_of(double value) {
 /// `part`: whose numbers are the defaults.
 template <class Part>
 std::string describe_fields(const std::vector<Field<Part>>& fields, const Part& part) {
-  std::vector<protocol::Row> rows;
+  std::vector<program::Row> rows;
   std::vector<std::string> defaults;
   for (const Field<Part>& field : fields) {
     rows.push_back(field.row);
     const auto* number = std::get_if<double Part::*>(&field.member);
     defaults.push_back(number == nullptr ? "" : text_of(part.**number));
   }
-  return protocol::describe(rows, defaults);
+  return program::describe(rows, defaults);
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "synth-server/voices/sound.hpp"
 
 namespace splash::synth {
 
-using protocol::Field;
+using program::Field;
 
 /// What a sound is called, beside its numbers.
 struct NamedSound {

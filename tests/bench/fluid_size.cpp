@@ -7,7 +7,7 @@
 
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/opencl_ledger.hpp"

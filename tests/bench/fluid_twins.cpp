@@ -93,7 +93,7 @@ struct MainKernels {
         none.memory(), 0, nobody.memory(), 0, 0, 0.0F, push.memory(), moving.memory());
   }
 
-  /// Each says what goes on in it (kernels/sleep.h).
+  /// Each says what goes on in it (sleep/sleep.h).
   static std::size_t cells_of(const FluidParams& p) {
     return static_cast<std::size_t>(p.cells_x) * static_cast<std::size_t>(p.cells_y) *
            static_cast<std::size_t>(p.cells_z);

@@ -22,7 +22,7 @@ struct Places {
 /// After a sort. The queue is finished.
 [[nodiscard]] Places places_of(sim::Device& device, Block& block);
 
-/// What the search around all particles meets (kernels/near.h).
+/// What the search around all particles meets (neighbours/near.h).
 struct Met {
   double tested = 0.0;   ///< points held against a group's box, a vector at a time
   double visited = 0.0;  ///< pairs whose formula is computed

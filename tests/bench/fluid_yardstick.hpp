@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/params/fluid_params.h"
 
 namespace splash::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiled once for each instruction set. Sixteen particles that follow each other in a row of
-// cells share one list of neighbours, weeded against the box around them (kernels/near.h has the
+// cells share one list of neighbours, weeded against the box around them (neighbours/near.h has the
 // same idea); AVX-512 compresses the list, elsewhere a branch-free scalar loop does.
 #include "tests/bench/fluid_yardstick_loops.hpp"
 

@@ -16,7 +16,7 @@
 #include "protocol/time_tag.hpp"
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/validation/series.hpp"
 
 namespace splash::bench {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/support/source_folder.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/tracking/make_motion.hpp"
 #include "tests/detection/script.hpp"
 #include "tests/detection/shipped.hpp"
 #include "tests/detection/sweeps.hpp"

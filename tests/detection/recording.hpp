@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim-server/tracking/marker_file.hpp"
+#include "sim-server/bodies/motion/marker_file.hpp"
 
 namespace splash::detection {
 

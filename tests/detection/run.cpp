@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
-#include "sim-server/tracking/make_motion.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/detection/run_water.hpp"
 #include "tests/detection/shipped.hpp"
 #include "tests/detection/steps.hpp"

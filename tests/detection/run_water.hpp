@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sim-server/detect/surface_distance.hpp"
-#include "sim-server/fluid/smoothing.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/detection/steps.hpp"
 
 namespace splash::detection {

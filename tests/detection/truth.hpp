@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "sim-server/tracking/motion.hpp"
+#include "sim-server/bodies/motion/motion.hpp"
 
 namespace splash::detection {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "protocol/event_log.hpp"
 #include "sim-server/scene/mesh/mesh_distance.hpp"
 #include "sim-server/scene/mesh/mesh_file.hpp"
@@ -43,7 +43,7 @@ bool reads(const std::string& file, Read&& read) {
   try {
     read();
     return true;
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     promise(error.place().line >= 1 && error.place().column >= 1,
             "no place: " + std::string(error.what()));
     promise(std::string(error.what()).starts_with(file + ':'),

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "protocol/message.hpp"
+#include "sim-server/bodies/motion/tracker_map.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/scene_table.hpp"
-#include "sim-server/tracking/tracker_map.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace splash::fuzz {

@@ -4,7 +4,7 @@
 # Argument: the source tree.
 set -euo pipefail
 cd "$1"
-mapfile -t sources <<<"$(find protocol sim-server synth-server view-server pd-patches tests \
+mapfile -t sources <<<"$(find program protocol sim-server synth-server view-server pd-patches tests \
   -name '*.cpp' -o -name '*.hpp' | sort)"
 [[ -n ${sources[0]} ]] || { echo "no sources found in $1" >&2; exit 1; }
 clang-format --dry-run -Werror "${sources[@]}" ||

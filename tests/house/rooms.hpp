@@ -8,8 +8,9 @@
 
 namespace splash::house {
 
-/// A folder of sources, the folders or single headers it may include besides its own, and the outer
-/// libraries (by the start of their header names) it may use besides the C++ library.
+/// A folder of sources, without those below it; the folders (with a / at the end: and all below
+/// them) or single headers it may include besides its own; and the outer libraries (by the start of
+/// their header names) it may use besides the C++ library.
 struct Room {
   std::string_view folder;
   std::vector<std::string_view> knows;

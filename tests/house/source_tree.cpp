@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> kRoots = {"protocol", "sim-server", "synth-server",
-                                                    "pd-patches", "tests"};
+constexpr std::array<std::string_view, 7> kRoots = {
+    "program", "protocol", "sim-server", "synth-server", "view-server", "pd-patches", "tests"};
 
 std::vector<std::string> read_lines(const fs::path& path) {
   std::ifstream in(path);
@@ -124,8 +124,7 @@ std::string room_of(std::string_view path) {
   if (first == std::string_view::npos) return "";
   const std::string_view top = path.substr(0, first);
   if (top != "sim-server" && top != "synth-server") return std::string(top);
-  const std::size_t second = path.find('/', first + 1);
-  return std::string(second == std::string_view::npos ? top : path.substr(0, second));
+  return std::string(path.substr(0, path.rfind('/')));
 }
 
 }  // namespace splash::house

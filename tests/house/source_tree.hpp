@@ -37,7 +37,7 @@ std::map<std::string, Target> targets_of(const std::vector<SourceFile>& cmake_fi
 /// Lines that are neither blank nor only comment (// and #, as the file's ending says).
 std::size_t count_code_lines(const SourceFile& file);
 
-/// "sim-server/fluid" for "sim-server/fluid/kernels/density.cl"; "sim-server" for its own files.
+/// "sim-server/fluid" for "sim-server/fluid/pressure/density.cl"; "sim-server" for its own files.
 std::string room_of(std::string_view path);
 
 }  // namespace splash::house

@@ -16,7 +16,7 @@ mkdir -p "$clean" "$joined"
 
 rules=$(clang-tidy --version
   cat .clang-tidy tests/.clang-tidy
-  find protocol sim-server synth-server pd-patches tests \( -name '*.hpp' -o -name '*.h' \) \
+  find program protocol sim-server synth-server pd-patches tests \( -name '*.hpp' -o -name '*.h' \) \
     -exec cat {} +)
 rules=$(sha256sum <<<"$rules")
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "protocol/udp_socket.hpp"
-#include "synth-server/player.hpp"
+#include "synth-server/play/player.hpp"
 
 namespace splash::network {
 

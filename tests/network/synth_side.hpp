@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "synth-server/player.hpp"
+#include "synth-server/play/player.hpp"
 #include "synth-server/receive/intake.hpp"
 #include "synth-server/render/engine.hpp"
 #include "tests/network/clock.hpp"

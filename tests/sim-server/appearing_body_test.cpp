@@ -8,7 +8,7 @@
 
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is made of a device's test, however it ends; scripts stand in for the program that does it.
-#include "sim-server/device_trials.hpp"
+#include "sim-server/start/device_trials.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

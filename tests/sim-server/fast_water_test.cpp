@@ -3,12 +3,12 @@
 // them, so no frame is given up; and water that never comes to rest is the scene's mistake.
 #include <gtest/gtest.h>
 
-#include "protocol/failure.hpp"
-#include "sim-server/come_to_rest.hpp"
+#include "program/failure.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
+#include "sim-server/start/come_to_rest.hpp"
 
 namespace splash::sim {
 namespace {
@@ -67,8 +67,8 @@ TEST(FastWater, ThatDoesNotComeToRestIsAMistakeOfTheScene) {
   try {
     come_to_rest(fluid, scene, none, std::vector<Holding>(particles.size(), Holding::held), {});
     FAIL() << "at rest";
-  } catch (const protocol::Failure& failure) {
-    EXPECT_EQ(failure.code(), protocol::kExitConfig);
+  } catch (const program::Failure& failure) {
+    EXPECT_EQ(failure.code(), program::kExitConfig);
     EXPECT_NE(std::string(failure.what()).find("does not come to rest before it begins"),
               std::string::npos);
     EXPECT_NE(std::string(failure.what()).find("fluid.pull"), std::string::npos);

@@ -9,7 +9,7 @@
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
 
 namespace splash::sim {

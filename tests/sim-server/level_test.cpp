@@ -5,15 +5,15 @@
 
 #include <cmath>
 
-#include "sim-server/fluid/images.hpp"
+#include "sim-server/fluid/air/images.hpp"
 #include "sim-server/gauge/height.hpp"
 #include "sim-server/gauge/water_state.hpp"
-#include "sim-server/missing_water.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/missing_water.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
 namespace {
@@ -97,7 +97,7 @@ const std::vector<Tub> kTubs = {
 class Level : public ::testing::TestWithParam<Tub> {};
 
 // The surface lies a sixth of a spacing deeper than the volume says, wherever there are bodies or
-// none (kSurfaceLoss, fluid/smoothing.hpp): so they are compared with a tub that has none.
+// none (kSurfaceLoss, fluid/params/smoothing.hpp): so they are compared with a tub that has none.
 TEST_P(Level, IsThatOfTheFile) {
   Device device;
   const Tub& tub = GetParam();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
 namespace {

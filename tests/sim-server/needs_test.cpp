@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a frame may leave undone, and when it may not.
-#include "sim-server/needs.hpp"
+#include "sim-server/simulation/needs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What gives way, in which order, and when it comes back.
-#include "sim-server/overload.hpp"
+#include "sim-server/serve/overload.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

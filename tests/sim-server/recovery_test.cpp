@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What is done about faults, one after the other, and how it is told.
-#include "sim-server/recovery.hpp"
+#include "sim-server/simulation/recovery/recovery.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "sim-server/mishap.hpp"
+#include "sim-server/simulation/recovery/mishap.hpp"
 
 namespace splash::sim {
 namespace {

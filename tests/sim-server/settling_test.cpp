@@ -8,8 +8,8 @@
 
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
-#include "sim-server/unsettled.hpp"
+#include "sim-server/simulation/simulation.hpp"
+#include "sim-server/simulation/unsettled.hpp"
 
 namespace splash::sim {
 namespace {

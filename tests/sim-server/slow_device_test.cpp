@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "sim-server/server.hpp"
+#include "sim-server/serve/server.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {

@@ -11,7 +11,7 @@
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/stress/piece.hpp"
 #include "tests/support/source_folder.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::stress {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim-server/fluid/fluid_params.h"
+#include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/stress/whereabouts.hpp"
@@ -31,8 +31,8 @@ constexpr double kWatched = 1.0;
 /// A still column may sink by this part of its depth as its particles find better places: 2 mm of
 /// the basin's 0.2 m, less than a tenth of the finest spacing.
 constexpr double kDrift = 0.01;
-/// What is deeper in a body than half a spacing collides with it (kernels/keep_out.h): none is, but
-/// for the rounding [spacings].
+/// What is deeper in a body than half a spacing collides with it (boundary/keep_out.h): none is,
+/// but for the rounding [spacings].
 constexpr double kInside = 0.51;
 
 double wave_speed(const Scene& scene) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim-server/fluid/health.hpp"
+#include "sim-server/fluid/health/health.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 

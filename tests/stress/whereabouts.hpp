@@ -3,7 +3,7 @@
 // were.
 #pragma once
 
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::stress {
 

@@ -79,7 +79,7 @@ extern "C" cl_int clBuildProgram(cl_program program, cl_uint count, const cl_dev
                                  const char* options, void (*told)(cl_program, void*), void* to) {
   static const auto real = next<decltype(&clBuildProgram)>("clBuildProgram");
   const bool fails = goes("build") && count > 0 && is_meant(*devices) && is_meant(program);
-  if (fails) options = "-DLANES=7";  // kernels/lanes.h refuses that
+  if (fails) options = "-DLANES=7";  // lanes/lanes.h refuses that
   return real(program, count, devices, options, told, to);
 }
 

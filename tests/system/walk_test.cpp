@@ -14,7 +14,7 @@
 
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
 namespace {

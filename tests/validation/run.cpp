@@ -9,7 +9,7 @@
 #include "protocol/time_tag.hpp"
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::validation {
 

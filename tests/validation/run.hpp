@@ -8,7 +8,7 @@
 
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/validation/series.hpp"
 
 namespace splash::validation {

@@ -27,10 +27,10 @@ TriangleMesh parse(const std::string& bytes, const std::string& file, double sca
   if (ending == ".stl" && is_binary_stl(bytes)) return parse_binary_stl(bytes, file, scale);
   if (ending == ".obj") return parse_obj(MeshText(bytes, file, scale, true));
   if (ending != ".stl") {
-    throw protocol::ConfigError({.file = file}, "a mesh's file ends in .obj or .stl");
+    throw program::ConfigError({.file = file}, "a mesh's file ends in .obj or .stl");
   }
   if (!bytes.starts_with("solid")) {
-    throw protocol::ConfigError(
+    throw program::ConfigError(
         {.file = file},
         "is no STL file: it neither begins with 'solid' nor is it as long as a binary one's count "
         "of triangles says; it may have been cut off");
@@ -44,21 +44,21 @@ TriangleMesh parse_mesh(const std::string& bytes, const std::string& file, doubl
   TriangleMesh mesh = parse(bytes, file, scale);
   mesh.file = file;
   if (mesh.triangles.empty()) {
-    throw protocol::ConfigError({.file = file}, "has no triangles");
+    throw program::ConfigError({.file = file}, "has no triangles");
   }
   join_equal_vertices(mesh);
   return mesh;
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, double scale) {
-  const protocol::Place place{.file = path.string()};
+  const program::Place place{.file = path.string()};
   std::error_code failure;
   const std::uintmax_t size = std::filesystem::file_size(path, failure);
-  if (failure) throw protocol::ConfigError(place, "cannot be read: " + failure.message());
-  if (size > kLargestFile) throw protocol::ConfigError(place, "is larger than 16 MB");
+  if (failure) throw program::ConfigError(place, "cannot be read: " + failure.message());
+  if (size > kLargestFile) throw program::ConfigError(place, "is larger than 16 MB");
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw protocol::ConfigError(place, "cannot be read");
+  if (!file) throw program::ConfigError(place, "cannot be read");
   return parse_mesh(bytes, path.string(), scale);
 }
 

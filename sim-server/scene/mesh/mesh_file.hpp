@@ -12,7 +12,7 @@
 namespace splash::sim {
 
 /// By the name's ending, .obj or .stl. Lengths are multiplied by `scale` [m per unit of the file].
-/// Throws protocol::ConfigError with file and line: cannot be read, larger than 16 MB, another
+/// Throws program::ConfigError with file and line: cannot be read, larger than 16 MB, another
 /// format, wrong lines, numbers that are not finite or beyond 100 m, more than kTrianglesMax.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path, double scale);
 

@@ -25,8 +25,8 @@ void find_box(MeshSolid& solid) {
   }
 }
 
-protocol::ConfigError wrong(const MeshSolid& solid, const std::string& reason) {
-  return {protocol::Place{.file = solid.surface.file}, reason};
+program::ConfigError wrong(const MeshSolid& solid, const std::string& reason) {
+  return {program::Place{.file = solid.surface.file}, reason};
 }
 
 std::string metres(double length) {

@@ -35,7 +35,7 @@ struct MeshSolid {
 /// Moves all vertices [m].
 void move_mesh(TriangleMesh& mesh, const Vector3& way);
 
-/// For water whose particles are `spacing` [m] apart. Throws protocol::ConfigError if the surface
+/// For water whose particles are `spacing` [m] apart. Throws program::ConfigError if the surface
 /// is none of a solid (soundness.hpp), if the largest ball within it is smaller than a particle, or
 /// if it is so large that its field would have more than kFieldNodesMax nodes.
 [[nodiscard]] std::shared_ptr<const MeshSolid> make_solid(TriangleMesh surface, double spacing);

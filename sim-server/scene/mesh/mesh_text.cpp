@@ -88,8 +88,8 @@ Vector3 MeshText::place(const MeshLine& line, std::size_t first) const {
   return place;
 }
 
-protocol::ConfigError MeshText::error(const MeshLine& line, const std::string& reason) const {
-  return {protocol::Place{.file = file_, .line = line.number}, reason};
+program::ConfigError MeshText::error(const MeshLine& line, const std::string& reason) const {
+  return {program::Place{.file = file_, .line = line.number}, reason};
 }
 
 }  // namespace splash::sim

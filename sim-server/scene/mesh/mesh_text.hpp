@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -28,7 +28,7 @@ class MeshText {
   [[nodiscard]] std::optional<MeshLine> next();
   /// Words `first` to `first` + 2 as a place [m].
   [[nodiscard]] Vector3 place(const MeshLine& line, std::size_t first) const;
-  [[nodiscard]] protocol::ConfigError error(const MeshLine& line, const std::string& reason) const;
+  [[nodiscard]] program::ConfigError error(const MeshLine& line, const std::string& reason) const;
 
  private:
   std::string_view rest_;

@@ -8,7 +8,7 @@
 
 namespace splash::sim {
 
-/// Throws protocol::ConfigError at the line that is wrong.
+/// Throws program::ConfigError at the line that is wrong.
 [[nodiscard]] TriangleMesh parse_obj(MeshText text);
 
 }  // namespace splash::sim

@@ -71,21 +71,21 @@ void check_volume(const TriangleMesh& mesh) {
     }
   }
   const Vector3 size = upper - lower;
-  const protocol::Place place{.file = mesh.file};
+  const program::Place place{.file = mesh.file};
   if (std::max({size[0], size[1], size[2]}) < kSmallest) {
-    throw protocol::ConfigError(place,
-                                "is smaller than 0.1 mm along each axis; give it a scale: how "
-                                "many metres one unit of the file is");
+    throw program::ConfigError(place,
+                               "is smaller than 0.1 mm along each axis; give it a scale: how "
+                               "many metres one unit of the file is");
   }
   const double volume = signed_volume(mesh);
   const double least = kEmptiest * size[0] * size[1] * size[2];
   if (volume > least) return;
   if (volume < -least) {
-    throw protocol::ConfigError(place,
-                                "the surface is inside out: its triangles run clockwise, seen from "
-                                "outside; turn them over (Blender: Recalculate Outside)");
+    throw program::ConfigError(place,
+                               "the surface is inside out: its triangles run clockwise, seen from "
+                               "outside; turn them over (Blender: Recalculate Outside)");
   }
-  throw protocol::ConfigError(place, "the surface encloses no volume");
+  throw program::ConfigError(place, "the surface encloses no volume");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace splash::sim {
 
-/// Throws protocol::ConfigError with the first triangle that is wrong and what to do, unless
+/// Throws program::ConfigError with the first triangle that is wrong and what to do, unless
 /// - every triangle has an area: no side so long that the height over it is below 1e-6 of it;
 /// - the surface is closed, and its triangles all run the same way round: each edge belongs to two
 ///   triangles, which go along it in opposite directions;

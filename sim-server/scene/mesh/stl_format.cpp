@@ -54,7 +54,7 @@ class Facet {
   [[nodiscard]] bool open() const noexcept { return open_; }
 
  private:
-  [[nodiscard]] protocol::ConfigError wrong(const MeshLine& line) const {
+  [[nodiscard]] program::ConfigError wrong(const MeshLine& line) const {
     return text_.error(line, "a facet has three vertex lines between 'facet' and 'endfacet'");
   }
 
@@ -73,7 +73,7 @@ bool is_binary_stl(std::string_view bytes) {
 TriangleMesh parse_binary_stl(std::string_view bytes, const std::string& file, double scale) {
   TriangleMesh mesh;
   const std::size_t count = (bytes.size() - kHeader) / kTriangle;
-  if (count > kTrianglesMax) throw protocol::ConfigError({.file = file}, too_many_triangles());
+  if (count > kTrianglesMax) throw program::ConfigError({.file = file}, too_many_triangles());
   for (std::size_t t = 0; t < count; ++t) {
     for (std::size_t corner = 1; corner <= 3; ++corner) {
       Vector3 place = {};
@@ -82,8 +82,8 @@ TriangleMesh parse_binary_stl(std::string_view bytes, const std::string& file, d
         try {
           place[axis] = checked_length(scale * static_cast<double>(std::bit_cast<float>(bits)));
         } catch (const std::invalid_argument& problem) {
-          throw protocol::ConfigError({.file = file},
-                                      "triangle " + std::to_string(t + 1) + ": " + problem.what());
+          throw program::ConfigError({.file = file},
+                                     "triangle " + std::to_string(t + 1) + ": " + problem.what());
         }
       }
       mesh.vertices.push_back(place);

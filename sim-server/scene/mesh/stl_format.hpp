@@ -14,7 +14,7 @@ namespace splash::sim {
 /// Whether the bytes are as long as their header says: 80 bytes, a count, 50 bytes a triangle.
 [[nodiscard]] bool is_binary_stl(std::string_view bytes);
 
-/// These throw protocol::ConfigError at the line, or with the number of the triangle, that is
+/// These throw program::ConfigError at the line, or with the number of the triangle, that is
 /// wrong. `scale`: [m per unit of the file].
 [[nodiscard]] TriangleMesh parse_binary_stl(std::string_view bytes, const std::string& file,
                                             double scale);

@@ -13,9 +13,9 @@ std::array<Vector3, 3> corners(const TriangleMesh& mesh, std::size_t triangle) {
   return {at(0), at(1), at(2)};
 }
 
-protocol::ConfigError triangle_error(const TriangleMesh& mesh, std::size_t triangle,
-                                     const std::string& reason) {
-  return {protocol::Place{.file = mesh.file, .line = mesh.lines[triangle]},
+program::ConfigError triangle_error(const TriangleMesh& mesh, std::size_t triangle,
+                                    const std::string& reason) {
+  return {program::Place{.file = mesh.file, .line = mesh.lines[triangle]},
           "triangle " + std::to_string(triangle + 1) + " " + reason};
 }
 

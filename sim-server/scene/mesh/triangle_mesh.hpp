@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -28,8 +28,8 @@ struct TriangleMesh {
 [[nodiscard]] std::array<Vector3, 3> corners(const TriangleMesh& mesh, std::size_t triangle);
 
 /// What is wrong with one triangle, told with its file, its line and its number from 1.
-[[nodiscard]] protocol::ConfigError triangle_error(const TriangleMesh& mesh, std::size_t triangle,
-                                                   const std::string& reason);
+[[nodiscard]] program::ConfigError triangle_error(const TriangleMesh& mesh, std::size_t triangle,
+                                                  const std::string& reason);
 
 /// Vertices at the very same place become one: STL files name each corner anew, and OBJ files
 /// where a texture has a seam. Those of no triangle go.

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim-server/tracking/path_motion.hpp"
+#include "sim-server/bodies/motion/path_motion.hpp"
 #include "tests/detection/recording.hpp"
 #include "tests/detection/score.hpp"
 #include "tests/detection/script.hpp"

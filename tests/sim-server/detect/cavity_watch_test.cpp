@@ -8,12 +8,12 @@
 #include <numbers>
 
 #include "sim-server/bodies/body_points.hpp"
+#include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/detect/cavity_laws.hpp"
 #include "sim-server/detect/cavity_watch.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "sim-server/tracking/make_motion.hpp"
 
 namespace splash::sim {
 namespace {

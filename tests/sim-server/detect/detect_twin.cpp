@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 
 namespace splash::sim {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 
 namespace splash::sim {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The image of the water behind a body's face (kernels/body_image.h) in double precision; gradients
-// by differences.
+// The image of the water behind a body's face (boundary/body_image.h) in double precision;
+// gradients by differences.
 #pragma once
 
 #include "tests/sim-server/fluid/twin.hpp"

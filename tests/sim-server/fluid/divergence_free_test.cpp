@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The divergence-free solver against its twin: what each iteration needs to know, and where the
 // iterations lead.
-#include "sim-server/fluid/divergence_free.hpp"
+#include "sim-server/fluid/pressure/divergence_free/divergence_free.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/body_image_twin.hpp"
 

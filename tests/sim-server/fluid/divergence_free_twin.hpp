@@ -9,7 +9,8 @@
 
 namespace splash::sim {
 
-/// What stays the same for all iterations of a step (kernels/pressure_response.cl).
+/// What stays the same for all iterations of a step
+/// (pressure/divergence_free/pressure_response.cl).
 struct TwinResponse {
   std::vector<Vector3> gradient;      ///< G [kg/m4]
   std::vector<double> response;       ///< D
@@ -23,7 +24,7 @@ struct TwinSolve {
   double error_before = 0.0;      ///< mean density error that made the last iteration necessary [1]
   double error = 0.0;             ///< that ended the solve [1]
 };
-/// `offset` as in kernels/pressure_correction.cl [kg/m3].
+/// `offset` as in pressure/divergence_free/pressure_correction.cl [kg/m3].
 [[nodiscard]] TwinSolve twin_solve(const FluidState& state, const TwinResponse& response,
                                    const std::vector<double>& offset, double dt, int iterations,
                                    TwinSolve from);

@@ -10,9 +10,9 @@
 #include <cstdio>
 
 #include "sim-server/bodies/body_points.hpp"
-#include "sim-server/fluid/outlines.hpp"
+#include "sim-server/fluid/boundary/outlines.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/lattice_waves.hpp"
@@ -124,7 +124,7 @@ double limit(const Ground& ground, double stretch) {
   return 2.0 / swing;
 }
 
-// With the mirror image's weight as it is nearer than half a spacing (kernels/walls.h) these were
+// With the mirror image's weight as it is nearer than half a spacing (boundary/walls.h) these were
 // 0.54 to 0.57.
 TEST(FilmLimit, OnAWallIsAboveTheDefault) {
   for (const double stretch : {1.05, 1.0, 0.95}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The look after every step: sound water has no fault, a planted one is found with its particle and
 // its step, with every width of vectors.
-#include "sim-server/fluid/health.hpp"
+#include "sim-server/fluid/health/health.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -18,6 +18,7 @@ namespace splash::sim {
 namespace kernels {
 std::vector<KernelSource> detect();
 std::vector<KernelSource> gauge();
+std::vector<KernelSource> mould();
 }  // namespace kernels
 
 namespace {
@@ -44,7 +45,7 @@ std::vector<NamedProgram> programs() {
           {"divergence_free", divergence_free_sources()},
           {"free_bodies", free_body_sources()},
           {"survey", survey_sources()},
-          {"mould", mould_sources()},
+          {"mould", kernels::mould()},
           {"detect", with(fluid_sources(), kernels::detect())},
           {"gauge", with(shared_sources(), kernels::gauge())}};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sort: every point in its cell, x fastest, in the order it came, however many chunks, by rank
 // or not, and whatever the device's profile.
-#include "sim-server/fluid/neighbour_grid.hpp"
+#include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Kernels built without what the scene lacks say the same as whole ones, bit by bit.
-#include "sim-server/fluid/parts.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 
 #include <gtest/gtest.h>
 

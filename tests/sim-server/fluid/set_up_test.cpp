@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 #include "tests/sim-server/fluid/twin.hpp"

@@ -4,10 +4,10 @@
 #include <random>
 
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/fluid/settle.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/start/settle.hpp"
 
 namespace splash::sim {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The smoothing kernel against numeric integrals and derivatives.
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 
 #include <gtest/gtest.h>
 

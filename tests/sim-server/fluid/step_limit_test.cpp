@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How long a step may be by theory: small motions of water at rest on a lattice are waves
-// e exp(i k x), for which the sums of kernels/density.cl and kernels/acceleration.cl make
+// e exp(i k x), for which the sums of pressure/density.cl and pressure/acceleration.cl make
 //   a = -c0^2 s (s . d) - G v,   s(k) = sum_j m / rho0 grad W_j sin(k . x_j),
 //   G(k) = sum_j m / rho0 K (-F_j) x_j x_j^T / (r_j^2 + eta^2) (1 - cos(k . x_j)),
 // with K = 10 nu + alpha c0 h. Symplectic Euler, which is the leapfrog with the speeds half a step
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "tests/sim-server/fluid/lattice_waves.hpp"

@@ -14,7 +14,7 @@ namespace splash::bench {
 namespace {
 
 /// Slice along x, row and layer of cells that a particle is in; those outside are in the outermost
-/// inner ones (kernels/grid.h).
+/// inner ones (neighbours/grid.h).
 std::array<int, 3> cell_of(const Places& p, std::size_t i) {
   const std::size_t stride = p.position.size() / 3;
   const sim::FluidParams& s = p.params;

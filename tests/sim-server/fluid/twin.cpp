@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/fluid/smoothing.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/body_image_twin.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/bodies/skin.hpp"
-#include "sim-server/fluid/mould.hpp"
+#include "sim-server/start/mould.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {

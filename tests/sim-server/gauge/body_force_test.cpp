@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "sim-server/device/device.hpp"
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/sim-server/gauge/lattice.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "sim-server/fluid/air_cells.hpp"
-#include "sim-server/fluid/images.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
+#include "sim-server/fluid/air/images.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/gauge/lattice.hpp"
 

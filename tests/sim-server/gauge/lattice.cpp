@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/sim-server/gauge/lattice.hpp"
-#include "sim-server/fluid/smoothing.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 
 #include <cmath>
 

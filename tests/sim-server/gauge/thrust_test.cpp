@@ -11,7 +11,7 @@
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/simulation.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/sim-server/gauge/lattice.hpp"
 
 namespace splash::sim {

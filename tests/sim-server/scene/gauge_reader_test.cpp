@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 
 namespace splash::sim {
@@ -52,7 +52,7 @@ TEST(GaugeReader, RefusesGaugesWithoutProbes) {
   try {
     static_cast<void>(parse_scene(text, "bad.yaml"));
     FAIL() << "was read";
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("name at least one"));
   }
 }
@@ -76,7 +76,7 @@ TEST_P(GaugeReaderMistakes, AreRefused) {
   try {
     static_cast<void>(parse_scene(text, "bad.yaml"));
     FAIL() << "was read";
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("bad.yaml:"));
     EXPECT_THAT(error.what(), HasSubstr(mistake.says));
   }

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/mesh/mesh_mass.hpp"
 #include "sim-server/scene/mesh/soundness.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
@@ -114,7 +114,7 @@ TEST(MeshFile, IsReadFromDisk) {
   std::ofstream(path) << kObj;
   EXPECT_EQ(read_mesh(path, 1.0).triangles.size(), 4U);
   std::filesystem::remove(path);
-  EXPECT_THROW(static_cast<void>(read_mesh(path, 1.0)), protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(read_mesh(path, 1.0)), program::ConfigError);
 }
 
 struct Wrong {
@@ -179,7 +179,7 @@ TEST_P(WrongMesh, IsRefusedWithPlaceAndReason) {
   try {
     static_cast<void>(parse_mesh(wrong.bytes, wrong.file, 1.0));
     FAIL() << "accepted";
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr(wrong.file + wrong.place));
     EXPECT_THAT(error.what(), HasSubstr(wrong.reason));
   }
@@ -194,7 +194,7 @@ TEST(WrongBinaryMesh, NamesTheTriangle) {
   try {
     static_cast<void>(parse_mesh(bytes, "a.stl", 1.0));
     FAIL() << "accepted";
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("triangle 5: a coordinate is not finite"));
   }
 }
@@ -214,7 +214,7 @@ TEST(MeshFile, OfObjMayContinueALineInTheNext) {
   try {
     static_cast<void>(parse_mesh("v 0 0 0\nf 1 \\\n1 \\\nx\n", "a.obj", 1.0));
     FAIL();
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_EQ(error.place().line, 2) << "where it begins";
   }
 }

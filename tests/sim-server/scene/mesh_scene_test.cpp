@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -51,7 +51,7 @@ class MeshScene : public ::testing::Test {
   [[nodiscard]] std::string complaint(const std::string& body) const {
     try {
       static_cast<void>(scene_with(body));
-    } catch (const protocol::ConfigError& error) {
+    } catch (const program::ConfigError& error) {
       return error.what();
     }
     return "";

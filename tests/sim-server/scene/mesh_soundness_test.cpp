@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 std::string complaint(const TriangleMesh& mesh) {
   try {
     check_soundness(mesh);
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     return error.what();
   }
   return "";
@@ -97,7 +97,7 @@ TEST(MeshSoundness, RefusesASpeck) {
 std::string complaint_of_solid(const TriangleMesh& mesh, double spacing) {
   try {
     static_cast<void>(make_solid(mesh, spacing));
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     return error.what();
   }
   return "";

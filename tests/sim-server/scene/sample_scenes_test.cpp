@@ -8,10 +8,10 @@
 #include <limits>
 #include <set>
 
+#include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/tracking/make_motion.hpp"
 
 namespace splash::sim {
 namespace {

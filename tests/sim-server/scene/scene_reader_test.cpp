@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 
 namespace splash::sim {
 namespace {
@@ -86,9 +86,9 @@ TEST(SceneReader, ReadsTheSolver) {
   EXPECT_DOUBLE_EQ(fluid.tolerance, 0.002);
   EXPECT_EQ(fluid.pull, (Vector3{0.0, 0.0, 0.0}));
   EXPECT_EQ(with("  pull: [1.5, 0.0, 2.0]\n").pull, (Vector3{1.5, 0.0, 2.0}));
-  EXPECT_THROW(static_cast<void>(with("  pull: [-1.0, 0.0, 0.0]\n")), protocol::ConfigError);
-  EXPECT_THROW(static_cast<void>(with("  density_tolerance: 0.002\n")), protocol::ConfigError);
-  EXPECT_THROW(static_cast<void>(with("  solver: magic\n")), protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  pull: [-1.0, 0.0, 0.0]\n")), program::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  density_tolerance: 0.002\n")), program::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  solver: magic\n")), program::ConfigError);
 }
 
 TEST(SceneReader, AllowsNoLongerStepsThanTheSolverStands) {
@@ -101,10 +101,10 @@ TEST(SceneReader, AllowsNoLongerStepsThanTheSolverStands) {
   EXPECT_DOUBLE_EQ(with("  solver: divergence_free\n  time_step_factor: 2\n").time_step_factor,
                    2.0);
   EXPECT_THROW(static_cast<void>(with("  sound_speed: 15\n  time_step_factor: 1.06\n")),
-               protocol::ConfigError);
-  EXPECT_THROW(static_cast<void>(with("  time_step_factor: 2.1\n")), protocol::ConfigError);
+               program::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  time_step_factor: 2.1\n")), program::ConfigError);
   EXPECT_THROW(static_cast<void>(with("  solver: divergence_free\n  time_step_factor: 2.1\n")),
-               protocol::ConfigError);
+               program::ConfigError);
 }
 
 // Half a metre of water has waves of 2.21 m/s, and what falls two metres is 6.26 m/s fast.
@@ -118,9 +118,9 @@ TEST(SceneReader, AllowsNoSoundThatIsTooSlowForItsWater) {
       "  - {name: stone, shape: {size: [0.1, 0.1, 0.1]}, rest: {position: [0.8, 0.8, 2.0]},"
       " motion: {kind: free, density: 2000}}\n";
   EXPECT_DOUBLE_EQ(with("  sound_speed: 8.9\n", "").sound_speed, 8.9);
-  EXPECT_THROW(static_cast<void>(with("  sound_speed: 8.8\n", "")), protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  sound_speed: 8.8\n", "")), program::ConfigError);
   EXPECT_DOUBLE_EQ(with("  sound_speed: 17.8\n", falls).sound_speed, 17.8);
-  EXPECT_THROW(static_cast<void>(with("  sound_speed: 17.6\n", falls)), protocol::ConfigError);
+  EXPECT_THROW(static_cast<void>(with("  sound_speed: 17.6\n", falls)), program::ConfigError);
   EXPECT_NO_THROW(static_cast<void>(with("  sound_speed: 1\n  solver: divergence_free\n", "")))
       << "that has no use for it but for its viscosity";
 }
@@ -134,7 +134,7 @@ TEST(SceneReader, AllowsNoPullThatTakesSoundFasterThanWaters) {
   try {
     static_cast<void>(with("  pull: [100, 0, 0]\n  pull_centre: [50, 0, 0]\n"));
     FAIL() << "accepted";
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("'fluid.pull'"));
     EXPECT_THAT(error.what(), testing::HasSubstr("in water it is no faster than 1500 m/s"));
   }
@@ -170,7 +170,7 @@ TEST_P(SceneMistake, IsRefusedWithPlaceAndReason) {
   try {
     static_cast<void>(parse_scene(text, "bad.yaml"));
     FAIL() << "accepted";
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("bad.yaml:" + mistake.place));
     EXPECT_THAT(error.what(), HasSubstr(mistake.reason));
   }

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 
 namespace splash::sim {
@@ -49,7 +49,7 @@ TEST_P(TrackingMistake, IsRefusedWithItsReason) {
   try {
     static_cast<void>(read(GetParam().source));
     FAIL() << "was read: " << GetParam().source;
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("test.yaml:1"));
     EXPECT_THAT(error.what(), HasSubstr(GetParam().reason));
   }

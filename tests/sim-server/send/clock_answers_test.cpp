@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A receiver's pings are answered where the events come from, with stamps of the simulator's clock.
-#include "sim-server/send/clock_answers.hpp"
+#include "sim-server/listen/clock_answers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

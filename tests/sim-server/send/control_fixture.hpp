@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "protocol/time_tag.hpp"
-#include "sim-server/send/control.hpp"
+#include "sim-server/listen/control.hpp"
 #include "tests/sim-server/send/peer.hpp"
 
 namespace splash::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each command over a real socket: its reply, its effect, its refusal.
-#include "sim-server/send/control.hpp"
+#include "sim-server/listen/control.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

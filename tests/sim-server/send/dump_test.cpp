@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The text of /dumpOSC loses no digit.
-#include "sim-server/send/dump.hpp"
+#include "sim-server/listen/dump.hpp"
 
 #include <gtest/gtest.h>
 

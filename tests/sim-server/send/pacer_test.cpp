@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pacing on clocks of the test's own: nothing here waits for real.
-#include "sim-server/send/pacer.hpp"
+#include "sim-server/serve/pacer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A burst, then the rate; peers do not share; new ports do not mint tokens for ever.
-#include "sim-server/send/rate_limit.hpp"
+#include "sim-server/listen/rate_limit.hpp"
 
 #include <gtest/gtest.h>
 

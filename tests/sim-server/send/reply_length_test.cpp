@@ -9,7 +9,7 @@
 
 #include "protocol/control.hpp"
 #include "protocol/filling.hpp"
-#include "sim-server/send/rate_limit.hpp"
+#include "sim-server/listen/rate_limit.hpp"
 #include "tests/sim-server/send/control_fixture.hpp"
 #include "tests/support/own_address.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The report read back by a JSON parser, and every way in which a disk can refuse it.
-#include "sim-server/send/report.hpp"
+#include "sim-server/serve/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,8 +10,8 @@
 #include <ostream>
 #include <string>
 
-#include "sim-server/overload.hpp"
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/serve/overload.hpp"
 #include "tests/stress/endurance.hpp"
 #include "tests/stress/trial.hpp"
 
@@ -196,7 +196,7 @@ Drive intruding(const sim::Vector3& middle) {
   };
 }
 
-// Where no pressure says which way out is, it is put out (kernels/keep_out.h).
+// Where no pressure says which way out is, it is put out (boundary/keep_out.h).
 TEST(Trials, WaterInABodyIsPutOutWithinAFrame) {
   sim::Device device;
   Trial trial = named("rest, sunk");

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "synth-server/output/rig_reader.hpp"
-#include "synth-server/player.hpp"
+#include "synth-server/play/player.hpp"
 #include "synth-server/receive/intake.hpp"
 
 namespace splash::synth {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "protocol/exit_codes.hpp"
+#include "program/exit_codes.hpp"
 
 namespace splash::synth {
 namespace {
@@ -92,7 +92,7 @@ TEST(Options, RefuseToRenderOverTheLog) {
   const std::string other = (log.parent_path() / "." / log.filename()).string();
   const auto parsed = parse({"--rig", "x", "--replay", log.c_str(), "--render", other.c_str()});
   EXPECT_FALSE(parsed.options) << "the same file by another name";
-  EXPECT_EQ(parsed.exit_code, protocol::kExitUsage);
+  EXPECT_EQ(parsed.exit_code, program::kExitUsage);
   std::filesystem::remove(log);
   EXPECT_TRUE(parse({"--rig", "x", "--replay", log.c_str(), "--render", other.c_str()}).options);
 }
@@ -123,7 +123,7 @@ TEST(Options, RefuseNonsenseAsUsage) {
            {"--rig", "x", "--replay", "a", "--render", "b", "--record-audio", "c"}}) {
     const auto parsed = parse(bad);
     EXPECT_FALSE(parsed.options);
-    EXPECT_EQ(parsed.exit_code, protocol::kExitUsage);
+    EXPECT_EQ(parsed.exit_code, program::kExitUsage);
   }
 }
 
@@ -131,7 +131,7 @@ TEST(Options, HelpAndVersionAreNoErrors) {
   for (const char* flag : {"--help", "--version"}) {
     const auto parsed = parse({flag});
     EXPECT_FALSE(parsed.options);
-    EXPECT_EQ(parsed.exit_code, protocol::kExitOk);
+    EXPECT_EQ(parsed.exit_code, program::kExitOk);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Events on simulated callbacks: each starts at its sample, whatever the callbacks' jitter.
-#include "synth-server/player.hpp"
+#include "synth-server/play/player.hpp"
 
 #include <gtest/gtest.h>
 

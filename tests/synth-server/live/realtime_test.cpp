@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "synth-server/output/rig_reader.hpp"
-#include "synth-server/player.hpp"
+#include "synth-server/play/player.hpp"
 #include "tests/synth-server/render/forbidden_calls.hpp"
 
 namespace splash::synth {

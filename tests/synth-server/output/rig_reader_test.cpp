@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 
 namespace splash::synth {
 namespace {
@@ -145,7 +145,7 @@ TEST_P(BrokenRig, IsAnsweredWithItsPlaceAndTheReason) {
   try {
     static_cast<void>(parse_rig(GetParam().text, "rig.yaml"));
     FAIL() << "accepted:\n" << GetParam().text;
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr(GetParam().place));
     EXPECT_THAT(error.what(), HasSubstr(GetParam().words));
   }

@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "synth-server/receive/command_queue.hpp"
+#include "synth-server/play/command_queue.hpp"
 
 namespace splash::synth {
 

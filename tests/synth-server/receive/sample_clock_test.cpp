@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The delay-locked loop: exact on an exact clock, within a sample on a jittering one.
-#include "synth-server/receive/sample_clock.hpp"
+#include "synth-server/play/sample_clock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "protocol/config.hpp"
+#include "program/config.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
@@ -67,9 +67,9 @@ TEST(Audibility, IsToldByTheRigFile) {
   EXPECT_EQ(touch.sense, Sense::touch);
   EXPECT_DOUBLE_EQ(touch.level_db, -62.0);
   EXPECT_EQ(rig("{sense: hearing, level_db: -90}").outputs[0].threshold.sense, Sense::hearing);
-  EXPECT_THROW(rig("{sense: smell, level_db: -90}"), protocol::ConfigError);
-  EXPECT_THROW(rig("{sense: touch}"), protocol::ConfigError);
-  EXPECT_THROW(rig("{sense: touch, level_db: 3}"), protocol::ConfigError);
+  EXPECT_THROW(rig("{sense: smell, level_db: -90}"), program::ConfigError);
+  EXPECT_THROW(rig("{sense: touch}"), program::ConfigError);
+  EXPECT_THROW(rig("{sense: touch, level_db: 3}"), program::ConfigError);
 }
 
 }  // namespace

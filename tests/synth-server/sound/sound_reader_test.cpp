@@ -114,7 +114,7 @@ TEST_P(BrokenSound, IsAnsweredWithItsPlaceAndTheReason) {
   try {
     static_cast<void>(parse_sound(GetParam().text, "sound.yaml"));
     FAIL() << "accepted:\n" << GetParam().text;
-  } catch (const protocol::ConfigError& error) {
+  } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr(GetParam().place));
     EXPECT_THAT(error.what(), HasSubstr(GetParam().words));
   }

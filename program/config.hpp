@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Strict YAML. A parameter is one row of a table: key, unit, range, meaning, source. From the row
+// come the reader, the error text and the reference page. Its default is the member's initialiser.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace splash::program {
+
+/// A place in a configuration file, counted from 1.
+struct Place {
+  std::string file;
+  int line = 1;
+  int column = 1;
+};
+
+/// "file:line:column: error: key 'a.b': reason". Programs exit with 78 (EX_CONFIG) on it.
+class ConfigError : public std::runtime_error {
+ public:
+  ConfigError(const Place& place, const std::string& reason);
+  [[nodiscard]] const Place& place() const noexcept { return place_; }
+  /// The same error, followed by "; did you mean 'name'?".
+  [[nodiscard]] static ConfigError with_suggestion(const ConfigError& error,
+                                                   const std::string& name);
+
+ private:
+  Place place_;
+  std::string reason_;
+};
+
+struct Row {
+  std::string key;
+  std::string unit;                                       ///< "m", "1", "" for text
+  std::string meaning;                                    ///< one sentence
+  double min = -std::numeric_limits<double>::infinity();  ///< allowed, inclusive
+  double max = std::numeric_limits<double>::infinity();
+  bool required = false;
+  std::vector<std::string> choices = {};  ///< of a text; empty: any
+  std::string source = {};                ///< where the default comes from
+};
+
+using Vector3 = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  ///< x y z w
+
+/// A row and the member it fills.
+template <class Struct>
+struct Field {
+  Row row;
+  std::variant<double Struct::*, int Struct::*, bool Struct::*, std::string Struct::*,
+               Vector3 Struct::*, Quaternion Struct::*, std::vector<double> Struct::*,
+               std::vector<std::string> Struct::*>
+      member;
+};
+
+/// One mapping of a YAML file. Keeps the text's places; refuses what yaml-cpp lets pass:
+/// duplicate and unknown keys, octal-looking and non-finite numbers, yes/no as booleans.
+class ConfigMap {
+ public:
+  /// Throws ConfigError: unreadable file, over 1 MB, deeper than 32, bad YAML, no mapping.
+  [[nodiscard]] static ConfigMap load(const std::filesystem::path& path);
+  [[nodiscard]] static ConfigMap parse(const std::string& text, const std::string& file_name);
+
+  /// Fills the members named by `fields`. Keys that are neither in `fields` nor in `children`
+  /// are refused, with the nearest known name; so are missing required ones.
+  template <class Struct>
+  void read(const std::vector<Field<Struct>>& fields, const std::vector<std::string>& children,
+            Struct& out) const;
+
+  [[nodiscard]] bool has(const std::string& key) const;
+  /// A child mapping. `child` throws when it is missing, `optional_child` does not.
+  [[nodiscard]] ConfigMap child(const std::string& key) const;
+  [[nodiscard]] std::optional<ConfigMap> optional_child(const std::string& key) const;
+  /// A list of mappings; empty when the key is missing.
+  [[nodiscard]] std::vector<ConfigMap> list(const std::string& key) const;
+
+  /// The error a caller raises for a rule that spans several keys.
+  [[nodiscard]] ConfigError error(const std::string& key, const std::string& reason) const;
+  /// Where this mapping begins, and the folder of its file (for paths named in it).
+  [[nodiscard]] Place place() const;
+  [[nodiscard]] std::filesystem::path folder() const;
+
+ private:
+  struct Node;
+  explicit ConfigMap(std::shared_ptr<const Node> node);
+  void check_keys(const std::vector<const Row*>& rows,
+                  const std::vector<std::string>& children) const;
+  bool read_value(const Row& row, double& out) const;
+  bool read_value(const Row& row, int& out) const;
+  bool read_value(const Row& row, bool& out) const;
+  bool read_value(const Row& row, std::string& out) const;
+  bool read_value(const Row& row, Vector3& out) const;
+  bool read_value(const Row& row, Quaternion& out) const;
+  bool read_value(const Row& row, std::vector<double>& out) const;
+  bool read_value(const Row& row, std::vector<std::string>& out) const;
+
+  std::shared_ptr<const Node> node_;
+};
+
+template <class Struct>
+void ConfigMap::read(const std::vector<Field<Struct>>& fields,
+                     const std::vector<std::string>& children, Struct& out) const {
+  std::vector<const Row*> rows;
+  for (const auto& field : fields) rows.push_back(&field.row);
+  check_keys(rows, children);
+  for (const auto& field : fields) {
+    std::visit([&](auto member) { read_value(field.row, out.*member); }, field.member);
+  }
+}
+
+/// A markdown table of rows: key, unit, default, range, meaning, source.
+[[nodiscard]] std::string describe(const std::vector<Row>& rows,
+                                   const std::vector<std::string>& defaults);
+
+}  // namespace splash::program

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// A conversion for each kind of member a configuration can fill.
+#include "program/config_value.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "program/config_number.hpp"
+#include "program/nearest_name.hpp"
+#include "program/printable.hpp"
+
+namespace splash::program {
+
+using Kind = ConfigTree::Kind;
+
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+std::string with_unit(const std::string& text, const Row& row) {
+  return row.unit.empty() || row.unit == "1" ? text : text + ' ' + row.unit;
+}
+
+std::string range_of(const Row& row) {
+  const bool low = row.min > -std::numeric_limits<double>::infinity();
+  const bool high = row.max < std::numeric_limits<double>::infinity();
+  if (low && high) return with_unit(number(row.min) + ".." + number(row.max), row);
+  if (low) return "at least " + with_unit(number(row.min), row);
+  if (high) return "at most " + with_unit(number(row.max), row);
+  return row.unit.empty() || row.unit == "1" ? "" : "in " + row.unit;
+}
+
+std::string with_range(const std::string& expected, const Row& row) {
+  const auto range = range_of(row);
+  return range.empty() ? expected : expected + ", " + range;
+}
+
+bool is_plain(const ConfigValue& value) {
+  return value.tree.kind == Kind::scalar && !value.tree.quoted;
+}
+
+// The error of a value that should have been a number.
+ConfigError wrong(const ConfigValue& value, const std::string& expected) {
+  const auto& tree = value.tree;
+  if (tree.kind == Kind::null) return value.error("has no value", expected);
+  if (tree.kind != Kind::scalar) return value.error("wrong kind of value", expected);
+  if (tree.quoted) return value.error("text in quotes is no number", expected);
+  const auto advice = number_advice(tree.text);
+  return value.error(advice.empty() ? "wrong kind of value" : advice, expected);
+}
+
+void check_range(const ConfigValue& value, double number) {
+  if (number >= value.row.min && number <= value.row.max) return;
+  throw value.error("out of range", range_of(value.row));
+}
+
+template <std::size_t Count>
+void convert_array(const ConfigValue& value, std::array<double, Count>& out) {
+  if (value.tree.kind != Kind::list || value.tree.items.size() != Count) {
+    const auto expected = "a list of " + std::to_string(Count) + " numbers";
+    throw value.error("wrong kind of value", with_range(expected, value.row));
+  }
+  std::array<double, Count> numbers{};
+  for (std::size_t i = 0; i < Count; ++i) convert(value.item(i), numbers[i]);
+  out = numbers;
+}
+
+template <class Item>
+void convert_list(const ConfigValue& value, std::vector<Item>& out) {
+  if (value.tree.kind != Kind::list) {
+    throw value.error("wrong kind of value", "a list, such as [a, b]");
+  }
+  std::vector<Item> items(value.tree.items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) convert(value.item(i), items[i]);
+  out = std::move(items);
+}
+
+}  // namespace
+
+ConfigError ConfigValue::error(const std::string& reason, const std::string& expected) const {
+  return {tree.place, "key '" + key + "': " + reason + " (got " + describe_kind(tree) +
+                          ", expected " + expected + ")"};
+}
+
+ConfigValue ConfigValue::item(std::size_t index) const {
+  return {tree.items[index], row, key + '[' + std::to_string(index) + ']'};
+}
+
+void convert(const ConfigValue& value, double& out) {
+  const auto parsed = is_plain(value) ? parse_number(value.tree.text) : std::nullopt;
+  if (!parsed) throw wrong(value, with_range("a number", value.row));
+  check_range(value, *parsed);
+  out = *parsed;
+}
+
+void convert(const ConfigValue& value, int& out) {
+  const auto parsed = is_plain(value) ? parse_whole(value.tree.text) : std::nullopt;
+  if (parsed) {
+    check_range(value, *parsed);
+    out = *parsed;
+    return;
+  }
+  const auto expected = with_range("a whole number", value.row);
+  const bool fraction = value.tree.text.find_first_of(".eE") != std::string::npos;
+  if (is_plain(value) && fraction && parse_number(value.tree.text)) {
+    throw value.error("it must be whole", expected);
+  }
+  throw wrong(value, expected);
+}
+
+void convert(const ConfigValue& value, bool& out) {
+  const auto parsed = is_plain(value) ? parse_truth(value.tree.text) : std::nullopt;
+  if (!parsed) throw value.error("wrong kind of value", "true or false");
+  out = *parsed;
+}
+
+void convert(const ConfigValue& value, std::string& out) {
+  const auto& choices = value.row.choices;
+  if (value.tree.kind != Kind::scalar) {
+    throw value.error(value.tree.kind == Kind::null ? "has no value" : "wrong kind of value",
+                      "text");
+  }
+  const auto& text = value.tree.text;
+  // Names are printed, on terminals too.
+  if (!is_printable(text)) throw value.error("has a control character", "printable UTF-8 text");
+  bool known = choices.empty();
+  std::string listed;
+  for (const auto& choice : choices) {
+    known = known || choice == text;
+    listed += (listed.empty() ? "" : ", ") + choice;
+  }
+  if (!known) {
+    const auto error = value.error("unknown choice", "one of " + listed);
+    const auto nearest = nearest_name(text, choices);
+    if (nearest.empty()) throw error;
+    throw ConfigError::with_suggestion(error, nearest);
+  }
+  out = text;
+}
+
+void convert(const ConfigValue& value, Vector3& out) {
+  convert_array(value, out);
+}
+void convert(const ConfigValue& value, Quaternion& out) {
+  convert_array(value, out);
+}
+void convert(const ConfigValue& value, std::vector<double>& out) {
+  convert_list(value, out);
+}
+void convert(const ConfigValue& value, std::vector<std::string>& out) {
+  convert_list(value, out);
+}
+
+}  // namespace splash::program

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A file that the command line names is looked at before it is read, so that the answer names the
+// option and not only the file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace splash::program {
+
+/// Throws Failure (kExitNoInput) that names option, file and cause unless `path` is a file that can
+/// be read.
+void require_readable(const std::string& option, const std::filesystem::path& path);
+
+}  // namespace splash::program

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/boundary/boundary.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace splash::sim {
+namespace {
+
+static_assert(sizeof(BodyStep) == 22 * sizeof(float));
+static_assert(sizeof(BodyShape) == 17 * sizeof(float));
+
+}  // namespace
+
+Boundary::Boundary(Device& device, const cl::Program& program, const FluidParams& params,
+                   const std::vector<BoundaryPoint>& points, const Outlines& outlines)
+    : point_count_(static_cast<int>(points.size())),
+      body_count_(static_cast<int>(outlines.shapes.size())),
+      shapes_(device, outlines.shapes),
+      meshes_(device, outlines.meshes),
+      unsorted_(device, points.size()),
+      sorted_(device, points.size()),
+      grid_(device, program, params, points.size(), std::min(device.profile().sort_chunks, 1)),
+      place_bodies_(program, "place_bodies"),
+      gather_volumes_(program, "gather_body_volumes") {
+  load(device, params, points);
+}
+
+void Boundary::load(Device& device, const FluidParams& params,
+                    const std::vector<BoundaryPoint>& points) {
+  const auto stride = static_cast<std::size_t>(unsorted_.stride);
+  std::vector<float> sample(3 * stride, 0.0F);
+  std::vector<int> owner(stride, 0);
+  std::vector<float> volume(stride, 0.0F);
+  // A body is weighed like the fluid it displaces: a particle's mass differs from rho0 spacing^3.
+  const float weight = params.layer_weight / params.spacing;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sample[axis * stride + i] = static_cast<float>(points[i].place[axis]);
+    }
+    owner[i] = points[i].owner;
+    volume[i] = weight * static_cast<float>(points[i].volume);
+  }
+  std::vector<int> ids(points.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  sample_ = Buffer<float>(device, sample);
+  owner_ = Buffer<int>(device, owner);
+  sample_volume_ = Buffer<float>(device, volume);
+  unsorted_.id.write(device, ids);
+  volume_ = Buffer<float>(device, stride + kReadAhead);
+}
+
+void Boundary::set_steps(Device& device, const std::vector<BodyStep>& steps) {
+  // One step more: where free bodies are when the frame ends.
+  const std::size_t room = steps.size() + static_cast<std::size_t>(body_count_);
+  if (room > steps_.size() || steps_.size() == 0) {
+    steps_ = Buffer<BodyStep>(device, std::max<std::size_t>(2 * room, 1));
+  }
+  uploaded_ = steps;
+  steps_.enqueue_write(device, uploaded_);
+}
+
+void Boundary::let_go(Device& device, const std::vector<FreeBody>& bodies) {
+  std::vector<BodyShape> shapes = shapes_.read(device, static_cast<std::size_t>(body_count_));
+  for (const FreeBody& body : bodies) shapes[static_cast<std::size_t>(body.body)].free = 1;
+  shapes_.write(device, shapes);
+}
+
+void Boundary::place(cl::CommandQueue& queue, const Buffer<FluidParams>& params, const Step& step) {
+  if (point_count_ == 0) return;
+  const auto points = static_cast<std::size_t>(point_count_);
+  place_bodies_.run(queue, points, point_count_, unsorted_.stride, sample_.memory(),
+                    owner_.memory(), steps_.memory(), step.first_body, unsorted_.position.memory(),
+                    unsorted_.velocity.memory());
+  grid_.sort(queue, params, point_count_, unsorted_, sorted_);
+  gather_volumes_.run(queue, points, point_count_, sorted_.id.memory(), sample_volume_.memory(),
+                      owner_.memory(), steps_.memory(), step.first_body, volume_.memory());
+}
+
+}  // namespace splash::sim

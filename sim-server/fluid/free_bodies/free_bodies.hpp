@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Bodies that the water moves, as much as they move it: the stages of a step that only a scene with
+// such bodies has (free_bodies/body_*.cl). They are enqueued with the others; where the bodies go
+// is known on the device alone until the frame ends.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/program.hpp"
+#include "sim-server/fluid/free_bodies/films.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.hpp"
+#include "sim-server/fluid/step.hpp"
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+class Fluid;
+
+/// Where a free body is when a frame ends, and what the water did to it in the last step.
+struct FreeBodyEnd {
+  BodyStep step = {};
+  Vector3 force = {0.0, 0.0, 0.0};   ///< [N]
+  Vector3 torque = {0.0, 0.0, 0.0};  ///< about its centre [N m]
+};
+
+class FreeBodies {
+ public:
+  /// `defines`: that its kernels are built with (parts.hpp); `bodies`: at least one; `skin`: of
+  /// these, in any order.
+  FreeBodies(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+             const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
+
+  /// Finds who is in reach of the bodies, and what they do to each other at these velocities;
+  /// `response`: of densities to pressures (pressure/divergence_free/pressure_response.cl), the
+  /// density otherwise.
+  void reach(Fluid& fluid, const Step& step, const Buffer<float>& velocity,
+             const Buffer<float>& response);
+  /// The bodies answer to what was found, to the forces of the present pressures and to gravity;
+  /// the accelerations of the water next to them, too.
+  void answer(Fluid& fluid, const Step& step);
+
+  /// What an answer is to, and where the water's part of it goes.
+  struct Occasion {
+    int iteration = 0;  ///< of a solve; nothing is done once `state` says that it is over
+    const Buffer<SolveState>* state = nullptr;  ///< null: no solve
+    const Buffer<float>* pressure = nullptr;    ///< p / rho^2 that pushes
+    double pushing = 0.0;                       ///< for so long [s]
+    double rubbing = 0.0;                       ///< what rubs acts for so long [s]
+    double falling = 0.0;                       ///< gravity acts for so long [s]
+    double factor = 1.0;                        ///< the velocities' changes are added times this
+    const Buffer<float>* velocity = nullptr;    ///< to these
+    const Buffer<float>* rate = nullptr;        ///< of densities, or null [kg/m3 s]
+  };
+  void answer(Fluid& fluid, const Step& step, const Occasion& occasion);
+
+  /// After the particles have moved: none is left in a body, and the bodies move on.
+  void move(Fluid& fluid, const Step& step);
+
+  void enqueue_read(Fluid& fluid);
+  /// Once the queue is finished: one for each, after the last step.
+  [[nodiscard]] std::vector<FreeBodyEnd> ends() const;
+  [[nodiscard]] const std::vector<FreeBody>& bodies() const noexcept { return list_; }
+  [[nodiscard]] Films& films() noexcept { return films_; }
+
+ private:
+  std::vector<FreeBody> list_;
+  int count_ = 0;
+  std::size_t groups_ = 0;  ///< of particles
+  std::size_t next_ = 0;    ///< where the bodies of the coming step begin among the fluid's
+  Buffer<FreeBody> bodies_;
+  Buffer<float> reach_;
+  Buffer<int> reached_;
+  Buffer<float> parts_;
+  Buffer<float> answer_;
+  Buffer<float> contacts_;
+  Buffer<float> kept_pushes_;
+  Buffer<float> felt_;
+  Buffer<float> force_;
+  Buffer<SolveState> no_solve_;
+  std::vector<BodyStep> steps_read_;
+  std::vector<float> force_read_;
+  Films films_;
+  Kernel reach_bodies_;
+  Kernel weigh_water_;
+  Kernel answer_bodies_;
+  Kernel carry_water_;
+  Kernel keep_out_of_free_;
+  Kernel move_bodies_;
+};
+
+}  // namespace splash::sim

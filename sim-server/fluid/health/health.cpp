@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/health/health.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sim-server/fluid/params/smoothing.hpp"
+#include "sim-server/fluid/set_up.hpp"
+#include "sim-server/fluid/time_step.hpp"
+
+namespace splash::sim {
+namespace {
+
+static_assert(sizeof(HealthLimits) == 36 && sizeof(HealthRecord) == 56);
+static_assert(kFaults == static_cast<std::size_t>(Fault::step) + 1);
+
+/// Faults by how much each explains the others: who changed the state made it wrong.
+constexpr Fault kByCause[] = {Fault::step,    Fault::changed, Fault::lost,  Fault::not_finite,
+                              Fault::outside, Fault::stray,   Fault::speed, Fault::density};
+
+/// At groups that rest (RESTING_ in health/state_sums.h).
+enum class Look { unseen, seen, anew };
+
+float as_float(double value) {
+  return static_cast<float>(value);
+}
+
+/// How high anything flies [m].
+double ceiling(const FluidParams& p) {
+  const auto support = static_cast<double>(p.support);
+  const double top = static_cast<double>(p.origin_z) + p.cells_z * support;
+  const double readable = 0.01 * 8388608.0 * static_cast<double>(p.spacing);
+  const auto down = -static_cast<double>(p.gravity_z);
+  if (down <= 0.0) return std::max(top, readable);
+  const auto sound = static_cast<double>(p.sound_speed);
+  return std::min(top + sound * sound / (2.0 * down), std::max(top, readable));
+}
+
+}  // namespace
+
+std::string_view describe(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::not_finite:
+      return "was no number any more";
+    case Fault::outside:
+      return "was beyond the tank";
+    case Fault::stray:
+      return "was not where its motion took it";
+    case Fault::speed:
+      return "was as fast as sound in this water";
+    case Fault::density:
+      return "had an impossible density";
+    case Fault::lost:
+      return "particles were lost or doubled within a step";
+    case Fault::changed:
+      return "the water was changed between two steps";
+    case Fault::body:
+      return "a free body was no number, beyond the tank or faster than anything in it";
+    case Fault::step:
+      return "a time step was longer than twice the stable one";
+  }
+  return "unknown";
+}
+
+std::string_view likely_cause(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::not_finite:
+    case Fault::outside:
+    case Fault::lost:
+    case Fault::changed:
+    case Fault::body:
+    case Fault::stray:
+      return "memory of the device was overwritten: check the device and its driver";
+    case Fault::speed:
+    case Fault::density:
+      return "a body presses water against a wall or another body; leave it a way out";
+    case Fault::step:
+      return "a fault of this program: please report it";
+  }
+  return "unknown";
+}
+
+HealthLimits health_limits(const FluidParams& p) {
+  HealthLimits limits;
+  const float slack = 0.5F * p.spacing;
+  // The floor and the four sides always come first (set_up.hpp).
+  limits.lower[0] = p.walls[1].offset - slack;
+  limits.upper[0] = -p.walls[2].offset + slack;
+  limits.lower[1] = p.walls[3].offset - slack;
+  limits.upper[1] = -p.walls[4].offset + slack;
+  limits.lower[2] = p.walls[0].offset - slack;
+  limits.upper[2] = as_float(ceiling(p));
+  limits.speed = 0.98F * p.speed_limit;
+  limits.thinnest =
+      0.99F * static_cast<float>(kernel_value(0.0, static_cast<double>(p.support))) * p.mass;
+  limits.densest = 2.0F * p.rest_density;
+  return limits;
+}
+
+Health::Health(Device& device, const cl::Program& program, const FluidParams& params)
+    : particles_(params.count),
+      parts_(device.profile().parts),
+      longest_step_(2.0 * largest_time_step(params, 0.0, 0.0, 1.0)),
+      rested_(device, 2 * device.vectors_of(params.count)),
+      check_(program, "check_health", device.profile().team) {
+  const HealthLimits limits = health_limits(params);
+  limits_ = Buffer<HealthLimits>(device, std::span<const HealthLimits>(&limits, 1));
+}
+
+void Health::begin(Device& device, std::size_t steps) {
+  steps_.clear();
+  frame_ = steps;
+  if (steps > records_.size()) records_ = Buffer<HealthRecord>(device, 2 * steps);
+  records_.enqueue_clear(device);
+}
+
+void Health::look(Device& device, const Patient& patient, const Step& step) {
+  if (steps_.size() >= records_.size()) {
+    throw std::logic_error("more steps are looked at than the frame was said to have");
+  }
+  const auto slot = static_cast<int>(steps_.size());
+  steps_.push_back(step.dt);
+  const bool anew = missed_ || (!last_ && slot == 0);
+  missed_ = false;
+  const Look resting = anew ? Look::anew : steps_.size() >= frame_ ? Look::seen : Look::unseen;
+  check_.run_teams(
+      device.queue(), parts_, patient.params.memory(), limits_.memory(), static_cast<int>(checks_),
+      as_float(step.dt), as_float(step.piston), patient.now.position.memory(),
+      patient.now.velocity.memory(), patient.acceleration.memory(), patient.density.memory(),
+      patient.now.id.memory(), patient.before.position.memory(), patient.before.velocity.memory(),
+      patient.before.id.memory(), patient.source, patient.resting, static_cast<int>(resting),
+      rested_.memory(), patient.shapes.memory(), patient.meshes.memory(), patient.bodies.memory(),
+      step.first_body, patient.body_count, slot, records_.memory());
+}
+
+void Health::enqueue_read(Device& device) {
+  read_.resize(steps_.size());
+  records_.enqueue_read(device, read_);
+}
+
+std::optional<Diagnosis> Health::diagnosis(std::size_t step,
+                                           std::optional<std::uint32_t> before) const {
+  const HealthRecord& record = read_[step];
+  const auto number = static_cast<int>(step);
+  for (const Fault fault : kByCause) {
+    if (!looks_for(fault)) continue;
+    const auto index = static_cast<std::size_t>(fault);
+    bool seen = false;
+    Diagnosis found{fault, number, 0, -1};
+    if (fault == Fault::step) {
+      // Not the other way round: a length that is no number is wrong, too.
+      seen = !(steps_[step] <= 1.001 * longest_step_);
+    } else if (fault == Fault::changed) {
+      seen = before && *before != record.before;
+    } else if (fault == Fault::lost) {
+      seen = record.ids_before != record.ids_after;
+    } else if (record.count[index] > 0) {
+      seen = true;
+      found.particles = record.count[index];
+      found.particle = std::numeric_limits<int>::max() - record.first[index];
+    }
+    if (seen) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<Diagnosis> Health::diagnosis() const {
+  std::optional<std::uint32_t> before = last_;
+  for (std::size_t k = 0; k < read_.size(); ++k) {
+    if (const auto found = diagnosis(k, before)) return found;
+    before = read_[k].after;
+  }
+  return std::nullopt;
+}
+
+void Health::accept() {
+  if (!read_.empty()) last_ = read_.back().after;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Whether a particle is where its motion took it. A step moves it by dt v', v' its speed at the
+// step's end (pressure/integrate.cl), to within the rounding of its coordinates; what sleeps stays.
+// Two more may be elsewhere, and are where that puts them: what a wall stopped touches the wall, no
+// farther off than dt times the speed that ended there, |v| + dt |a|; what a body pushed out of
+// itself is at the depth that it is put back to (boundary/keep_out.h).
+
+#define STRAY_ROUNDING 4.8e-7f  // four units in a float's last place [1]
+
+typedef struct {
+  lanes way2;   // squared, since the step began [m2]
+  lanes miss2;  // squared, between that and dt v' [m2]
+  lanes size;   // sum of all coordinates, which rounding is in proportion to [m]
+} Way;
+
+static lane_flags strays(constant FluidParams* p, const Way* w) {
+  const lanes rounding = STRAY_ROUNDING * (w->size + p->spacing);
+  return (w->way2 > (lanes)(0.0f)) & (w->miss2 > rounding * rounding);
+}
+
+// What one particle did in a step.
+typedef struct {
+  float3 from, to;           // [m]
+  float3 speed_from, speed;  // [m/s]
+  float3 push;               // acceleration [m/s2]
+  float rounding;            // of its coordinates [m]
+} Leap;
+
+static Leap leap_of(constant FluidParams* p, global const float* position_before,
+                    global const float* velocity_before, int before, global const float* position,
+                    global const float* velocity, global const float* acceleration, int i) {
+  const int n = p->capacity;
+  Leap l;
+  l.from = (float3)(position_before[before], position_before[n + before],
+                    position_before[2 * n + before]);
+  l.to = (float3)(position[i], position[n + i], position[2 * n + i]);
+  l.speed_from = (float3)(velocity_before[before], velocity_before[n + before],
+                          velocity_before[2 * n + before]);
+  l.speed = (float3)(velocity[i], velocity[n + i], velocity[2 * n + i]);
+  l.push = (float3)(acceleration[i], acceleration[n + i], acceleration[2 * n + i]);
+  const float3 size = fabs(l.from) + fabs(l.to);
+  l.rounding = STRAY_ROUNDING * (size.x + size.y + size.z + p->spacing);
+  return l;
+}
+
+static bool touches_wall(constant FluidParams* p, const Leap* l, float piston) {
+  for (int k = 0; k < p->wall_count; ++k) {
+    const float3 normal = (float3)(p->walls[k].nx, p->walls[k].ny, p->walls[k].nz);
+    const float offset = p->walls[k].offset + (k == p->piston ? piston : 0.0f);
+    const float off = dot(normal, l->to) - offset - KEPT_OFF_WALLS * p->spacing;
+    if (fabs(off) <= l->rounding + STRAY_ROUNDING * fabs(offset)) return true;
+  }
+  return false;
+}
+
+static bool stopped_by_wall(constant FluidParams* p, const Leap* l, float dt, float piston) {
+  const float miss = length(l->to - l->from - dt * l->speed);
+  const float stopped = dt * (length(l->speed_from) + dt * length(l->push));
+  return miss <= stopped + l->rounding && touches_wall(p, l, piston);
+}
+
+// A body that appears in the water, cuts through it or pinches it puts what was there to its skin,
+// however far that is, or against a wall behind that.
+static bool put_by_body(constant FluidParams* p, constant BodyShape* shapes,
+                        global const float* meshes, global const BodyStep* bodies, int first_body,
+                        int body_count, const Leap* l, float piston) {
+  for (int k = 0; k < body_count; ++k) {
+    const BodyStep b = bodies[first_body + k];
+    const float3 arm = l->to - (float3)(b.px, b.py, b.pz);
+    float3 out;
+    const float size = size_of(b);
+    const float depth =
+        size *
+        depth_inside(shapes[k], meshes, rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw) / size, &out);
+    if (fabs(depth - KEPT_DEPTH * p->spacing) <= 1.0e-3f * p->spacing + l->rounding) return true;
+  }
+  return near_bodies(bodies, first_body, body_count, l->to.x, l->to.y, l->to.z) &&
+         touches_wall(p, l, piston);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/pressure/pressure_solver.hpp"
+
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/pressure/divergence_free/divergence_free.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Pressure by the state equation: the density kernel has it already, and nothing is kept.
+class WeaklyCompressible : public PressureSolver {
+ public:
+  void recall_pressure(Fluid& /*fluid*/) override {}
+  void accelerate(Fluid& fluid, const Step& step) override {
+    fluid.compute_acceleration(step, fluid.particles().velocity);
+    if (FreeBodies* bodies = fluid.free_bodies()) bodies->answer(fluid, step);
+  }
+  void enqueue_work(Device& /*device*/) override {}
+  [[nodiscard]] SolverWork work() const override { return {}; }
+  void forget_work(Device& /*device*/) override {}
+  [[nodiscard]] std::vector<cl::Buffer> kept() const override { return {}; }
+  [[nodiscard]] std::vector<float> pressure(Device& /*device*/) override { return {}; }
+  void restore_pressure(Device& /*device*/, const std::vector<float>& /*pressure*/) override {}
+};
+
+}  // namespace
+
+std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
+                                                     const std::vector<std::string>& defines,
+                                                     bool relaxed) {
+  if (params.solver == SPLASH_DIVERGENCE_FREE) {
+    return std::make_unique<DivergenceFree>(device, params, defines, relaxed);
+  }
+  return std::make_unique<WeaklyCompressible>();
+}
+
+}  // namespace splash::sim

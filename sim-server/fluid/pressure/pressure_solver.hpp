@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Where the water's pressure comes from: a state equation, or the demand that nothing compresses.
+// Both push with the same pair forces (pressure/acceleration.cl) over the same neighbours.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim-server/device/device.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/step.hpp"
+
+namespace splash::sim {
+
+class Fluid;
+
+/// One kind of solve, since counting began; zeros where pressure needs none.
+struct SolveWork {
+  std::int64_t solves = 0;
+  std::int64_t iterations = 0;  ///< of all solves
+  int most = 0;                 ///< of one solve
+  std::int64_t given_up = 0;    ///< solves that ended with more than the allowed error
+  double error = 0.0;           ///< mean density error that ended the last solve [1]
+};
+
+struct SolverWork {
+  SolveWork divergence;
+  SolveWork density;
+};
+
+class PressureSolver {
+ public:
+  PressureSolver() = default;
+  PressureSolver(const PressureSolver&) = delete;
+  PressureSolver& operator=(const PressureSolver&) = delete;
+  virtual ~PressureSolver() = default;
+
+  /// After density: leaves in Fluid::pressure_term() what is known before the step is solved.
+  virtual void recall_pressure(Fluid& fluid) = 0;
+  /// Fills Fluid::acceleration(), and pressure_term() with what pushed.
+  virtual void accelerate(Fluid& fluid, const Step& step) = 0;
+
+  /// Enqueues the read of the work done; work() tells it once the queue is finished.
+  virtual void enqueue_work(Device& device) = 0;
+  [[nodiscard]] virtual SolverWork work() const = 0;
+  /// Counting begins anew.
+  virtual void forget_work(Device& device) = 0;
+
+  /// What is kept from step to step, where it is on the device.
+  [[nodiscard]] virtual std::vector<cl::Buffer> kept() const = 0;
+  /// The same by particle id; waits.
+  [[nodiscard]] virtual std::vector<float> pressure(Device& device) = 0;
+  virtual void restore_pressure(Device& device, const std::vector<float>& pressure) = 0;
+};
+
+/// The one that `params` ask for, its kernels built with `defines`.
+[[nodiscard]] std::unique_ptr<PressureSolver> make_pressure_solver(
+    Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+    bool relaxed);
+
+}  // namespace splash::sim

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/sleep/sleep.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace splash::sim {
+
+Sleep::Sleep(Device& device, const cl::Program& program, const FluidParams& params)
+    : rows_(static_cast<std::size_t>(params.cells_y) * static_cast<std::size_t>(params.cells_z)),
+      awake_(device, rows_ * (static_cast<std::size_t>(params.cells_x) + 1)),
+      stir_(device, 2 * rows_ * static_cast<std::size_t>(params.cells_x)),
+      resting_(device, device.vectors_of(params.count)),
+      keep_awake_(program, "keep_awake", device.profile().group),
+      stir_cells_(program, "stir_cells", device.profile().group) {
+  wake(device);
+}
+
+void Sleep::wake(Device& device) {
+  constexpr int kMoves = 2;  // STIR_MOTION
+  awake_.write(device, std::vector<int>(awake_.size(), std::max(rule_.frames, 1) + 1));
+  stir_.write(device, std::vector<int>(stir_.size(), kMoves));
+  resting_.write(device, std::vector<int>(resting_.size(), 0));
+}
+
+void Sleep::update(cl::CommandQueue& queue, const FluidParams& params,
+                   const Buffer<FluidParams>& params_buffer, const NeighbourGrid& grid,
+                   const Buffer<float>& velocity, const Buffer<BodyStep>& bodies, int body_count,
+                   bool piston_moves, double piston) {
+  const double wall = static_cast<double>(params.walls[1].offset) + piston;
+  const double cell =
+      (wall - static_cast<double>(params.origin_x)) * static_cast<double>(params.inverse_cell);
+  const int piston_reach = piston_moves ? static_cast<int>(cell) + 2 : 0;
+  keep_awake_.run(queue, rows_, params_buffer.memory(), grid.cell_start(), velocity.memory(),
+                  bodies.memory(), body_count, piston_reach, static_cast<float>(rule_.speed),
+                  rule_.frames, awake_.memory(), stir_.memory());
+  stir_cells_.run(queue, rows_, params_buffer.memory(), awake_.memory(), stir_.memory());
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Which cells of the fluid are awake (sleep/sleep.h says what that means), and which groups of
+// particles a step has no work for (sleep/rest.h).
+#pragma once
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/program.hpp"
+#include "sim-server/fluid/neighbours/neighbour_grid.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
+
+namespace splash::sim {
+
+/// When water may sleep.
+struct SleepRule {
+  double speed = 0.0;  ///< slower water may sleep [m/s]; 0: none ever does
+  int frames = 1;      ///< after that many frames in a row
+};
+
+class Sleep {
+ public:
+  Sleep() = default;
+  /// All cells are awake.
+  Sleep(Device& device, const cl::Program& program, const FluidParams& params);
+
+  void set_rule(const SleepRule& rule) noexcept { rule_ = rule; }
+  [[nodiscard]] bool allowed() const noexcept { return rule_.speed > 0.0; }
+
+  /// Once a frame, after the particles have been sorted. `bodies`: entries of all its steps;
+  /// `piston_moves`: the wave maker wakes the cells in its reach, up to its `piston` [m].
+  void update(cl::CommandQueue& queue, const FluidParams& params,
+              const Buffer<FluidParams>& params_buffer, const NeighbourGrid& grid,
+              const Buffer<float>& velocity, const Buffer<BodyStep>& bodies, int body_count,
+              bool piston_moves, double piston);
+  /// Wakes everything.
+  void wake(Device& device);
+
+  /// Of each cell, what goes on in it (STIR_ in sleep/sleep.h).
+  [[nodiscard]] const cl::Buffer& stir() const noexcept { return stir_.memory(); }
+  /// Of each group of particles, for how many steps it has rested (sleep/rest.h).
+  [[nodiscard]] const cl::Buffer& resting() const noexcept { return resting_.memory(); }
+
+ private:
+  SleepRule rule_;
+  std::size_t rows_ = 0;
+  Buffer<int> awake_;  ///< frames that each cell stays awake, 0: asleep
+  Buffer<int> stir_;
+  Buffer<int> resting_;
+  Kernel keep_awake_;
+  Kernel stir_cells_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Receivers measure the simulator's clock by a /ping to where their events come from: answered
+// here, on a thread of its own, since a frame's computing would be taken for travelling.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "protocol/udp_socket.hpp"
+#include "sim-server/listen/rate_limit.hpp"
+#include "sim-server/send/targets.hpp"
+
+namespace splash::sim {
+
+class ClockAnswers {
+ public:
+  using Print = std::function<void(const std::string& line)>;
+
+  /// Reads `socket`, from which another thread sends the events. Only hosts of `targets` are
+  /// answered, and only /ping. Both outlive this. `print`: called on this one's thread when a /ping
+  /// was too short for its /pong (protocol::ReplyBudget).
+  ClockAnswers(protocol::UdpSocket& socket, const Targets& targets, Print print);
+  ~ClockAnswers() = default;  ///< stops within a tenth of a second
+  ClockAnswers(const ClockAnswers&) = delete;
+  ClockAnswers& operator=(const ClockAnswers&) = delete;
+
+  [[nodiscard]] std::uint64_t answered() const noexcept { return answered_; }
+  /// Pings that were too short for their /pong.
+  [[nodiscard]] std::uint64_t withheld() const noexcept { return withheld_; }
+
+ private:
+  void listen(const std::stop_token& stop);
+  void take(protocol::Bytes packet, const protocol::Endpoint& from);
+  void withhold(const protocol::Endpoint& from, const std::string& why);
+  [[nodiscard]] bool is_target(const protocol::Endpoint& from) const;
+
+  protocol::UdpSocket& socket_;
+  const Targets& targets_;
+  Print print_;
+  RateLimit replies_;
+  RateLimit complaints_;
+  std::atomic<std::uint64_t> answered_ = 0;
+  std::atomic<std::uint64_t> withheld_ = 0;
+  std::jthread thread_;  ///< last: it uses all of the above
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Poses from the wire to the bodies that they move. What is not taken is counted by its reason and
+// said, but not over and over.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bitset>
+#include <cstdint>
+
+#include "protocol/event.hpp"
+#include "protocol/message.hpp"
+#include "sim-server/bodies/motion/pose_refusal.hpp"
+#include "sim-server/bodies/motion/tracker_map.hpp"
+#include "sim-server/listen/control.hpp"
+#include "sim-server/serve/report.hpp"
+#include "sim-server/simulation/simulation.hpp"
+
+namespace splash::sim {
+
+class PoseIntake {
+ public:
+  explicit PoseIntake(const Simulation& simulation)
+      : simulation_(simulation), trackers_(simulation.scene()) {}
+
+  /// On the thread that listens, for each pose as it comes.
+  void take(const protocol::BodyPose& pose, const PoseMoment& moment);
+  /// Same, for each message that is no command; false: the scene's `tracking` does not map it.
+  bool track(const protocol::Message& message, const PoseMoment& moment);
+
+  /// All that were refused here. From any thread.
+  [[nodiscard]] std::uint64_t refused() const noexcept;
+  /// By reason, with what was refused at the wire already.
+  [[nodiscard]] NamedCounts refusals(const ControlCounts& wire) const;
+
+ private:
+  [[nodiscard]] PoseRefusal give(const protocol::BodyPose& pose, const PoseMoment& moment) const;
+  void note(std::int32_t body, PoseRefusal refusal, double now);
+  void say(std::int32_t body, PoseRefusal refusal, double now);
+
+  const Simulation& simulation_;
+  TrackerMap trackers_;
+  std::array<std::atomic<std::uint64_t>, kPoseRefusals> counts_ = {};
+  std::bitset<256> said_;   ///< of bodies that no pose can move
+  double next_line_ = 0.0;  ///< monotonic [s]
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/serve/server.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "program/failure.hpp"
+#include "program/write_error.hpp"
+#include "sim-server/serve/run_report.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kLinePeriod = 2.0;    ///< between two lines on the state [s]
+constexpr double kMishapPeriod = 1.0;  ///< between two lines on what went wrong [s]
+constexpr double kSlipLimit = 0.100;   ///< time slips when behind by more, while frames keep up [s]
+constexpr double kLeanGauges = 1.0;    ///< between two readings of the gauges under load [s]
+constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this long are silent [s]
+
+std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
+  if (path.empty()) return std::nullopt;
+  return program::failing_with(program::kExitIo, [&] { return protocol::LogWriter(path); });
+}
+
+std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Scene& scene) {
+  if (path.empty()) return std::nullopt;
+  try {
+    return GaugeFile(path, scene);
+  } catch (const std::invalid_argument& error) {
+    throw program::Failure(program::kExitConfig, error.what());
+  } catch (const program::WriteError& error) {
+    throw program::Failure(program::kExitIo, error.what());
+  }
+}
+
+void print_line(const std::string& line) {
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+std::vector<ShownBody> shown_bodies(const Simulation& simulation, double seconds) {
+  std::vector<ShownBody> shown;
+  for (std::size_t b = 0; b < simulation.bodies().count(); ++b) {
+    std::uint32_t flags = 0;
+    if (simulation.bodies().is_free(b)) flags |= kBodyFree;
+    if (const PosedMotion* posed = simulation.live_body(static_cast<int>(b))) {
+      if (posed->is_tracked()) flags |= kBodyTracked;
+      if (posed->is_held()) flags |= kBodyGrabbed;
+    }
+    shown.push_back({simulation.bodies().state(b, seconds), flags});
+  }
+  return shown;
+}
+
+/// Why a body cannot be grabbed; empty: it is, or let go.
+std::string grab(const Simulation& simulation, int body, bool on) {
+  if (static_cast<std::size_t>(body) >= simulation.bodies().count()) {
+    return "the scene has " + std::to_string(simulation.bodies().count()) + " bodies, from 0";
+  }
+  PosedMotion* posed = simulation.live_body(body);
+  if (posed == nullptr) return "the water moves this body";
+  posed->grab(on);
+  return {};
+}
+
+protocol::UdpSocket open_socket(const Options& options) {
+  return program::failing_with(program::kExitUnavailable, [&] {
+    return protocol::UdpSocket(sending_endpoint(options.targets, options.listen));
+  });
+}
+
+}  // namespace
+
+Server::Server(const Options& options, Simulation& simulation, const std::string& device)
+    : options_(options),
+      simulation_(simulation),
+      device_(device),
+      targets_(options.targets),
+      socket_(open_socket(options)),
+      log_(open_log(options.record)),
+      gauges_(open_gauges(options.gauges, simulation.scene())),
+      sender_(
+          targets_, socket_, log_ ? &*log_ : nullptr,
+          {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),
+      pacer_({.real_time = options.real_time, .slip_limit = kSlipLimit}),
+      overload_({.has_gauges = gauges_.has_value()}),
+      target_status_(options.targets, protocol::monotonic_now,
+                     [](const std::string& line) { print_line("sim-server: " + line); }),
+      poses_(simulation),
+      line_pace_(kLinePeriod),
+      clock_answers_(socket_, targets_, print_line),
+      control_(program::failing_with(program::kExitUnavailable, [&] {
+        return ControlServer(
+            {.listen = options_.listen, .allowed = options_.allow},
+            {.pose = [this](const protocol::BodyPose& pose,
+                            const PoseMoment& moment) { poses_.take(pose, moment); },
+             .track = [this](const protocol::Message& message,
+                             const PoseMoment& moment) { return poses_.track(message, moment); },
+             .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
+             .status =
+                 [this] {
+                   const std::lock_guard lock(status_mutex_);
+                   status_.refused = poses_.refused();
+                   return status_;
+                 },
+             .quit = [this] { quit_ = true; },
+             .print = print_line},
+            targets_);
+      })) {
+  if (!options_.show) return;
+  program::failing_with(program::kExitUnavailable, [&] {
+    show_.emplace(
+        protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow},
+        simulation_.scene(), simulation_.fluid());
+  });
+}
+
+bool Server::is_over() const {
+  return quit_ || (options_.duration > 0.0 && simulation_.seconds() >= options_.duration - 1e-9);
+}
+
+void Server::run(const std::function<bool()>& ended) {
+  target_status_.begin(kAnswerTimeout);
+  pacer_.start(simulation_.seconds());
+  started_ = protocol::monotonic_now();
+  next_line_ = started_ + kLinePeriod;
+  note_gauges();
+  while (!ended() && !is_over()) {
+    const double before = simulation_.seconds();
+    const double begin = protocol::monotonic_now();
+    simulation_.set_origin(pacer_.origin());
+    const FrameResult frame = simulation_.advance();
+    const double computed = protocol::monotonic_now();
+    pacer_.wait_until(frame.seconds);
+    const double due = protocol::monotonic_now();
+    send(frame);
+    show(frame);
+    note_gauges();
+    note_status(frame);
+    target_status_.poll();
+    const double end = protocol::monotonic_now();
+    if (end >= next_line_) print_progress();
+    note_load(frame.seconds - before, computed - begin + end - due);
+  }
+  wall_seconds_ = protocol::monotonic_now() - started_;
+}
+
+void Server::note_load(double seconds, double spent) {
+  if (!options_.real_time || !overload_.note(seconds, spent)) return;
+  const Load level = overload_.level();
+  const double stretch = stable_stretch(simulation_.scene().fluid);
+  simulation_.set_stretch(level >= Load::coarse ? stretch : 1.0);
+  // Under a lasting load the backlog is given up frame by frame: what is told is told at once.
+  const double frame = 1.0 / simulation_.scene().serve.frame_rate;
+  pacer_.set_slip_limit(level == Load::slow ? frame : kSlipLimit);
+  std::fprintf(stderr, "sim-server: %s\n", describe(overload_, stretch).c_str());
+}
+
+void Server::say(const Mishap& mishap) {
+  const double now = protocol::monotonic_now();
+  if (now < next_mishap_) {
+    ++unsaid_;
+    return;
+  }
+  next_mishap_ = now + kMishapPeriod;
+  std::fprintf(stderr, "sim-server: %s\n", describe(mishap).c_str());
+  if (unsaid_ > 0) std::fprintf(stderr, "sim-server: and %d more before that\n", unsaid_);
+  unsaid_ = 0;
+}
+
+void Server::send(const FrameResult& frame) {
+  if (frame.mishap) say(*frame.mishap);
+  const FrameTime time = {simulation_.totals().steps, frame.seconds, pacer_.unix_origin()};
+  const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
+  auto events = number_events(frame.found, simulation_, latency, ids_);
+  keep_going([&] { sender_.send_step(time, std::move(events)); },
+             [this] { sender_.stop_logging(); });
+}
+
+void Server::show(const FrameResult& frame) {
+  if (!show_) return;
+  show_->frame(protocol::monotonic_now(), simulation_.fluid(), [&] {
+    const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
+    return ShownState{.moment = pacer_.unix_origin() + frame.seconds + latency,
+                      .seconds = frame.seconds,
+                      .steps = simulation_.totals().steps,
+                      .bodies = shown_bodies(simulation_, frame.seconds),
+                      .bubbles = simulation_.bubble_places()};
+  });
+}
+
+void Server::keep_going(const std::function<void()>& write, const std::function<void()>& forget) {
+  try {
+    write();
+  } catch (const program::WriteError& error) {
+    if (!options_.real_time) throw program::Failure(program::kExitIo, error.what());
+    forget();
+    unwritten_ = error.what();
+    std::fprintf(stderr, "sim-server: %s. The run goes on without it\n", error.what());
+  }
+}
+
+bool Server::listens() {
+  const std::uint64_t turns = control_.turns();
+  return std::exchange(turns_seen_, turns) != turns;
+}
+
+void Server::reopen() {
+  const auto moved = [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return true;
+    std::fprintf(stderr, "sim-server: %s is still there: move it away, then send SIGHUP\n",
+                 path.c_str());
+    return false;
+  };
+  const auto began = [](const std::filesystem::path& path) {
+    std::printf("began %s anew\n", path.c_str());
+    std::fflush(stdout);
+  };
+  if (log_ && moved(options_.record)) {
+    keep_going(
+        [&] {
+          sender_.close(simulation_.seconds());
+          log_.emplace(options_.record);
+          began(options_.record);
+        },
+        [this] { sender_.stop_logging(); });
+  }
+  if (gauges_ && moved(options_.gauges)) {
+    keep_going(
+        [&] {
+          gauges_->reopen();
+          began(options_.gauges);
+        },
+        [this] { gauges_.reset(); });
+  }
+}
+
+void Server::note_status(const FrameResult& frame) {
+  const SendCounts& sent = sender_.counts();
+  const RunTotals& totals = simulation_.totals();
+  const SkipTotals& skipped = totals.skipped;
+  const double now = protocol::monotonic_now();
+  pace_.note(now, frame.seconds, totals.steps);
+  line_pace_.note(now, frame.seconds, totals.steps);
+  const std::uint64_t unsent_now = unsent();
+  const std::lock_guard lock(status_mutex_);
+  status_.particles = static_cast<std::uint64_t>(simulation_.particles());
+  status_.steps = static_cast<std::uint64_t>(totals.steps);
+  status_.impacts = sent.impacts;
+  status_.bubbles = sent.bubbles;
+  status_.cavities = sent.cavities;
+  status_.late = pacer_.counts().behind;
+  status_.unsent = unsent_now;
+  status_.resets = totals.retried + totals.calmed + totals.resets;
+  status_.skipped = skipped.idle + skipped.contacts + skipped.bubbles + skipped.cavities;
+  status_.real_time_factor = static_cast<float>(pace_.real_time_factor());
+  status_.steps_per_second = static_cast<float>(pace_.steps_per_second());
+  status_.density_error = static_cast<float>(frame.survey.mean_excess);
+  status_.bubble_particles = totals.bubbles_alive;
+  status_.thinned = totals.air.thinned;
+}
+
+std::uint64_t Server::unsent() const {
+  std::uint64_t sum = 0;
+  for (const Target& target : targets_.list()) sum += target.failed;
+  return sum;
+}
+
+void Server::note_gauges() {
+  if (!gauges_ || simulation_.seconds() < next_gauges_) return;
+  next_gauges_ = overload_.level() == Load::easy ? 0.0 : simulation_.seconds() + kLeanGauges;
+  keep_going(
+      [this] { gauges_->note(simulation_.seconds(), simulation_.fluid(), simulation_.bodies()); },
+      [this] { gauges_.reset(); });
+}
+
+void Server::print_progress() {
+  const double now = protocol::monotonic_now();
+  next_line_ = now + kLinePeriod;
+  const SendCounts& sent = sender_.counts();
+  std::printf(
+      "%7.1f s  %6.0f steps/s  real time x %.2f  impacts %llu  bubbles %llu  cavities %llu\n",
+      simulation_.seconds(), line_pace_.steps_per_second(), line_pace_.real_time_factor(),
+      static_cast<unsigned long long>(sent.impacts), static_cast<unsigned long long>(sent.bubbles),
+      static_cast<unsigned long long>(sent.cavities));
+  std::fflush(stdout);
+}
+
+RunReport Server::finish() {
+  sender_.leave();
+  keep_going([this] { sender_.close(simulation_.seconds()); }, [this] { sender_.stop_logging(); });
+  target_status_.finish(kAnswerTimeout);
+  RunReport report = report_on(simulation_, sender_.counts(), pacer_.counts(), overload_);
+  report.device = device_;
+  report.wall_seconds = wall_seconds_;
+  report.send_failures = unsent();
+  report.late = target_status_.late();
+  report.lost = target_status_.lost();
+  report.shown = show_ ? show_->shown() : 0;
+  const ControlCounts wire = control_.counts();
+  report.refused_poses = poses_.refusals(wire);
+  for (std::size_t i = 1; i < wire.refused.size(); ++i) {
+    const auto reason = static_cast<protocol::Refusal>(i);
+    if (wire.refused[i] == 0) continue;
+    report.refused_datagrams.emplace_back(protocol::describe(reason), wire.refused[i]);
+  }
+  return report;
+}
+
+void Server::leave(const RunReport& report) const {
+  if (!options_.report.empty()) {
+    program::failing_with(program::kExitIo, [&] { write_report(options_.report, report); });
+  }
+  if (!unwritten_.empty()) throw program::Failure(program::kExitIo, unwritten_);
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/simulation/needs.hpp"
+
+#include <algorithm>
+
+namespace splash::sim {
+namespace {
+
+/// Part of the bubble speed below which nobody reaches it within a frame: at 1 m/s and 160 frames
+/// per second that takes 8 g.
+constexpr double kCalm = 0.5;
+
+/// Whether the ranges [a, b] and [lower, upper] overlap.
+bool overlap(float a, float b, double lower, double upper) {
+  return static_cast<double>(b) > lower && static_cast<double>(a) < upper;
+}
+
+bool meets(const BodyStep& b, const Survey& water, double margin) {
+  const auto along = [&](float lower, float upper, std::size_t axis) {
+    return overlap(lower, upper, water.lower[axis] - margin, water.upper[axis] + margin);
+  };
+  return along(b.lower_x, b.upper_x, 0) && along(b.lower_y, b.upper_y, 1) &&
+         along(b.lower_z, b.upper_z, 2);
+}
+
+}  // namespace
+
+bool near_water(const std::vector<BodyStep>& bodies, const Survey& water, double margin) {
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [&](const BodyStep& b) { return meets(b, water, margin); });
+}
+
+bool moving_near_water(const std::vector<BodyStep>& bodies, const Survey& water) {
+  return std::any_of(bodies.begin(), bodies.end(), [&](const BodyStep& b) {
+    return b.speed > SPLASH_TREMBLE && meets(b, water, 0.0);
+  });
+}
+
+FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const Survey& last, double frame,
+                           bool driven, std::size_t bubbles) {
+  FrameNeeds needs;
+  if (!known_) {
+    known_ = true;
+    calm_before_ = false;
+    return needs;
+  }
+  const bool asleep = last.asleep == particles_;
+  needs.steps = !(skip_.idle && skip_.sleep && asleep && bubbles == 0 && !driven &&
+                  !moving_near_water(bodies, last));
+  needs.contacts = !skip_.contacts || near_water(bodies, last, last.speed * frame);
+  double fastest = last.speed;
+  for (const BodyStep& b : bodies) {
+    if (meets(b, last, last.speed * frame))
+      fastest = std::max(fastest, static_cast<double>(b.speed));
+  }
+  const bool calm = bubbles == 0 && fastest < kCalm * bubble_speed_;
+  // One more pass after all has calmed down, for the particles' memories.
+  needs.bubbles = !(skip_.bubbles && calm && calm_before_);
+  calm_before_ = calm;
+  return needs;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/simulation/recovery/rescue.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Water is stopped this far around a fault, and twice as far when that did not help [supports].
+constexpr double kCalmed = 4.0;
+
+/// Share of the particles that is no longer a matter of single ones [1].
+constexpr double kMany = 0.01;
+
+Vector3 place_at(const Snapshot& state, std::size_t i, const FluidParams& params) {
+  const auto stride = static_cast<std::size_t>(params.capacity);
+  return {static_cast<double>(state.position[i]), static_cast<double>(state.position[stride + i]),
+          static_cast<double>(state.position[2 * stride + i])};
+}
+
+/// Of the particle `id`; the origin if there is none of that name.
+Vector3 place_of(const Snapshot& state, int id, const FluidParams& params) {
+  const auto found = std::find(state.id.begin(), state.id.end(), id);
+  if (found == state.id.end()) return {};
+  return place_at(state, static_cast<std::size_t>(found - state.id.begin()), params);
+}
+
+}  // namespace
+
+void locate(Mishap& mishap, Fluid& fluid, const Bodies& bodies, const Scene& scene,
+            double sound_at) {
+  const Diagnosis& what = mishap.what;
+  if (what.particle < 0 && what.body < 0) return;
+  mishap.place = what.body >= 0
+                     ? bodies.state(static_cast<std::size_t>(what.body), sound_at).position
+                     : place_of(fluid.snapshot(), what.particle, fluid.params());
+  const int body = what.body >= 0 ? what.body : bodies.nearest(mishap.place, sound_at);
+  if (body < 0) return;
+  const auto b = static_cast<std::size_t>(body);
+  mishap.body = scene.bodies[b].name;
+  mishap.distance = length(mishap.place - bodies.state(b, mishap.seconds).position);
+}
+
+void calm(Mishap& mishap, Fluid& fluid, Bodies& bodies, int times, double sound_at) {
+  const FluidParams& p = fluid.params();
+  const bool many = mishap.what.particles == 0 || mishap.what.particles > kMany * p.count;
+  mishap.calmed = many ? std::numeric_limits<double>::infinity()
+                       : kCalmed * times * static_cast<double>(p.support);
+  Snapshot state = fluid.snapshot();
+  const auto stride = static_cast<std::size_t>(p.capacity);
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    if (length(place_at(state, i, p) - mishap.place) > mishap.calmed) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) state.velocity[axis * stride + i] = 0.0F;
+  }
+  fluid.restore(state);
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    const bool near = length(bodies.state(b, sound_at).position - mishap.place) <= mishap.calmed;
+    if (bodies.is_free(b) && near) bodies.still(b);
+  }
+}
+
+}  // namespace splash::sim

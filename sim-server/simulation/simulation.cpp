@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include "sim-server/bodies/contact_step.hpp"
+#include "sim-server/bodies/mass.hpp"
+#include "sim-server/fluid/set_up.hpp"
+#include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/simulation/free_body_watch.hpp"
+#include "sim-server/simulation/recovery/rescue.hpp"
+#include "sim-server/start/come_to_rest.hpp"
+#include "sim-server/start/scene_start.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// What moves faster than this part of sound throws water that may reach the speed limit: splashes
+/// are some times as fast as what makes them [1]. It flies for so long [s].
+constexpr double kThrows = 1.0 / 8.0;
+constexpr double kFlight = 1.0;
+
+SleepRule sleep_rule(const Scene& scene) {
+  return {scene.skip.sleep_speed,
+          static_cast<int>(std::ceil(scene.skip.sleep_after * scene.serve.frame_rate))};
+}
+
+double particle_volume(const FluidParams& p) {
+  return static_cast<double>(p.mass) / static_cast<double>(p.rest_density);
+}
+
+std::vector<SkinPoint> skins_of(const Scene& scene, const FluidParams& p) {
+  return sample_skins(scene.bodies, static_cast<double>(p.spacing));
+}
+
+/// Where all particles are; waits [m].
+std::vector<Vector3> read_places(Fluid& fluid) {
+  const auto count = static_cast<std::size_t>(fluid.params().count);
+  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
+  const std::vector<float> parts =
+      fluid.particles().position.read(fluid.device(), 2 * stride + count);
+  std::vector<Vector3> places(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      places[i][axis] = static_cast<double>(parts[axis * stride + i]);
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
+                       const Progress& tell)
+    : scene_(scene),
+      bodies_(make_bodies(scene_, tracker, live_)),
+      fluid_(make_fluid(device, scene_, bodies_, holding_)),
+      detector_(fluid_, skins_of(scene_, fluid_.params()), scene_.detect, scene_.seed,
+                !scene_.skip.cavities),
+      cavity_watch_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
+                    !scene_.skip.cavities),
+      needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
+  come_to_rest(fluid_, scene_, bodies_, holding_, tell);
+  fluid_.forget_work();
+  const std::vector<FreeBody> free = free_bodies(scene_.bodies);
+  if (!free.empty()) {
+    fluid_.let_go(free, film_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)));
+  }
+  const double fastest = std::max(start_flow(fluid_, scene_), fastest_mover(0.0));
+  contact_step_ = longest_contact_step(scene_.bodies, length(scene_.fluid.gravity));
+  set_largest_step(fastest, std::abs(scene_.fluid.gravity[2]));
+  start_ = fluid_.snapshot();
+  sound_.keep(device, state());
+  // The divergence-free solver balances all of the water in every step: none of it may sleep.
+  const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
+  if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
+  totals_.skipped.kernel_parts = fluid_.parts().left_out();
+  rehearse();
+}
+
+// OpenCL on CPUs compiles a kernel when it first runs. On a machine's first start that takes
+// seconds, which nobody minds before time begins, and everybody in the midst of a splash.
+void Simulation::rehearse() {
+  std::vector<BodyStep> poses;
+  const std::vector<Step> plan =
+      plan_frame(steps_of_frame(1.0 / scene_.serve.frame_rate, largest_step_), poses);
+  fluid_.set_bodies(poses);
+  fluid_.begin_watch(plan.size());
+  for (const Step& step : plan) {
+    fluid_.prepare(step);
+    if (&step == &plan.back()) detector_.rehearse(step);
+    fluid_.advance(step);
+  }
+  static_cast<void>(fluid_.survey());
+  sound_.recall(fluid_.device(), state());
+  fluid_.note_recalled();
+  fluid_.forget_work();
+}
+
+std::vector<cl::Buffer> Simulation::state() const {
+  std::vector<cl::Buffer> all = fluid_.state();
+  const std::vector<cl::Buffer> detected = detector_.state();
+  all.insert(all.end(), detected.begin(), detected.end());
+  return all;
+}
+
+std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
+                                         std::vector<BodyStep>& poses) const {
+  std::vector<Step> plan;
+  for (int k = 0; k < steps.count; ++k) {
+    const double time = seconds_ + k * steps.dt;
+    const PistonState piston = piston_at(scene_.wave_maker, time);
+    plan.push_back({steps.dt, piston.offset, piston.speed, static_cast<int>(poses.size()), k == 0});
+    const std::vector<BodyStep> now = bodies_.at(time);
+    poses.insert(poses.end(), now.begin(), now.end());
+  }
+  return plan;
+}
+
+FrameResult Simulation::advance() {
+  for (std::size_t b = 0; b < live_.size(); ++b) {
+    if (live_[b] == nullptr) continue;
+    const BodyState before = bodies_.state(b, seconds_);
+    live_[b]->begin({seconds_, origin_ + seconds_, 1.0 / scene_.serve.frame_rate});
+    bodies_.note_jump(b, before, seconds_);
+  }
+  std::optional<Mishap> mishap;
+  while (true) {
+    const FrameSteps steps =
+        steps_of_frame(1.0 / scene_.serve.frame_rate, recovery_.step_share() * largest_step_);
+    std::vector<BodyStep> poses;
+    const std::vector<Step> plan = plan_frame(steps, poses);
+    const FrameNeeds needs = needs_.of_frame(
+        poses, survey_, steps.count * steps.dt,
+        plan.front().piston_speed != 0.0 || bodies_.restless(seconds_), detector_.bubbles_alive());
+    if (!mishap) count(needs);
+    if (!needs.steps) return hold_still(steps.count * steps.dt);
+    fluid_.set_bodies(poses);
+    if (auto result = attempt(plan, needs)) {
+      result->mishap = mishap;
+      totals_.retried += mishap.has_value();
+      return *result;
+    }
+    Mishap now = examine(*wrong_, steps.dt);
+    if (!mishap) mishap = now;
+    mishap->tries = recovery_.failed_tries() + 1;
+    mishap->remedy = recovery_.failed();
+    if (mishap->remedy != Remedy::retry) return give_up(*mishap, steps.count * steps.dt);
+  }
+}
+
+FrameResult Simulation::hold_still(double frame) {
+  FrameResult still;
+  seconds_ += frame;
+  bodies_.hold(seconds_, true);
+  detected_at_ = seconds_;
+  still.seconds = seconds_;
+  still.survey = survey_;
+  totals_.mean_excess_sum += survey_.mean_excess;
+  return still;
+}
+
+void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since) {
+  fluid_.begin_watch(plan.size());
+  for (std::size_t k = 0; k < plan.size(); ++k) {
+    Step step = plan[k];
+    if (hook_) hook_(fluid_, step, Moment::before);
+    fluid_.prepare(step);
+    if (k + 1 == plan.size()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
+    if (hook_) hook_(fluid_, step, Moment::between);
+    fluid_.advance(step);
+    fluid_.device().queue().flush();  // else a driver may begin with nothing before the end
+  }
+  fluid_.enqueue_survey();
+  fluid_.device().queue().finish();
+}
+
+std::optional<Diagnosis> Simulation::diagnosis(std::size_t steps) {
+  if (const auto found = fluid_.health().diagnosis()) return found;
+  return look_at_free_bodies(fluid_, static_cast<int>(steps) - 1);
+}
+
+std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
+                                               const FrameNeeds& needs) {
+  const double dt = plan.front().dt;
+  const auto steps = static_cast<int>(plan.size());
+  const double detect_time = seconds_ + (steps - 1) * dt;
+  const double since = detect_time - detected_at_;
+  const double mover = fastest_mover(seconds_);
+  if (mover > kThrows * static_cast<double>(fluid_.params().sound_speed)) {
+    thrown_until_ = seconds_ + kFlight;
+  }
+  // Upwards nothing ends a fall: the tank is open.
+  const bool falls_out = scene_.fluid.gravity[2] > 0.0;
+  fluid_.health().expect_speed(falls_out || seconds_ < thrown_until_);
+  enqueue(plan, needs, since);
+  wrong_ = diagnosis(plan.size());
+  if (wrong_) return std::nullopt;
+  seconds_ += steps * dt;
+  bring_free_bodies(fluid_, bodies_, seconds_);
+  totals_.steps += steps;
+  FrameResult result;
+  result.seconds = seconds_;
+  result.found = collect(detect_time, since);
+  result.survey = fluid_.survey_result();
+  detected_at_ = detect_time;
+  keep(result);
+  return result;
+}
+
+Detections Simulation::collect(double detect_time, double since) {
+  Detections found =
+      detector_.collect(detect_time, since, static_cast<std::uint32_t>(totals_.steps));
+  if (!scene_.detect.cavity_by_count) {
+    found.cavities = cavity_watch_.observe(seconds_, found.impacts, bodies_,
+                                           [&] { return read_places(fluid_); });
+  }
+  return found;
+}
+
+void Simulation::count(const FrameNeeds& needs) {
+  ++totals_.frames;
+  SkipTotals& skipped = totals_.skipped;
+  skipped.idle += !needs.steps;
+  skipped.contacts += !needs.steps || !needs.contacts;
+  skipped.bubbles += !needs.steps || !needs.bubbles;
+  skipped.cavities = static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches() -
+                     cavity_watch_.looks();
+  skipped.asleep_sum += static_cast<double>(survey_.asleep) / fluid_.params().count;
+}
+
+void Simulation::keep(const FrameResult& result) {
+  fluid_.health().accept();
+  sound_.keep(fluid_.device(), state());
+  recovery_.succeeded();
+  survey_ = result.survey;
+  totals_.bubbles_dropped = detector_.bubbles_dropped();
+  totals_.bubbles_alive = detector_.bubbles_alive();
+  totals_.bubbles_alive_most = std::max(totals_.bubbles_alive_most, totals_.bubbles_alive);
+  totals_.bubbles_alive_sum += static_cast<double>(totals_.bubbles_alive);
+  totals_.air = detector_.air();
+  totals_.no_cavity = cavity_watch_.none();
+  totals_.mean_excess_sum += survey_.mean_excess;
+  totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
+  const double fastest = std::max(survey_.speed, fastest_mover(seconds_));
+  set_largest_step(fastest, survey_.acceleration);
+}
+
+double Simulation::fastest_mover(double seconds) const {
+  return std::max(bodies_.fastest(seconds), std::abs(piston_at(scene_.wave_maker, seconds).speed));
+}
+
+void Simulation::set_largest_step(double fastest, double acceleration) {
+  const double factor = stretch_ * step_factor(scene_.fluid);
+  largest_step_ =
+      std::min(largest_time_step(fluid_.params(), fastest, acceleration, factor), contact_step_);
+}
+
+Mishap Simulation::examine(const Diagnosis& what, double dt) {
+  sound_.recall(fluid_.device(), state());
+  fluid_.note_recalled();
+  needs_.forget();
+  Mishap mishap;
+  mishap.what = what;
+  mishap.step = totals_.steps + what.step;
+  mishap.seconds = seconds_ + what.step * dt;
+  locate(mishap, fluid_, bodies_, scene_, seconds_);
+  return mishap;
+}
+
+FrameResult Simulation::give_up(Mishap& mishap, double frame) {
+  if (mishap.remedy == Remedy::reset) {
+    fluid_.restore(start_);
+    bodies_.reset(seconds_ + frame);
+    cavity_watch_.forget();
+    ++totals_.resets;
+  } else {
+    calm(mishap, fluid_, bodies_, recovery_.given_up(), seconds_);
+    ++totals_.calmed;
+  }
+  sound_.keep(fluid_.device(), state());
+  seconds_ += frame;
+  bodies_.hold(seconds_, false);
+  FrameResult result;
+  result.seconds = seconds_;
+  result.survey = survey_;
+  result.mishap = mishap;
+  return result;
+}
+
+PosedMotion* Simulation::live_body(int body) const noexcept {
+  const bool known = body >= 0 && static_cast<std::size_t>(body) < live_.size();
+  return known ? live_[static_cast<std::size_t>(body)] : nullptr;
+}
+
+}  // namespace splash::sim

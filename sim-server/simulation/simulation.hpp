@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// A scene at work: water, bodies and detectors, frame by frame. Knows neither clocks nor OSC.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "sim-server/bodies/body_steps.hpp"
+#include "sim-server/bodies/motion/posed_motion.hpp"
+#include "sim-server/detect/cavity_watch.hpp"
+#include "sim-server/detect/detector.hpp"
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/health/checkpoint.hpp"
+#include "sim-server/fluid/time_step.hpp"
+#include "sim-server/scene/holding.hpp"
+#include "sim-server/simulation/needs.hpp"
+#include "sim-server/simulation/recovery/mishap.hpp"
+#include "sim-server/simulation/recovery/recovery.hpp"
+#include "sim-server/start/settle.hpp"
+
+namespace splash::sim {
+
+/// What one frame did.
+struct FrameResult {
+  double seconds = 0.0;  ///< simulated time at its end [s]
+  Detections found;
+  Survey survey;
+  std::optional<Mishap> mishap;  ///< something went wrong; found is of a sound try, or empty
+};
+
+/// Sums over a run.
+struct RunTotals {
+  std::int64_t steps = 0;
+  std::int64_t frames = 0;
+  double mean_excess_sum = 0.0;  ///< of the frames' mean density errors [1]
+  double max_excess = 0.0;       ///< [1]
+  std::uint64_t retried = 0;     ///< frames that were sound only with shorter steps
+  std::uint64_t calmed = 0;      ///< frames given up, the water around a fault stopped
+  std::uint64_t resets = 0;      ///< frames given up, the scene begun anew
+  std::uint64_t bubbles_dropped = 0;
+  std::size_t bubbles_alive = 0;       ///< bubble particles, now
+  double bubbles_alive_sum = 0.0;      ///< of the frames' numbers of them
+  std::size_t bubbles_alive_most = 0;  ///< of any frame
+  AirTotals air;
+  NoCavity no_cavity;
+  SkipTotals skipped;
+};
+
+/// Where in a step a hook is called.
+enum class Moment { before, between };
+
+/// For tests: may change what a step works on, and its length.
+using StepHook = std::function<void(Fluid&, Step&, Moment)>;
+
+class Simulation {
+ public:
+  /// `tracker`: a marker file that replaces the scene's, or empty. Builds all kernels and lets the
+  /// water settle, whose progress it can `tell`. Throws program::ConfigError for what the scene
+  /// says wrong, program::Failure for water that does not come to rest, std::runtime_error for the
+  /// device.
+  Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
+             const Progress& tell = {});
+
+  /// Simulates one frame: some equal steps, the detectors in the last one. What is not sound is
+  /// done again or given up (Recovery); nothing of it is told.
+  [[nodiscard]] FrameResult advance();
+  /// Our clock when simulated time was 0, as of the next frame [s]: what poses are stamped by.
+  void set_origin(double origin) noexcept { origin_ = origin; }
+  /// Steps are this many times as long as the scene wants, from the next frame on [1].
+  void set_stretch(double stretch) noexcept { stretch_ = stretch; }
+  /// Goes on from `water`, which a simulation of the same scene had at `seconds`; bubbles are lost.
+  void resume(const Snapshot& water, double seconds) {
+    fluid_.restore(water);
+    seconds_ = detected_at_ = seconds;
+    sound_.keep(fluid_.device(), state());
+    needs_.forget();
+    cavity_watch_.forget();
+  }
+  void set_hook(StepHook hook) { hook_ = std::move(hook); }
+
+  [[nodiscard]] double seconds() const noexcept { return seconds_; }
+  [[nodiscard]] const RunTotals& totals() const noexcept { return totals_; }
+  /// Of the pressure solver, without the settling.
+  [[nodiscard]] SolverWork solver_work() const { return fluid_.solver_work(); }
+  [[nodiscard]] int particles() const noexcept { return fluid_.params().count; }
+  [[nodiscard]] const Bodies& bodies() const noexcept { return bodies_; }
+  [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
+  /// Of each particle, by its id: what came to rest before time began, and what did not.
+  [[nodiscard]] const std::vector<Holding>& holding() const noexcept { return holding_; }
+  [[nodiscard]] Fluid& fluid() noexcept { return fluid_; }
+  /// Where the bubble particles are [m].
+  [[nodiscard]] std::vector<Vector3> bubble_places() const { return detector_.bubble_places(); }
+  [[nodiscard]] double time_step() const noexcept { return largest_step_; }
+  [[nodiscard]] float sound_speed() const noexcept {
+    return fluid_.params().sound_speed;
+  }  ///< [m/s]
+  /// The body that poses can move, or null: the water moves it, or there is none.
+  [[nodiscard]] PosedMotion* live_body(int body) const noexcept;
+  /// Index of the body nearest to a place when events were last looked for, -1 without bodies.
+  [[nodiscard]] int nearest_body(const Vector3& place) const {
+    return bodies_.nearest(place, detected_at_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps,
+                                             std::vector<BodyStep>& poses) const;
+  /// One try of a frame; nullopt: it was not sound.
+  [[nodiscard]] std::optional<FrameResult> attempt(const std::vector<Step>& plan,
+                                                   const FrameNeeds& needs);
+  void enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since);
+  /// What the detectors found in a frame that was sound.
+  [[nodiscard]] Detections collect(double detect_time, double since);
+  [[nodiscard]] FrameResult hold_still(double frame);
+  /// Of the frame that has been computed, with so many steps.
+  [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t steps);
+  void keep(const FrameResult& result);
+  /// Of bodies and the piston [m/s].
+  [[nodiscard]] double fastest_mover(double seconds) const;
+  void set_largest_step(double fastest, double acceleration);
+  void count(const FrameNeeds& needs);
+
+  [[nodiscard]] std::vector<cl::Buffer> state() const;
+  /// Computes a frame with all that a splash needs, and takes it back.
+  void rehearse();
+  /// Takes the state back to the last sound one, and notes what was wrong.
+  [[nodiscard]] Mishap examine(const Diagnosis& what, double dt);
+  /// Ends a frame that no try made sound.
+  [[nodiscard]] FrameResult give_up(Mishap& mishap, double frame);
+
+  Scene scene_;
+  std::vector<PosedMotion*> live_;
+  Bodies bodies_;
+  std::vector<Holding> holding_;
+  Fluid fluid_;
+  Detector detector_;
+  CavityWatch cavity_watch_;
+  Needs needs_;
+  Survey survey_;  ///< the last one
+  double seconds_ = 0.0;
+  double detected_at_ = 0.0;   ///< time of the last detection [s]
+  double largest_step_ = 0.0;  ///< [s]
+  double contact_step_ = 0.0;  ///< no step is longer (bodies/contact_step.hpp) [s]
+  double thrown_until_ = 0.0;  ///< water may be as fast as it can be [s]
+  double stretch_ = 1.0;       ///< of all steps [1]
+  double origin_ = 0.0;        ///< our clock when simulated time was 0 [s]
+  Recovery recovery_;
+  Checkpoint sound_;  ///< the end of the last sound frame
+  Snapshot start_;    ///< when time began
+  StepHook hook_;
+  std::optional<Diagnosis> wrong_;  ///< with the last try
+  RunTotals totals_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/start/scene_start.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "sim-server/bodies/motion/grabbed_motion.hpp"
+#include "sim-server/bodies/motion/make_motion.hpp"
+#include "sim-server/fluid/set_up.hpp"
+#include "sim-server/scene/flow.hpp"
+#include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// What comes to rest is held, whatever holds it.
+std::vector<Holding> wanted_holding(const Scene& scene, std::span<const Keyframe> poses,
+                                    const std::vector<Vector3>& particles) {
+  if (scene.fluid.settle == SettleKind::always) {
+    return std::vector<Holding>(particles.size(), Holding::held);
+  }
+  std::vector<Holding> all = how_held(scene, poses, particles);
+  if (scene.fluid.settle == SettleKind::never) {
+    std::fill(all.begin(), all.end(), Holding::flows);
+  }
+  return all;
+}
+
+/// With a speed of sound that suits its depth and its bodies, unless it names one.
+Scene with_sound(Scene scene, const Bodies& bodies) {
+  scene.fluid.sound_speed = scene_sound_speed(scene, bodies.fastest_ever());
+  return scene;
+}
+
+}  // namespace
+
+Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
+                   std::vector<PosedMotion*>& live) {
+  std::vector<std::unique_ptr<Motion>> motions;
+  for (const BodySettings& body : scene.bodies) {
+    auto motion = make_motion(body, tracker);
+    const bool grabbable = !is_free(body) && body.motion.kind != MotionKind::osc;
+    if (grabbable) motion = std::make_unique<GrabbedMotion>(std::move(motion));
+    motions.push_back(std::move(motion));
+    live.push_back(dynamic_cast<PosedMotion*>(motions.back().get()));
+  }
+  const double support = scene_support(scene);
+  return {sample_bodies(scene.bodies, particle_spacing(scene), support), std::move(motions),
+          support};
+}
+
+std::vector<Keyframe> poses_at_start(const Bodies& bodies) {
+  std::vector<Keyframe> poses;
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    const BodyState state = bodies.state(b, 0.0);
+    poses.push_back({0.0, state.position, state.rotation});
+  }
+  return poses;
+}
+
+Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
+                 std::vector<Holding>& holding) {
+  const Scene sounding = with_sound(scene, bodies);
+  const std::vector<Keyframe> poses = poses_at_start(bodies);
+  const std::vector<Vector3> particles = initial_particles(sounding, poses);
+  holding = wanted_holding(scene, poses, particles);
+  const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
+  return {device,   make_params(sounding, particles), settled(sounding, particles, holding),
+          boundary, body_outlines(scene.bodies),      {false, !scene.skip.kernels}};
+}
+
+double start_flow(Fluid& fluid, const Scene& scene) {
+  if (scene.flow.kind == FlowKind::none) return 0.0;
+  Snapshot state = fluid.snapshot();
+  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    const auto at = [&](std::size_t axis) {
+      return static_cast<double>(state.position[axis * stride + i]);
+    };
+    const Vector3 v = initial_velocity(scene, {at(0), at(1), at(2)});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      state.velocity[axis * stride + i] = static_cast<float>(v[axis]);
+    }
+    fastest = std::max(fastest, length(v));
+  }
+  fluid.restore(state);
+  return fastest;
+}
+
+}  // namespace splash::sim

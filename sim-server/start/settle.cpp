@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/start/settle.hpp"
+
+#include <algorithm>
+
+namespace splash::sim {
+namespace {
+
+/// Part of the time that comes first: particles slip past each other into a better packing.
+constexpr double kLoose = 0.6;
+
+/// Then all motion is stopped again and again after this long [s]: a quarter of the period in which
+/// a column half a metre deep breathes, 4 H / c0, so that what it stores is taken as it comes out.
+constexpr double kBetweenStops = 0.025;
+
+/// Then it is left alone for so long [s]: particles creep until they slip, some tenths of a second
+/// later, into a better place. It is calm when nothing gets faster meanwhile than this part of the
+/// longest wave; else it is stopped and left alone again.
+constexpr double kWatch = 0.5;
+constexpr double kCalm = 0.05;
+/// However restless, it takes this many times what was asked for at most. What gets as fast as the
+/// wave itself falls or flows off, and no waiting makes it calm.
+constexpr double kMost = 4.0;
+
+constexpr int kTold = 8;  ///< steps between two words on how far it is
+
+/// A step after the other, of a fluid that is to come to rest.
+class Settling {
+ public:
+  Settling(Fluid& fluid, const Step& step, int most, const Progress& tell, Mould* mould)
+      : fluid_(fluid), step_(step), most_(most), tell_(tell), mould_(mould) {}
+
+  void advance() {
+    if (tell_ && done_ % kTold == 0) {
+      fluid_.device().queue().finish();
+      tell_(static_cast<double>(done_) / most_);
+    }
+    fluid_.prepare(step_);
+    fluid_.advance(step_);
+    if (mould_ != nullptr) mould_->put_back();
+    ++done_;
+  }
+
+  /// Free for so many steps: the fastest that anything was, looked at now and then [m/s].
+  double watch(int steps) {
+    double fastest = 0.0;
+    for (int k = 0; k < steps; ++k) {
+      advance();
+      if (k % kTold == kTold - 1 || k + 1 == steps) {
+        fastest = std::max(fastest, fluid_.survey().speed);
+      }
+    }
+    return fastest;
+  }
+  [[nodiscard]] int done() const noexcept { return done_; }
+
+ private:
+  Fluid& fluid_;
+  Step step_;
+  int most_;
+  const Progress& tell_;
+  Mould* mould_;
+  int done_ = 0;
+};
+
+}  // namespace
+
+std::vector<BodyStep> at_rest(std::vector<BodyStep> bodies) {
+  for (BodyStep& body : bodies) {
+    body.vx = body.vy = body.vz = 0.0F;
+    body.wx = body.wy = body.wz = body.speed = 0.0F;
+  }
+  return bodies;
+}
+
+void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
+            double dt, const Progress& tell, Mould* mould) {
+  fluid.set_bodies(bodies);
+  if (mould != nullptr && mould->has_all()) return;
+  const int steps = static_cast<int>(seconds / dt);
+  const int most = static_cast<int>(kMost * seconds / dt);
+  const int between = std::max(1, static_cast<int>(kBetweenStops / dt));
+  const int watched = std::max(1, static_cast<int>(kWatch / dt));
+  Settling water(fluid, {dt, piston, 0.0, 0}, most, tell, mould);
+  for (int k = 0; k < steps; ++k) {
+    water.advance();
+    if (k > kLoose * steps && k % between == 0) fluid.still();
+  }
+  fluid.still();
+  const double wave = static_cast<double>(fluid.params().wave_speed);
+  for (bool restless = wave > 0.0; restless && water.done() + watched <= most; fluid.still()) {
+    const double fastest = water.watch(watched);
+    restless = fastest > kCalm * wave && fastest < wave;
+  }
+}
+
+}  // namespace splash::sim
