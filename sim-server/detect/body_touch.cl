@@ -6,6 +6,13 @@
 // And how much matter backs what it may hit: the colour of all water and of the tank's solid at a
 // place as far ahead along its normal as the water is deep that a blow of the whole body moves.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+
 typedef struct {
   float colour;                // c_f [1]
   float gx, gy, gz;            // its gradient: points into the water [1/m]

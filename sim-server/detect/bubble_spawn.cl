@@ -2,6 +2,9 @@
 // A fluid particle entraps air while it is fast and has most of the matter above it (paper,
 // section 4). It spawns a bubble particle once: again only after either has ceased.
 
+#include "sim-server/detect/colour.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 typedef struct {
   int id;                // of the particle
   float x, y, z;         // [m]

@@ -2,12 +2,12 @@
 // Bubbles: carried by the water around them (one way), and what decides whether they live on:
 // their own colour field c_b and the upward gradient of all matter (paper, section 4).
 
-typedef struct {
-  float colour;          // c_b: other bubbles only [1]
-  float upward;          // gradient of c_p, in that of a flat surface [1]
-  float x, y, z;         // after the frame [m]
-  int id;
-} BubbleState;
+#include "sim-server/detect/bubble_state.h"
+#include "sim-server/detect/colour.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
 
 static float other_bubbles(constant FluidParams* p, global const int* bubble_start,
                            global const float* position, int stride, float x, float y, float z) {

@@ -3,6 +3,10 @@
 // round every bubble takes the smallest label among itself and its neighbours within the support,
 // until no label changes.
 
+#include "sim-server/detect/bubble_state.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define UNLABELLED 0x7FFFFFFF
 
 kernel void seed_cavities(int bubble_count, float least_colour, global const BubbleState* state,

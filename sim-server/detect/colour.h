@@ -2,6 +2,13 @@
 // The vertical part of the colour field's gradient over all matter: fluid, bodies, bubbles and
 // walls (paper, eq. 2). Positive: most of the matter around is above.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+
 // Sum of slope (z_j - z) over one kind of point; with a volume each, or all alike.
 static float matter_above(constant FluidParams* p, global const int* cell_start,
                           global const float* position, int stride, float x, float y, float z) {

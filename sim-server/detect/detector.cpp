@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "sim-server/detect/added_mass.hpp"
-#include "sim-server/fluid/kernel_sources.hpp"
 #include "sim-server/fluid/set_up.hpp"
 
 namespace splash::sim {
@@ -22,10 +21,7 @@ std::size_t bubble_room(int particles) {
 }
 
 cl::Program build(Device& device) {
-  std::vector<KernelSource> sources = fluid_sources();
-  const std::vector<KernelSource> own = kernels::detect();
-  sources.insert(sources.end(), own.begin(), own.end());
-  return build_program(device, sources, {}, false);
+  return build_program(device, kernels::detect(), {}, false);
 }
 
 std::vector<float> places(const std::vector<SkinPoint>& skin) {

@@ -13,7 +13,5 @@ namespace splash::sim {
 [[nodiscard]] std::vector<KernelSource> divergence_free_sources();
 [[nodiscard]] std::vector<KernelSource> free_body_sources();
 [[nodiscard]] std::vector<KernelSource> survey_sources();
-/// The headers that other rooms' kernels need: parameters, lanes, smoothing, grid, walls, bodies.
-[[nodiscard]] std::vector<KernelSource> shared_sources();
 
 }  // namespace splash::sim

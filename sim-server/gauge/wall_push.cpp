@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/gauge/wall_push.hpp"
 
-#include "sim-server/fluid/kernel_sources.hpp"
-
 namespace splash::sim {
 namespace kernels {
 std::vector<KernelSource> gauge();
@@ -11,10 +9,7 @@ std::vector<KernelSource> gauge();
 namespace {
 
 cl::Program build(Fluid& fluid) {
-  std::vector<KernelSource> sources = shared_sources();
-  const std::vector<KernelSource> own = kernels::gauge();
-  sources.insert(sources.end(), own.begin(), own.end());
-  return build_program(fluid.device(), sources, {}, false);
+  return build_program(fluid.device(), kernels::gauge(), {}, false);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Puts particles in a mould back to their places there, at rest; all others go on.
 
+#include "sim-server/fluid/params/fluid_params.h"
+
 kernel void put_back(constant FluidParams* p, global const int* kept, global const float* place,
                      global const int* id, global float* position, global float* velocity) {
   const int i = get_global_id(0);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Bodies as kernels see them: how they are turned, and how far they reach.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+
 // `s` turned by the quaternion q.
 static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
   const float3 axis = (float3)(qx, qy, qz);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Where a body is nearest: its distance, and the outward normal there (outline.h).
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 static void turn_lanes(lanes* x, lanes* y, lanes* z, float qx, float qy, float qz, float qw) {
   const lanes tx = 2.0f * (qy * *z - qz * *y);
   const lanes ty = 2.0f * (qz * *x - qx * *z);

@@ -11,6 +11,13 @@
 //   grad f = R grad S + S R'(d) n
 // and so does the particle push that body, as both are the same when both move along.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+
 // R and its gradient [1], [1/m] as density.cl leaves them, and which body is the nearest.
 typedef struct {
   lanes factor;

@@ -3,6 +3,9 @@
 //   x = c + R s,   v = u + w x (R s)
 // Those that grow (bodies.h) have their points as much nearer to the centre, and smaller.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 // `sample`: points in body axes; `owner`: which body each belongs to; `bodies`: one entry per body
 // of this step.
 kernel void place_bodies(int points, int stride, global const float* sample,

@@ -2,6 +2,10 @@
 // Nobody is left behind a wall: what came closer is put off it again (walls.h), and its motion into
 // the wall ends.
 
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 static void keep_in_tank(constant FluidParams* p, float piston, float piston_speed, lanes* x,
                          lanes* y, lanes* z, lanes* u, lanes* v, lanes* w) {
   const float closest = KEPT_OFF_WALLS * p->spacing;

@@ -6,6 +6,12 @@
 // Nobody goes through a body, either: what a squeeze throws so far in one step that another side
 // is the nearer one, or that it has come out there, is put back to where it got too deep.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/boundary/outline_mesh.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define KEPT_DEPTH 0.5f     // [spacings]
 #define MOST_PROBES 32      // along a particle's way in a step, one each KEPT_DEPTH
 #define ENTRY_HALVINGS 14   // of the way between two probes: to 1e-4 of it

@@ -4,6 +4,11 @@
 // that is inside), how far it reaches, and with which points it meets a wall. Places and normals in
 // the body's own axes; `meshes`: the numbers of all meshes.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline_mesh.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 // What is left of up to three faces at right angles to each other: `q` are the distances from them
 // [m], `part` becomes how much of each one's normal is in the normal there.
 static lanes from_corner(const lanes q[3], lanes part[3]) {

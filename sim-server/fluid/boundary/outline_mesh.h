@@ -4,6 +4,12 @@
 // says how wrong that is. The gradient is that of this very distance, of length 1 but for the edges
 // and the middle of the body, so that what pushes with it is the gradient of an energy.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+#include "sim-server/fluid/params/smoothing.h"
+
 static bool is_mesh(BodyShape s) { return HAS_MESH && s.kind == SPLASH_MESH; }
 
 static float mesh_distance(BodyShape s, global const float* meshes, float3 at, float3* gradient) {

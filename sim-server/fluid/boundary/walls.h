@@ -18,6 +18,11 @@
 // rest in the edges of a tank from 21 % too high to 13 %, but is no gradient of an energy.) The
 // sloped floor replaces the floor where it is nearer.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+#include "sim-server/fluid/params/smoothing.h"
+
 #define KEPT_OFF_WALLS 0.05f  // nobody gets nearer to a wall [spacings]
 
 typedef struct {

@@ -5,6 +5,14 @@
 // with s_i = dt P_i. Spins are solved for as speeds at a lever, so that all six equations are of
 // one unit. Sums have a fixed order: the same state gives the same bits.
 
+#include "sim-server/fluid/free_bodies/body_inertia.h"
+#include "sim-server/fluid/free_bodies/body_reach.h"
+#include "sim-server/fluid/free_bodies/six.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/lanes/team.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+
 // The row of J_i^T along `f`: what a force f on the particle's place does to the body.
 typedef struct {
   lanes of[6];

@@ -3,6 +3,13 @@
 // outlines would be in each other after the step (outline_gap.h). Not meshes: they go through all
 // bodies, and all bodies through them.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/boundary/outline_mesh.h"
+#include "sim-server/fluid/free_bodies/contact.h"
+#include "sim-server/fluid/free_bodies/outline_gap.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define FIRST_EDGE 64  // number of the first edge among a body's features
 #define PUT_APART 4    // times that overlaps are ended, pair after pair
 #define LEFT_IN 0.1f   // overlap that is left, so that what lies stays in touch [touching]

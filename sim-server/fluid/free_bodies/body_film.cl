@@ -25,6 +25,13 @@
 // What a film does to one solid, it does to the other: walls and bodies that go their way take it;
 // free bodies that touch only each other share what is left of their sum.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_face.h"
+#include "sim-server/fluid/free_bodies/body_film.h"
+#include "sim-server/fluid/free_bodies/body_reach.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define FILM_GAP 2.0f        // of the widest film [spacings]
 #define LEAST 0.01f          // what those between the solids count where there are no others [1]
 #define NO_DIRECTION 0.003f  // square of the share of the areas that is no direction [1]

@@ -2,6 +2,15 @@
 // Where films are (body_film.cl): how far a place is from what is not the body, whether it lies
 // between the two, and the faces that a pressure acts on, of the body's skin and of particles.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_face.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/free_bodies/body_reach.h"
+#include "sim-server/fluid/free_bodies/tank_contact.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define APART 3.0f  // from there on no particle counts as between solids [spacings]
 
 typedef struct {

@@ -2,6 +2,10 @@
 // A free body's inertia in the world: R diag(ix, iy, iz) R^T, R from its principal axes, which are
 // its own but for a mesh's.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+
 static float3 into_principal(FreeBody f, BodyStep b, float3 v) {
   const float3 own = into_body(b, v);
   return HAS_MESH ? rotate_by(own, -f.ax, -f.ay, -f.az, f.aw) : own;

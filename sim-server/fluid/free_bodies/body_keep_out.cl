@@ -6,6 +6,13 @@
 // that were too deep with the body conserves momentum and angular momentum.
 // Written over what body_reach.cl found, which has been answered.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/keep_in_tank.h"
+#include "sim-server/fluid/boundary/keep_out.h"
+#include "sim-server/fluid/free_bodies/body_reach.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 typedef struct {
   float before[3][LANES], place[3][LANES], speed[3][LANES];
 } Crowd;

@@ -5,6 +5,14 @@
 // (explicit midpoint: a body that nothing touches keeps its angular momentum to rounding).
 // The result is where the body is in the next step.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/free_bodies/body_contact.h"
+#include "sim-server/fluid/free_bodies/body_inertia.h"
+#include "sim-server/fluid/free_bodies/contact.h"
+#include "sim-server/fluid/free_bodies/tank_contact.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 static void set_spin(float3 spin, BodyStep* b) {
   b->wx = spin.x;
   b->wy = spin.y;

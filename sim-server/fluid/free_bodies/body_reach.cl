@@ -5,6 +5,16 @@
 //   c_i = dt sum_b V_b K |grad W_ib| r / (r^2 + eta^2),  the most that rubbing can yield
 // the same terms as in acceleration.cl, of this body's points alone.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_image.h"
+#include "sim-server/fluid/free_bodies/body_reach.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/neighbours/near.h"
+#include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+
 static void reach_of_group(constant FluidParams* p, const Group* g, global const float* velocity,
                            int first, global const int* body_start,
                            global const float* body_position, global const float* body_velocity,

@@ -16,6 +16,9 @@
 // that of the water next to it; what it carries of the body's momentum the particles get. So
 // nothing is lost, a heavy body feels none of it, and all of it vanishes with the step.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 typedef struct {
   lanes gx, gy, gz;  // g_i [kg/m4]
   lanes ax, ay, az;  // a_i [m/s2]

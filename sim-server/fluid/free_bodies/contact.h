@@ -9,6 +9,9 @@
 // found in a few sweeps. Where the water was taken back, that push is of a step that did not come
 // to be: a worse guess, no wrong answer.
 
+#include "sim-server/fluid/free_bodies/body_inertia.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define REBOUND_SPEED 0.1f  // what comes slower does not rebound [m/s]
 #define REBOUND_FALLS 2.0f  // nor what comes no faster than a fall of so many steps makes it
 #define CONTACT_SWEEPS 16

@@ -7,6 +7,12 @@
 // These are rounded a little: a sharp corner that touches a face at its edge, as in a stack, would
 // be as near to the face beside it.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/free_bodies/contact.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define RIM_PLACES 12
 #define SECTIONS 16           // 0.618^16 = 4.5e-4 of an edge
 #define GOLDEN 0.61803399f

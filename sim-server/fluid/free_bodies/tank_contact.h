@@ -2,6 +2,12 @@
 // Free bodies against the tank's walls (contact.h): the points of an outline that a wall meets
 // first.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/boundary/outline_mesh.h"
+#include "sim-server/fluid/free_bodies/contact.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define WALL_CONTACTS 24  // of a body: 8 points on 3 walls
 
 static float above_wall(constant FluidParams* p, int k, float piston, BodyStep b, float3 lever) {

@@ -5,6 +5,14 @@
 // whatever their order.
 // A fault is counted once for each thing that is wrong; what is not finite is nothing else.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/health/state_sums.h"
+#include "sim-server/fluid/health/stray.h"
+#include "sim-server/fluid/lanes/bits.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/lanes/team.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 typedef struct {
   float lower[3];  // box that holds the water [m]
   float upper[3];

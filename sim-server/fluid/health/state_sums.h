@@ -3,6 +3,8 @@
 // is looked at in the last step of a frame only. Until then it counts with the bits that it had
 // when it was last looked at: what is done to it meanwhile is seen there, for the bits are others.
 
+#include "sim-server/fluid/lanes/bits.h"
+
 // Of groups that rest.
 #define RESTING_UNSEEN 0  // they are not looked at
 #define RESTING_SEEN 1    // they are, and have been before

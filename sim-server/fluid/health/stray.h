@@ -5,6 +5,13 @@
 // farther off than dt times the speed that ended there, |v| + dt |a|; what a body pushed out of
 // itself is at the depth that it is put back to (boundary/keep_out.h).
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/keep_out.h"
+#include "sim-server/fluid/boundary/outline.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define STRAY_ROUNDING 4.8e-7f  // four units in a float's last place [1]
 
 typedef struct {

@@ -2,6 +2,10 @@
 // Health and limits of the whole fluid, once a frame, in a program of its own that is built
 // without relaxed mathematics: only of finite numbers is the difference to themselves zero.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/lanes/team.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #ifdef __FAST_RELAXED_MATH__
 #error "the survey guards against infinities: build it without relaxed mathematics"
 #endif

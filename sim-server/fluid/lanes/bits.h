@@ -2,6 +2,8 @@
 // Numbers as the bits they are made of, and sums of those: sums of integers are exact, whatever
 // their order, so a state that differs in one bit has another sum, on every run.
 
+#include "sim-server/fluid/lanes/lanes.h"
+
 #if LANES == 16
 typedef uint16 lane_bits;
 #define AS_BITS(x) as_uint16(x)

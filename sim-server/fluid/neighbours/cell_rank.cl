@@ -4,6 +4,10 @@
 // each point some place in its cell. Then each point counts those of its cell that came before it,
 // by their old numbers: the sort is stable, and the same on every run.
 
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/neighbours/points.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 // Cells that one work-item adds up at once.
 #define RUN 16
 

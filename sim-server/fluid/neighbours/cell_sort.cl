@@ -2,6 +2,12 @@
 // Sort for CPUs, second half: every point to its place, cells in order, x fastest. `source`: where
 // each came from.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/cells_in_use.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/neighbours/points.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #if LANES > 1
 // Points that stay next to each other, as most do from step to step, LANES of them.
 static void move_together(int stride, global const float* position, global const float* velocity,

@@ -5,6 +5,8 @@
 // close together. Points beyond the grid count to its outermost inner cells: nobody is lost, no
 // index leaves the arrays.
 
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define SLICES SPLASH_SLICES
 
 // Slices of all cells.

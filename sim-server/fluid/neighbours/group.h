@@ -4,6 +4,10 @@
 // row takes a turn for each), so that they lie close together and share one search of their
 // neighbours.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 typedef struct {
   lanes x, y, z;     // [m]
   lane_flags mine;   // lanes whose turn it is

@@ -4,6 +4,11 @@
 // by all lanes together: half of the points in the runs are out of every lane's reach, and to weed
 // them out once costs less than to visit them. On GPUs a run is visited as it is.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #if LANES > 1
 #define NEAR_ROOM 512
 typedef struct {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One neighbour as all lanes of a group see it.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+
 typedef struct {
   lanes dx, dy, dz;  // from the neighbour to the particle [m]
   lanes r2;          // their distance squared [m2]

@@ -2,6 +2,9 @@
 // The smoothing kernel: W(r), its slope, and what a plane of it weighs.
 //   grad W(x) = -gradient_norm slope(r) x
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define TINY 1e-12f
 
 // Over 2.5 spacings: an even polynomial; with t = 1 - q^2, q = r / H,

@@ -10,6 +10,18 @@
 // a pool at rest then simmers at 33 mm/s where this form calms to 4. Walls do not rub.
 // Particles that sleep are not accelerated, and flagged as not moving.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_image.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/neighbours/near.h"
+#include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+#include "sim-server/fluid/params/smoothing.h"
+#include "sim-server/fluid/sleep/sleep.h"
+
 // What the pair forces need of the particles they act on.
 typedef struct {
   lanes u, v, w;  // [m/s]

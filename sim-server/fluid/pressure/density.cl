@@ -8,6 +8,19 @@
 // The part without bodies is kept, too: it tells water from the film that a body carries along.
 // Where the water sleeps all of them are what they were before the sort.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_face.h"
+#include "sim-server/fluid/boundary/body_image.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/neighbours/near.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+#include "sim-server/fluid/pressure/stretch.h"
+#include "sim-server/fluid/sleep/rest.h"
+#include "sim-server/fluid/sleep/sleep.h"
+
 static lanes shape_at(constant FluidParams* p, const Group* g, global const float* position,
                       int stride, int j) {
   const lanes dx = g->x - position[j];

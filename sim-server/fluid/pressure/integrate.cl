@@ -3,6 +3,11 @@
 // the speed limit; nobody is caught in a body or goes through it. Sleeping particles stay where
 // they are, and keep their speed for when they wake.
 
+#include "sim-server/fluid/boundary/keep_in_tank.h"
+#include "sim-server/fluid/boundary/keep_out.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 kernel void integrate(constant FluidParams* p, float dt, float piston, float piston_speed,
                       constant BodyShape* shapes, global const float* meshes,
                       global const BodyStep* bodies, int first_body, int body_count,

@@ -13,6 +13,9 @@
 // momentum is kept. b = 1/2: what has neighbours on one side only swings faster than full water,
 // and must not need shorter steps (README.md, "Water that pulls").
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 // k of water of the density rho that had the knit `before`, a step of dt ago.
 static lanes knit_now(constant FluidParams* p, float dt, lanes rho, lanes before) {
   const lanes whole = fmin(fmax(before, rho), (lanes)(p->rest_density));

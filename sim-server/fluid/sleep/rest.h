@@ -5,6 +5,13 @@
 // place, 0: it is at work. Once it has RESTED for so many, both halves of the double buffers hold
 // its numbers, and nothing is left to do.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+#include "sim-server/fluid/sleep/sleep.h"
+
 #define RESTED 3
 
 // Along one axis, where cells `from` to `to` lie; whoever is beyond the grid counts to its

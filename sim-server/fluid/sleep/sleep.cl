@@ -2,6 +2,11 @@
 // Once a frame: how many frames more each cell stays awake, and what that means for the cells
 // around it. One work-item for each row of cells.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/sleep/sleep.h"
+
 // Cells that lie in [lower, upper] along one axis, whatever part of them.
 static int2 cells_within(float lower, float upper, float origin, float inverse_cell, int cells) {
   return (int2)((int)fmax((lower - origin) * inverse_cell, 0.0f),

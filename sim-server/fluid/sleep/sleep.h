@@ -6,6 +6,11 @@
 // `awake` holds a number for each cell and, behind them, one for each row of cells: the largest of
 // the row, by which rows that sleep are passed over. `stir` says of each cell what follows.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/params/fluid_params.h"
+
 #define WAKES_MOTION 1   // [cells]
 #define WAKES_DENSITY 2
 

@@ -3,18 +3,13 @@
 
 #include <algorithm>
 
-#include "sim-server/fluid/kernel_sources.hpp"
-
 namespace splash::sim {
 namespace kernels {
 std::vector<KernelSource> detect();
 }  // namespace kernels
 
 cl::Program detect_program(Device& device) {
-  std::vector<KernelSource> sources = fluid_sources();
-  const std::vector<KernelSource> own = kernels::detect();
-  sources.insert(sources.end(), own.begin(), own.end());
-  return build_program(device, sources, {}, false);
+  return build_program(device, kernels::detect(), {}, false);
 }
 
 Step prepare(Water& water) {

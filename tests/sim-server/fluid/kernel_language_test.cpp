@@ -29,25 +29,16 @@ struct Target {
   const char* defines;
 };
 
-std::vector<KernelSource> with(std::vector<KernelSource> first,
-                               const std::vector<KernelSource>& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
 struct NamedProgram {
   const char* name;
   std::vector<KernelSource> sources;
 };
 
 std::vector<NamedProgram> programs() {
-  return {{"fluid", fluid_sources()},
-          {"divergence_free", divergence_free_sources()},
-          {"free_bodies", free_body_sources()},
-          {"survey", survey_sources()},
-          {"mould", kernels::mould()},
-          {"detect", with(fluid_sources(), kernels::detect())},
-          {"gauge", with(shared_sources(), kernels::gauge())}};
+  return {{"fluid", fluid_sources()},           {"divergence_free", divergence_free_sources()},
+          {"free_bodies", free_body_sources()}, {"survey", survey_sources()},
+          {"mould", kernels::mould()},          {"detect", kernels::detect()},
+          {"gauge", kernels::gauge()}};
 }
 
 std::string output_of(const std::string& command, int& status) {

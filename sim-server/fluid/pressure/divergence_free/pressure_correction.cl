@@ -15,6 +15,15 @@
 // step), and as u is sqrt(g H) at least, never less than what the deepest water weighs. A particle
 // that two solids pinch is freed by no pressure, and without the bound got all there is.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/neighbours/near.h"
+#include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+#include "sim-server/fluid/sleep/sleep.h"
+
 // The inverse of the largest eigenvalue of the system scaled by its diagonal: 2.7 on the lattice,
 // 3.3 when it is shaken by 0.2 spacings, 4 at random places.
 #define RELAXATION 0.3f

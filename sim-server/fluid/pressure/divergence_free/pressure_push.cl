@@ -4,6 +4,15 @@
 // which is the force of pressure/acceleration.cl: between particles equal and opposite; by bodies
 // and walls with the particle's own pressure alone.
 
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/neighbours/near.h"
+#include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+#include "sim-server/fluid/sleep/sleep.h"
+
 typedef struct {
   lanes x, y, z;
 } Shove;

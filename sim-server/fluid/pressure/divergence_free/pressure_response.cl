@@ -8,6 +8,17 @@
 // +P_i m grad W_ij (pressure/acceleration.cl), changes that rate by -P_i times the response
 //   D_i = |G_i|^2 + sum_j |m grad W_ij|^2            Bender & Koschier 2017, eq. 9
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_image.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/group.h"
+#include "sim-server/fluid/neighbours/near.h"
+#include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/smoothing.h"
+#include "sim-server/fluid/sleep/sleep.h"
+
 typedef struct {
   lanes x, y, z;  // sum of m grad W, divided by -gradient_norm
   lanes squares;  // of each neighbour's, likewise

@@ -3,6 +3,9 @@
 // done, and what they leave behind. Pressures (p / rho^2, as everywhere) are kept by particle id
 // from step to step.
 
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+
 // Of rest density: what is less dense makes no demands on the divergence of its motion (instead of
 // counting neighbours: Bender & Koschier 2017 ask for 20). On the lattice the top layer of a flat
 // surface has 0.88, a sheet of one layer 0.75.
