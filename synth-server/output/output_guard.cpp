@@ -32,7 +32,7 @@ OutputGuard::OutputGuard(const Output& output, double sample_rate, int channel)
     : band_(output.band, sample_rate),
       equaliser_(output, channel, sample_rate),
       heat_(output.heat, rounded_down(output.ceiling), sample_rate),
-      limiter_(sample_rate),
+      limiter_(output.band.low, sample_rate),
       // A sine at the band's upper end and the ceiling changes by 2 pi f ceiling per second; twice
       // that never touches what the band lets through.
       slew_(2.0 * 2.0 * std::numbers::pi * std::min(output.band.high, 0.5 * sample_rate) *
