@@ -13,8 +13,6 @@ struct Command {
   enum class Kind {
     play,             ///< `event` at `moment`
     clear_scheduled,  ///< forget what waits; what sounds may end
-    silence,          ///< the last sender is gone: fade out and forget everything
-    resume,           ///< a sender is there (again)
     mute,             ///< fade out until told otherwise; all goes on unheard
     unmute,           ///< open slowly, as at the start
   };

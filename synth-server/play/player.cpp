@@ -73,11 +73,6 @@ void Player::obey(const Command& command) noexcept {
       return play(command);
     case Command::Kind::clear_scheduled:
       return engine_.clear();
-    case Command::Kind::silence:
-      engine_.clear();
-      return set_silent(true);
-    case Command::Kind::resume:
-      return set_silent(false);
     case Command::Kind::mute:
       return gate_.open(false);
     case Command::Kind::unmute:
@@ -85,13 +80,7 @@ void Player::obey(const Command& command) noexcept {
   }
 }
 
-void Player::set_silent(bool silent) noexcept {
-  silent_ = silent;
-  engine_.silence(silent);
-}
-
 void Player::play(const Command& command) noexcept {
-  if (silent_) set_silent(false);  // from a sender without frames, whose presence nobody watches
   const Placement placement =
       command.at_once
           ? place_at_once(command.offset, engine_.clock(), settings_.sample_rate, schedule_)

@@ -62,7 +62,6 @@ class Player final : public BlockSource {
   void take_device(const AudioBlock& block) noexcept;
   void follow(const AudioBlock& block) noexcept;
   void obey(const Command& command) noexcept;
-  void set_silent(bool silent) noexcept;
   void play(const Command& command) noexcept;
   void render_parts(const AudioBlock& block) noexcept;
   void note_load(double seconds, double block_seconds) noexcept;
@@ -85,7 +84,6 @@ class Player final : public BlockSource {
   Count clock_resets_;
   Count voices_peak_;
   std::atomic<bool> finishing_{false};
-  bool silent_ = false;  ///< because no sender is there
   Count load_average_ppm_;
   Count load_peak_ppm_;
   std::atomic<double> latency_shown_{0.0};

@@ -97,7 +97,6 @@ protocol::Arrival Intake::welcome(const protocol::Frame& frame, Sender& sender, 
     sender.clock.restart();
     sender.pings = 0;
   }
-  if (!senders_.anybody_present()) push(Command::Kind::resume);
   sender.present = true;
   sender.heard = arrival;
   return kind;
@@ -121,7 +120,6 @@ void Intake::route(const protocol::Message& message, const Timing& timing, Visit
   }
 }
 
-/// Unlike a sender that is lost, one that takes its leave has nothing cut off.
 void Intake::leave(const protocol::Message& message, const protocol::Endpoint& from) {
   Sender* sender = senders_.find(from);
   if (protocol::violation(message)) {
@@ -140,13 +138,6 @@ void Intake::play(const protocol::Event& event, const Timing& timing) {
   const bool taken = queue_.write_available() > kept && queue_.push(command);
   ++(taken ? counters_.events : counters_.queue_full);
   if (!taken) ++counters_.without_place.of(event);
-}
-
-void Intake::push(Command::Kind kind) {
-  Command command;
-  command.kind = kind;
-  // Full in spite of kKeptPlaces: nothing was rendered for long, nothing is there to silence.
-  (void)queue_.push(command);
 }
 
 // Only ever in answer to a frame, which is longer: a forged frame draws no more than was sent. To
@@ -176,10 +167,7 @@ void Intake::take_pong(const protocol::Message& message, const protocol::Endpoin
 }
 
 void Intake::tick(double now) {
-  if (senders_.expire(now)) {
-    ++counters_.departures;
-    push(Command::Kind::silence);
-  }
+  if (senders_.expire(now)) ++counters_.departures;
   if (time_.refresh()) ++counters_.clock_steps;
 }
 

@@ -80,7 +80,6 @@ class Intake {
   void leave(const protocol::Message& message, const protocol::Endpoint& from);
   void take_pong(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
   void ask_clock(Sender& sender, Visit& visit);
-  void push(Command::Kind kind);
   [[nodiscard]] protocol::SynthStatus status() const;
 
   CommandQueue& queue_;

@@ -28,10 +28,8 @@ struct Sender {
   protocol::TimeTag asked;  ///< stamp of the ping that waits for its pong
 };
 
-/// A sender that says nothing for so long is gone [s]: a little less than the three heartbeats that
-/// it may miss, so that 20 ms of fading and a block of up to 20 ms later, 320 ms after the last of
-/// them, all is silent.
-inline constexpr double kLease = protocol::kPeerLease - 0.025;
+/// A sender that says nothing for so long is gone [s].
+inline constexpr double kLease = protocol::kPeerLease;
 
 /// What all senders together lost, doubled and reordered, in bundles; those forgotten included.
 struct SequenceTotals {

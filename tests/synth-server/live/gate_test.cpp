@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Off until started, silent when muted, silent 320 ms after the last word of a simulator: receiving
-// side and player together, on clocks of the test's own.
+// Off until started, silent when muted, ringing out when the simulator is gone: receiving side and
+// player together, on clocks of the test's own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,6 +53,13 @@ class Chain {
                                       {protocol::to_message(frame), protocol::to_message(cavity)}),
                      kSim, at, replies);
   }
+  void heartbeat(double at) {
+    std::vector<Reply> replies;
+    intake_.datagram(
+        protocol::encode(protocol::kImmediately,
+                         {protocol::to_message(protocol::Frame{1, sequence_++, 0, 0.0F})}),
+        kSim, at, replies);
+  }
   void run(double seconds, bool restart = false) {
     const double end = now() + seconds;
     while (now() < end) call(std::exchange(restart, false));
@@ -74,6 +81,8 @@ class Chain {
                                    [](float sample) { return sample != 0.0F; });
     return kStart + static_cast<double>(samples_.rend() - last) / kRate;
   }
+  [[nodiscard]] const std::vector<float>& samples() const { return samples_; }
+  [[nodiscard]] bool sender_present() const { return intake_.sender_present(); }
   [[nodiscard]] const Meter& meter() const { return player_.meter(); }
 
  private:
@@ -95,28 +104,42 @@ class Chain {
   Intake intake_;
 };
 
-class Silence : public testing::TestWithParam<int> {};
-
-TEST_P(Silence, IsThereWithin320MillisecondsOfTheLastWord) {
-  for (const double phase : {0.0, 0.0031, 0.0107, 0.0199}) {  // of the last word in its block
-    Chain chain(0.0, false, GetParam());
-    for (int beat = 0; beat < 4; ++beat) {
-      chain.cavity(chain.now());
-      chain.run(0.1);
+TEST(RingingOut, SoundsAsIfTheSenderWereStillThere) {
+  Chain gone(0.0, false);
+  Chain there(0.0, false);
+  for (Chain* chain : {&gone, &there}) {
+    for (int event = 0; event < 4; ++event) {
+      chain->cavity(chain->now());
+      chain->run(0.1);
     }
-    const double last = chain.now() + phase;
-    chain.run(phase);
-    chain.cavity(last);
-    chain.run(0.26);
-    EXPECT_GT(chain.peak_since(last + 0.2), 0.01F) << "two heartbeats may be missed";
-    chain.run(1.0);
-    EXPECT_GT(chain.last_sound(), last + 0.25);
-    EXPECT_LE(chain.last_sound(), last + 0.320);
-    EXPECT_EQ(chain.peak_since(last + 0.320), 0.0F);
   }
+  const double last = gone.now();
+  for (int beat = 0; beat < 60; ++beat) {
+    there.heartbeat(there.now());
+    there.run(0.1);
+  }
+  gone.run(there.now() - gone.now());
+  EXPECT_FALSE(gone.sender_present());
+  EXPECT_TRUE(there.sender_present());
+  EXPECT_EQ(gone.samples(), there.samples());
+  EXPECT_GT(gone.last_sound(), last + 2.0) << "a cavity of 10 cm takes 4.5 s for 60 dB";
+  gone.run(20.0);
+  EXPECT_LT(gone.last_sound(), last + 12.0) << "and then it is silent";
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, Silence, testing::Values(64, 256, 512, 960));
+TEST(RingingOut, TakesTheSenderBackInTheMiddleOfASound) {
+  Chain chain(0.0, false);
+  chain.cavity(chain.now());
+  chain.run(1.0);
+  EXPECT_FALSE(chain.sender_present());
+  const float before = chain.peak_since(chain.now() - 0.1);
+  ASSERT_GT(before, 0.01F);
+  chain.cavity(chain.now());
+  const double back = chain.now();
+  chain.run(0.1);
+  EXPECT_TRUE(chain.sender_present());
+  EXPECT_GT(chain.peak_since(back), before);
+}
 
 TEST(Gate, OpensOverTwoSecondsAndNotBefore) {
   Chain chain(2.0, false);

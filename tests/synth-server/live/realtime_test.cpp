@@ -40,8 +40,8 @@ TEST(Realtime, TheCallbackDoesNothingForbidden) {
     }
     Command command;
     command.kind = call % 50 == 20   ? Command::Kind::clear_scheduled
-                   : call % 50 == 30 ? Command::Kind::silence
-                                     : Command::Kind::resume;
+                   : call % 50 == 30 ? Command::Kind::mute
+                                     : Command::Kind::unmute;
     (void)queue.push(command);
     const int frames = call % 10 == 0 ? 8192 : 256;
     {

@@ -114,12 +114,8 @@ TEST_F(IntakeTest, CountsTheLostAndPlaysTheReordered) {
   EXPECT_EQ(totals.reordered, 1U);
 }
 
-TEST_F(IntakeTest, SilencesWhenTheSenderIsGoneAndResumes) {
+TEST_F(IntakeTest, CountsTheSenderThatIsGoneAndTakesItBack) {
   send(protocol::encode(tag(now_), {frame(1, 0)}));
-  auto seen = commands();
-  ASSERT_EQ(seen.size(), 1U);
-  EXPECT_EQ(seen[0].kind, Command::Kind::resume);
-
   for (int beat = 1; beat <= 20; ++beat) {  // two seconds of heartbeats
     now_ += protocol::kHeartbeatPeriod;
     intake_.tick(now_);
@@ -129,19 +125,16 @@ TEST_F(IntakeTest, SilencesWhenTheSenderIsGoneAndResumes) {
 
   now_ += kLease - 0.01;
   intake_.tick(now_);
-  EXPECT_TRUE(commands().empty());
+  EXPECT_TRUE(intake_.sender_present());
   now_ += 0.02;
   intake_.tick(now_);
-  seen = commands();
-  ASSERT_EQ(seen.size(), 1U);
-  EXPECT_EQ(seen[0].kind, Command::Kind::silence);
+  EXPECT_TRUE(commands().empty()) << "what sounds rings out";
   EXPECT_FALSE(intake_.sender_present());
 
   send(protocol::encode(tag(now_), {frame(2, 0), bubble(1)}));  // restarted
-  seen = commands();
-  ASSERT_EQ(seen.size(), 2U);
-  EXPECT_EQ(seen[0].kind, Command::Kind::resume);
-  EXPECT_EQ(seen[1].kind, Command::Kind::play);
+  const auto seen = commands();
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_EQ(seen[0].kind, Command::Kind::play);
   EXPECT_EQ(intake_.counters().sequence.sessions, 2U);
   EXPECT_EQ(intake_.counters().departures, 1U);
 }
@@ -154,23 +147,19 @@ TEST_F(IntakeTest, LetsTheEventsOfOneThatTakesItsLeaveSoundToTheirEnd) {
   (void)commands();
   now_ += 10.0 * kLease;
   intake_.tick(now_);
-  EXPECT_TRUE(commands().empty()) << "no silence";
+  EXPECT_TRUE(commands().empty());
   send(protocol::encode(tag(now_), {frame(1, 1), {"/leave", {}}}));  // twice on the wire
   EXPECT_EQ(intake_.counters().departures, 1U);
   EXPECT_EQ(intake_.counters().out_of_table, 0U);
 }
 
-TEST_F(IntakeTest, AFloodThatNobodyTakesLeavesRoomForSilence) {
+TEST_F(IntakeTest, AFloodThatNobodyTakesLeavesRoomForCommands) {
   send(protocol::encode(tag(now_), {frame(1, 0), bubble(0)}));
   for (std::size_t id = 1; id < 2 * kCommandCapacity; ++id) {
     send(protocol::encode({bubble(static_cast<int>(id))}));
   }
   EXPECT_GT(intake_.counters().queue_full, kCommandCapacity - kKeptPlaces);
-  now_ += 10.0;
-  intake_.tick(now_);
-  const auto seen = commands();
-  ASSERT_FALSE(seen.empty());
-  EXPECT_EQ(seen.back().kind, Command::Kind::silence) << "the last sender is gone";
+  EXPECT_GE(queue_.write_available(), kKeptPlaces);
 }
 
 TEST_F(IntakeTest, AFloodOfBubblesThatNobodyTakesLeavesRoomForImpactsAndCavities) {
