@@ -18,10 +18,11 @@ struct Command {
   };
   Kind kind = Kind::play;
   protocol::Event event;
-  double moment = 0.0;      ///< of the event [s, monotonic]
-  double by_arrival = 0.0;  ///< arrival + announced delay [s, monotonic]
-  bool at_once = false;     ///< came without a time: in the next block, `offset` into it
-  double offset = 0.0;      ///< of the event after its bundle's time [s]
+  double moment = 0.0;       ///< of the event [s, monotonic]
+  double by_arrival = 0.0;   ///< arrival + announced delay [s, monotonic]
+  bool at_once = false;      ///< came without a time: in the next block, `offset` into it
+  double offset = 0.0;       ///< of the event after its bundle's time [s]
+  std::int32_t session = 0;  ///< of the event's sender, 0: not known
 };
 
 /// Ten blocks of 20 ms at the 40 000 events per second that fill a datagram per frame; one producer

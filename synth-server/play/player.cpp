@@ -97,7 +97,8 @@ void Player::play(const Command& command) noexcept {
     case Timing::on_time:
       break;
   }
-  (void)engine_.schedule({command.event, placement.sample});  // the engine counts what it refuses
+  // The engine counts what it refuses.
+  (void)engine_.schedule({command.event, placement.sample, command.session});
 }
 
 void Player::render_parts(const AudioBlock& block) noexcept {

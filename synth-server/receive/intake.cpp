@@ -78,7 +78,7 @@ std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet
 
   const double delay = 1e-3 * static_cast<double>(frame->delay_ms);
   const double by_arrival = arrival + delay;
-  if (!tagged) return Timing{by_arrival, by_arrival, delay <= 0.0};
+  if (!tagged) return Timing{by_arrival, by_arrival, delay <= 0.0, frame->session};
   const double moment = time_.monotonic_of(*packet.time);
   if (order != protocol::Arrival::reordered &&
       sender.clock.observe(moment - delay, arrival, time_.unix_of(arrival))) {
@@ -87,7 +87,7 @@ std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet
   }
   const double correction = sender.clock.correction(time_.unix_of(arrival));
   if (correction != 0.0) ++counters_.corrected;
-  return Timing{moment + correction, by_arrival, false};
+  return Timing{moment + correction, by_arrival, false, frame->session};
 }
 
 protocol::Arrival Intake::welcome(const protocol::Frame& frame, Sender& sender, double arrival) {
@@ -132,8 +132,9 @@ void Intake::leave(const protocol::Message& message, const protocol::Endpoint& f
 
 void Intake::play(const protocol::Event& event, const Timing& timing) {
   const double offset = offset_seconds(event);
-  const Command command{Command::Kind::play,        event,          timing.moment + offset,
-                        timing.by_arrival + offset, timing.at_once, offset};
+  const Command command{
+      Command::Kind::play, event,  timing.moment + offset, timing.by_arrival + offset,
+      timing.at_once,      offset, timing.session};
   const std::size_t kept = kKeptPlaces + (is_bubble(event) ? kKeptFromBubbles : 0);
   const bool taken = queue_.write_available() > kept && queue_.push(command);
   ++(taken ? counters_.events : counters_.queue_full);

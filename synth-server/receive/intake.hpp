@@ -61,9 +61,10 @@ class Intake {
  private:
   /// What a bundle says about the time of its events.
   struct Timing {
-    double moment = 0.0;      ///< the bundle's [s, monotonic]
-    double by_arrival = 0.0;  ///< arrival + announced delay [s, monotonic]
-    bool at_once = false;     ///< OSC's "immediately", and no delay announced
+    double moment = 0.0;       ///< the bundle's [s, monotonic]
+    double by_arrival = 0.0;   ///< arrival + announced delay [s, monotonic]
+    bool at_once = false;      ///< OSC's "immediately", and no delay announced
+    std::int32_t session = 0;  ///< of the sender, 0: there was no /frame
   };
   /// Where and when a datagram came, and what it draws.
   struct Visit {

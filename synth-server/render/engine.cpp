@@ -91,8 +91,8 @@ void Engine::State::render_piece(float* const* channels, int done, int count) no
     const EventQueue::Waiting next = queue.pop();
     const std::int64_t sample = std::max(next.sample, clock);
     if (next.sample < clock) counts.late.add();
-    if (settings.watch != nullptr) settings.watch->started({next.event, sample});
-    ensemble.start(next.event, sample);
+    if (settings.watch != nullptr) settings.watch->started({next.event, sample, next.session});
+    ensemble.start({next.event, sample, next.session});
   }
   ensemble.mix(clock, end, mix);
   const bool open = !silent.load(std::memory_order_relaxed);
@@ -162,7 +162,7 @@ bool Engine::schedule(const TimedEvent& timed) noexcept {
     counts.refused.add();
     return false;
   }
-  if (!state_->queue.push(timed.event, timed.sample)) {
+  if (!state_->queue.push(timed.event, timed.sample, timed.session)) {
     counts.queue.add();
     counts.without_place.of(timed.event).add();
     return false;

@@ -27,6 +27,7 @@ enum Component : unsigned {
 struct TimedEvent {
   protocol::Event event;
   std::int64_t sample = 0;
+  std::int32_t session = 0;  ///< of its sender, 0: not known; its impacts have noise of their own
 };
 
 /// Is told of each event at the sample at which it starts, from the rendering thread.

@@ -36,20 +36,20 @@ void Ensemble::follow(const LiveControls& controls) noexcept {
   routing_.follow(controls);
 }
 
-void Ensemble::start(const protocol::Event& event, std::int64_t sample) noexcept {
+void Ensemble::start(const TimedEvent& timed) noexcept {
   const Outcome outcome =
-      std::visit([&](const auto& kind) { return start_kind(kind, sample); }, event);
+      std::visit([&](const auto& kind) { return start_kind(kind, timed); }, timed.event);
   if (outcome == Outcome::started) {
-    counts_.started.of(event).add();
+    counts_.started.of(timed.event).add();
     ++starts_;
   } else if (outcome == Outcome::no_place) {
     counts_.pool.add();
-    counts_.without_place.of(event).add();
+    counts_.without_place.of(timed.event).add();
   }
 }
 
 Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
-                                       std::int64_t sample) noexcept {
+                                       const TimedEvent& timed) noexcept {
   const ImpactSound& sound = settings_.sound.impact;
   const double speed =
       impact_speed(sound, static_cast<double>(impact.speed), static_cast<double>(impact.approach));
@@ -62,10 +62,11 @@ Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
     return Outcome::left_out;
   }
   if (starts_ >= kMostStarts) return Outcome::no_place;
-  const Noise noise(settings_.seed, static_cast<std::uint64_t>(impact.id));
+  const auto session = static_cast<std::uint64_t>(timed.session);
+  const Noise noise(settings_.seed, session << 24U | static_cast<std::uint64_t>(impact.id));
   const ImpactVoice voice(sound, amplitude, noise, settings_.sample_rate);
   const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
-  const ImpactPool::Start result = impacts_.start(voice, life, reached, sample);
+  const ImpactPool::Start result = impacts_.start(voice, life, reached, timed.sample);
   if (result == ImpactPool::Start::refused) return Outcome::no_place;
   if (result == ImpactPool::Start::stole) counts_.stolen.add();
   return Outcome::started;
@@ -109,7 +110,8 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
 }
 
 template <class BubbleOrCavity>
-Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t sample) noexcept {
+Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
+                                       const TimedEvent& timed) noexcept {
   constexpr bool kIsCavity = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
   const ToneSound& sound = kIsCavity ? settings_.sound.cavity : settings_.sound.bubble;
   const auto radius = static_cast<double>(event.radius);
@@ -122,7 +124,7 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t
       {surface ? depth : std::numeric_limits<double>::infinity(), z - settings_.floor_level});
   if constexpr (!kIsCavity) {
     tone.frequency *=
-        cloud_.enter(settings_.sound.cloud, event.position, radius, tone.frequency, sample);
+        cloud_.enter(settings_.sound.cloud, event.position, radius, tone.frequency, timed.sample);
   }
   const Routing::Reach reach =
       routing_.route({event.position, event.body, tone.frequency}, routes_);
@@ -132,7 +134,7 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event, std::int64_t
   } else {
     fine_.add(settings_.sound, epsilon, {routes_.data(), static_cast<std::size_t>(reach.routes)});
   }
-  return start_tone(tone, reach, cavity, sample);
+  return start_tone(tone, reach, cavity, timed.sample);
 }
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {

@@ -27,9 +27,9 @@ class Ensemble {
   /// At the beginning of a cell.
   void follow(const LiveControls& controls) noexcept;
 
-  /// A voice begins at `sample`, within the cell that is being mixed and not before what was mixed.
-  /// However many bubbles there are, impacts and cavities find a place.
-  void start(const protocol::Event& event, std::int64_t sample) noexcept;
+  /// A voice begins at its sample, within the cell that is being mixed and not before what was
+  /// mixed. However many bubbles there are, impacts and cavities find a place.
+  void start(const TimedEvent& timed) noexcept;
 
   /// Adds samples [from, to) of all voices; both within one cell.
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
@@ -49,9 +49,9 @@ class Ensemble {
 
  private:
   enum class Outcome { started, left_out, no_place };  ///< left out: counted with its reason
-  Outcome start_kind(const protocol::Impact& impact, std::int64_t sample) noexcept;
+  Outcome start_kind(const protocol::Impact& impact, const TimedEvent& timed) noexcept;
   template <class BubbleOrCavity>
-  Outcome start_kind(const BubbleOrCavity& event, std::int64_t sample) noexcept;
+  Outcome start_kind(const BubbleOrCavity& event, const TimedEvent& timed) noexcept;
   /// `cavity`: what the tone is, or null: a bubble.
   Outcome start_tone(const BubbleTone& tone, const Routing::Reach& reach,
                      const protocol::Cavity* cavity, std::int64_t sample) noexcept;

@@ -19,10 +19,10 @@ class EventQueue {
   }
 
   /// False when full.
-  bool push(const protocol::Event& event, std::int64_t sample) noexcept {
+  bool push(const protocol::Event& event, std::int64_t sample, std::int32_t session = 0) noexcept {
     const std::size_t kept = is_bubble(event) ? kept_ : 0;
     if (waiting_.size() + kept >= capacity_) return false;
-    waiting_.push_back({event, sample, serial_++});
+    waiting_.push_back({event, sample, session, serial_++});
     std::push_heap(waiting_.begin(), waiting_.end(), later);
     return true;
   }
@@ -35,6 +35,7 @@ class EventQueue {
   struct Waiting {
     protocol::Event event;
     std::int64_t sample = 0;
+    std::int32_t session = 0;
     std::uint64_t serial = 0;
   };
   /// Not to be called when empty.

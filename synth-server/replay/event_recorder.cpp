@@ -4,11 +4,13 @@
 #include <chrono>
 #include <exception>
 #include <variant>
+#include <vector>
 
 namespace splash::synth {
 namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(20);
+constexpr std::int32_t kWrap = 1 << 24;  // as all counters on the wire
 
 }  // namespace
 
@@ -27,8 +29,14 @@ void EventRecorder::write(const TimedEvent& event) {
   if (!error_.empty()) return;  // keep the queue empty
   protocol::Event told = event.event;
   std::visit([](auto& kind) { kind.offset_ms = 0.0F; }, told);
+  std::vector<protocol::Message> messages;
+  if (event.session != 0) {
+    messages.push_back(protocol::to_message(protocol::Frame{event.session, sequence_, 0, 0.0F}));
+    sequence_ = (sequence_ + 1) % kWrap;
+  }
+  messages.push_back(protocol::to_message(told));
   try {
-    log_.append(static_cast<double>(event.sample) / sample_rate_, {protocol::to_message(told)});
+    log_.append(static_cast<double>(event.sample) / sample_rate_, messages);
   } catch (const std::exception& error) {
     error_ = error.what();
   }

@@ -41,6 +41,7 @@ class EventRecorder final : public StartWatch {
 
   protocol::LogWriter log_;
   double sample_rate_;
+  std::int32_t sequence_ = 0;  ///< of the log's bundles
   boost::lockfree::spsc_queue<TimedEvent, boost::lockfree::capacity<kCapacity>> queue_;
   std::atomic<std::uint64_t> lost_{0};
   std::string error_;

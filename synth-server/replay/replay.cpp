@@ -28,6 +28,9 @@ std::vector<TimedEvent> collect(const std::vector<protocol::LogEntry>& log, doub
                                 ReplayReport& report) {
   std::vector<TimedEvent> events;
   for (const protocol::LogEntry& entry : log) {
+    const auto frame =
+        entry.messages.empty() ? std::nullopt : protocol::to_frame(entry.messages.front());
+    const std::int32_t session = frame ? frame->session : 0;
     for (const protocol::Message& message : entry.messages) {
       const std::optional<protocol::Event> event = protocol::to_event(message);
       if (!event) {
@@ -35,7 +38,7 @@ std::vector<TimedEvent> collect(const std::vector<protocol::LogEntry>& log, doub
         continue;
       }
       const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
-      events.push_back({*event, start_sample(entry.seconds, offset, sample_rate)});
+      events.push_back({*event, start_sample(entry.seconds, offset, sample_rate), session});
     }
   }
   std::stable_sort(events.begin(), events.end(),

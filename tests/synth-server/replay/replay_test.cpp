@@ -79,6 +79,33 @@ TEST(Replay, EndsInSilence) {
   EXPECT_GT(std::abs(*std::max_element(out.end() - 4800, out.end() - 1000)), 0.05F);
 }
 
+TEST(Replay, GivesImpactsOfTwoSessionsNoiseOfTheirOwn) {
+  const auto burst = [](std::int32_t session) {
+    std::vector<protocol::Message> messages;
+    if (session != 0) {
+      messages.push_back(protocol::to_message(protocol::Frame{session, 0, 0, 0.0F}));
+    }
+    messages.push_back(protocol::to_message(impact(1.0F, 7)));
+    ReplaySettings settings;
+    settings.tail = 0.5;
+    return play({{0.0, messages}}, open_rig(), settings).front();
+  };
+  const auto product = [](const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < a.size(); ++n) {
+      sum += static_cast<double>(a[n]) * static_cast<double>(b[n]);
+    }
+    return sum;
+  };
+  const auto one = burst(1);
+  EXPECT_EQ(burst(1), one);
+  for (const std::int32_t other : {0, 2, 16777215}) {
+    const auto two = burst(other);
+    const double alike = product(one, two) / std::sqrt(product(one, one) * product(two, two));
+    EXPECT_LT(std::abs(alike), 0.6) << other;  // 84 Hz wide, 0.1 s long
+  }
+}
+
 TEST(Replay, OfALongLogNeedsNoLongQueue) {
   std::vector<protocol::LogEntry> log;
   for (int i = 0; i < 5000; ++i) {
