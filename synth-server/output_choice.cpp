@@ -7,18 +7,19 @@
 namespace splash::synth {
 namespace {
 
-DeviceChoice choice_of(const Options& options, int channels) {
-  return {options.api, options.device, channels, options.sample_rate, options.block};
+DeviceChoice choice_of(const Options& options, const Rig& rig) {
+  return {options.api,         options.device, channel_count(rig),
+          options.sample_rate, options.block,  rig.device_channels};
 }
 
 }  // namespace
 
-OpenedOutput open_output(const Options& options, int channels,
+OpenedOutput open_output(const Options& options, const Rig& rig,
                          const std::function<void(const std::string&)>& log) {
   std::string missing;
   if (options.device != "null") {
     try {
-      return {std::make_unique<RtAudioOutput>(choice_of(options, channels)), {}};
+      return {std::make_unique<RtAudioOutput>(choice_of(options, rig)), {}};
     } catch (const UnknownDevice&) {
       throw;
     } catch (const DeviceError& error) {
@@ -29,11 +30,11 @@ OpenedOutput open_output(const Options& options, int channels,
     }
   }
   const int rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
-  return {std::make_unique<NullOutput>(channels, rate, options.block), missing};
+  return {std::make_unique<NullOutput>(channel_count(rig), rate, options.block), missing};
 }
 
-DeviceChoice choice_again(const Options& options, int channels, const OpenedOutput& opened) {
-  DeviceChoice again = choice_of(options, channels);
+DeviceChoice choice_again(const Options& options, const Rig& rig, const OpenedOutput& opened) {
+  DeviceChoice again = choice_of(options, rig);
   if (opened.missing.empty()) {
     again.api = opened.output->format().api;
     again.device = opened.output->format().device;

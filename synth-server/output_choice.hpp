@@ -21,12 +21,12 @@ struct OpenedOutput {
 
 /// Throws UnknownDevice when the command line names a device that does not exist; that there is
 /// none to be had now is no error, but said to `log`.
-[[nodiscard]] OpenedOutput open_output(const Options& options, int channels,
+[[nodiscard]] OpenedOutput open_output(const Options& options, const Rig& rig,
                                        const std::function<void(const std::string&)>& log);
 
 /// What to ask for when `opened` is lost: the same device, at the rate that the user wants, or else
 /// at whichever it then has.
-[[nodiscard]] DeviceChoice choice_again(const Options& options, int channels,
+[[nodiscard]] DeviceChoice choice_again(const Options& options, const Rig& rig,
                                         const OpenedOutput& opened);
 
 }  // namespace splash::synth

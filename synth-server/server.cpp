@@ -45,8 +45,8 @@ Server::Server(const Options& options, const Rig& rig)
     : options_(options), rig_(rig), muted_(options.muted), desk_(rig, options.engine.sound) {
   protocol::UdpSocket socket = program::failing_with(
       program::kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
-  OpenedOutput opened = program::failing_with(
-      program::kExitUnavailable, [&] { return open_output(options, channel_count(rig), log); });
+  OpenedOutput opened = program::failing_with(program::kExitUnavailable,
+                                              [&] { return open_output(options, rig, log); });
   format_ = opened.output->format();
   warn_of_latency(format_);
   program::failing_with(program::kExitIo, [&] { start_recorder(); });
@@ -91,7 +91,7 @@ BlockSource& Server::adapt(const AudioFormat& format) {
 void Server::start_output(OpenedOutput opened) {
   DeviceWatch::Open reopen;
   if (options_.device != "null") {
-    const DeviceChoice again = choice_again(options_, channel_count(rig_), opened);
+    const DeviceChoice again = choice_again(options_, rig_, opened);
     reopen = [again] { return std::make_unique<RtAudioOutput>(again); };
   }
   output_ = std::make_unique<DeviceWatch>(

@@ -89,7 +89,7 @@ void play_test_tone(const Options& options, const Rig& rig, const sigset_t& sign
   const int channels = channel_count(rig);
   const std::vector<int> wanted = wanted_channels(options.test_tone, channels);
   const OpenedOutput opened = program::failing_with(program::kExitUnavailable, [&] {
-    return open_output(options, channels, [](const std::string& line) {
+    return open_output(options, rig, [](const std::string& line) {
       std::fprintf(stderr, "synth-server: %s\n", line.c_str());
     });
   });

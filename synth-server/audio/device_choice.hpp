@@ -14,6 +14,7 @@ struct DeviceChoice {
   int channels = 2;     ///< needed
   int sample_rate = 0;  ///< [Hz]; 0: what the device prefers
   int block = 256;      ///< wanted frames per call; the device may have its own
+  std::vector<int> places = {};  ///< the device's channel of each, from 1 on; empty: in order
 };
 
 struct DeviceDescription {

@@ -52,6 +52,32 @@ Found find(const DeviceChoice& choice) {
   return {std::move(audios[listed_by[chosen]]), devices[chosen]};
 }
 
+/// Where each channel goes among the device's, from 0 on.
+std::vector<std::size_t> places_of(const DeviceChoice& choice) {
+  std::vector<std::size_t> places;
+  for (int c = 0; c < choice.channels; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    places.push_back(choice.places.empty() ? channel
+                                           : static_cast<std::size_t>(choice.places[channel] - 1));
+  }
+  return places;
+}
+
+/// What the device calls them; by its number where it has no names and the order is not its own.
+std::vector<std::string> names_of(const DeviceDescription& device,
+                                  const std::vector<std::size_t>& places, int opened) {
+  const std::vector<std::string> all = port_names(device.api, device.name, opened);
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    if (!all.empty()) {
+      names.push_back(all[places[c]]);
+    } else if (static_cast<std::size_t>(opened) != places.size() || places[c] != c) {
+      names.push_back("channel " + std::to_string(places[c] + 1));
+    }
+  }
+  return names.size() == places.size() ? names : std::vector<std::string>();
+}
+
 /// A JACK server has one rate, and no other program can change it.
 void require_rate(const DeviceDescription& device, int wanted) {
   if (device.api != "jack" || wanted == 0 || wanted == device.preferred_rate) return;
@@ -68,6 +94,8 @@ void require_rate(const DeviceDescription& device, int wanted) {
 struct RtAudioOutput::Stream {
   std::unique_ptr<RtAudio> audio;
   AudioFormat format;
+  std::vector<std::size_t> places;  ///< of each channel among the device's
+  std::size_t opened = 0;           ///< channels of the device
   std::vector<float*> channels;
   bool restart = true;  ///< the next block is the first
   std::atomic<BlockSource*> source{nullptr};
@@ -99,17 +127,15 @@ struct RtAudioOutput::Stream {
     const double time = protocol::monotonic_now();
     if (policy == kNotSeen) note_scheduling();
     rendering = true;
-    if (BlockSource* target = source) {
-      float* channel = output;
-      for (auto& pointer : channels) {
-        pointer = channel;
-        channel += count;
-      }
+    BlockSource* const target = source;
+    if (target == nullptr || opened != channels.size()) {
+      std::fill_n(output, static_cast<std::size_t>(count) * opened, 0.0F);
+    }
+    if (target != nullptr) {
+      for (std::size_t c = 0; c < channels.size(); ++c) channels[c] = output + places[c] * count;
       target->render({channels.data(), static_cast<int>(count), time,
                       (status & RTAUDIO_OUTPUT_UNDERFLOW) != 0, restart});
       restart = false;
-    } else {
-      std::fill_n(output, static_cast<std::size_t>(count) * channels.size(), 0.0F);
     }
     frames.store(frames.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
     rendering = false;  // last: stop() takes it as the end of this call
@@ -143,17 +169,20 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
   Found found = find(choice);
   const DeviceDescription& chosen = found.device.description;
   const std::string title = chosen.api + " device '" + chosen.name + "'";
-  if (chosen.channels < choice.channels) {
+  stream_->places = places_of(choice);
+  const auto needed =
+      static_cast<int>(*std::max_element(stream_->places.begin(), stream_->places.end()) + 1);
+  if (chosen.channels < needed) {
     throw DeviceError(title + " has " + std::to_string(chosen.channels) +
-                      " output channels, the rig needs " + std::to_string(choice.channels) +
+                      " output channels, the rig needs " + std::to_string(needed) +
                       "; choose another device (--list-devices) or rig");
   }
   require_rate(chosen, choice.sample_rate);
-  std::vector<std::string> ports = port_names(chosen.api, chosen.name, choice.channels);
+  std::vector<std::string> ports = names_of(chosen, stream_->places, needed);
   stream_->audio = std::move(found.audio);
   const int rate = choice.sample_rate != 0 ? choice.sample_rate : chosen.preferred_rate;
   rtaudio_port::Opening opening{found.device.id,
-                                static_cast<unsigned int>(choice.channels),
+                                static_cast<unsigned int>(needed),
                                 static_cast<unsigned int>(rate),
                                 static_cast<unsigned int>(choice.block),
                                 &Stream::called,
@@ -165,7 +194,8 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
                       std::to_string(chosen.preferred_rate) + "): " + error.what() +
                       (choice.sample_rate != 0 ? "; leave --sample-rate out" : ""));
   }
-  stream_->channels.resize(static_cast<std::size_t>(choice.channels));
+  stream_->channels.resize(stream_->places.size());
+  stream_->opened = static_cast<std::size_t>(needed);
   stream_->format = {
       chosen.api,      chosen.name, choice.channels, rate, static_cast<int>(opening.block),
       std::move(ports)};

@@ -62,6 +62,26 @@ void check_heat(const Output& output) {
   }
 }
 
+void check_device_channels(const Rig& rig) {
+  const std::vector<int>& wanted = rig.device_channels;
+  const auto refuse_them = [](const std::string& rule) {
+    throw std::invalid_argument("device_channels: " + rule);
+  };
+  if (!wanted.empty() && wanted.size() != static_cast<std::size_t>(channel_count(rig))) {
+    refuse_them(std::to_string(wanted.size()) + " of them, and the rig has " +
+                std::to_string(channel_count(rig)) + " channels: one each, or none");
+  }
+  for (auto number = wanted.begin(); number != wanted.end(); ++number) {
+    if (*number < 1 || *number > kMostDeviceChannels) {
+      refuse_them(std::to_string(*number) + ": must be 1 to " +
+                  std::to_string(kMostDeviceChannels));
+    }
+    if (std::find(wanted.begin(), number, *number) != number) {
+      refuse_them(std::to_string(*number) + " is named twice: each channel goes to one of its own");
+    }
+  }
+}
+
 void check_output(const Output& output) {
   if (output.name.empty()) throw std::invalid_argument("an output needs a name");
   const Band& band = output.band;
@@ -158,6 +178,7 @@ void check(const Rig& rig) {
     throw std::invalid_argument("rig '" + rig.name + "' has " + std::to_string(channel_count(rig)) +
                                 " channels; limit: 2048");
   }
+  check_device_channels(rig);
 }
 
 }  // namespace splash::synth

@@ -91,7 +91,11 @@ struct Rig {
   std::string name;
   std::string description;
   std::vector<Output> outputs;  ///< their channels follow each other in this order
+  /// The device's channel of each of the rig's, from 1 on; empty: one after another.
+  std::vector<int> device_channels;
 };
+
+inline constexpr int kMostDeviceChannels = 4096;
 
 [[nodiscard]] int channel_count(const Output& output) noexcept;
 [[nodiscard]] int channel_count(const Rig& rig) noexcept;

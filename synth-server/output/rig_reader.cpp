@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/output/rig_reader.hpp"
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -105,9 +106,21 @@ void refuse_scene(const ConfigMap& map) {
   }
 }
 
+/// After the outputs, whose channels they are.
+std::vector<int> device_channels(const ConfigMap& map, const RigEntry& rig) {
+  std::vector<int> numbers;
+  for (const double number : rig.device_channel_numbers) {
+    numbers.push_back(static_cast<int>(number));
+    if (number != std::floor(number)) {
+      throw map.error("device_channels", "must be whole numbers, e.g. [3, 1]");
+    }
+  }
+  return numbers;
+}
+
 Rig read_map(const ConfigMap& map) {
   refuse_scene(map);
-  Rig rig;
+  RigEntry rig;
   map.read(rig_fields(), {"outputs"}, rig);
   for (const ConfigMap& output : map.list("outputs")) {
     rig.outputs.push_back(read_output(output));
@@ -118,6 +131,12 @@ Rig read_map(const ConfigMap& map) {
     }
   }
   if (rig.outputs.empty()) throw map.error("outputs", "must list one output or more");
+  rig.device_channels = device_channels(map, rig);
+  try {
+    check(rig);
+  } catch (const std::invalid_argument& broken) {
+    throw map.error("device_channels", broken.what());
+  }
   return rig;
 }
 

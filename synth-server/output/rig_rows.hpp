@@ -13,7 +13,11 @@ namespace splash::synth {
 
 using program::Field;
 
-/// What the YAML says of an output beside Output's own members.
+/// What the YAML says of a rig beside Rig's own members.
+struct RigEntry : Rig {
+  std::vector<double> device_channel_numbers;
+};
+/// The same of an output and its parts.
 struct OutputEntry : Output {
   std::string kind_name;
 };
@@ -24,7 +28,7 @@ struct ThresholdEntry : Threshold {
   std::string sense_name;
 };
 
-[[nodiscard]] std::vector<Field<Rig>> rig_fields();
+[[nodiscard]] std::vector<Field<RigEntry>> rig_fields();
 [[nodiscard]] std::vector<Field<OutputEntry>> output_fields();
 [[nodiscard]] std::vector<Field<Band>> band_fields();
 [[nodiscard]] std::vector<Field<Output>> tile_fields();

@@ -42,7 +42,8 @@ class RtAudio6 : public testing::Test {
   }
   /// What the library would do once a block.
   static std::vector<float> call(unsigned int frames, RtAudioStreamStatus status = 0) {
-    std::vector<float> block(2 * static_cast<std::size_t>(frames), -1.0F);
+    const auto channels = static_cast<std::size_t>(RtAudio::stage().opened.nChannels);
+    std::vector<float> block(channels * static_cast<std::size_t>(frames), -1.0F);
     const auto& stage = RtAudio::stage();
     EXPECT_EQ(stage.callback(block.data(), nullptr, frames, 0.0, status, stage.context), 0);
     return block;
@@ -87,6 +88,22 @@ TEST_F(RtAudio6, PlaysAndCloses) {
   }
   EXPECT_EQ(RtAudio::stage().aborted, 1);
   EXPECT_EQ(RtAudio::stage().closed, 1);
+}
+
+TEST_F(RtAudio6, PlaysOnTheChannelsThatTheRigNames) {
+  Ramp ramp;
+  DeviceChoice wanted = choice("floor");
+  wanted.places = {4, 2};
+  RtAudioOutput output(wanted);
+  EXPECT_EQ(RtAudio::stage().opened.nChannels, 4U);
+  EXPECT_EQ(output.format().channels, 2);
+  EXPECT_THAT(output.format().ports, testing::ElementsAre("channel 4", "channel 2"));
+  output.start(ramp);
+  EXPECT_EQ(call(2), (std::vector<float>{0, 0, 100, 101, 0, 0, 0, 1}));
+  output.stop();
+  EXPECT_EQ(call(1), (std::vector<float>{0, 0, 0, 0}));
+  wanted.places = {1, 37};
+  EXPECT_THAT(refusal(wanted), testing::HasSubstr("has 36 output channels, the rig needs 37"));
 }
 
 TEST_F(RtAudio6, ErrorCodesBecomeSentences) {

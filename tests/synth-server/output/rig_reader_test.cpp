@@ -138,6 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
             "rig.yaml:3:", "band.high"},
         Broken{kBegin + kWorn + "    heat: {rms: 0}\n", "rig.yaml:7:", "rms"},
         Broken{kBegin + kWorn + "    heat: {rms: 0.2, seconds: 0}\n", "rig.yaml:7:", "seconds"},
+        Broken{kBegin + "    kind: single\ndevice_channels: [1, 2]\n",
+               "rig.yaml:6:", "1 channels: one each"},
+        Broken{kBegin + kWorn + "device_channels: [2, 2]\n", "rig.yaml:7:", "named twice"},
+        Broken{kBegin + kWorn + "device_channels: [2, 0]\n", "rig.yaml:7:", "device_channels"},
+        Broken{kBegin + kWorn + "device_channels: [2, 1.5]\n", "rig.yaml:7:", "whole"},
         Broken{"name: x\n", "rig.yaml:", "outputs"},
         Broken{"name: x\noutputs: []\n", "rig.yaml:", "outputs"}));
 
@@ -175,6 +180,12 @@ TEST(Rig, ReadsWhatATransducerBears) {
   const Rig rig = parse_rig(kBegin + kWorn + "    heat: {rms: 0.25, seconds: 2}\n", "rig.yaml");
   EXPECT_DOUBLE_EQ(rig.outputs.at(0).heat.rms, 0.25);
   EXPECT_DOUBLE_EQ(rig.outputs.at(0).heat.seconds, 2.0);
+}
+
+TEST(Rig, ReadsWhichOfTheDevicesChannelsAreItsOwn) {
+  const Rig rig = parse_rig(kBegin + kWorn + "device_channels: [7, 2]\n", "rig.yaml");
+  EXPECT_EQ(rig.device_channels, (std::vector<int>{7, 2}));
+  EXPECT_TRUE(parse_rig(kBegin + kWorn, "rig.yaml").device_channels.empty());
 }
 
 TEST(Rig, RefusesTwoOutputsOfOneName) {
