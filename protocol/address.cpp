@@ -166,7 +166,8 @@ constexpr ArgumentRow kSynthStatus[] = {
     {'f', "sample_rate", "Hz", 0, 1e6, "of the output"},
     count_row("silenced", "blocks the output guard had to silence"),
     {'f', "level", "1", 0, 1, "loudest channel's peak, last half second, part of full scale"},
-    count_row("loudest", "number of that channel, from 1; 0: all are silent")};
+    count_row("loudest", "number of that channel, from 1; 0: all are silent"),
+    count_row("most_voices", "that may sound at once now: fewer where the load is high")};
 constexpr ArgumentRow kSimStatus[] = {
     program("sim-server"),
     count_row("particles", "fluid particles in the scene"),

@@ -46,7 +46,7 @@ std::string heading(const AddressRow& row) {
 
 std::string overview() {
   std::string out =
-      "`s*`: behind a command's own arguments any texts are allowed and ignored, 16 arguments in\n"
+      "`s*`: behind a command's own arguments any texts are allowed and ignored, 24 arguments in\n"
       "all. They fill a question up to the length of its answer (see \"Who is answered\").\n\n"
       "| address | types | direction | meaning |\n|---|---|---|---|\n";
   for (const auto& row : address_table()) {

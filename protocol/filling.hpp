@@ -10,7 +10,7 @@
 namespace splash::protocol {
 
 /// What a question has that is to be answered whatever is added to its reply one day; the longest
-/// reply of today, the synth's /status.reply, has 112 [bytes].
+/// reply of today, the synth's /status.reply, has 116 [bytes].
 inline constexpr std::size_t kFilledQuestion = 256;
 
 /// `command` with text behind it, so that it has `bytes` on the wire or, where no text is so

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::count_)
     "length is no multiple of four",
     "address must be '/' and letters, digits, / _ . -, closed, at most 64 characters",
     "types must be given and only i f s t",
-    "more than 16 arguments",
+    "more than 24 arguments",
     "an argument or element passes the end",
     "padding is not zero",
     "a number is NaN or infinite",

@@ -12,7 +12,7 @@ inline constexpr std::size_t kMaxDatagram = 1472;
 /// Counters that a patch may see wrap here: Pd's floats hold integers up to 2^24 exactly.
 inline constexpr std::int32_t kCounterWrap = 1 << 24;
 inline constexpr std::size_t kMaxMessages = 64;   ///< in one bundle
-inline constexpr std::size_t kMaxArguments = 16;  ///< of one message
+inline constexpr std::size_t kMaxArguments = 24;  ///< of one message
 inline constexpr std::size_t kMaxString = 64;     ///< characters, address included
 
 inline constexpr double kHeartbeatPeriod = 0.1;  ///< an idle simulator still says /frame [s]

@@ -28,7 +28,7 @@ void visit_fields(Status& s, Visit&& visit) {
   const auto all = [&visit](auto&... values) { (visit(values), ...); };
   if constexpr (std::is_same_v<std::remove_const_t<Status>, SynthStatus>) {
     all(s.voices, s.events, s.late, s.early, s.lost, s.duplicates, s.refused, s.dropped, s.xruns,
-        s.cpu_average, s.cpu_peak, s.sample_rate, s.silenced, s.level, s.loudest);
+        s.cpu_average, s.cpu_peak, s.sample_rate, s.silenced, s.level, s.loudest, s.most_voices);
   } else {
     all(s.particles, s.steps, s.impacts, s.bubbles, s.cavities, s.late, s.unsent, s.refused,
         s.resets, s.skipped, s.real_time_factor, s.steps_per_second, s.density_error,

@@ -29,6 +29,7 @@ struct SynthStatus {
   std::uint64_t silenced = 0;
   float level = 0.0F;  ///< loudest channel's peak [full scale]
   std::uint64_t loudest = 0;
+  std::uint64_t most_voices = 0;
   bool operator==(const SynthStatus&) const = default;
 };
 

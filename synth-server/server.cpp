@@ -70,6 +70,7 @@ std::unique_ptr<Server::Playing> Server::make_playing(int sample_rate, Recorder*
   settings.max_block = kMaxBlock;
   settings.muted = muted_;
   settings.monitor = monitor_.get();
+  settings.max_voices = options_.engine.max_voices;
   settings.schedule = {options_.latency, options_.late_window, options_.horizon};
   EngineSettings engine = engine_settings(options_, sample_rate);
   engine.watch = watch;
@@ -244,6 +245,7 @@ protocol::SynthStatus Server::complete(protocol::SynthStatus status) const {
   status.silenced = engine.resets;
   status.level = loudest.level;
   status.loudest = loudest.level > 0.0F ? loudest.channel + 1 : 0;
+  status.most_voices = player.most_voices;
   return status;
 }
 

@@ -84,7 +84,11 @@ std::string summary(const Totals& t) {
       << t.player.xruns << " xruns, " << t.device_losses << " device losses, "
       << t.player.clock_resets << " clock resets\n";
   out << "rendering: " << percent(t.player.load_average) << " of a block's time, at most "
-      << percent(t.player.load_peak) << "; " << t.scheduling << '\n';
+      << percent(t.player.load_peak);
+  if (t.player.lowered != 0) {
+    out << " (the number of voices was lowered " << t.player.lowered << " times for that)";
+  }
+  out << "; " << t.scheduling << '\n';
   return out.str();
 }
 
@@ -92,9 +96,10 @@ std::string state_line(const IntakeCounters& taken, bool sender_present,
                        const PlayerCounters& player, const EngineCounters& engine) {
   std::ostringstream out;
   out << (sender_present ? "sender there" : "no sender") << ", events " << taken.events
-      << ", voices " << engine.voices << ", late " << player.late + player.too_late << ", early "
-      << player.early << ", lost " << taken.sequence.lost << ", refused " << refused(taken)
-      << ", xruns " << player.xruns << ", load " << percent(player.load_average);
+      << ", voices " << engine.voices << " of at most " << player.most_voices << ", late "
+      << player.late + player.too_late << ", early " << player.early << ", lost "
+      << taken.sequence.lost << ", refused " << refused(taken) << ", xruns " << player.xruns
+      << ", load " << percent(player.load_average);
   return out.str();
 }
 

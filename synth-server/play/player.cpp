@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/time_tag.hpp"
-
 namespace splash::synth {
 namespace {
 
@@ -27,18 +25,23 @@ Player::Player(Engine& engine, CommandQueue& queue, Recorder* recorder,
       clock_(settings.sample_rate),
       gate_(settings.start_ramp, settings.sample_rate, !settings.muted),
       meter_(engine.channels(), settings.sample_rate),
-      part_(static_cast<std::size_t>(engine.channels())) {}
+      part_(static_cast<std::size_t>(engine.channels())),
+      governor_(settings.max_voices) {}
 
 void Player::render(const AudioBlock& block) noexcept {
-  const double start = protocol::monotonic_now();
+  const double start = settings_.now();
   if (block.restart || blocks_.get() == 0) take_device(block);
   follow(block);
   queue_.consume_all([this](const Command& command) { obey(command); });
   if (finishing_.load(std::memory_order_relaxed)) engine_.silence(true);
   render_parts(block);
-  voices_peak_.set(std::max(voices_peak_.get(), engine_.counters().voices));
+  const std::uint64_t voices = engine_.counters().voices;
+  voices_peak_.set(std::max(voices_peak_.get(), voices));
   blocks_.add();
-  note_load(protocol::monotonic_now() - start, block.frames / settings_.sample_rate);
+  const double block_seconds = block.frames / settings_.sample_rate;
+  const double seconds = settings_.now() - start;
+  note_load(seconds, block_seconds);
+  engine_.limit_voices(governor_.note(seconds / block_seconds, block_seconds, voices));
 }
 
 /// The first block of a device, which may have another size than the last one's.
@@ -135,7 +138,9 @@ PlayerCounters Player::counters() const noexcept {
           clock_resets_.get(),
           voices_peak_.get(),
           static_cast<double>(load_average_ppm_.get()) / kPartsPerMillion,
-          static_cast<double>(load_peak_ppm_.get()) / kPartsPerMillion};
+          static_cast<double>(load_peak_ppm_.get()) / kPartsPerMillion,
+          static_cast<std::uint64_t>(governor_.limit()),
+          governor_.lowered()};
 }
 
 }  // namespace splash::synth

@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "protocol/time_tag.hpp"
 #include "synth-server/audio/audio_output.hpp"
 #include "synth-server/audio/recorder.hpp"
 #include "synth-server/play/block_tap.hpp"
 #include "synth-server/play/command_queue.hpp"
 #include "synth-server/play/gate.hpp"
+#include "synth-server/play/governor.hpp"
 #include "synth-server/play/meter.hpp"
 #include "synth-server/play/sample_clock.hpp"
 #include "synth-server/play/schedule.hpp"
@@ -31,6 +33,8 @@ struct PlayerCounters {
   std::uint64_t voices_peak = 0;   ///< most voices at once
   double load_average = 0.0;       ///< rendering time in its block's time, over a second [1]
   double load_peak = 0.0;          ///< the same, largest since the start [1]
+  std::uint64_t most_voices = 0;   ///< that may sound at once now: fewer where the load is high
+  std::uint64_t lowered = 0;       ///< times that number was lowered
 };
 
 struct PlayerSettings {
@@ -39,7 +43,9 @@ struct PlayerSettings {
   double start_ramp = 2.0;       ///< of the gate [s]
   bool muted = false;            ///< until /mute 0 comes
   ScheduleSettings schedule;
-  BlockTap* monitor = nullptr;  ///< for viewers; null: none
+  BlockTap* monitor = nullptr;                          ///< for viewers; null: none
+  int max_voices = 4096;                                ///< the engine's
+  double (*now)() noexcept = &protocol::monotonic_now;  ///< by which the load is measured [s]
 };
 
 class Player final : public BlockSource {
@@ -76,6 +82,7 @@ class Player final : public BlockSource {
   Meter meter_;
   std::vector<float*> part_;  ///< channels of a block's part
   double load_ = 0.0;         ///< averaged [1]
+  Governor governor_;
   Count blocks_;
   Count xruns_;
   Count late_;

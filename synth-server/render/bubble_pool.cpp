@@ -48,12 +48,14 @@ class Pool final : public BubblePool {
   using Real = typename Pack::Real;
   static constexpr bool kAfresh = std::is_same_v<Pack, FastPack>;  ///< each cell starts afresh
   static constexpr std::size_t kKeptPart = 16;  ///< of all voices one of so many may be kept
+  static constexpr int kMostFaded = 64;         ///< in one cell, of those that are too many
   static constexpr auto kCellRows = static_cast<std::size_t>(kRows);
 
   explicit Pool(const PoolSettings& s)
       : kernels_(kernels_for<Pack>(s.instructions)),
         sample_rate_(s.sample_rate),
         max_voices_(static_cast<std::size_t>(s.max_voices)),
+        most_(max_voices_),
         fade_length_(std::llround(kVoiceFade * s.sample_rate)),
         break_length_(std::llround(kBreakFade * s.sample_rate)),
         packs_(packs_for(s)),
@@ -108,6 +110,15 @@ class Pool final : public BubblePool {
       if (!feeds_.reaches(c)) continue;
       mix.touched[c] = 1;
       kernels_.collect(&sums_[c * kSumStride], begin, end, &mix.samples[c * kCell]);
+    }
+  }
+
+  void limit(int most, std::int64_t sample) noexcept override {
+    most_ = std::min(max_voices_, static_cast<std::size_t>(std::max(1, most)));
+    for (int faded = 0; faded < kMostFaded && lasting_ > most_; ++faded) {
+      const std::uint32_t quietest = ranking_.quietest(sample);
+      if (quietest == Ranking::kNone) return;
+      fade_out(quietest, sample);
     }
   }
 
@@ -184,7 +195,7 @@ class Pool final : public BubblePool {
   }
 
   Start make_room(const VoiceLife& life, std::int64_t sample) noexcept {
-    if (lasting_ < max_voices_) return Start::started;
+    if (lasting_ < most_) return Start::started;
     const std::uint32_t quietest = ranking_.quietest(sample);
     // Without any, those that count are about to end within this cell.
     if (quietest == Ranking::kNone) return Start::started;
@@ -299,6 +310,7 @@ class Pool final : public BubblePool {
   PackKernels<Pack> kernels_;
   double sample_rate_;
   std::size_t max_voices_;
+  std::size_t most_;           ///< of them, for now
   std::int64_t fade_length_;   ///< samples
   std::int64_t break_length_;  ///< samples
   std::vector<Pack, Aligned<Pack>> packs_;

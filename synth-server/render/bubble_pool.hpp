@@ -55,6 +55,9 @@ class BubblePool {
                         std::span<const Route> routes, int group, std::int64_t sample) noexcept = 0;
   /// Adds samples [from, to) of all voices; both within one cell.
   virtual void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept = 0;
+  /// At the beginning of a cell, at `sample`: from now on no more than `most` voices at once, up to
+  /// max_voices. The quietest of those beyond fade out, not all in one cell.
+  virtual void limit(int most, std::int64_t sample) noexcept = 0;
   /// At the end of a cell: gives back the places of voices that are over before `sample`.
   virtual void release(std::int64_t sample) noexcept = 0;
   /// Fades all voices out from `sample` on.

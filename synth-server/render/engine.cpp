@@ -53,6 +53,7 @@ struct Engine::State {
   std::array<double, kCell> fade_gains{};
   std::array<double, kCell> ceilings{};
   std::int64_t clock = 0;
+  int most_voices;  ///< for now
   std::atomic<bool> silent{false};
   std::atomic<bool> silenced{false};
   std::atomic<std::int64_t> shown_clock{0};
@@ -68,7 +69,8 @@ Engine::State::State(const Rig& rig, const EngineSettings& s)
       ensemble(checked(rig, s.sample_rate), s),
       queue(s.max_scheduled),
       mix(static_cast<std::size_t>(channel_count(rig))),
-      fade(s.start_ramp, s.sample_rate) {
+      fade(s.start_ramp, s.sample_rate),
+      most_voices(s.max_voices) {
   for (const Output& output : rig.outputs) {
     for (int c = 0; c < channel_count(output); ++c) guards.emplace_back(output, s.sample_rate, c);
   }
@@ -78,6 +80,7 @@ Engine::State::State(const Rig& rig, const EngineSettings& s)
 void Engine::State::begin_cell() noexcept {
   controls.begin_cell();
   ensemble.follow(controls);
+  ensemble.limit(most_voices, clock);
   mix.impacts = controls.component(0);
   mix.bubbles = controls.component(1);
   mix.cavities = controls.component(2);
@@ -209,6 +212,10 @@ void Engine::clear() noexcept {
   state_->queue.clear();
   state_->counts.scheduled.set(0);
   state_->ensemble.fade_all(state_->clock);
+}
+
+void Engine::limit_voices(int most) noexcept {
+  state_->most_voices = most;
 }
 
 void Engine::silence(bool silent) noexcept {

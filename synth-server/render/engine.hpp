@@ -93,6 +93,10 @@ class Engine {
   /// Drops all scheduled events and fades out the sounding voices.
   void clear() noexcept;
 
+  /// From the next cell on no more bubbles and cavities at once than this, up to max_voices: the
+  /// quietest of those beyond fade out.
+  void limit_voices(int most) noexcept;
+
   /// Fades all channels out (20 ms) or in again; from any thread, heard in the next block.
   void silence(bool silent) noexcept;
   /// Whether the fade-out has reached nil: after it a device may be closed without a click.

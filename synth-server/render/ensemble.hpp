@@ -31,6 +31,9 @@ class Ensemble {
   /// mixed. However many bubbles there are, impacts and cavities find a place.
   void start(const TimedEvent& timed) noexcept;
 
+  /// At the beginning of a cell, at `sample`: see BubblePool.
+  void limit(int most, std::int64_t sample) noexcept { bubbles_->limit(most, sample); }
+
   /// Adds samples [from, to) of all voices; both within one cell.
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
   /// At the end of a cell, behind which `sample` lies.

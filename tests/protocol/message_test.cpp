@@ -68,7 +68,7 @@ TEST(Encode, RefusesWhatTheGateWould) {
       {"/a", {std::string(65, 'x')}},
       {"/a", {std::string("\n")}},
       {"/a", {std::string("x\0y", 3), 1}},
-      {"/a", std::vector<Argument>(17, Argument{1})},
+      {"/a", std::vector<Argument>(25, Argument{1})},
   };
   for (const auto& one : wrong) {
     EXPECT_THROW((void)encode(one), std::length_error) << one.address;

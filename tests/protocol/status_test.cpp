@@ -14,7 +14,7 @@ namespace {
 
 // Each field a value of its own, so that a swap shows.
 SynthStatus synth_status() {
-  return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10.5F, 11.5F, 48000.0F, 13, 0.25F, 15};
+  return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10.5F, 11.5F, 48000.0F, 13, 0.25F, 15, 16};
 }
 SimStatus sim_status() {
   return {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 1.25F, 240.0F, 0.01F, 14, 15};
@@ -63,6 +63,7 @@ TEST(Status, NamesOfTheTableAreInTheStructsOrder) {
   EXPECT_EQ(value_of(synth, fields, "silenced"), 13);
   EXPECT_EQ(value_of(synth, fields, "level"), 0.25);
   EXPECT_EQ(value_of(synth, fields, "loudest"), 15);
+  EXPECT_EQ(value_of(synth, fields, "most_voices"), 16);
   const auto sim = to_message(sim_status());
   ASSERT_EQ(sim_status_fields().size(), sim.arguments.size());
   EXPECT_EQ(value_of(sim, sim_status_fields(), "particles"), 1);
