@@ -9,7 +9,6 @@
 
 #include "program/config_file.hpp"
 #include "program/failure.hpp"
-#include "program/input_file.hpp"
 #include "program/service_notice.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
@@ -87,6 +86,7 @@ void play(const Options& options, Server& server, program::ServiceNotice& servic
       break;
     }
     if (options.duration > 0.0 && now - start >= options.duration) break;
+    if (server.played_out()) break;
     if (options.verbose && now >= next_line) {
       next_line += 1.0;
       std::printf("%6.1f s: %s\n", now - start, server.state().c_str());
@@ -131,10 +131,7 @@ void run(Options options) {
   const NamedSound sound = chosen_sound(options.sound);
   options.engine.sound = sound.sound;
   options.sound_name = sound.name;
-  if (!options.replay.empty()) {
-    program::require_readable("--replay", options.replay);
-    return render_log(options, rig);
-  }
+  if (!options.render.empty()) return render_log(options, rig);
   const sigset_t signals = block_signals();
   if (!options.test_tone.empty()) return play_test_tone(options, rig, signals);
   Server server(options, rig);

@@ -50,13 +50,18 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
                  "Show levels and sound to viewers, such as view-server, at this TCP port; hosts "
                  "other than this one need --allow")
       ->type_name("HOST:PORT");
-  auto* replay =
-      app.add_option("--replay", options.replay, "Render this event log instead of playing live")
-          ->type_name("LOG");
+  auto* replay = app.add_option("--replay", options.replay,
+                                "Play this event log aloud, then end; with --render: to a file")
+                     ->type_name("LOG");
   auto* render =
       app.add_option("--render", options.render, "The replay's WAV file")->type_name("WAV");
-  replay->needs(render);
   render->needs(replay);
+  app.add_option("--tail", options.tail,
+                 "Seconds after the replay's last event (default: until all is silent, 60 at most)")
+      ->needs(replay)
+      ->check(CLI::Range(0.0, 3600.0))
+      ->check(program::refuse_nan)
+      ->type_name("S");
   app.add_option("--fade-in", options.fade_in,
                  "With --render: the file opens within so many seconds, as live sound does in 2")
       ->needs(render)
@@ -129,12 +134,18 @@ void check(const Options& options) {
     throw std::invalid_argument(
         "--rig is missing: a name such as stereo or tiles36, or a rig file");
   }
-  if (!options.replay.empty() && !options.record_audio.empty()) {
+  if (!options.render.empty() && !options.record_audio.empty()) {
     throw std::invalid_argument(
         "--record-audio is for live playing: --render is the replay's file");
   }
-  if (!options.replay.empty() && !options.record_events.empty()) {
+  if (!options.render.empty() && !options.record_events.empty()) {
     throw std::invalid_argument("--record-events is for live playing: --replay reads a log");
+  }
+  std::error_code none;
+  if (!options.record_events.empty() &&
+      std::filesystem::equivalent(options.replay, options.record_events, none)) {
+    throw std::invalid_argument("--record-events would overwrite " + options.replay.string() +
+                                ", the log that --replay reads: name another file");
   }
   std::error_code missing;
   if (!options.render.empty() &&

@@ -23,8 +23,9 @@ struct Options {
 
   std::optional<protocol::Endpoint> show;  ///< where viewers are let in; empty: nowhere
 
-  std::filesystem::path replay;  ///< a log; empty: play live
-  std::filesystem::path render;  ///< the WAV file of a replay
+  std::filesystem::path replay;  ///< a log to play; empty: only what comes over OSC
+  std::filesystem::path render;  ///< the WAV file of a replay; empty: it plays aloud
+  std::optional<double> tail;    ///< after a replay's last event [s]; empty: until all is silent
   double fade_in = 0.0;          ///< of the file [s]
   bool stems = false;            ///< also one file for each of the three components
 

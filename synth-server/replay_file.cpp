@@ -6,6 +6,7 @@
 #include <string>
 
 #include "program/failure.hpp"
+#include "program/input_file.hpp"
 #include "protocol/event_log.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/output_choice.hpp"
@@ -61,7 +62,7 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
       static_cast<unsigned long long>(c.dropped_refused));
 }
 
-/// Before the file is there: from the log's beginning to its last event everything is rendered.
+/// Before anything is made of it: from the log's beginning to its last event all is rendered.
 void require_renderable(const std::filesystem::path& path,
                         const std::vector<protocol::LogEntry>& log) {
   constexpr double kLongest = 7 * 24 * 3600.0;  // [s]
@@ -76,13 +77,20 @@ void require_renderable(const std::filesystem::path& path,
 
 }  // namespace
 
-void render_log(const Options& options, const Rig& rig) {
-  const auto log =
+std::vector<protocol::LogEntry> read_replay(const Options& options) {
+  program::require_readable("--replay", options.replay);
+  auto log =
       program::failing_with(program::kExitData, [&] { return protocol::read_log(options.replay); });
   require_renderable(options.replay, log);
+  return log;
+}
+
+void render_log(const Options& options, const Rig& rig) {
+  const auto log = read_replay(options);
   ReplaySettings settings;
   settings.engine = options.engine;
   settings.fade_in = options.fade_in;
+  settings.tail = options.tail;
   settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
   const auto report = program::failing_with(
       program::kExitIo, [&] { return render_to(options.render, log, rig, settings); });

@@ -2,6 +2,7 @@
 #include "synth-server/server.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,8 @@
 #include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"
+#include "synth-server/replay/replay.hpp"
+#include "synth-server/replay_file.hpp"
 #include "synth-server/sound_choice.hpp"
 
 namespace splash::synth {
@@ -19,6 +22,7 @@ namespace {
 
 /// The largest block the engine renders at once; larger ones are cut [frames].
 constexpr int kMaxBlock = 4096;
+constexpr double kOpening = 2.0;          ///< of the gate, before a log begins [s]
 constexpr double kRecorderSeconds = 4.0;  ///< a disk may stall so long
 /// 20 ms of fading, and blocks on their way to the device.
 constexpr auto kLongestFade = std::chrono::milliseconds(300);
@@ -38,11 +42,18 @@ EngineSettings engine_settings(const Options& options, int sample_rate) {
 }  // namespace
 
 Server::Playing::Playing(const Rig& rig, const EngineSettings& engine_settings, CommandQueue& queue,
-                         Recorder* recorder, const PlayerSettings& player_settings)
-    : engine(rig, engine_settings), player(engine, queue, recorder, player_settings) {}
+                         Recorder* recorder, const PlayerSettings& player_settings,
+                         std::unique_ptr<Track> log)
+    : track(std::move(log)),
+      engine(rig, engine_settings),
+      player(engine, queue, recorder, player_settings) {}
 
 Server::Server(const Options& options, const Rig& rig)
-    : options_(options), rig_(rig), muted_(options.muted), desk_(rig, options.engine.sound) {
+    : options_(options),
+      rig_(rig),
+      muted_(options.muted),
+      log_(options.replay.empty() ? std::vector<protocol::LogEntry>() : read_replay(options)),
+      desk_(rig, options.engine.sound) {
   protocol::UdpSocket socket = program::failing_with(
       program::kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
   OpenedOutput opened = program::failing_with(program::kExitUnavailable,
@@ -75,7 +86,29 @@ std::unique_ptr<Server::Playing> Server::make_playing(int sample_rate, Recorder*
   EngineSettings engine = engine_settings(options_, sample_rate);
   engine.watch = watch;
   engine.controls = &desk_.box();
-  return std::make_unique<Playing>(rig_, engine, queue_, recorder, settings);
+  std::unique_ptr<Track> track = make_track(sample_rate);
+  settings.track = track.get();
+  return std::make_unique<Playing>(rig_, engine, queue_, recorder, settings, std::move(track));
+}
+
+std::unique_ptr<Track> Server::make_track(int sample_rate) const {
+  if (options_.replay.empty()) return nullptr;
+  std::uint64_t others = 0;
+  const std::size_t done = playing_ == nullptr ? 0 : playing_->track->done();
+  return std::make_unique<Track>(events_of(log_, sample_rate, others), done,
+                                 std::llround(kOpening * sample_rate));
+}
+
+bool Server::played_out() const {
+  const std::lock_guard lock(mutex_);
+  const Track* const track = playing_->track.get();
+  if (track == nullptr || !track->over()) return false;
+  const auto after = static_cast<double>(playing_->engine.clock() - track->end());  // [samples]
+  const EngineCounters engine = playing_->engine.counters();
+  const bool rings =
+      engine.voices + engine.scheduled > 0 || playing_->player.meter().loudest().level > 0.0F;
+  const double rate = output_->format().sample_rate;
+  return after > options_.tail.value_or(rings ? kLongestRing : 0.0) * rate;
 }
 
 BlockSource& Server::adapt(const AudioFormat& format) {
@@ -219,6 +252,10 @@ void Server::introduce() const {
   std::printf("%s", channel_map(channel_names(rig_), format_.ports).c_str());
   std::printf("latency: %s after a time tag; dropped when over %s late\n",
               milliseconds_text(latency).c_str(), milliseconds_text(options_.late_window).c_str());
+  if (!options_.replay.empty()) {
+    std::printf("replay: %s, %zu events, when the gate has opened\n", options_.replay.c_str(),
+                playing_->track->size());
+  }
   if (options_.muted) std::printf("muted: until /mute 0\n");
   if (recorder_ != nullptr) std::printf("recording: %s\n", options_.record_audio.c_str());
   if (monitor_ != nullptr) {

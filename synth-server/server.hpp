@@ -8,7 +8,9 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include "protocol/event_log.hpp"
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"
 #include "synth-server/desk.hpp"
@@ -21,6 +23,7 @@
 #include "synth-server/receive/receiver.hpp"
 #include "synth-server/render/engine.hpp"
 #include "synth-server/replay/event_recorder.hpp"
+#include "synth-server/replay/track.hpp"
 #include "synth-server/server_text.hpp"
 #include "synth-server/sound/sound_reader.hpp"
 
@@ -40,6 +43,8 @@ class Server {
   [[nodiscard]] std::string state() const;
   /// Whether both sound and receiver have moved on since this was last asked.
   [[nodiscard]] bool alive();
+  /// Whether the log that is replayed, if any, has rung out, or had its tail.
+  [[nodiscard]] bool played_out() const;
   /// Goes over to another sound [s].
   void play(const NamedSound& sound, double seconds);
   /// Begins the recording anew, if somebody has moved its file away.
@@ -56,10 +61,11 @@ class Server {
  private:
   /// What renders at one sample rate.
   struct Playing {
+    std::unique_ptr<Track> track;  ///< null: no log is replayed
     Engine engine;
     Player player;
     Playing(const Rig& rig, const EngineSettings& engine_settings, CommandQueue& queue,
-            Recorder* recorder, const PlayerSettings& player_settings);
+            Recorder* recorder, const PlayerSettings& player_settings, std::unique_ptr<Track> log);
   };
 
   /// `recorder` and `watch` may be null.
@@ -67,6 +73,8 @@ class Server {
                                                       StartWatch* watch);
   /// The device came back at another rate.
   BlockSource& adapt(const AudioFormat& format);
+  /// What is left of the log to play; null without one.
+  [[nodiscard]] std::unique_ptr<Track> make_track(int sample_rate) const;
   void start_output(OpenedOutput opened);
   void start_recorder();
   void start_monitor();
@@ -85,7 +93,8 @@ class Server {
   const Rig rig_;
   std::atomic<bool> quit_{false};
   std::atomic<bool> muted_{false};
-  double started_ = 0.0;  ///< [s, monotonic]
+  const std::vector<protocol::LogEntry> log_;  ///< that is replayed
+  double started_ = 0.0;                       ///< [s, monotonic]
   CommandQueue queue_;
   Desk desk_;
   AudioFormat format_;  ///< at the start

@@ -108,6 +108,7 @@ void Player::render_parts(const AudioBlock& block) noexcept {
   for (int done = 0; done < block.frames;) {
     const int frames = std::min(settings_.max_block, block.frames - done);
     for (std::size_t c = 0; c < part_.size(); ++c) part_[c] = block.channels[c] + done;
+    if (settings_.track != nullptr) settings_.track->give(engine_, engine_.clock() + frames);
     engine_.render(part_.data(), frames);
     gate_.process(part_.data(), static_cast<int>(part_.size()), frames);
     meter_.note(part_.data(), frames);

@@ -20,6 +20,7 @@
 #include "synth-server/play/schedule.hpp"
 #include "synth-server/render/counters.hpp"
 #include "synth-server/render/engine.hpp"
+#include "synth-server/replay/track.hpp"
 
 namespace splash::synth {
 
@@ -44,6 +45,7 @@ struct PlayerSettings {
   bool muted = false;            ///< until /mute 0 comes
   ScheduleSettings schedule;
   BlockTap* monitor = nullptr;                          ///< for viewers; null: none
+  Track* track = nullptr;                               ///< a log that is played; null: none
   int max_voices = 4096;                                ///< the engine's
   double (*now)() noexcept = &protocol::monotonic_now;  ///< by which the load is measured [s]
 };

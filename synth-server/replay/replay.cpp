@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "synth-server/output/fade.hpp"
 
@@ -13,6 +14,9 @@ namespace {
 
 /// A log that speaks of later than this is broken, not long [s].
 constexpr double kLongest = 7.0 * 24.0 * 3600.0;
+/// What rings out is looked at so often [s].
+constexpr double kStep = 0.1;
+constexpr float kSilent = 1e-7F;  ///< -140 dB of full scale
 
 std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
   const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
@@ -21,30 +25,6 @@ std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
                                 " s; a log may last 7 days");
   }
   return std::max<std::int64_t>(0, std::llround(start * sample_rate));
-}
-
-/// The log's events in the order of their samples.
-std::vector<TimedEvent> collect(const std::vector<protocol::LogEntry>& log, double sample_rate,
-                                ReplayReport& report) {
-  std::vector<TimedEvent> events;
-  for (const protocol::LogEntry& entry : log) {
-    const auto frame =
-        entry.messages.empty() ? std::nullopt : protocol::to_frame(entry.messages.front());
-    const std::int32_t session = frame ? frame->session : 0;
-    for (const protocol::Message& message : entry.messages) {
-      const std::optional<protocol::Event> event = protocol::to_event(message);
-      if (!event) {
-        ++report.not_events;
-        continue;
-      }
-      const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
-      events.push_back({*event, start_sample(entry.seconds, offset, sample_rate), session});
-    }
-  }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const TimedEvent& a, const TimedEvent& b) { return a.sample < b.sample; });
-  report.events = events.size();
-  return events;
 }
 
 /// Renders block after block, handing the engine its events as their samples come near.
@@ -61,6 +41,11 @@ class Player {
     }
   }
 
+  /// Whether voices are left, or the samples since this was last asked can be told from silence.
+  [[nodiscard]] bool sounds() {
+    return engine_.counters().voices > 0 || std::exchange(peak_, 0.0F) > kSilent;
+  }
+
   void play_until(std::int64_t end) {
     while (engine_.clock() < end) {
       const auto frames = static_cast<int>(std::min<std::int64_t>(block_, end - engine_.clock()));
@@ -68,11 +53,18 @@ class Player {
         engine_.schedule(events_[next_++]);
       }
       engine_.render(channels_.data(), frames);
+      note_peak(frames);
       sink_(channels_.data(), frames);
     }
   }
 
  private:
+  void note_peak(int frames) {
+    for (const float* channel : channels_) {
+      for (int i = 0; i < frames; ++i) peak_ = std::max(peak_, std::abs(channel[i]));
+    }
+  }
+
   const std::vector<TimedEvent>& events_;
   Engine& engine_;
   int block_;
@@ -80,14 +72,38 @@ class Player {
   std::vector<float> samples_;
   std::vector<float*> channels_;
   std::size_t next_ = 0;
+  float peak_ = 0.0F;  ///< since it was last asked for [full scale]
 };
 
 }  // namespace
 
+std::vector<TimedEvent> events_of(const std::vector<protocol::LogEntry>& log, double sample_rate,
+                                  std::uint64_t& others) {
+  std::vector<TimedEvent> events;
+  others = 0;
+  for (const protocol::LogEntry& entry : log) {
+    const auto frame =
+        entry.messages.empty() ? std::nullopt : protocol::to_frame(entry.messages.front());
+    const std::int32_t session = frame ? frame->session : 0;
+    for (const protocol::Message& message : entry.messages) {
+      const std::optional<protocol::Event> event = protocol::to_event(message);
+      if (!event) {
+        ++others;
+        continue;
+      }
+      const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
+      events.push_back({*event, start_sample(entry.seconds, offset, sample_rate), session});
+    }
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const TimedEvent& a, const TimedEvent& b) { return a.sample < b.sample; });
+  return events;
+}
+
 ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
                     const ReplaySettings& settings, const BlockSink& sink) {
-  if (!(settings.tail >= 0.0 && settings.tail <= 3600.0)) {
-    throw std::invalid_argument("replay: tail = " + std::to_string(settings.tail) +
+  if (settings.tail && !(*settings.tail >= 0.0 && *settings.tail <= 3600.0)) {
+    throw std::invalid_argument("replay: tail = " + std::to_string(*settings.tail) +
                                 " s: must be 0 to 3600 s");
   }
   ReplayReport report;
@@ -96,13 +112,21 @@ ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
   engine_settings.max_block = settings.block;
   const double rate = engine_settings.sample_rate;
   Engine engine(rig, engine_settings);
-  const std::vector<TimedEvent> events = collect(log, rate, report);
+  const std::vector<TimedEvent> events = events_of(log, rate, report.not_events);
+  report.events = events.size();
   const std::int64_t last = events.empty() ? 0 : events.back().sample;
-  report.frames = last + std::llround(settings.tail * rate);
+  const std::int64_t fade = std::llround(Fade::kSeconds * rate);
+  const std::int64_t total = last + std::llround(settings.tail.value_or(kLongestRing) * rate);
+  const std::int64_t end = std::max<std::int64_t>(0, total - fade);
   Player player(events, engine, settings.block, sink);
-  player.play_until(std::max<std::int64_t>(0, report.frames - std::llround(Fade::kSeconds * rate)));
+  player.play_until(settings.tail ? end : std::min(end, last + 1));
+  const std::int64_t step = std::llround(kStep * rate);
+  while (!settings.tail && engine.clock() < end && player.sounds()) {
+    player.play_until(std::min(end, engine.clock() + step));
+  }
   engine.silence(true);
-  player.play_until(report.frames);
+  player.play_until(std::min(total, engine.clock() + fade));
+  report.frames = engine.clock();
   report.counters = engine.counters();
   return report;
 }

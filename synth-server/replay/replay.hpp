@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "protocol/event_log.hpp"
@@ -15,8 +16,9 @@ namespace splash::synth {
 struct ReplaySettings {
   EngineSettings engine;  ///< its start_ramp is ignored for fade_in
   double fade_in = 0.0;   ///< of the first samples [s]; 0: a file begins open
-  double tail = 2.0;      ///< rendered after the last event, the last 20 ms fading out [s]
-  int block = 512;        ///< frames per call of the sink
+  /// Rendered after the last event, the last 20 ms fading out [s]; empty: until all is silent.
+  std::optional<double> tail;
+  int block = 512;  ///< frames per call of the sink
 };
 
 /// Gets the rendered blocks in order; planar, channels[c][i].
@@ -28,6 +30,15 @@ struct ReplayReport {
   std::uint64_t not_events = 0;  ///< messages of the log that are none, such as /frame
   EngineCounters counters;       ///< at the end
 };
+
+/// What sounds is left to ring out for so long at most [s]: a cavity of 0.3 m takes 14.5 s for 60
+/// dB.
+inline constexpr double kLongestRing = 60.0;
+
+/// The log's events in the order of their samples; `others`: gets the number of all other messages.
+/// Throws std::invalid_argument on a moment that no log can have.
+[[nodiscard]] std::vector<TimedEvent> events_of(const std::vector<protocol::LogEntry>& log,
+                                                double sample_rate, std::uint64_t& others);
 
 /// Renders from the log's start to its last event and the tail. Throws std::invalid_argument on
 /// settings out of their limits, and what `sink` throws.

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "protocol/event_log.hpp"
 #include "protocol/status.hpp"
 #include "tests/protocol/killers.hpp"
 #include "tests/support/programs.hpp"
@@ -109,10 +110,10 @@ TEST_F(LiveNull, WhatItSaysThatItStartedRendersToTheSameSound) {
     live.insert(live.end(), {"--record-events", log, "--middle=0.5,0,0"});
     Synth synth(live);
     for (int i = 0; i < 12; ++i) {
-      synth.send(protocol::encode(
-          protocol::to_time_tag(protocol::unix_now() + 0.05),
-          {bubble(2 * i, 0.02F), protocol::to_message(protocol::Impact{
-                                     2 * i + 1, 0, 2.0F, 1.5F, {0.3F, 0.0F, 0.0F}, 7.0F})}));
+      synth.send(protocol::encode(protocol::to_time_tag(protocol::unix_now() + 0.05),
+                                  {frame(77, i), bubble(2 * i, 0.02F),
+                                   protocol::to_message(protocol::Impact{
+                                       2 * i + 1, 0, 2.0F, 1.5F, {0.3F, 0.0F, 0.0F}, 7.0F})}));
       sleep(0.23);
     }
     await_sound(0.5);
@@ -136,6 +137,39 @@ TEST_F(LiveNull, WhatItSaysThatItStartedRendersToTheSameSound) {
       ASSERT_NEAR(played.channels[channel][i], rendered.channels[channel][i], 1e-6F)
           << "sample " << i;
     }
+  }
+}
+
+TEST_F(LiveNull, PlaysALogAloudAndEndsWhenItHasRungOut) {
+  const std::string log = temporary_path("aloud.osc");
+  const std::string rendered = temporary_path("rendered.wav");
+  {
+    protocol::LogWriter writer(log);
+    for (int i = 0; i < 8; ++i) {
+      writer.append(
+          0.1 * i,
+          {frame(5, i), bubble(i, 0.01F + 0.002F * static_cast<float>(i)),
+           protocol::to_message(protocol::Impact{i, 0, 1.0F, 1.0F, {0.1F, 0.0F, 0.0F}, 0.0F})});
+    }
+  }
+  auto aloud = arguments();
+  aloud.insert(aloud.end(), {"--listen", "127.0.0.1:0", "--replay", log});
+  const auto [played_code, played_text] = tests::run_program("synth-server", aloud);
+  EXPECT_EQ(played_code, 0) << played_text;
+  EXPECT_THAT(played_text, testing::HasSubstr("played 8 impacts, 8 bubbles"));
+  const auto [code, text] = tests::run_program(
+      "synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", log, "--render", rendered});
+  EXPECT_EQ(code, 0) << text;
+  const Recording heard = tests::read_recording(wav_);
+  const Recording file = tests::read_recording(rendered);
+  std::filesystem::remove(log);
+  std::filesystem::remove(rendered);
+  const auto& left = file.channels[0];
+  ASSERT_GT(left.size(), static_cast<std::size_t>(kRate));
+  EXPECT_EQ(peak(left, static_cast<std::int64_t>(left.size()) - kRate / 100), 0.0F);
+  ASSERT_GT(heard.channels[0].size(), left.size() + 2 * kRate);
+  for (std::size_t i = 0; i < left.size(); ++i) {  // once the gate is open
+    ASSERT_NEAR(heard.channels[0][i + 2 * kRate], left[i], 1e-6F) << "sample " << i;
   }
 }
 

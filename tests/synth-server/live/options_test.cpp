@@ -93,7 +93,10 @@ TEST(Options, RefuseToRenderOverTheLog) {
   const auto parsed = parse({"--rig", "x", "--replay", log.c_str(), "--render", other.c_str()});
   EXPECT_FALSE(parsed.options) << "the same file by another name";
   EXPECT_EQ(parsed.exit_code, program::kExitUsage);
+  EXPECT_FALSE(
+      parse({"--rig", "x", "--replay", log.c_str(), "--record-events", other.c_str()}).options);
   std::filesystem::remove(log);
+  EXPECT_TRUE(parse({"--rig", "x", "--replay", log.c_str(), "--record-events", "b"}).options);
   EXPECT_TRUE(parse({"--rig", "x", "--replay", log.c_str(), "--render", other.c_str()}).options);
 }
 
@@ -104,7 +107,9 @@ TEST(Options, RefuseNonsenseAsUsage) {
            {"--rig"},
            {"--rig", "x", "--listen", "nowhere:99999"},
            {"--rig", "x", "--listen", "127.0.0.1:x"},
-           {"--rig", "x", "--replay", "a.osc"},
+           {"--rig", "x", "--tail", "1"},
+           {"--rig", "x", "--replay", "a.osc", "--tail", "nan"},
+           {"--rig", "x", "--replay", "a.osc", "--stems"},
            {"--rig", "x", "--render", "a.wav"},
            {"--rig", "x", "--stems"},
            {"--rig", "x", "--block", "1"},

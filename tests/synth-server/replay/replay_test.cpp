@@ -79,6 +79,19 @@ TEST(Replay, EndsInSilence) {
   EXPECT_GT(std::abs(*std::max_element(out.end() - 4800, out.end() - 1000)), 0.05F);
 }
 
+TEST(Replay, RingsOutUntilAllIsSilentButNotForEver) {
+  Rig rig = open_rig();
+  rig.outputs[0].band.low = 20.0;  // so that its filters come to rest soon
+  const auto length = [&](const protocol::Event& event) {
+    const auto out = play({{0.5, {protocol::to_message(event)}}}, rig, {}).front();
+    EXPECT_LT(std::abs(out.back()), 1e-6F);
+    return static_cast<double>(out.size()) / kRate - 0.5;
+  };
+  EXPECT_LT(length(bubble(0.005F)), 1.0) << "60 dB in 0.15 s";
+  EXPECT_GT(length(cavity(0.1F)), 4.5) << "60 dB in 4.5 s";
+  EXPECT_LE(length(cavity(1.0F)), kLongestRing) << "60 dB in a minute and a half";
+}
+
 TEST(Replay, GivesImpactsOfTwoSessionsNoiseOfTheirOwn) {
   const auto burst = [](std::int32_t session) {
     std::vector<protocol::Message> messages;
