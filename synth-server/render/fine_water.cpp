@@ -61,9 +61,10 @@ FineWater::FineWater(const Rig& rig, double sample_rate, std::uint64_t seed)
     const double frequency = std::min(fine_frequency(b), 0.45 * sample_rate);
     const double w = 2.0 * std::numbers::pi * frequency / sample_rate;
     const double alpha = std::sin(w) / (2.0 * q);
-    a1_[b] = -2.0 * std::cos(w) / (1.0 + alpha);
-    a2_[b] = (1.0 - alpha) / (1.0 + alpha);
-    gain_[b] = std::sqrt((1.0 - a2_[b]) / 2.0);
+    const double a2 = (1.0 - alpha) / (1.0 + alpha);
+    a1_[b / 4][b % 4] = static_cast<float>(-2.0 * std::cos(w) / (1.0 + alpha));
+    a2_[b / 4][b % 4] = static_cast<float>(a2);
+    gain_[b / 4][b % 4] = static_cast<float>(std::sqrt((1.0 - a2) / 2.0));
   }
 }
 
@@ -79,7 +80,7 @@ void FineWater::tune(const Sound& sound) noexcept {
   for (std::size_t band = 0; band < kFineBands; ++band) {
     const bool plays = fine_frequency(band) < 0.45 * sample_rate_;
     const double energy = plays ? fine_energy(b, band) : 0.0;
-    levels_[band] = std::sqrt(energy);
+    levels_[band / 4][band % 4] = static_cast<float>(std::sqrt(energy));
     power_ += energy;
   }
 }
@@ -95,6 +96,18 @@ void FineWater::add(const Sound& sound, double epsilon, std::span<const Route> r
   }
 }
 
+float FineWater::Channel::next(const FineWater& of, float white) noexcept {
+  Four sum{};
+  for (std::size_t k = 0; k < of.gain_.size(); ++k) {  // the same as Resonator, side by side
+    const Four in = of.gain_[k] * white;
+    const Four band = in + first[k];
+    first[k] = second[k] - of.a1_[k] * band;
+    second[k] = -in - of.a2_[k] * band;
+    sum += of.levels_[k] * band;
+  }
+  return sum[0] + sum[1] + sum[2] + sum[3];
+}
+
 void FineWater::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
   const double fall = std::exp(-1.0 / (fine_.release * sample_rate_));
   const double follow = -std::expm1(-1.0 / (fine_.attack * sample_rate_));
@@ -104,21 +117,17 @@ void FineWater::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
     mix.touched[c] = 1;
     const auto first = static_cast<int>(from % kCell);
     double* const out = mix.samples.data() + c * kCell + static_cast<std::size_t>(first);
+    Channel running = channel;  // out of memory meanwhile: each sample waits for the last
+    std::array<float, 2> white{};
     for (int n = 0; n < static_cast<int>(to - from); ++n) {
-      channel.envelope += follow * (channel.falling - channel.envelope);
-      channel.falling *= fall;
-      const double white = channel.noise.at(static_cast<std::uint64_t>(from + n));
-      Bands sound{};
-      for (std::size_t b = 0; b < kFineBands; ++b) {  // the same as Resonator, side by side
-        const double band = gain_[b] * white + channel.first[b];
-        channel.first[b] = channel.second[b] - a1_[b] * band;
-        channel.second[b] = -gain_[b] * white - a2_[b] * band;
-        sound[b] = levels_[b] * band;
-      }
-      double sum = 0.0;
-      for (const double band : sound) sum += band;
-      out[n] += std::sqrt(channel.envelope) * mix.bubbles.at(first + n) * sum;
+      const auto now = static_cast<std::uint64_t>(from + n);
+      if (n == 0 || now % 2 == 0) white = running.noise.two_at(now / 2);
+      running.envelope += follow * (running.falling - running.envelope);
+      running.falling *= fall;
+      const auto sum = static_cast<double>(running.next(*this, white[now % 2]));
+      out[n] += std::sqrt(running.envelope) * mix.bubbles.at(first + n) * sum;
     }
+    channel = running;
   }
 }
 

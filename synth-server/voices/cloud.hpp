@@ -33,19 +33,24 @@ class Cloud {
   double enter(const CloudSound& sound, const protocol::Vec3& place, double radius,
                double frequency, std::int64_t sample) noexcept;
 
-  void clear() noexcept { count_ = 0; }
+  void clear() noexcept {
+    radius_.fill(0.0F);
+    count_ = 0;
+  }
 
   /// Of more than so many at once only the youngest count.
   static constexpr std::size_t kMost = 512;
 
  private:
-  using Column = std::array<double, kMost>;
+  using Column = std::array<float, kMost>;
+
+  [[nodiscard]] std::size_t oldest() const noexcept { return (next_ + kMost - count_) % kMost; }
 
   double sample_rate_;
   std::size_t next_ = 0;    ///< where the next one goes: the oldest follow
   std::size_t count_ = 0;   ///< of them
   Column x_{}, y_{}, z_{};  ///< [m]
-  Column radius_{};         ///< [m]
+  Column radius_{};         ///< [m]; 0: nobody is there
   Column square_{};         ///< of the frequency [Hz^2]
   std::array<std::int64_t, kMost> born_{};
 };
