@@ -82,8 +82,9 @@ void LivePd::send(const std::vector<std::byte>& packet) {
   if (!socket_.send_to(patch_, packet)) throw std::runtime_error("the network refuses a packet");
 }
 
-std::optional<protocol::SynthStatus> LivePd::status(double seconds) {
-  send(protocol::encode(protocol::Message{"/status", {}}));
+std::optional<protocol::Message> LivePd::ask(const protocol::Message& question,
+                                             const std::string& answer, double seconds) {
+  send(protocol::encode(question));
   std::array<std::byte, 2048> buffer{};
   const double deadline = protocol::monotonic_now() + seconds;
   while (protocol::monotonic_now() < deadline) {
@@ -91,9 +92,14 @@ std::optional<protocol::SynthStatus> LivePd::status(double seconds) {
     if (!received) continue;
     const auto decoded = protocol::decode(protocol::Bytes(buffer).first(received->size));
     if (decoded.packet.messages.size() != 1) continue;
-    if (const auto status = protocol::to_synth_status(decoded.packet.messages[0])) return status;
+    if (decoded.packet.messages[0].address == answer) return decoded.packet.messages[0];
   }
   return std::nullopt;
+}
+
+std::optional<protocol::SynthStatus> LivePd::status(double seconds) {
+  const auto answer = ask({"/status", {}}, "/status.reply", seconds);
+  return answer ? protocol::to_synth_status(*answer) : std::nullopt;
 }
 
 }  // namespace splash::pd

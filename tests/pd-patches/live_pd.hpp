@@ -25,7 +25,11 @@ class LivePd {
 
   /// Sends a packet to the patch.
   void send(const std::vector<std::byte>& packet);
-  /// Asks the patch; nothing when it stays silent for `seconds`.
+  /// Asks the patch and waits for an answer of this address; nothing when it stays silent for
+  /// `seconds`.
+  [[nodiscard]] std::optional<protocol::Message> ask(const protocol::Message& question,
+                                                     const std::string& answer, double seconds);
+  /// The same of /status.
   [[nodiscard]] std::optional<protocol::SynthStatus> status(double seconds);
   [[nodiscard]] JackRecorder& recorder() { return *recorder_; }
   [[nodiscard]] std::string output() const { return pd_->output(); }

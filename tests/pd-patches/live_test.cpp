@@ -237,6 +237,60 @@ TEST(Live, KeepsTheStatedDelayWithinAPeriodAndABlock) {
   FAIL() << complaint;
 }
 
+/// Largest size of samples [from, to) [s].
+double peak(const std::vector<float>& channel, double from, double to) {
+  float largest = 0.0F;
+  for (auto i = static_cast<std::size_t>(std::max(0.0, from) * kRate);
+       i < static_cast<std::size_t>(to * kRate) && i < channel.size(); ++i) {
+    largest = std::max(largest, std::abs(channel[i]));
+  }
+  return static_cast<double>(largest);
+}
+
+TEST(Live, ObeysMuteAndClearSched) {
+  LivePd pd;
+  const auto sound = [&](int sequence, int spot, float delay) {
+    const protocol::Event cavity =
+        protocol::Cavity{sequence, -1, 0.06F, 0.1F, place_of(spot), 0.0F};
+    pd.send(protocol::encode(protocol::kImmediately,
+                             {protocol::to_message(protocol::Frame{9, sequence, sequence, delay}),
+                              protocol::to_message(cavity)}));
+  };
+  const auto wait = [](int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  };
+  const auto obeys = [&](const protocol::Message& command) {
+    const auto done = pd.ask(command, "/done", 10.0);
+    return done && std::get<std::string>(done->arguments.at(0)) == command.address;
+  };
+  sound(0, 0, 0.0F);
+  wait(300);
+  EXPECT_TRUE(obeys({"/mute", {1}})) << pd.output();
+  wait(800);
+  EXPECT_TRUE(obeys({"/mute", {0}}));
+  wait(2500);  // it opens slowly
+  sound(1, 8, 0.0F);
+  sound(2, 4, 1500.0F);  // waits
+  wait(300);
+  EXPECT_TRUE(obeys({"/clearSched", {}}));
+  wait(1800);
+  ASSERT_TRUE(pd.status(10.0));
+  const Channels heard = pd.recorder().stop();
+  const double full = 0.1 * 0.06 / kFullScale;
+  const auto start = [&](int spot) {
+    return static_cast<double>(crossing(heard[channel_of(spot)], 0, 0.3 * full)) / kRate;
+  };
+  ASSERT_GE(start(0), 0.0);
+  ASSERT_GE(start(8), 0.0);
+  const auto& muted = heard[channel_of(0)];
+  EXPECT_GT(peak(muted, start(0), start(0) + 0.25), 0.3 * full);
+  // Without /mute a quarter of it were left in the middle of these.
+  EXPECT_EQ(peak(muted, start(0) + 0.6, start(0) + 0.9), 0.0);
+  const auto& cleared = heard[channel_of(8)];
+  EXPECT_LT(peak(cleared, start(8) + 0.7, start(8) + 1.5), 1e-3 * full);
+  EXPECT_EQ(crossing(heard[channel_of(4)], 0, 1e-3 * full), -1) << "it waited";
+}
+
 TEST(Live, CountsWhatIsLostAndPlaysNothingTwice) {
   LivePd pd;
   const auto bundle = [](int sequence) {
