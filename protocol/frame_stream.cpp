@@ -10,13 +10,20 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "protocol/time_tag.hpp"
+
 namespace splash::protocol {
 namespace {
+
+/// Until a viewer is let in who could not be for want of descriptors or memory [s].
+constexpr double kPause = 0.2;
 
 /// What the kernel keeps of a frame that a viewer does not read [bytes].
 constexpr int kSendBuffer = 1 << 16;
@@ -85,7 +92,8 @@ void FrameStream::offer(ViewFrame frame) {
 
 void FrameStream::run() {
   while (!ending_) {
-    std::vector<pollfd> polled = {{listener_, POLLIN, 0}, {wake_, POLLIN, 0}};
+    const double pause = paused_until_ - monotonic_now();
+    std::vector<pollfd> polled = {{pause > 0.0 ? -1 : listener_, POLLIN, 0}, {wake_, POLLIN, 0}};
     {
       const std::lock_guard lock(mutex_);
       for (const Viewer& viewer : viewers_) {
@@ -93,7 +101,8 @@ void FrameStream::run() {
         polled.push_back({viewer.descriptor, static_cast<short>(events), 0});
       }
     }
-    if (poll(polled.data(), polled.size(), -1) < 0) continue;
+    const int wait = pause > 0.0 ? static_cast<int>(std::ceil(1e3 * pause)) : -1;  // [ms]
+    if (poll(polled.data(), polled.size(), wait) < 0) continue;
     eventfd_t ignored = 0;
     (void)eventfd_read(wake_, &ignored);
     const std::lock_guard lock(mutex_);
@@ -112,7 +121,10 @@ void FrameStream::welcome() {
   socklen_t size = sizeof from;
   const int descriptor =
       accept4(listener_, reinterpret_cast<sockaddr*>(&from), &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (descriptor < 0) return;
+  if (descriptor < 0) {
+    if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) pause();
+    return;
+  }
   const Endpoint peer{ntohl(from.sin_addr.s_addr), 0};
   const auto& allowed = settings_.allowed;
   const bool may = is_loopback(peer) || peer.address == local_.address ||
@@ -128,6 +140,17 @@ void FrameStream::welcome() {
   viewers_.push_back({descriptor, 0, {greeting_}, 0});
   write(viewers_.back());
   drop_gone();
+}
+
+// Who waits stays in the kernel's line, and poll would tell of it again at once.
+void FrameStream::pause() {
+  const int cause = errno;
+  paused_until_ = monotonic_now() + kPause;
+  if (std::exchange(told_of_pause_, true)) return;
+  std::fprintf(stderr,
+               "%s: a viewer waits, no connection can be taken (%s): raise the limit of open files "
+               "(ulimit -n, LimitNOFILE)\n",
+               program_invocation_short_name, std::strerror(cause));
 }
 
 void FrameStream::hear(Viewer& viewer) {

@@ -55,6 +55,7 @@ class FrameStream {
 
   void run();
   void welcome();
+  void pause();
   void hear(Viewer& viewer);
   void write(Viewer& viewer);
   void drop_gone();
@@ -67,6 +68,8 @@ class FrameStream {
   int listener_ = -1;
   int wake_ = -1;
   Endpoint local_;
+  double paused_until_ = 0.0;   ///< until then nobody is let in; monotonic [s]
+  bool told_of_pause_ = false;  ///< once is enough
   std::atomic<bool> ending_{false};
   std::atomic<bool> wanted_{false};
   std::atomic<std::uint64_t> offered_{0};
