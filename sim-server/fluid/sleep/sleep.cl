@@ -1,6 +1,27 @@
 // SPDX-License-Identifier: MIT
 // Once a frame: how many frames more each cell stays awake, and what that means for the cells
-// around it. One work-item for each row of cells.
+// around it. One team for each row of cells, whose items take every so-manieth cell; on CPUs a team
+// is one alone.
+
+typedef struct {
+  int row, item, items;
+} RowShare;
+
+static RowShare row_share(void) {
+#if TEAM > 1
+  const RowShare share = {get_group_id(0), get_local_id(0), get_local_size(0)};
+#else
+  const RowShare share = {get_global_id(0), 0, 1};
+#endif
+  return share;
+}
+
+// Until all of the team have written what they have to.
+static void wait_for_team(void) {
+#if TEAM > 1
+  barrier(CLK_GLOBAL_MEM_FENCE);
+#endif
+}
 
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/neighbours/grid.h"
@@ -29,15 +50,15 @@ static global int* own_stir(constant FluidParams* p, global int* stir) {
   return stir + p->cells_x * p->cells_y * p->cells_z;
 }
 
-// What awake cells of a row mean for the others of it.
-static void stir_along(constant FluidParams* p, global const int* awake, global int* along) {
-  for (int x = 0; x < p->cells_x; ++x) along[x] = 0;
-  for (int x = 0; x < p->cells_x; ++x) {
-    if (awake[x] == 0) continue;
-    for (int k = max(x - WAKES_DENSITY, 0); k <= min(x + WAKES_DENSITY, p->cells_x - 1); ++k) {
-      along[k] = max(along[k], abs(k - x) <= WAKES_MOTION ? STIR_MOTION : STIR_DENSITY);
-    }
+// What awake cells of a row mean for cell `x` of it.
+static int stir_along(constant FluidParams* p, global const int* awake, int x) {
+  const int last = min(x + WAKES_DENSITY, p->cells_x - 1);
+  int stir = 0;
+  for (int k = max(x - WAKES_DENSITY, 0); k <= last; ++k) {
+    if (awake[k] == 0) continue;
+    stir = max(stir, abs(k - x) <= WAKES_MOTION ? STIR_MOTION : STIR_DENSITY);
   }
+  return stir;
 }
 
 // `bodies`: those of all steps of the frame; `piston_reach`: cells at the moving wall's side that
@@ -46,13 +67,14 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
                        global const float* velocity, global const BodyStep* bodies, int body_count,
                        int piston_reach, float speed, int hold, global int* awake,
                        global int* stir) {
-  const int row = get_global_id(0);
+  const RowShare share = row_share();
+  const int row = share.row;
   if (row >= p->cells_y * p->cells_z) return;
   const int n = p->capacity;
   global int* most = awake + p->cells_x * p->cells_y * p->cells_z + row;
   awake += row * p->cells_x;
   cell_start += row * p->cells_x * SLICES;
-  for (int x = 0; x < p->cells_x; ++x) {
+  for (int x = share.item; x < p->cells_x; x += share.items) {
     const int first = cell_start[x * SLICES], last = cell_start[(x + 1) * SLICES];
     const int frames =
         any_fast(n, velocity, speed, first, last) ? hold : max(awake[x] - 1, 0);
@@ -70,20 +92,27 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
     }
     const int2 xs = cells_within(body.lower_x, body.upper_x, p->origin_x, p->inverse_cell,
                                  p->cells_x);
-    for (int x = xs.x; x <= xs.y; ++x) awake[x] = hold;
+    // Of these its own: the first whose number leaves what its item's does.
+    const int own = xs.x + (share.item + share.items - xs.x % share.items) % share.items;
+    for (int x = own; x <= xs.y; x += share.items) awake[x] = hold;
   }
-  *most = 0;
-  for (int x = 0; x < p->cells_x; ++x) *most = max(*most, awake[x]);
-  stir_along(p, awake, own_stir(p, stir) + row * p->cells_x);
+  int mine = 0;
+  for (int x = share.item; x < p->cells_x; x += share.items) mine = max(mine, awake[x]);
+  if (share.item == 0) *most = 0;
+  wait_for_team();
+  if (mine > 0) atomic_max(most, mine);
+  global int* along = own_stir(p, stir) + row * p->cells_x;
+  for (int x = share.item; x < p->cells_x; x += share.items) along[x] = stir_along(p, awake, x);
 }
 
 kernel void stir_cells(constant FluidParams* p, global const int* awake, global int* stir) {
-  const int row = get_global_id(0);
+  const RowShare share = row_share();
+  const int row = share.row;
   if (row >= p->cells_y * p->cells_z) return;
   global const int* most = awake + p->cells_x * p->cells_y * p->cells_z;
   global const int* own = own_stir(p, stir);
   stir += row * p->cells_x;
-  for (int x = 0; x < p->cells_x; ++x) stir[x] = 0;
+  for (int x = share.item; x < p->cells_x; x += share.items) stir[x] = 0;
   const int at_y = row % p->cells_y, at_z = row / p->cells_y;
   const int last_y = min(at_y + WAKES_DENSITY, p->cells_y - 1);
   const int last_z = min(at_z + WAKES_DENSITY, p->cells_z - 1);
@@ -93,7 +122,7 @@ kernel void stir_cells(constant FluidParams* p, global const int* awake, global 
       if (most[other] == 0) continue;
       const int off = max(abs(z - at_z), abs(y - at_y));
       const int reach = off <= WAKES_MOTION ? STIR_MOTION : STIR_DENSITY;
-      for (int x = 0; x < p->cells_x; ++x) {
+      for (int x = share.item; x < p->cells_x; x += share.items) {
         stir[x] = max(stir[x], min(own[other * p->cells_x + x], reach));
       }
     }

@@ -5,14 +5,23 @@
 #include <vector>
 
 namespace splash::sim {
+namespace {
+
+/// Of a team that shares a row of cells, or of items that have one each.
+std::size_t group_of(const Profile& profile) {
+  return profile.team > 1 ? profile.team : profile.group;
+}
+
+}  // namespace
 
 Sleep::Sleep(Device& device, const cl::Program& program, const FluidParams& params)
     : rows_(static_cast<std::size_t>(params.cells_y) * static_cast<std::size_t>(params.cells_z)),
       awake_(device, rows_ * (static_cast<std::size_t>(params.cells_x) + 1)),
       stir_(device, 2 * rows_ * static_cast<std::size_t>(params.cells_x)),
       resting_(device, device.vectors_of(params.count)),
-      keep_awake_(program, "keep_awake", device.profile().group),
-      stir_cells_(program, "stir_cells", device.profile().group) {
+      by_teams_(device.profile().team > 1),
+      keep_awake_(program, "keep_awake", group_of(device.profile())),
+      stir_cells_(program, "stir_cells", group_of(device.profile())) {
   wake(device);
 }
 
@@ -31,10 +40,10 @@ void Sleep::update(cl::CommandQueue& queue, const FluidParams& params,
   const double cell =
       (wall - static_cast<double>(params.origin_x)) * static_cast<double>(params.inverse_cell);
   const int piston_reach = piston_moves ? static_cast<int>(cell) + 2 : 0;
-  keep_awake_.run(queue, rows_, params_buffer.memory(), grid.cell_start(), velocity.memory(),
-                  bodies.memory(), body_count, piston_reach, static_cast<float>(rule_.speed),
-                  rule_.frames, awake_.memory(), stir_.memory());
-  stir_cells_.run(queue, rows_, params_buffer.memory(), awake_.memory(), stir_.memory());
+  over_rows(keep_awake_, queue, params_buffer.memory(), grid.cell_start(), velocity.memory(),
+            bodies.memory(), body_count, piston_reach, static_cast<float>(rule_.speed),
+            rule_.frames, awake_.memory(), stir_.memory());
+  over_rows(stir_cells_, queue, params_buffer.memory(), awake_.memory(), stir_.memory());
 }
 
 }  // namespace splash::sim

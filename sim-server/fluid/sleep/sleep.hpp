@@ -40,11 +40,21 @@ class Sleep {
   [[nodiscard]] const cl::Buffer& resting() const noexcept { return resting_.memory(); }
 
  private:
+  template <class... Args>
+  void over_rows(Kernel& kernel, cl::CommandQueue& queue, const Args&... args) {
+    if (by_teams_) {
+      kernel.run_teams(queue, rows_, args...);
+    } else {
+      kernel.run(queue, rows_, args...);
+    }
+  }
+
   SleepRule rule_;
   std::size_t rows_ = 0;
   Buffer<int> awake_;  ///< frames that each cell stays awake, 0: asleep
   Buffer<int> stir_;
   Buffer<int> resting_;
+  bool by_teams_ = false;  ///< that share a row of cells
   Kernel keep_awake_;
   Kernel stir_cells_;
 };

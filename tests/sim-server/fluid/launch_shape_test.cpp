@@ -116,6 +116,25 @@ TEST_F(LaunchShape, OfASurveyIsWide) {
   expect_many_items(kernels, water.params.count);
 }
 
+// Which cells stay awake is found once a frame: a team of work-items goes along each row of them.
+TEST_F(LaunchShape, OfALookAtWhatMaySleepIsWide) {
+  Water water = pool(PressureKind::weakly_compressible);
+  water.start(device_);
+  water.fluid->let_sleep({0.02, 160});
+  water.fluid->set_bodies(water.bodies->at(water.time));
+  Step step = water.step_at(1.0e-4);
+  step.opens_frame = true;
+  bench::begin_ledger();
+  water.fluid->prepare(step);
+  device_.queue().finish();
+  const auto kernels = bench::end_ledger();
+  const auto rows = static_cast<std::size_t>(water.params.cells_y * water.params.cells_z);
+  for (const char* name : {"keep_awake", "stir_cells"}) {
+    ASSERT_TRUE(kernels.contains(name)) << name;
+    EXPECT_GE(kernels.at(name).least, device_.profile().team * rows) << name;
+  }
+}
+
 // Of a sort: five numbers for each point and cell, whichever there are more of.
 TEST_F(LaunchShape, OfASortIsSmall) {
   const cl::Program program = build_program(device_, fluid_sources(), {}, false);
