@@ -99,7 +99,19 @@ void Bubbles::enqueue(const Step& step, double frame) {
   look_for_spawns(step);
 }
 
+void Bubbles::enqueue_read() {
+  Device& device = fluid_.device();
+  if (looked_) {
+    spawn_count_.enqueue_read(device, spawn_count_read_);
+    spawns_.enqueue_read(device,
+                         std::span(spawns_read_).first(std::min(kReadAtOnce, spawns_read_.size())));
+  }
+  states_.resize(static_cast<std::size_t>(carried_));
+  state_buffer_.enqueue_read(device, states_);
+}
+
 void Bubbles::skip() {
+  looked_ = false;
   carried_ = 0;
   states_.clear();
   spawned_.clear();
@@ -108,6 +120,7 @@ void Bubbles::skip() {
 
 void Bubbles::look_for_spawns(const Step& step) {
   Device& device = fluid_.device();
+  looked_ = true;
   spawn_count_.enqueue_clear(device);
   // The threshold is in units of the gradient at a flat surface; its outermost particles, half a
   // spacing below, see 0.65 of that (the planar marginal there over the one at the centre).
@@ -123,9 +136,6 @@ void Bubbles::look_for_spawns(const Step& step) {
       as_float(step.piston), as_float(settings_.bubble_speed), as_float(settings_.bubble_gradient),
       static_cast<int>(spawns_read_.size()), memory_.memory(), spawn_count_.memory(),
       spawns_.memory());
-  spawn_count_.enqueue_read(device, spawn_count_read_);
-  spawns_.enqueue_read(device,
-                       std::span(spawns_read_).first(std::min(kReadAtOnce, spawns_read_.size())));
 }
 
 void Bubbles::carry(const Step& step, double frame) {
@@ -137,8 +147,6 @@ void Bubbles::carry(const Step& step, double frame) {
       fluid_.boundary().points().stride, fluid_.boundary().steps().memory(), step.first_body,
       fluid_.boundary().body_count(), grid_.cell_start(), sorted_.position.memory(),
       sorted_.id.memory(), sorted_.stride, carried_, as_float(step.piston), state_buffer_.memory());
-  states_.resize(static_cast<std::size_t>(carried_));
-  state_buffer_.enqueue_read(fluid_.device(), states_);
 }
 
 std::vector<Spawn> Bubbles::read_spawns() {

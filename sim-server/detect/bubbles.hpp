@@ -57,6 +57,9 @@ class Bubbles {
   void enqueue(const Step& step, double frame);
   /// Instead of it, where no water is fast and no bubble lives.
   void skip();
+  /// Enqueues the reads of what was found: after the last kernel of a frame, for a driver may let a
+  /// read wait for all that was enqueued before it, and what follows for the read.
+  void enqueue_read();
   /// What was found, once the queue is finished: bubbles to be heard, in the order of their
   /// particles' ids: one for each bubble particle that is spawned, or as many as the entrapped air
   /// fills; where that is more than the budget, as many as it has, and larger ones. `frame`:
@@ -100,6 +103,7 @@ class Bubbles {
   std::vector<Vector3> spawned_;  ///< places of the bubble particles that are to be added
   std::vector<BubbleState> states_;
   int carried_ = 0;
+  bool looked_ = false;  ///< for spawns, in this frame
   int serial_ = 0;
   std::uint64_t dropped_ = 0;
   BubbleBudget budget_;

@@ -77,7 +77,8 @@ Detector::Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const Detec
 }
 
 void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
-  if (passes.contacts && !points_.empty()) {
+  touched_ = passes.contacts && !points_.empty();
+  if (touched_) {
     enqueue_contacts(step);
   } else {
     for (Touch& touch : touches_read_) touch.colour = touch.gx = touch.gy = touch.gz = 0.0F;
@@ -87,6 +88,11 @@ void Detector::enqueue(const Step& step, double frame, const Passes& passes) {
   } else {
     bubbles_.skip();
   }
+}
+
+void Detector::enqueue_read() {
+  if (touched_) touches_.enqueue_read(fluid_.device(), touches_read_);
+  bubbles_.enqueue_read();
 }
 
 void Detector::rehearse(const Step& step) {
@@ -104,7 +110,6 @@ void Detector::enqueue_contacts(const Step& step) {
                    static_cast<int>(points_.size()), skin_.memory(), facing_.memory(),
                    owner_.memory(), fluid_.boundary().steps().memory(), step.first_body,
                    static_cast<float>(step.piston), touches_.memory());
-  touches_.enqueue_read(fluid_.device(), touches_read_);
 }
 
 std::vector<Vector3> Detector::bubble_places() const {

@@ -29,8 +29,10 @@ class Detector {
 
   /// Enqueues the search for the state at the beginning of `step`.
   void enqueue(const Step& step, double frame, const Passes& passes = {});
-  /// Waits for it. `time`: of that state [s]; `frame`: since the last one [s]; `step`: steps so
-  /// far.
+  /// Enqueues the reads of what it finds: after the frame's last kernel (bubbles.hpp).
+  void enqueue_read();
+  /// What was found, once the queue is finished. `time`: of that state [s]; `frame`: since the last
+  /// one [s]; `step`: steps so far.
   [[nodiscard]] Detections collect(double time, double frame, std::uint32_t step);
 
   /// Runs all of it once, on a bubble that is then forgotten, in place of enqueue. Changes what it
@@ -61,6 +63,7 @@ class Detector {
   Buffer<int> owner_;
   Buffer<Touch> touches_;
   std::vector<Touch> touches_read_;
+  bool touched_ = false;  ///< contacts were looked at in this frame
   cl::Program program_;
   Kernel touch_water_;
   Bubbles bubbles_;

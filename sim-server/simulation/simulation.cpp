@@ -176,6 +176,7 @@ void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs,
     fluid_.device().queue().flush();  // else a driver may begin with nothing before the end
   }
   fluid_.enqueue_survey();
+  detector_.enqueue_read();
   fluid_.device().queue().finish();
 }
 

@@ -58,6 +58,7 @@ void fill_pool(Bubbles& bubbles, const std::vector<Vector3>& places, double born
 void detect(Water& water, Bubbles& bubbles, double frame) {
   const Step step = prepare(water);
   bubbles.enqueue(step, frame);
+  bubbles.enqueue_read();
   water.fluid->device().queue().finish();
 }
 

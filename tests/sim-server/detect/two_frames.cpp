@@ -30,6 +30,7 @@ int two_frames(int lanes, std::uint32_t frames) {
   std::size_t cavities = 0;
   for (std::uint32_t frame = 0; frame <= frames; ++frame) {
     water.step(1.0e-3, [&](Fluid&) { detector.enqueue(water.step_at(1.0e-3), kFrame); });
+    detector.enqueue_read();
     device.queue().finish();
     cavities += detector.collect(water.time, kFrame, frame).cavities.size();
   }
