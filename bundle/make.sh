@@ -21,7 +21,7 @@ readonly kName=splash-$version-x86_64
 readonly kGlibc="ld-linux-x86-64.so.2 libc.so.6 libm.so.6 libmvec.so.1 libpthread.so.0 libdl.so.2 librt.so.1
   libresolv.so.2 libutil.so.1 libanl.so.1 libnss_dns.so.2 libnss_files.so.2 libBrokenLocale.so.1"
 # What is compiled in without a library of its own.
-readonly kCompiledIn="libcli11-dev libeigen3-dev nlohmann-json3-dev libboost1.[0-9]*[0-9]-dev librandom123-dev"
+readonly kCompiledIn="libcli11-dev nlohmann-json3-dev libboost1.[0-9]*[0-9]-dev librandom123-dev"
 
 fail() { printf 'bundle: %s\n' "$1" >&2; exit "${2:-70}"; }
 

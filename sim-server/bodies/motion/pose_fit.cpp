@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/bodies/motion/pose_fit.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/symmetric_matrix.hpp"
 
 namespace splash::sim {
 
@@ -29,27 +29,28 @@ constexpr double kScale = 0.01;  ///< times are counted in these, for the sake o
 
 /// Sums of weights times powers of time; each row of `right` those of a coordinate.
 struct Sums {
-  Eigen::Matrix3d left = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
+  Matrix<3> left = {};
+  Matrix<3> right = {};
 
   void add(double t, double weight, const Vector3& value) {
-    const Eigen::Vector3d powers = {1.0, t, 0.5 * t * t};
-    left += weight * powers * powers.transpose();
-    right += weight * powers * Eigen::RowVector3d(value[0], value[1], value[2]);
+    const Vector3 powers = {1.0, t, 0.5 * t * t};
+    for (std::size_t i = 0; i < 3; ++i) {
+      left[i] = left[i] + (weight * powers[i]) * powers;
+      right[i] = right[i] + (weight * value[i]) * powers;
+    }
   }
   /// Value, slope and bend, as far as `noise` lets believe in slopes and bends of those sizes.
-  void solve(double noise, double slope, double bend, Vector3& value, Vector3& first,
-             Vector3& second) {
+  void solve_for(double noise, double slope, double bend, Vector3& value, Vector3& first,
+                 Vector3& second) {
     const double doubt1 = noise / (slope * kScale);
     const double doubt2 = noise / (bend * kScale * kScale);
-    left(1, 1) += doubt1 * doubt1;
-    left(2, 2) += doubt2 * doubt2;
-    const Eigen::Matrix3d all = left.ldlt().solve(right);
-    for (int i = 0; i < 3; ++i) {
-      const auto axis = static_cast<std::size_t>(i);
-      value[axis] = all(0, i);
-      first[axis] = all(1, i) / kScale;
-      second[axis] = all(2, i) / (kScale * kScale);
+    left[1][1] += doubt1 * doubt1;
+    left[2][2] += doubt2 * doubt2;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Vector3 all = solve(left, right[axis]);
+      value[axis] = all[0];
+      first[axis] = all[1] / kScale;
+      second[axis] = all[2] / (kScale * kScale);
     }
   }
 };
@@ -79,8 +80,8 @@ PoseFit::PoseFit(const std::vector<TimedPose>& poses, double time, const PoseQua
   }
   const double noise = std::hypot(kNoise, quality.doubt * quality.speed);
   const double turn_noise = std::hypot(kTurnNoise, quality.doubt * quality.spin);
-  ways.solve(noise, kSpeed, kAcceleration, position_, velocity_, acceleration_);
-  turns.solve(turn_noise, kSpin, kSpinGain, turn_, spin_, spin_gain_);
+  ways.solve_for(noise, kSpeed, kAcceleration, position_, velocity_, acceleration_);
+  turns.solve_for(turn_noise, kSpin, kSpinGain, turn_, spin_, spin_gain_);
   position_ = position_ + origin;
 }
 

@@ -5,16 +5,15 @@
 #include <cmath>
 
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/symmetric_matrix.hpp"
 
 namespace splash::sim {
 namespace {
 
-using Matrix = std::array<Vector3, 3>;  ///< rows
-
 struct Integrals {
   double volume = 0.0;              ///< [m3]
   Vector3 first = {0.0, 0.0, 0.0};  ///< of x [m4]
-  Matrix second = {};               ///< of x x^T [m5]
+  Matrix<3> second = {};            ///< of x x^T [m5]
 };
 
 /// About `origin`: nearby, or much is lost to rounding.
@@ -38,30 +37,8 @@ Integrals integrate(const TriangleMesh& mesh, const Vector3& origin) {
   return sum;
 }
 
-/// Turns the axes p and q of a symmetric matrix so that it has nothing between them (Jacobi).
-void turn_pair(Matrix& m, Matrix& axes, std::size_t p, std::size_t q) {
-  if (m[p][q] == 0.0) return;
-  const double part = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-  const double tangent = (part < 0.0 ? -1.0 : 1.0) / (std::abs(part) + std::hypot(part, 1.0));
-  const double c = 1.0 / std::hypot(tangent, 1.0);
-  const double s = tangent * c;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double left = m[k][p];
-    m[k][p] = c * left - s * m[k][q];
-    m[k][q] = s * left + c * m[k][q];
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double left = m[p][k];
-    m[p][k] = c * left - s * m[q][k];
-    m[q][k] = s * left + c * m[q][k];
-    const double row = axes[p][k];
-    axes[p][k] = c * row - s * axes[q][k];
-    axes[q][k] = s * row + c * axes[q][k];
-  }
-}
-
 /// The rotation that carries x, y and z to three right-handed unit vectors (Shepperd 1978).
-Quaternion rotation_to(const Matrix& axes) {
+Quaternion rotation_to(const Matrix<3>& axes) {
   // Columns of the rotation's matrix are the new axes.
   const auto r = [&](std::size_t row, std::size_t column) { return axes[column][row]; };
   const std::array<double, 4> squares = {
@@ -94,15 +71,7 @@ MeshMass mesh_mass(const TriangleMesh& mesh) {
   MeshMass mass;
   mass.volume = rough.volume;
   mass.centre = near + (1.0 / rough.volume) * rough.first;
-  Matrix spread = integrate(mesh, mass.centre).second;
-  Matrix axes = {Vector3{1.0, 0.0, 0.0}, Vector3{0.0, 1.0, 0.0}, Vector3{0.0, 0.0, 1.0}};
-  constexpr int kSweeps = 12;  // each squares what is left; five are enough for doubles
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    turn_pair(spread, axes, 0, 1);
-    turn_pair(spread, axes, 0, 2);
-    turn_pair(spread, axes, 1, 2);
-  }
-  const Vector3 square = {spread[0][0], spread[1][1], spread[2][2]};
+  const auto [square, axes] = eigensystem(integrate(mesh, mass.centre).second);
   mass.inertia = (1.0 / mass.volume) *
                  Vector3{square[1] + square[2], square[0] + square[2], square[0] + square[1]};
   mass.axes = rotation_to(axes);

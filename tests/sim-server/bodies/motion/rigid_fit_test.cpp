@@ -92,6 +92,34 @@ TEST(RigidFit, NeverMirrors) {
   EXPECT_NEAR(fit.residual, misfit(mirrored, fit.rotation, fit.translation), 1e-12);
 }
 
+TEST(RigidFit, TurnsFlatMarkersOverInPlaceOfAMirror) {
+  std::vector<Vector3> flat = kMarkers;
+  for (Vector3& place : flat) place[2] = 0.0;
+  auto mirrored = flat;
+  for (Vector3& place : mirrored) place[1] = -place[1];
+  const RigidFit fit = fit_rigid(flat, mirrored);
+  EXPECT_LT(fit.residual, 1e-12) << "half a turn about x does it";
+  EXPECT_LT(turn_between(fit.rotation, {1.0, 0.0, 0.0, 0.0}), 1e-7);
+}
+
+TEST(RigidFit, FindsHalfTurnsAndNone) {
+  for (const Quaternion& q : {Quaternion{0, 0, 0, 1}, Quaternion{1, 0, 0, 0},
+                              Quaternion{0, 1, 0, 0}, Quaternion{0, 0, 1, 0}}) {
+    const RigidFit fit = fit_rigid(kMarkers, moved(kMarkers, q, {}));
+    EXPECT_LT(turn_between(fit.rotation, q), 1e-7);
+    EXPECT_LT(fit.residual, 1e-12);
+  }
+}
+
+TEST(RigidFit, NeedsMarkersThatAreNotNearlyOnALine) {
+  const auto bent_by = [](double height) {
+    return std::vector<Vector3>{{-0.1, 0, 0}, {0, height, 0}, {0.1, 0, 0}};
+  };
+  // Singular values sqrt(0.02) and sqrt(2/3) of the height; the limit is a 50th of the first.
+  EXPECT_FALSE(spans_plane(bent_by(0.0034)));
+  EXPECT_TRUE(spans_plane(bent_by(0.0036)));
+}
+
 TEST(RigidFit, ThreeMarkersAreEnoughButNotALine) {
   const std::vector<Vector3> three(kMarkers.begin(), kMarkers.begin() + 3);
   const Quaternion q = from_turn({0.0, 0.7, 0.0});
