@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/voice_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "program/refuse_nan.hpp"
 
 namespace splash::synth {

@@ -3,13 +3,16 @@
 // what is left out.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "synth-server/render/engine.hpp"
+
+namespace CLI {
+class App;  // a header that takes seconds to compile, and that only the command line needs
+}  // namespace CLI
 
 namespace splash::synth {
 

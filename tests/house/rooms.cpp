@@ -52,7 +52,7 @@ const std::vector<Room>& rooms() {
       // Trackers tell their poses in messages: as plain values, whatever brought them.
       {"sim-server/bodies/motion",
        {"program", "protocol/message.hpp", "sim-server/scene"},
-       {"Eigen/"}},
+       {}},
       {"sim-server/bodies",
        {"sim-server/scene/", "sim-server/bodies/motion", "sim-server/fluid/params"},
        {}},
