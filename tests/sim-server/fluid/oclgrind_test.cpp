@@ -108,7 +108,7 @@ TEST_P(Oclgrind, FindsNothing) {
   const char* asked = std::getenv("SPLASH_OCLGRIND_STEPS");
   const int steps = asked != nullptr ? std::max(std::atoi(asked), 2) : 2;
   const Ended ended =
-      run("timeout " + std::to_string(140 * steps) +
+      run("timeout " + std::to_string(600 * steps) +
           " oclgrind --data-races --check-api --inst-counts --build-options "
           "-cl-opt-disable " +
           std::string(SPLASH_BINARY_DIR) + "/" + GetParam().command + " " + std::to_string(steps));
