@@ -101,15 +101,15 @@ void Fluid::prepare(const Step& step) {
 void Fluid::advance(const Step& step) {
   prepared_ = false;
   solver_->accelerate(*this, step);
-  integrate(step);
+  solver_->move(*this, step);
   if (free_) free_->move(*this, step);
   if (!watched_) {
     health_.miss();
   } else {
     health_.look(device_,
-                 {params_buffer_, sorted_, unsorted_, acceleration_, density_, grid_.source(),
-                  sleep_.resting(), boundary_.shapes(), boundary_.meshes(), boundary_.steps(),
-                  boundary_.body_count()},
+                 {params_buffer_, sorted_, solver_->carried(*this), unsorted_, acceleration_,
+                  density_, grid_.source(), sleep_.resting(), boundary_.shapes(),
+                  boundary_.meshes(), boundary_.steps(), boundary_.body_count()},
                  step);
   }
 }
@@ -130,6 +130,7 @@ std::vector<cl::Buffer> Fluid::state() const {
 
 void Fluid::note_recalled() {
   sleep_.wake(device_);
+  solver_->note_recalled(device_);
 }
 
 void Fluid::sort_particles() {

@@ -120,6 +120,8 @@ class Fluid {
 
   /// For solvers: accelerations from the present pressure_term() and the given velocities.
   void compute_acceleration(const Step& step, const Buffer<float>& velocity);
+  /// Moves the state on as the accelerations say.
+  void integrate(const Step& step);
   /// Work-items of the stages that handle a vector of particles at once.
   [[nodiscard]] std::size_t groups() const;
   /// For tests.
@@ -157,7 +159,6 @@ class Fluid {
   void wake_and_sleep(const Step& step);
   void sort_particles();
   void compute_density(const Step& step);
-  void integrate(const Step& step);
 
   Device& device_;
   FluidParams params_;

@@ -6,6 +6,7 @@ namespace kernels {
 std::vector<KernelSource> divergence_free();
 std::vector<KernelSource> fluid();
 std::vector<KernelSource> free_bodies();
+std::vector<KernelSource> grid_projected();
 std::vector<KernelSource> survey();
 }  // namespace kernels
 
@@ -14,6 +15,9 @@ std::vector<KernelSource> fluid_sources() {
 }
 std::vector<KernelSource> divergence_free_sources() {
   return kernels::divergence_free();
+}
+std::vector<KernelSource> grid_projected_sources() {
+  return kernels::grid_projected();
 }
 std::vector<KernelSource> free_body_sources() {
   return kernels::free_bodies();

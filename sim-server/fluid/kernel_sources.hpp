@@ -11,6 +11,7 @@ namespace splash::sim {
 
 [[nodiscard]] std::vector<KernelSource> fluid_sources();
 [[nodiscard]] std::vector<KernelSource> divergence_free_sources();
+[[nodiscard]] std::vector<KernelSource> grid_projected_sources();
 [[nodiscard]] std::vector<KernelSource> free_body_sources();
 [[nodiscard]] std::vector<KernelSource> survey_sources();
 

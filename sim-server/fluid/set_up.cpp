@@ -54,6 +54,19 @@ bool is_divergence_free(const Scene& scene) {
   return scene.fluid.solver == PressureKind::divergence_free;
 }
 
+/// As kernels know it.
+int number_of(PressureKind solver) {
+  switch (solver) {
+    case PressureKind::weakly_compressible:
+      return SPLASH_WEAKLY_COMPRESSIBLE;
+    case PressureKind::divergence_free:
+      return SPLASH_DIVERGENCE_FREE;
+    case PressureKind::grid_projected:
+      return SPLASH_GRID_PROJECTED;
+  }
+  return SPLASH_WEAKLY_COMPRESSIBLE;
+}
+
 /// To where a particle of a standing column comes by the weight of what is above it.
 double sunk(const Scene& scene, const Vector3& x) {
   const WaterColumn column = water_column(scene, x);
@@ -139,7 +152,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.spacing = static_cast<float>(spacing);
   p.layer_weight = static_cast<float>(volume / (spacing * spacing));
   p.speed_limit = static_cast<float>(sound);
-  p.solver = is_divergence_free(scene) ? SPLASH_DIVERGENCE_FREE : SPLASH_WEAKLY_COMPRESSIBLE;
+  p.solver = number_of(scene.fluid.solver);
   p.wave_speed = static_cast<float>(longest_wave(scene));
   p.tolerance = static_cast<float>(scene.fluid.tolerance);
   p.way = static_cast<float>(kWay * step_factor(scene.fluid));

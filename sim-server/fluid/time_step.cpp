@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim-server/fluid/params/smoothing.hpp"
+#include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 
 namespace splash::sim {
 namespace {
@@ -32,6 +33,12 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
     const double fastest = std::max(speed, static_cast<double>(params.wave_speed));
     const double way = kWay * static_cast<double>(params.spacing) / std::max(fastest, 1.0e-9);
     return std::min(factor * std::min(way, kLongest), viscous);
+  }
+  if (params.solver == SPLASH_GRID_PROJECTED) {
+    const double way = kGridWay * static_cast<double>(params.spacing) / std::max(speed, 1.0e-9);
+    // It knows no artificial viscosity.
+    const double water = h * h / std::max(static_cast<double>(params.viscous) / 10.0, 1.0e-12);
+    return std::min(factor * std::min(way, kLongest), kViscous * water);
   }
   const double sound = static_cast<double>(params.sound_speed);
   const double acoustic = kAcousticShare * support / (sound + speed);

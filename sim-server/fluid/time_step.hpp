@@ -21,6 +21,10 @@ inline constexpr double kWay = 0.3;
 ///                                          0.5 in still water; 0.4 and 0.7 failed
 ///   viscous   as above
 ///   longest   10 ms, so that nothing sudden is slept through
+/// Of the grid-projected solver:
+///   way       dt <= dx / v
+///   viscous   as above, of the water's own alone
+///   longest   10 ms
 /// with h the smoothing length, dx the spacing, `speed` the fastest particle or body point [m/s],
 /// `acceleration` the largest [m/s2] and `factor` the scene's own (1: as above).
 [[nodiscard]] double largest_time_step(const FluidParams& params, double speed, double acceleration,

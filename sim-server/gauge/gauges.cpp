@@ -93,6 +93,8 @@ void add_body(const GaugeSettings& probe, double seconds, const Scene& scene,
 
 double pressure(const GaugeSettings& probe, double seconds, const Scene& scene,
                 const WaterState& water, const Bodies& bodies) {
+  // The grid's pressures are right up to the walls: particles there need not push on a face.
+  if (scene.fluid.solver == PressureKind::grid_projected) return pressure_at(water, probe.place);
   const std::vector<BodyState> states = states_at(seconds, bodies);
   const double slope_from =
       scene.slope.present ? scene.slope.foot : std::numeric_limits<double>::infinity();

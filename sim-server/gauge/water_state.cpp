@@ -79,7 +79,8 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   water.spacing = static_cast<double>(p.spacing);
   water.support = static_cast<double>(p.support);
   water.rest_density = static_cast<double>(p.rest_density);
-  water.sound_speed = static_cast<double>(p.sound_speed);
+  // What keeps the spacing of grid-projected water is no energy of it.
+  water.sound_speed = p.solver == SPLASH_GRID_PROJECTED ? 0.0 : static_cast<double>(p.sound_speed);
   water.viscous = static_cast<double>(p.viscous);
   water.artificial = static_cast<double>(p.artificial);
   water.point_weight = static_cast<double>(p.layer_weight) / water.spacing;

@@ -34,9 +34,12 @@ Fields<F> method_fields() {
         .unit = "",
         .meaning = "Where pressure comes from: weakly_compressible, a state equation; "
                    "divergence_free, the demand that nothing compresses (sim-server/fluid/README "
-                   "says which suits what).",
-        .choices = {"weakly_compressible", "divergence_free"},
-        .source = "Monaghan 2005; Bender & Koschier 2017"},
+                   "says which suits what); grid_projected, the same demand, made of a grid, so "
+                   "that waves and vortices last "
+                   "(sim-server/fluid/pressure/grid_projected/README): not with bodies, a slope "
+                   "or a wave maker.",
+        .choices = {"weakly_compressible", "divergence_free", "grid_projected"},
+        .source = "Monaghan 2005; Bender & Koschier 2017; Raveendran, Wojtan & Turk 2011"},
        &F::solver_name},
       {{.key = "kernels",
         .unit = "",

@@ -197,7 +197,7 @@ double scene_sound_speed(const Scene& scene, double fastest_body) {
 double stratification(const Scene& scene) {
   const Vector3& g = scene.fluid.gravity;
   const bool falls_down = g[0] == 0.0 && g[1] == 0.0 && g[2] < 0.0;
-  if (!falls_down || scene.fluid.solver == PressureKind::divergence_free) return 0.0;
+  if (!falls_down || scene.fluid.solver != PressureKind::weakly_compressible) return 0.0;
   const double sound = scene_sound_speed(scene);
   return -g[2] / (sound * sound);
 }

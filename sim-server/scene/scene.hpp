@@ -16,7 +16,7 @@ using Vector3 = std::array<double, 3>;
 using Quaternion = std::array<double, 4>;  ///< x y z w, unit
 
 /// Where pressure comes from: sim-server/fluid.
-enum class PressureKind { weakly_compressible, divergence_free };
+enum class PressureKind { weakly_compressible, divergence_free, grid_projected };
 
 /// Over how much water a particle's quantities are smoothed: sim-server/fluid/params/smoothing.hpp.
 

@@ -223,7 +223,8 @@ void read_basin(const ConfigMap& map, Scene& scene) {
 FluidSettings read_fluid(const ConfigMap& map) {
   static const std::map<std::string, PressureKind> kSolvers = {
       {"weakly_compressible", PressureKind::weakly_compressible},
-      {"divergence_free", PressureKind::divergence_free}};
+      {"divergence_free", PressureKind::divergence_free},
+      {"grid_projected", PressureKind::grid_projected}};
   static const std::map<std::string, SettleKind> kSettling = {{"auto", SettleKind::automatic},
                                                               {"always", SettleKind::always},
                                                               {"never", SettleKind::never}};
@@ -260,6 +261,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   scene.fluid = read_fluid(fluid);
   check_resolution(fluid, scene);
   read_bodies(map, scene);
+  check_solver(fluid, scene);
   check_sound(fluid, scene);
   if (const auto gauges = map.optional_child("gauges")) {
     scene.gauges = read_gauges(*gauges, scene);

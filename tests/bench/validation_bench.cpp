@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "protocol/time_tag.hpp"
+#include "sim-server/scene/scene_rules.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/validation/report.hpp"
 
@@ -56,7 +57,18 @@ void print(const std::string& what, const Result& result) {
 std::string described(const Setting& setting) {
   std::string text;
   if (setting.solver == sim::PressureKind::divergence_free) text += "; solver: divergence_free";
+  if (setting.solver == sim::PressureKind::grid_projected) text += "; solver: grid_projected";
   return text;
+}
+
+/// What the solver cannot do that the case needs, or nothing.
+std::string lacking(const Case& item, sim::PressureKind solver) {
+  for (const std::string& name : item.scenes) {
+    sim::Scene scene = scene_named(name);
+    scene.fluid.solver = solver;
+    if (const std::string lack = sim::solver_lacks(scene); !lack.empty()) return lack;
+  }
+  return {};
 }
 
 void bench(const Options& options) {
@@ -70,6 +82,10 @@ void bench(const Options& options) {
   std::printf("device: %s\n", describe(device.facts()).c_str());
   std::vector<Result> results;
   for (const Case* item : wanted) {
+    if (const std::string lack = lacking(*item, options.setting.solver); !lack.empty()) {
+      std::printf("%-18s is left out: %s\n", item->name.c_str(), lack.c_str());
+      continue;
+    }
     const auto count =
         std::min(static_cast<std::size_t>(std::max(options.resolutions, 1)), item->spacings.size());
     for (std::size_t k = 0; k < count; ++k) {
@@ -102,9 +118,10 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
   const std::map<std::string, sim::PressureKind> solvers = {
       {"weakly_compressible", sim::PressureKind::weakly_compressible},
-      {"divergence_free", sim::PressureKind::divergence_free}};
+      {"divergence_free", sim::PressureKind::divergence_free},
+      {"grid_projected", sim::PressureKind::grid_projected}};
   app.add_option("--solver", options.setting.solver,
-                 "Instead of the default: weakly_compressible or divergence_free")
+                 "Instead of the default: weakly_compressible, divergence_free or grid_projected")
       ->transform(CLI::CheckedTransformer(solvers));
   CLI11_PARSE(app, argc, argv);
   try {

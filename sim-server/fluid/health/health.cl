@@ -86,8 +86,9 @@ static lanes place_before(global const float* before, global const int* source, 
 }
 
 static Patients load(constant FluidParams* p, float dt, global const float* position,
-                     global const float* velocity, global const float* density,
-                     global const float* position_before, global const int* source, int i) {
+                     global const float* velocity, global const float* carried,
+                     global const float* density, global const float* position_before,
+                     global const int* source, int i) {
   const int n = p->capacity;
   Patients s;
   const bool together = were_together(source, i, p->count);
@@ -99,7 +100,7 @@ static Patients load(constant FluidParams* p, float dt, global const float* posi
     s.v[axis] = LOAD(velocity + axis * n, i);
     const lanes before = place_before(position_before + axis * n, source, together, i, p->count);
     const lanes way = s.x[axis] - before;
-    const lanes miss = way - dt * s.v[axis];
+    const lanes miss = way - dt * LOAD(carried + axis * n, i);
     s.way.way2 += way * way;
     s.way.miss2 += miss * miss;
     s.way.size += fabs(s.x[axis]) + fabs(before);
@@ -181,13 +182,14 @@ static void report_sums(global HealthRecord* record, const Sums* s, local uint* 
 
 // One work-group for each part of the particles. `checks`: a bit for each thing that is looked at.
 // `before`: the arrays as they were when the step began, unsorted; `source`: where each particle
-// was among those. `acceleration`: that of the step. `look`: at groups that rest, which `resting`
-// knows.
+// was among those. `carried`: the velocity that took it where it is. `acceleration`: that of the
+// step. `look`: at groups that rest, which `resting` knows.
 kernel void check_health(constant FluidParams* p, constant HealthLimits* limits, int checks,
                          float dt, float piston, global const float* position,
-                         global const float* velocity, global const float* acceleration,
-                         global const float* density, global const int* id,
-                         global const float* position_before, global const float* velocity_before,
+                         global const float* velocity, global const float* carried,
+                         global const float* acceleration, global const float* density,
+                         global const int* id, global const float* position_before,
+                         global const float* velocity_before,
                          global const int* id_before, global const int* source,
                          global const int* resting, int look, global Rested* rested,
                          constant BodyShape* shapes, global const float* meshes,
@@ -205,7 +207,8 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
       sums.known.ids += rested[i / LANES].ids;
       continue;
     }
-    const Patients s = load(p, dt, position, velocity, density, position_before, source, i);
+    const Patients s =
+        load(p, dt, position, velocity, carried, density, position_before, source, i);
     add_bits(&sums, n, i, ALL_BITS(s.here), rests, look, position, velocity, id, position_before,
              velocity_before, id_before, rested + i / LANES);
     lane_flags bad[HEALTH_CHECKS];

@@ -128,11 +128,11 @@ void Health::look(Device& device, const Patient& patient, const Step& step) {
   check_.run_teams(
       device.queue(), parts_, patient.params.memory(), limits_.memory(), static_cast<int>(checks_),
       as_float(step.dt), as_float(step.piston), patient.now.position.memory(),
-      patient.now.velocity.memory(), patient.acceleration.memory(), patient.density.memory(),
-      patient.now.id.memory(), patient.before.position.memory(), patient.before.velocity.memory(),
-      patient.before.id.memory(), patient.source, patient.resting, static_cast<int>(resting),
-      rested_.memory(), patient.shapes.memory(), patient.meshes.memory(), patient.bodies.memory(),
-      step.first_body, patient.body_count, slot, records_.memory());
+      patient.now.velocity.memory(), patient.carried.memory(), patient.acceleration.memory(),
+      patient.density.memory(), patient.now.id.memory(), patient.before.position.memory(),
+      patient.before.velocity.memory(), patient.before.id.memory(), patient.source, patient.resting,
+      static_cast<int>(resting), rested_.memory(), patient.shapes.memory(), patient.meshes.memory(),
+      patient.bodies.memory(), step.first_body, patient.body_count, slot, records_.memory());
 }
 
 void Health::enqueue_read(Device& device) {

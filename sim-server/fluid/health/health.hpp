@@ -80,8 +80,9 @@ struct Diagnosis {
 /// What the checks of a step read, after it.
 struct Patient {
   const Buffer<FluidParams>& params;
-  const PointArrays& now;     ///< at the step's end
-  const PointArrays& before;  ///< at its beginning, unsorted
+  const PointArrays& now;        ///< at the step's end
+  const Buffer<float>& carried;  ///< velocities that took them there
+  const PointArrays& before;     ///< at its beginning, unsorted
   const Buffer<float>& acceleration;
   const Buffer<float>& density;
   const cl::Buffer& source;   ///< where each particle was among those before

@@ -10,6 +10,7 @@
 // Where pressure comes from.
 #define SPLASH_WEAKLY_COMPRESSIBLE 0
 #define SPLASH_DIVERGENCE_FREE 1
+#define SPLASH_GRID_PROJECTED 2
 
 #ifdef __cplusplus
 namespace splash::sim {
@@ -58,7 +59,7 @@ typedef struct {
   int piston;           // index of the wall that moves along its normal, -1: none
   int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
                         // is the nearer, -1: none
-  int solver;           // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_DIVERGENCE_FREE
+  int solver;           // SPLASH_WEAKLY_COMPRESSIBLE, _DIVERGENCE_FREE or _GRID_PROJECTED
   float wave_speed;     // of the longest wave, sqrt(g H) of the deepest water [m/s]
   float tolerance;      // divergence-free: mean density error at which a solve is done [1]
   float way;            // divergence-free: as far as anything goes in a step [spacings]

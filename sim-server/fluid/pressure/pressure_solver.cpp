@@ -3,6 +3,7 @@
 
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/pressure/divergence_free/divergence_free.hpp"
+#include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 
 namespace splash::sim {
 namespace {
@@ -25,11 +26,22 @@ class WeaklyCompressible : public PressureSolver {
 
 }  // namespace
 
+void PressureSolver::move(Fluid& fluid, const Step& step) {
+  fluid.integrate(step);
+}
+
+const Buffer<float>& PressureSolver::carried(const Fluid& fluid) const {
+  return fluid.particles().velocity;
+}
+
 std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
                                                      const std::vector<std::string>& defines,
                                                      bool relaxed) {
   if (params.solver == SPLASH_DIVERGENCE_FREE) {
     return std::make_unique<DivergenceFree>(device, params, defines, relaxed);
+  }
+  if (params.solver == SPLASH_GRID_PROJECTED) {
+    return std::make_unique<GridProjected>(device, params, defines, relaxed);
   }
   return std::make_unique<WeaklyCompressible>();
 }

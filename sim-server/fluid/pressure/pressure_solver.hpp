@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where the water's pressure comes from: a state equation, or the demand that nothing compresses.
-// Both push with the same pair forces (pressure/acceleration.cl) over the same neighbours.
+// Where the water's pressure comes from: a state equation, or the demand that nothing compresses,
+// made of the particles or of a grid. The first two push with the same pair forces
+// (pressure/acceleration.cl) over the same neighbours.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim-server/device/buffer.hpp"
 #include "sim-server/device/device.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/step.hpp"
@@ -41,6 +43,10 @@ class PressureSolver {
   virtual void recall_pressure(Fluid& fluid) = 0;
   /// Fills Fluid::acceleration(), and pressure_term() with what pushed.
   virtual void accelerate(Fluid& fluid, const Step& step) = 0;
+  /// Then the state moves on by step.dt: as the acceleration says, unless the solver knows better.
+  virtual void move(Fluid& fluid, const Step& step);
+  /// The velocities that took the particles where the last step left them [m/s].
+  [[nodiscard]] virtual const Buffer<float>& carried(const Fluid& fluid) const;
 
   /// Enqueues the read of the work done; work() tells it once the queue is finished.
   virtual void enqueue_work(Device& device) = 0;
@@ -53,6 +59,8 @@ class PressureSolver {
   /// The same by particle id; waits.
   [[nodiscard]] virtual std::vector<float> pressure(Device& device) = 0;
   virtual void restore_pressure(Device& device, const std::vector<float>& pressure) = 0;
+  /// What is kept was put back as it was before a step that went wrong.
+  virtual void note_recalled(Device& /*device*/) {}
 };
 
 /// The one that `params` ask for, its kernels built with `defines`.

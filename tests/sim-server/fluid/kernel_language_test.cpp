@@ -37,8 +37,8 @@ struct NamedProgram {
 std::vector<NamedProgram> programs() {
   return {{"fluid", fluid_sources()},           {"divergence_free", divergence_free_sources()},
           {"free_bodies", free_body_sources()}, {"survey", survey_sources()},
-          {"mould", kernels::mould()},          {"detect", kernels::detect()},
-          {"gauge", kernels::gauge()}};
+          {"mould", kernels::mould()},          {"grid_projected", grid_projected_sources()},
+          {"detect", kernels::detect()},        {"gauge", kernels::gauge()}};
 }
 
 std::string output_of(const std::string& command, int& status) {

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Grid-projected SPH (after Raveendran, Wojtan & Turk 2011): in every step a coarse grid finds the
+// pressures that keep the water's volume, weight and all, and gives the particles what these change
+// of their velocities. Sums over neighbours keep the particles' spacing, as a displacement.
+// README.md has the scheme.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/program.hpp"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_layout.hpp"
+#include "sim-server/fluid/pressure/pressure_solver.hpp"
+
+namespace splash::sim {
+
+/// In a step nothing goes farther than this [spacings].
+inline constexpr double kGridWay = 1.0;
+
+/// What the second-order filter takes of the velocities that the grid does not see: at the
+/// frequency of a wave as long as 2 pi spacings, sqrt(g / dx), with the earth's g whatever the
+/// scene's [1/s].
+[[nodiscard]] double filter_rate(double spacing);
+
+class GridProjected : public PressureSolver {
+ public:
+  GridProjected(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+                bool relaxed);
+
+  void recall_pressure(Fluid& fluid) override;
+  void accelerate(Fluid& fluid, const Step& step) override;
+  void move(Fluid& fluid, const Step& step) override;
+  [[nodiscard]] const Buffer<float>& carried(const Fluid& fluid) const override;
+  void enqueue_work(Device& device) override;
+  [[nodiscard]] SolverWork work() const override;
+  void forget_work(Device& device) override;
+  [[nodiscard]] std::vector<cl::Buffer> kept() const override {
+    return {pressure_.memory(), flags_.memory()};
+  }
+  /// Nothing of it is by particle: after restore_pressure a solve begins from no pressure.
+  [[nodiscard]] std::vector<float> pressure(Device& device) override;
+  void restore_pressure(Device& device, const std::vector<float>& pressure) override;
+  void note_recalled(Device& device) override;
+
+  // For tests, between steps.
+  [[nodiscard]] const MacGrid& grid() const noexcept { return grid_; }
+  [[nodiscard]] const Buffer<float>& mean() const noexcept { return mean_; }
+  [[nodiscard]] const Buffer<float>& weight() const noexcept { return weight_; }
+  [[nodiscard]] const Buffer<float>& fill() const noexcept { return fill_; }
+  [[nodiscard]] const Buffer<float>& deviation() const noexcept { return deviation_; }
+  [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_; }
+  [[nodiscard]] const Buffer<float>& change() const noexcept { return change_; }
+  [[nodiscard]] const Buffer<float>& pressures() const noexcept { return pressure_; }
+
+ private:
+  void gather(Fluid& fluid, const Buffer<float>& value, const Buffer<float>& mean);
+  void solve(Fluid& fluid, float dt);
+
+  MacGrid grid_;
+  std::size_t particles_;
+  std::size_t cells_;  ///< inside, and one more along each axis
+  std::size_t room_;
+
+  Buffer<MacGrid> grid_buffer_;
+  Buffer<float> mean_;          ///< of the particles' velocities, on faces [m/s]
+  Buffer<float> weight_;        ///< of the particles around a face [1]
+  Buffer<float> fill_;          ///< of cells [1]
+  Buffer<float> deviation_;     ///< of particles [m/s]
+  Buffer<float> seen_;          ///< its mean on faces [m/s]
+  Buffer<float> change_;        ///< by the step, on faces [m/s]
+  Buffer<float> spacing_term_;  ///< p / rho^2 by the state equation
+  Buffer<float> carried_;       ///< what took particles along in the last step [m/s]
+  Buffer<float> pressure_;      ///< of cells [Pa]
+  Buffer<int> flags_;           ///< MAC_ of kernels/mac_cell.h
+  Buffer<int> most_;
+
+  // The solve's, over all levels; the last three over the finest.
+  Buffer<float> link_;
+  Buffer<float> open_;
+  Buffer<float> damped_;
+  Buffer<float> x_;
+  Buffer<float> b_;
+  Buffer<float> r_;
+  Buffer<float> found_;
+  Buffer<float> way_;
+  Buffer<float> along_;
+
+  Buffer<SolveState> state_;
+  std::array<SolveState, 1> state_read_;
+
+  Kernel gather_faces_;
+  Kernel find_deviation_;
+  Kernel push_faces_;
+  Kernel lay_system_;
+  Kernel solve_pressure_;
+  Kernel project_faces_;
+  Kernel find_spacing_;
+  Kernel move_particles_;
+  Kernel sample_pressure_;
+};
+
+}  // namespace splash::sim

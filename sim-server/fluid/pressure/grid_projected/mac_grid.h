@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The grid that carries the water's weight, shared by host and kernels word for word. Pressures are
+// in the middles of its cells, velocities on their faces (Harlow & Welch 1965). One layer of cells
+// surrounds those of the tank: the lower faces of the upper ones are the tank's last. Only 4-byte
+// members; the host asserts the size.
+#ifndef SPLASH_MAC_GRID_H
+#define SPLASH_MAC_GRID_H
+
+#define SPLASH_MAC_LEVELS 12
+
+#ifdef __cplusplus
+namespace splash::sim {
+#endif
+
+// One level of the multigrid; the finest is the grid itself. A cell's number is
+// first + (k + 1) layer + (j + 1) row + i + 1.
+typedef struct {
+  int nx, ny, nz;  // cells inside
+  int row, layer;  // from one cell to the next along y and z
+  int cells;       // with those around
+  int first;       // where it begins in the arrays of all levels
+} MacLevel;
+
+typedef struct {
+  float x, y, z;     // lower corner [m]
+  float hx, hy, hz;  // edges of a cell [m]
+  float share;       // volume of a particle over that of a cell [1]
+  int levels;
+  MacLevel level[SPLASH_MAC_LEVELS];
+} MacGrid;
+
+#ifdef __cplusplus
+}  // namespace splash::sim
+#endif
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Conjugate gradients with multigrid before each direction, by one work-group: no iteration waits
+// for the host, none is enqueued that is not needed, and sums have a fixed order.
+
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/multigrid.h"
+
+#define SOLVED 1e-4f  // what may be left of the demand [1]
+
+// Sum over all items, for each of them.
+static float of_all(float mine, local float* parts) {
+#if TEAM > 1
+  TOGETHER();
+  parts[get_local_id(0)] = mine;
+  TOGETHER();
+  float sum = 0.0f;
+  for (int item = 0; item < ITEMS; ++item) sum += parts[item];
+  return sum;
+#else
+  return mine;
+#endif
+}
+
+static float product(const MacLevel l, int end, global const float* a, global const float* b,
+                     local float* parts) {
+  lanes sum = 0.0f;
+  EACH_VECTOR(c, l, end) { sum += LOAD(a, c) * LOAD(b, c); }
+  return of_all(total(sum), parts);
+}
+
+// `found`: where f begins and where it is left. `way`, `along`: the direction and A of it. What is
+// left of the demand is the finest level's b. `most`: as lay_system left it.
+kernel void solve_pressure(constant MacGrid* g, int iterations, int room, global const int* most,
+                           global float* link, global float* open, global float* damped,
+                           global float* x, global float* b, global float* r,
+                           global float* found, global float* way, global float* along,
+                           global SolveState* state) {
+  local float parts[JUDGES];
+  const Levels s = {{link, link + room, link + 2 * room}, open, damped, x, b, r};
+  const MacLevel l = g->level[0];
+  const int last = *most;
+  const int end = end_of(g, 0, last);
+  coarsen(g, &s);
+  const float whole = product(l, end, b, b, parts);
+  EACH_VECTOR(c, l, end) {
+    STORE(LOAD(b, c) - times(&s, l, found, c), b, c);
+  }
+  TOGETHER();
+  const float goal = SOLVED * SOLVED * whole;
+  float rest = product(l, end, b, b, parts);
+  float before = 1.0f;
+  int done = 0;
+  for (; done < iterations && rest > goal; ++done) {
+    round_trip(g, &s, last);
+    const float now = product(l, end, x, b, parts);
+    const float keep = done > 0 ? now / before : 0.0f;
+    before = now;
+    EACH_VECTOR(c, l, end) {
+      const lanes old = done > 0 ? LOAD(way, c) : (lanes)(0.0f);
+      STORE(LOAD(x, c) + keep * old, way, c);
+    }
+    TOGETHER();
+    lanes bends = 0.0f;
+    EACH_VECTOR(c, l, end) {
+      const lanes a = times(&s, l, way, c);
+      STORE(a, along, c);
+      bends += a * LOAD(way, c);
+    }
+    const float bend = of_all(total(bends), parts);
+    if (!(bend > 0.0f)) break;
+    const float far = now / bend;
+    lanes left = 0.0f;
+    EACH_VECTOR(c, l, end) {
+      STORE(LOAD(found, c) + far * LOAD(way, c), found, c);
+      const lanes after = LOAD(b, c) - far * LOAD(along, c);
+      STORE(after, b, c);
+      left += after * after;
+    }
+    rest = of_all(total(left), parts);
+  }
+  if (FIRST_ITEM > 0) return;
+  SolveState now = *state;
+  ++now.solves;
+  now.iterations = done;
+  now.total += done;
+  now.most = max(now.most, done);
+  now.given_up += rest > goal;
+  now.error = whole > 0.0f ? sqrt(rest / whole) : 0.0f;
+  *state = now;
+}

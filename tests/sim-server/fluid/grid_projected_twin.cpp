@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "tests/sim-server/fluid/grid_projected_twin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splash::sim {
+namespace {
+
+constexpr double kLight = 1.0e-6;
+constexpr double kFull = 0.5;
+
+/// Where in the hat of a cell of this fill the surface is, above its middle [edges].
+double surface_above(double fill) {
+  const double e = std::clamp(fill - kFull, -0.5, 0.5);
+  const double s = 1.0 - std::sqrt(1.0 - 2.0 * std::abs(e));
+  return e < 0.0 ? -s : s;
+}
+
+double way_to_surface(double water, double air) {
+  const double under = surface_above(water);
+  const double over = -surface_above(air);
+  return std::clamp(under / std::max(under + over, 1.0e-3), 0.1, 1.0);
+}
+
+}  // namespace
+
+MacTwin::MacTwin(const MacGrid& grid)
+    : cells_{grid.level[0].nx, grid.level[0].ny, grid.level[0].nz},
+      step_{1, grid.level[0].row, grid.level[0].layer},
+      lower_{static_cast<double>(grid.x), static_cast<double>(grid.y), static_cast<double>(grid.z)},
+      edge_{static_cast<double>(grid.hx), static_cast<double>(grid.hy),
+            static_cast<double>(grid.hz)},
+      share_(static_cast<double>(grid.share)) {}
+
+int MacTwin::number(int i, int j, int k) const {
+  return (k + 1) * step_[2] + (j + 1) * step_[1] + i + 1;
+}
+
+template <class Visit>
+void MacTwin::each(const Visit& visit) const {
+  for (int k = 0; k <= cells_[2]; ++k) {
+    for (int j = 0; j <= cells_[1]; ++j) {
+      for (int i = 0; i <= cells_[0]; ++i) visit(std::array<int, 3>{i, j, k});
+    }
+  }
+}
+
+double MacTwin::hat(const Vector3& place, const std::array<int, 3>& cell, std::size_t axis) const {
+  double weight = 1.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    double d = (place[a] - lower_[a]) / edge_[a] - cell[a];
+    if (a != axis) {
+      d -= 0.5;
+      if (cell[a] == 0) d = std::max(d, 0.0);
+      if (a < 2 && cell[a] == cells_[a] - 1) d = std::min(d, 0.0);
+    }
+    weight *= std::max(1.0 - std::abs(d), 0.0);
+  }
+  return weight;
+}
+
+bool MacTwin::is_wall(const std::array<int, 3>& cell, std::size_t axis) const {
+  return cell[axis] == 0 || (axis < 2 && cell[axis] == cells_[axis]);
+}
+
+TwinGathered MacTwin::gather(const std::vector<Vector3>& position,
+                             const std::vector<Vector3>& value) const {
+  const auto all = static_cast<std::size_t>(step_[2]) * static_cast<std::size_t>(cells_[2] + 2);
+  TwinGathered g;
+  g.fill.assign(all, 0.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    g.mean[axis].assign(all, 0.0);
+    g.weight[axis].assign(all, 0.0);
+  }
+  each([&](const std::array<int, 3>& cell) {
+    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    const bool inside = cell[0] < cells_[0] && cell[1] < cells_[1] && cell[2] < cells_[2];
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double w = hat(position[i], cell, axis);
+        g.weight[axis][c] += w;
+        g.mean[axis][c] += w * value[i][axis];
+      }
+      if (inside) g.fill[c] += share_ * hat(position[i], cell, 3);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      g.mean[axis][c] = g.weight[axis][c] > kLight ? g.mean[axis][c] / g.weight[axis][c] : 0.0;
+    }
+  });
+  return g;
+}
+
+Vector3 MacTwin::at(const Vector3& place, const MacFaces& faces, const MacFaces& known,
+                    const Vector3& otherwise) const {
+  Vector3 sum = {0.0, 0.0, 0.0};
+  Vector3 weight = {0.0, 0.0, 0.0};
+  each([&](const std::array<int, 3>& cell) {
+    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double w = hat(place, cell, axis) * known[axis][c];
+      sum[axis] += w * faces[axis][c];
+      weight[axis] += w;
+    }
+  });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sum[axis] = weight[axis] > 1.0e-3 ? sum[axis] / weight[axis] : otherwise[axis];
+  }
+  return sum;
+}
+
+MacFaces MacTwin::known(const TwinGathered& water) const {
+  MacFaces known = water.weight;
+  for (MacField& field : known) std::fill(field.begin(), field.end(), 0.0);
+  each([&](const std::array<int, 3>& cell) {
+    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto below = c - static_cast<std::size_t>(step_[axis]);
+      const bool beside = water.fill[c] > kFull || water.fill[below] > kFull;
+      known[axis][c] =
+          water.weight[axis][c] > kLight && (is_wall(cell, axis) || beside) ? 1.0 : 0.0;
+    }
+  });
+  return known;
+}
+
+MacFaces MacTwin::change(const TwinGathered& water, const FluidParams& params,
+                         const MacField& pressure, double dt) const {
+  const Vector3 gravity = {static_cast<double>(params.gravity_x),
+                           static_cast<double>(params.gravity_y),
+                           static_cast<double>(params.gravity_z)};
+  const double nu = 0.1 * static_cast<double>(params.viscous);
+  const double rho = static_cast<double>(params.rest_density);
+  MacFaces change = water.mean;
+  each([&](const std::array<int, 3>& cell) {
+    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const MacField& u = water.mean[axis];
+      if (is_wall(cell, axis)) {
+        change[axis][c] = -u[c];
+        continue;
+      }
+      double rub = 0.0;
+      for (std::size_t other = 0; other < 3; ++other) {
+        const auto s = static_cast<std::size_t>(step_[other]);
+        for (const std::size_t n : {c + s, c - s}) {
+          if (water.weight[axis][n] > kLight && water.weight[axis][c] > kLight) {
+            rub += (u[n] - u[c]) / (edge_[other] * edge_[other]);
+          }
+        }
+      }
+      const auto below = c - static_cast<std::size_t>(step_[axis]);
+      const bool here = water.fill[c] > kFull;
+      const bool there = water.fill[below] > kFull;
+      double slope = 0.0;
+      if (here && there) slope = pressure[c] - pressure[below];
+      if (here && !there) slope = pressure[c] / way_to_surface(water.fill[c], water.fill[below]);
+      if (!here && there)
+        slope = -pressure[below] / way_to_surface(water.fill[below], water.fill[c]);
+      change[axis][c] = dt * (gravity[axis] + nu * rub - slope / (rho * edge_[axis]));
+    }
+  });
+  return change;
+}
+
+MacField MacTwin::left(const TwinGathered& water, const MacFaces& velocity) const {
+  MacField left(water.fill.size(), 0.0);
+  each([&](const std::array<int, 3>& cell) {
+    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    if (!(water.fill[c] > kFull)) return;
+    double out = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto above = c + static_cast<std::size_t>(step_[axis]);
+      std::array<int, 3> next = cell;
+      ++next[axis];
+      const double low = is_wall(cell, axis) ? 0.0 : velocity[axis][c];
+      const double high = is_wall(next, axis) ? 0.0 : velocity[axis][above];
+      out += (high - low) / edge_[axis];
+    }
+    bool inner = true;
+    for (int z = std::max(cell[2] - 1, 0); z <= cell[2] + 1; ++z) {
+      for (int y = std::max(cell[1] - 1, 0); y <= std::min(cell[1] + 1, cells_[1] - 1); ++y) {
+        for (int x = std::max(cell[0] - 1, 0); x <= std::min(cell[0] + 1, cells_[0] - 1); ++x) {
+          inner = inner && water.fill[static_cast<std::size_t>(number(x, y, z))] > kFull;
+        }
+      }
+    }
+    const double contracts = inner ? std::clamp(1.0 - water.fill[c], 0.0, 0.2) : 0.0;
+    left[c] = out + contracts;
+  });
+  return left;
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The grid of the grid-projected solver once more, in double precision and by brute force: every
+// particle against every face.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "tests/sim-server/fluid/twin.hpp"
+
+namespace splash::sim {
+
+/// Of all cells of the finest level, by their numbers.
+using MacField = std::vector<double>;
+using MacFaces = std::array<MacField, 3>;  ///< of each cell's lower face along x, y, z
+
+struct TwinGathered {
+  MacFaces mean;
+  MacFaces weight;  ///< [particles]
+  MacField fill;    ///< [1]
+};
+
+class MacTwin {
+ public:
+  explicit MacTwin(const MacGrid& grid);
+
+  [[nodiscard]] TwinGathered gather(const std::vector<Vector3>& position,
+                                    const std::vector<Vector3>& value) const;
+  /// Of the faces around a place, by the hat; those alone that `known` says.
+  [[nodiscard]] Vector3 at(const Vector3& place, const MacFaces& faces, const MacFaces& known,
+                           const Vector3& otherwise) const;
+  /// Which faces a solve finds: walls, and those beside a cell with water.
+  [[nodiscard]] MacFaces known(const TwinGathered& water) const;
+  /// What the step changes at faces: gravity, viscosity `nu`, and pressures in Pa.
+  [[nodiscard]] MacFaces change(const TwinGathered& water, const FluidParams& params,
+                                const MacField& pressure, double dt) const;
+  /// In cells with water what is left to demand of these velocities, 0 in others [1/s].
+  [[nodiscard]] MacField left(const TwinGathered& water, const MacFaces& velocity) const;
+
+  [[nodiscard]] int number(int i, int j, int k) const;
+  [[nodiscard]] const std::array<int, 3>& cells() const noexcept { return cells_; }
+
+ private:
+  /// Weight of a place for one of a cell's three lower faces, or for its middle (axis 3).
+  [[nodiscard]] double hat(const Vector3& place, const std::array<int, 3>& cell,
+                           std::size_t axis) const;
+  [[nodiscard]] bool is_wall(const std::array<int, 3>& cell, std::size_t axis) const;
+  template <class Visit>
+  void each(const Visit& visit) const;
+
+  std::array<int, 3> cells_;
+  std::array<int, 3> step_;  ///< to the next cell along each axis
+  std::array<double, 3> lower_;
+  std::array<double, 3> edge_;
+  double share_;
+};
+
+}  // namespace splash::sim
