@@ -166,7 +166,7 @@ TEST_F(LiveNull, PlaysALogAloudAndEndsWhenItHasRungOut) {
   std::filesystem::remove(rendered);
   const auto& left = file.channels[0];
   ASSERT_GT(left.size(), static_cast<std::size_t>(kRate));
-  EXPECT_EQ(peak(left, static_cast<std::int64_t>(left.size()) - kRate / 100), 0.0F);
+  EXPECT_LT(peak(left, static_cast<std::int64_t>(left.size()) - kRate / 100), 1e-6F);
   ASSERT_GT(heard.channels[0].size(), left.size() + 2 * kRate);
   for (std::size_t i = 0; i < left.size(); ++i) {  // once the gate is open
     ASSERT_NEAR(heard.channels[0][i + 2 * kRate], left[i], 1e-6F) << "sample " << i;
