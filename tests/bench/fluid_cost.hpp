@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "sim-server/device/device.hpp"
+#include "tests/bench/fluid_work.hpp"
 
 namespace splash::bench {
 
@@ -17,18 +18,6 @@ struct Until {
 
   /// Whether so many seconds are left.
   [[nodiscard]] bool allows(double seconds) const;
-};
-
-/// What a device can do at most.
-struct Limits {
-  double bandwidth = 0.0;   ///< [B/s]
-  double arithmetic = 0.0;  ///< additions and multiplications, two to a fused one [1/s]
-  double scalar = 0.0;      ///< instructions that no vector saves [1/s]
-  double counts = 0.0;      ///< of a histogram, one after the other in each work-item [1/s]
-  double runs = 0.0;        ///< looked up and gone through, of a length that is not foreseen [1/s]
-  double launch = 0.0;      ///< [s]
-  double begin =
-      0.0;  ///< that a short launch takes on the device beyond its share of a long one [s]
 };
 
 /// By kernels that do nothing else; `device` with profiling. The bandwidth is that of its memory.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a step asks of the device, kernel by kernel, beside what the device can do: one rule for all
 // kernels and devices, in which no number is fitted and none belongs to a kernel.
-//   time = launches x begin + counts / their rate + runs / their rate
+//   time = launches x begin + (groups, counts, runs, held) / their rates
 //          + max(bytes / bandwidth, operations / arithmetic + scalar instructions / their rate)
 // What overlaps is within the brackets, the rest waits. A step has what the host takes for its
 // launches besides. Each rate is that of a probe that does nothing else; bytes stream at the rate
@@ -11,15 +11,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "protocol/time_tag.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/fluid_work.hpp"
+#include "tests/bench/frame_work.hpp"
 #include "tests/bench/opencl_ledger.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::bench {
 namespace {
@@ -33,108 +36,225 @@ Limits with_runs(Limits there) {
   return there;
 }
 
-double share(double work, double rate) {
-  return work > 0.0 ? work / rate : 0.0;
-}
-
-double expected(const Work& work, const Limits& limits, double launches) {
-  const double computing =
-      share(work.operations, limits.arithmetic) + share(work.scalar, limits.scalar);
-  return launches * limits.begin + std::max(share(work.bytes, limits.bandwidth), computing) +
-         share(work.counts, limits.counts) + share(work.runs, limits.runs);
-}
-
-/// Kernels of a step: calls, and seconds for each step.
+/// For each step [s].
 struct Measured {
-  std::map<std::string, Launches> kernels;
-  double step = 0.0;  ///< [s]
+  std::map<std::string, double> kernels;
+  double step = 0.0;
 };
 
+/// Of water that begins anew, and for how long it does so, at least three times. Much water takes
+/// long enough for one.
 constexpr int kSteps = 50;
+constexpr int kFrames = 3;
+constexpr double kSeconds = 4.0;  ///< [s]
+constexpr int kLeast = 3;
+constexpr int kMuch = 200'000;      ///< particles
+constexpr double kPoolMoves = 0.3;  ///< by then a foot is in the water and bubbles rise [s]
 
-/// Each kernel's fastest step; the mean of all steps as a whole.
-Measured measure(Device& device, Block& block) {
-  Measured found;
-  const double begin = protocol::monotonic_now();
-  for (int k = 0; k < kSteps; ++k) {
+/// Each kernel's fastest turn, per step; the mean of all as a whole.
+class Measure {
+ public:
+  Measure(Device& device, int particles)
+      : device_(device), least_(particles > kMuch ? 1 : kLeast) {}
+
+  [[nodiscard]] bool goes_on() const { return times_ < least_ || spent_ < kSeconds; }
+  void begin_again() noexcept { ++times_; }
+
+  /// `turn` says how many steps it took.
+  template <class Turn>
+  void add(const Turn& turn) {
+    const double begin = protocol::monotonic_now();
     begin_ledger();
-    block.move();
-    device.queue().finish();
+    const double steps = turn();
+    device_.queue().finish();
+    const double end = protocol::monotonic_now();
+    spent_ += end - begin;
+    steps_ += steps;
     for (const auto& [name, launches] : end_ledger()) {
-      const auto [at, is_new] = found.kernels.emplace(name, launches);
-      if (!is_new) at->second.seconds = std::min(at->second.seconds, launches.seconds);
+      const double seconds = launches.seconds / steps;
+      const auto [at, is_new] = found_.kernels.emplace(name, seconds);
+      if (!is_new) at->second = std::min(at->second, seconds);
     }
   }
-  found.step = (protocol::monotonic_now() - begin) / kSteps;
-  return found;
+  [[nodiscard]] Measured found() const {
+    Measured found = found_;
+    found.step = spent_ / steps_;
+    return found;
+  }
+
+ private:
+  Device& device_;
+  int least_;
+  Measured found_;
+  double spent_ = 0.0;  ///< [s]
+  double steps_ = 0.0;
+  int times_ = 0;
+};
+
+/// What is held against what.
+struct Asked {
+  const char* what = "";
+  int particles = 0;
+  std::map<std::string, Work> work;   ///< of a step
+  std::map<std::string, Work> there;  ///< of one with the kernels that GPUs get
+  double commands = 0.0;              ///< of a step, besides kernels
+  double copied = 0.0;                ///< of a step [B]
+};
+
+/// With what the host takes for so many commands besides [ms].
+double with_launches(double kernels, double launches, const Asked& asked, const Limits& limits) {
+  return 1e3 *
+         (kernels + (launches + asked.commands) * limits.launch + asked.copied / limits.bandwidth);
 }
 
-void print(int particles, const Measured& found, const std::map<std::string, Work>& work,
-           const Limits& here, const Limits& there, std::FILE* csv) {
-  const bool foretell = there.bandwidth > 0.0;
+void foretell(const Asked& asked, const Limits& there) {
+  std::printf("  there                launches      MB  M operations        ms\n");
+  double sum = 0.0, launches = 0.0;
+  for (const auto& [name, work] : asked.there) {
+    const double least = expected(work, there);
+    launches += work.launches;
+    sum += least;
+    std::printf("  %-20s %8.2f %7.2f  %12.2f  %8.4f\n", name.c_str(), work.launches,
+                1e-6 * work.bytes, 1e-6 * work.operations, 1e3 * least);
+  }
+  std::printf("  a step with its %.1f launches is expected to take %.3f ms there\n",
+              launches + asked.commands, with_launches(sum, launches, asked, there));
+}
+
+void print(const Asked& asked, const Measured& found, const Limits& here, const Limits& there,
+           std::FILE* csv) {
   std::printf(
-      "\n%d particles, bytes at %.1f GB/s\n"
-      "                          MB  M operations  M scalar  M counts  M runs        ms  expected"
-      "  of it%s\n",
-      particles, 1e-9 * here.bandwidth, foretell ? "     there" : "");
-  double sum = 0.0, elsewhere = 0.0, launches = 0.0;
-  for (const auto& [name, measured] : found.kernels) {
-    const Work& asked = work.at(name);
-    const auto count = static_cast<double>(measured.count);
-    const double lowest = expected(asked, here, count);
-    launches += count;
-    sum += lowest;
-    std::printf("  %-20s %7.2f  %12.2f  %8.2f  %8.2f  %6.2f  %8.3f  %8.3f  %5.2f", name.c_str(),
-                1e-6 * asked.bytes, 1e-6 * asked.operations, 1e-6 * asked.scalar,
-                1e-6 * asked.counts, 1e-6 * asked.runs, 1e3 * measured.seconds, 1e3 * lowest,
-                lowest / measured.seconds);
-    if (foretell) {
-      elsewhere += expected(asked, there, count);
-      std::printf("  %8.4f", 1e3 * expected(asked, there, count));
+      "\n%s, %d particles, bytes at %.1f GB/s\n"
+      "                       launches      MB  M operations  M scalar  M counts  M runs  M held   "
+      "     ms"
+      "  expected  of it\n",
+      asked.what, asked.particles, 1e-9 * here.bandwidth);
+  double sum = 0.0, launches = 0.0;
+  for (const auto& [name, seconds] : found.kernels) {
+    if (!asked.work.contains(name)) {
+      std::printf("  %-20s ran, but not in the frame that was looked at\n", name.c_str());
+      continue;
     }
-    std::printf("\n");
+    const Work& work = asked.work.at(name);
+    const double least = expected(work, here);
+    launches += work.launches;
+    sum += least;
+    std::printf("  %-20s %8.2f %7.2f  %12.2f  %8.2f  %8.2f  %6.2f  %6.3f  %8.4f  %8.4f  %5.2f\n",
+                name.c_str(), work.launches, 1e-6 * work.bytes, 1e-6 * work.operations,
+                1e-6 * work.scalar, 1e-6 * work.counts, 1e-6 * work.runs, 1e-6 * work.held,
+                1e3 * seconds, 1e3 * least, least / seconds);
     if (csv != nullptr) {
-      std::fprintf(csv, "limit:%s,%d,%g,%g,%g,%g\n", name.c_str(), particles,
-                   1e3 * measured.seconds, 1e3 * lowest, asked.bytes, asked.operations);
+      std::fprintf(csv, "limit:%s:%s,%d,%g,%g,%g,%g\n", asked.what, name.c_str(), asked.particles,
+                   1e3 * seconds, 1e3 * least, work.bytes, work.operations);
     }
   }
-  std::printf("  the step takes %.3f ms, expected with its launches %.3f ms", 1e3 * found.step,
-              1e3 * (sum + launches * here.launch));
-  if (foretell) std::printf(", there %.3f ms", 1e3 * (elsewhere + launches * there.launch));
-  std::printf("\n");
+  std::printf("  the step takes %.3f ms, expected with its %.1f launches %.3f ms\n",
+              1e3 * found.step, launches + asked.commands,
+              with_launches(sum, launches, asked, here));
+  if (there.bandwidth > 0.0) foretell(asked, there);
+  std::fflush(stdout);
+}
+
+struct Place {
+  Device& device;
+  Limits here;
+  Limits there;
+  std::FILE* csv = nullptr;
+};
+
+void of_cube(Place& at, int count) {
+  Measure measure(at.device, count);
+  Asked asked = {"cube", 0, {}, {}};
+  for (; measure.goes_on(); measure.begin_again()) {
+    const std::size_t others = buffer_bytes();
+    Block block(at.device, count);
+    if (asked.work.empty()) {
+      at.here.bandwidth = bandwidth_of(at.device, buffer_bytes() - others);
+    }
+    for (int k = 0; k < (count > kMuch ? kFrames : kSteps); ++k) {
+      measure.add([&] {
+        block.move();
+        return 1.0;
+      });
+    }
+    if (!asked.work.empty()) continue;
+    asked.particles = block.params.count;
+    const Places places = places_of(block);
+    asked.work = work_of(places, at.device.profile());
+    asked.there = work_of(places, gpu_profile());
+  }
+  print(asked, measure.found(), at.here, at.there, at.csv);
+}
+
+void of_pool(Place& at, int count) {
+  Scene scene = read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
+  // Settling a large pool takes hours: its particles lie on their lattice when time begins.
+  if (count > 0) {
+    scene.fluid.particles = count;
+    scene.fluid.settle = SettleKind::never;
+  }
+  const std::size_t others = buffer_bytes();
+  Simulation pool(at.device, scene, {});
+  at.here.bandwidth = bandwidth_of(at.device, buffer_bytes() - others);
+  const double begins = count > 1'000'000 ? 0.0 : kPoolMoves;
+  while (pool.seconds() < begins) static_cast<void>(pool.advance());
+  const Snapshot water = pool.fluid().snapshot();
+  const double then = pool.seconds();
+  Measure measure(at.device, count);
+  for (; measure.goes_on(); measure.begin_again()) {
+    pool.resume(water, then);
+    for (int k = 0; k < (count > kMuch ? 1 : kFrames); ++k) {
+      measure.add([&] {
+        const std::int64_t before = pool.totals().steps;
+        static_cast<void>(pool.advance());
+        return static_cast<double>(pool.totals().steps - before);
+      });
+    }
+  }
+  pool.resume(water, then);
+  static_cast<void>(pool.advance());
+  const FrameSeen seen = see_frame(pool);
+  Asked asked = {"pool", pool.particles(), {}, {}};
+  for (const auto& [name, work] : frame_work(seen, at.device.profile())) {
+    asked.work[name] = work.times(1.0 / seen.steps);
+  }
+  for (const auto& [name, work] : frame_work(seen, gpu_profile())) {
+    asked.there[name] = work.times(1.0 / seen.steps);
+  }
+  asked.commands = static_cast<double>(frame_commands(seen).all()) / seen.steps;
+  asked.copied = copied_bytes(seen) / seen.steps;
+  std::printf(
+      "\nThe pool: %d steps a frame, %.0f bubbles, %.0f fast particles, %.0f points of skin",
+      seen.steps, seen.bubbles, seen.fast, seen.skin);
+  print(asked, measure.found(), at.here, at.there, at.csv);
 }
 
 }  // namespace
 
 void against_limits(Device& device, int most_particles, const Until& until, const Limits& there,
                     std::FILE* csv) {
-  if (there.bandwidth > 0.0 && device.lanes() > 1) {
-    throw std::runtime_error("--there foretells a GPU, with its kernels: add --profile gpu");
-  }
-  Limits here = limits_of(device);
+  const Limits here = limits_of(device);
   std::printf(
-      "\nThe device streams %.1f GB/s from memory (triad), computes %.1f G operations/s (fused), "
-      "%.1f G scalar\n"
-      "instructions/s, %.2f G counts/s, %.2f G runs/s; a launch takes %.1f us of the host, %.1f us "
-      "of the device\n",
+      "\nThe device streams %.1f GB/s from memory (triad), computes %.1f G operations/s, %.1f G "
+      "scalar\ninstructions/s, %.2f G counts/s, %.3f G runs/s, %.3f G held/s, %.3f G "
+      "work-groups/s; "
+      "a launch takes\n%.1f us of the host, %.1f us of the device\n",
       1e-9 * here.bandwidth, 1e-9 * here.arithmetic, 1e-9 * here.scalar, 1e-9 * here.counts,
-      1e-9 * here.runs, 1e6 * here.launch, 1e6 * here.begin);
+      1e-9 * here.runs, 1e-9 * here.held, 1e-9 * here.groups, 1e6 * here.launch, 1e6 * here.begin);
   if (csv != nullptr) {
     std::fprintf(csv, "limits,,%g,%g,%g\n", here.bandwidth, here.arithmetic, here.launch);
   }
-  double last = 0.0;
-  for (const int count : {15'625, 250'000, 1'000'000, 4'000'000}) {
-    if (count > most_particles || !until.allows(16.0 * last)) break;
-    const double begin = protocol::monotonic_now();
-    const std::size_t others = buffer_bytes();
-    Block block(device, count);
-    here.bandwidth = bandwidth_of(device, buffer_bytes() - others);
-    const Measured found = measure(device, block);
-    const Places places = places_of(device, block);
-    print(places.params.count, found, work_of(places, device.profile()), here, with_runs(there),
-          csv);
-    std::fflush(stdout);
-    last = protocol::monotonic_now() - begin;
+  Place at = {device, here, with_runs(there), csv};
+  for (const auto& [run, sizes] :
+       {std::pair{&of_cube, std::vector<int>{15'625, 250'000, 1'000'000, 4'000'000}},
+        std::pair{&of_pool, std::vector<int>{0, 250'000, 4'000'000}}}) {
+    double last = 0.0;
+    for (const int count : sizes) {
+      if (count > most_particles || !until.allows(16.0 * last)) break;
+      const double begin = protocol::monotonic_now();
+      run(at, count);
+      last = protocol::monotonic_now() - begin;
+    }
   }
 }
 

@@ -7,6 +7,8 @@
 #include "protocol/time_tag.hpp"
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
+#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/opencl_ledger.hpp"
@@ -16,8 +18,8 @@ namespace {
 
 using namespace splash::sim;
 
-/// `wide`: a type of many floats, since a CPU's compiler need not find them by itself. Eight sums
-/// that do not wait for each other.
+/// `wide`: a type of many floats, since a CPU's compiler need not find them by itself. Numbers that
+/// do not wait for each other.
 const char* const kProbes = R"(
 #if LANES == 1
 typedef float wide;
@@ -30,19 +32,19 @@ kernel void triad(global const wide* a, global const wide* b, global wide* c, fl
   const int i = get_global_id(0);
   if (i < n) c[i] = a[i] + s * b[i];
 }
-#define SUMS(name, type, last)                                                \
-  kernel void name(global float* out, float s, int rounds) {                  \
-    const type f = s, g = 1e-5f;                                              \
-    type a = s, b = a + 1, c = a + 2, d = a + 3;                              \
-    type e = a + 4, h = a + 5, i = a + 6, j = a + 7;                          \
-    for (int round = 0; round < rounds; ++round) {                            \
-      a = a * f + g, b = b * f + g, c = c * f + g, d = d * f + g;             \
-      e = e * f + g, h = h * f + g, i = i * f + g, j = j * f + g;             \
-    }                                                                         \
-    a += b + c + d + e + h + i + j;                                           \
-    out[get_global_id(0)] = last(a);                                          \
+// Sums, products and fused ones in equal parts, as in the formula of a pair.
+#define NEXT(x) x = (x + g) * f, x = x * f + g
+kernel void compute(global float* out, float s, int rounds) {
+  const wide f = s, g = 1e-5f;
+  wide a = s, b = a + 1, c = a + 2, d = a + 3, e = a + 4, h = a + 5, i = a + 6, j = a + 7;
+  wide k = a + 8, l = a + 9, m = a + 10, n = a + 11;
+  for (int round = 0; round < rounds; ++round) {
+    NEXT(a), NEXT(b), NEXT(c), NEXT(d), NEXT(e), NEXT(h);
+    NEXT(i), NEXT(j), NEXT(k), NEXT(l), NEXT(m), NEXT(n);
   }
-SUMS(multiply_add, wide, LAST)
+  a += b + c + d + e + h + i + j + k + l + m + n;
+  out[get_global_id(0)] = LAST(a);
+}
 // Scalar instructions that do not wait for each other: shifts, which no vector saves.
 kernel void shift(global uint* out, int rounds) {
   uint a = get_global_id(0), b = a + 1, c = a + 2, d = a + 3, e = a + 4, f = a + 5;
@@ -59,10 +61,10 @@ kernel void count_up(global const int* cells, global int* count, int points, int
 // As near.h goes through the runs around a group: where each begins and ends is looked up, and its
 // length, of one to three vectors, is not foreseen.
 kernel void visit(global const int* start, global const wide* points, global float* out,
-                  int runs) {
+                  int runs, uint begin) {
   const int item = get_global_id(0);
   wide sum = 0.0f;
-  uint at = 977u * item;
+  uint at = begin + 977u * item;
   for (int k = 0; k < runs; ++k) {
     at = 1664525u * at + 1013904223u;
     const int run = at >> 24;
@@ -74,11 +76,11 @@ kernel void visit(global const int* start, global const wide* points, global flo
 kernel void nothing(int n) { (void)n; }
 )";
 
-/// Fastest of a hundred runs, or of those of a second, without what the host takes [s].
+/// Fastest of a thousand runs, or of those of a second, without what the host takes [s].
 double fastest(Device& device, const std::function<void()>& launch) {
   double best = 1.0e9;
   const double end = protocol::monotonic_now() + 1.0;
-  for (int k = 0; k < 100 && (k < 3 || protocol::monotonic_now() < end); ++k) {
+  for (int k = 0; k < 1000 && (k < 3 || protocol::monotonic_now() < end); ++k) {
     begin_ledger();
     launch();
     device.queue().finish();
@@ -103,13 +105,15 @@ std::size_t busy_items(const Device& device) {
 }
 
 constexpr int kRounds = 2048;
+/// Of a round in each lane: of twelve numbers, three instructions that count as two.
+constexpr double kOfRound = 12.0 * 3.0 * 2.0;
 
-/// Of a launch of so many rounds of eight fused operations in each lane [s].
-double computing(Device& device, const cl::Program& program, std::size_t items, int rounds) {
-  Kernel multiply_add(program, "multiply_add", device.profile().group);
+/// Of a launch of kRounds [s].
+double computing(Device& device, const cl::Program& program, std::size_t items) {
+  Kernel compute(program, "compute", device.profile().group);
   Buffer<float> out(device, items);
   return fastest(device,
-                 [&] { multiply_add.run(device.queue(), items, out.memory(), 0.999F, rounds); });
+                 [&] { compute.run(device.queue(), items, out.memory(), 0.999F, kRounds); });
 }
 
 /// A number that looks drawn by lot.
@@ -118,7 +122,7 @@ int mixed(std::size_t k) {
 }
 
 double scalar(Device& device, const cl::Program& program) {
-  constexpr int kShifts = 16384;
+  constexpr int kShifts = 131072;
   const std::size_t items = device.facts().compute_units;
   Buffer<int> out(device, items);
   Kernel shift(program, "shift", 1);
@@ -128,7 +132,7 @@ double scalar(Device& device, const cl::Program& program) {
 }
 
 double counts(Device& device, const cl::Program& program) {
-  constexpr int kPoints = 16384, kCells = 4096;
+  constexpr int kPoints = 65536, kCells = 4096;
   const std::size_t items = device.facts().compute_units;
   std::vector<int> cells(items * kPoints);
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = mixed(i) % kCells;
@@ -141,7 +145,7 @@ double counts(Device& device, const cl::Program& program) {
 }
 
 double runs(Device& device, const cl::Program& program) {
-  constexpr int kRuns = 256, kVisits = 8192;
+  constexpr int kRuns = 256, kVisits = 65536;
   std::vector<int> start(kRuns + 1, 0);
   for (std::size_t k = 1; k < start.size(); ++k) {
     start[k] = start[k - 1] + 1 + mixed(k) % 3;
@@ -151,10 +155,63 @@ double runs(Device& device, const cl::Program& program) {
   Buffer<int> starts(device, std::span<const int>(start));
   Buffer<float> points(device, std::size_t{4 * kRuns} * width(device)), out(device, items);
   Kernel visit(program, "visit", device.profile().lanes == 1 ? device.profile().group : 1);
+  cl_uint begin = 0;  // other runs each time: what predicts branches remembers thousands
   const double seconds = fastest(device, [&] {
-    visit.run(device.queue(), items, starts.memory(), points.memory(), out.memory(), rounds);
+    begin = begin * 1664525U + 12345U;
+    visit.run(device.queue(), items, starts.memory(), points.memory(), out.memory(), rounds, begin);
   });
   return static_cast<double>(items) * rounds / seconds;
+}
+
+/// Of vectors of particles near a body, none of which it stops (boundary/keep_out.h).
+const char* const kHold = R"(
+kernel void hold_out(constant FluidParams* p, constant BodyShape* shapes, global const float* none,
+                     global const BodyStep* bodies, int rounds, global const float* in,
+                     global float* out) {
+  lanes x = LOAD(in, 0), y = x, z = x, u = 0.0f, v = u, w = u;
+  for (int round = 0; round < rounds; ++round) {
+    const lanes a = x, b = y, c = z;
+    x += 1e-7f;
+    keep_lanes_out(p, shapes, none, bodies, 0, 1, a, b, c, &x, &y, &z, &u, &v, &w);
+  }
+  STORE(x + y + z + u + v + w, out, 0);
+}
+)";
+
+/// By one work-item: particles near a body follow each other, and a core gets many at once.
+double held(Device& device) {
+  if (device.lanes() == 1) return 0.0;
+  constexpr int kTimes = 1024;
+  std::vector<KernelSource> sources = fluid_sources();
+  sources.push_back({"tests/bench/hold_out", kHold});
+  Kernel hold_out(build_program(device, sources, kernel_defines({}), false), "hold_out", 1);
+  FluidParams p = {};
+  p.spacing = 0.03F;
+  BodyShape box = {};
+  box.half_x = box.half_y = box.half_z = 0.1F;
+  box.rocker = 0.01F;
+  BodyStep step = {};
+  step.qw = 1.0F;
+  step.lower_x = step.lower_y = step.lower_z = -1.0F;
+  step.upper_x = step.upper_y = step.upper_z = 1.0F;
+  const Buffer<FluidParams> params(device, std::span<const FluidParams>(&p, 1));
+  const Buffer<BodyShape> shapes(device, std::span<const BodyShape>(&box, 1));
+  const Buffer<BodyStep> steps(device, std::span<const BodyStep>(&step, 1));
+  const Buffer<float> none(device, 1);
+  const auto lanes = static_cast<std::size_t>(device.lanes());
+  const Buffer<float> in(device, std::vector<float>(lanes, 0.15F)), out(device, lanes);
+  const double seconds = fastest(device, [&] {
+    hold_out.run(device.queue(), 1, params.memory(), shapes.memory(), none.memory(), steps.memory(),
+                 kTimes, in.memory(), out.memory());
+  });
+  return static_cast<double>(lanes) * kTimes / seconds;
+}
+
+/// Of a launch of so many work-groups that do nothing [s].
+double idle(Device& device, const cl::Program& program, std::size_t groups) {
+  const std::size_t group = device.profile().group;
+  Kernel nothing(program, "nothing", group);
+  return fastest(device, [&] { nothing.run(device.queue(), groups * group, 0); });
 }
 
 }  // namespace
@@ -182,14 +239,16 @@ Limits limits_of(Device& device) {
   // Three arrays of 128 MiB: beyond caches.
   limits.bandwidth = bandwidth_of(device, std::size_t{384} << 20U);
   const std::size_t items = std::size_t{device.lanes() == 1 ? 4U : 64U} * busy_items(device);
-  const double computes = computing(device, program, items, kRounds);
-  limits.arithmetic = 2.0 * 8.0 * static_cast<double>(items * width(device)) * kRounds / computes;
-  constexpr int kShort = 64;
-  limits.begin =
-      std::max(computing(device, program, items, kRounds / kShort) - computes / kShort, 0.0);
+  const double computes = computing(device, program, items);
+  limits.arithmetic = kOfRound * static_cast<double>(items * width(device)) * kRounds / computes;
   limits.scalar = scalar(device, program);
   limits.counts = counts(device, program);
   limits.runs = runs(device, program);
+  limits.held = held(device);
+  constexpr std::size_t kFew = 16, kMany = 4096;
+  limits.begin = idle(device, program, kFew);
+  const double more = idle(device, program, kMany) - limits.begin;
+  limits.groups = more > 0.0 ? static_cast<double>(kMany - kFew) / more : 0.0;
   Kernel nothing(program, "nothing");
   constexpr int kLaunches = 1000;
   const auto empty = [&] {

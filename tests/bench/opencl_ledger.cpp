@@ -23,6 +23,7 @@ struct Launch {
 struct Ledger {
   std::mutex mutex;
   bool open = false;
+  Commands commands;
   std::vector<Launch> launches;
   std::map<cl_mem, std::size_t> buffers;
 };
@@ -67,7 +68,22 @@ std::size_t buffer_bytes() {
 void begin_ledger() {
   const std::scoped_lock lock(ledger().mutex);
   ledger().open = true;
+  ledger().commands = {};
 }
+
+Commands noted_commands() {
+  const std::scoped_lock lock(ledger().mutex);
+  return ledger().commands;
+}
+
+namespace {
+
+void note(std::int64_t Commands::*kind) {
+  const std::scoped_lock lock(ledger().mutex);
+  if (ledger().open) ++(ledger().commands.*kind);
+}
+
+}  // namespace
 
 std::map<std::string, Launches> end_ledger() {
   const std::scoped_lock lock(ledger().mutex);
@@ -126,9 +142,46 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
     clRetainKernel(kernel);
     if (mine == nullptr) clRetainEvent(mine = *event);
     ledger().launches.push_back({kernel, mine, *global});
+    ledger().commands.late_kernels += ledger().commands.reads > 0;
   } else if (mine != nullptr) {
     clReleaseEvent(mine);
   }
   return result;
+}
+
+extern "C" cl_int clEnqueueWriteBuffer(cl_command_queue queue, cl_mem buffer, cl_bool wait,
+                                       size_t offset, size_t size, const void* from, cl_uint waits,
+                                       const cl_event* wait_for, cl_event* event) {
+  static const auto real =
+      splash::bench::next<decltype(&clEnqueueWriteBuffer)>("clEnqueueWriteBuffer");
+  splash::bench::note(&splash::bench::Commands::writes);
+  return real(queue, buffer, wait, offset, size, from, waits, wait_for, event);
+}
+
+extern "C" cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool wait,
+                                      size_t offset, size_t size, void* to, cl_uint waits,
+                                      const cl_event* wait_for, cl_event* event) {
+  static const auto real =
+      splash::bench::next<decltype(&clEnqueueReadBuffer)>("clEnqueueReadBuffer");
+  splash::bench::note(&splash::bench::Commands::reads);
+  return real(queue, buffer, wait, offset, size, to, waits, wait_for, event);
+}
+
+extern "C" cl_int clEnqueueFillBuffer(cl_command_queue queue, cl_mem buffer, const void* pattern,
+                                      size_t pattern_size, size_t offset, size_t size,
+                                      cl_uint waits, const cl_event* wait_for, cl_event* event) {
+  static const auto real =
+      splash::bench::next<decltype(&clEnqueueFillBuffer)>("clEnqueueFillBuffer");
+  splash::bench::note(&splash::bench::Commands::fills);
+  return real(queue, buffer, pattern, pattern_size, offset, size, waits, wait_for, event);
+}
+
+extern "C" cl_int clEnqueueCopyBuffer(cl_command_queue queue, cl_mem from, cl_mem to,
+                                      size_t from_offset, size_t to_offset, size_t size,
+                                      cl_uint waits, const cl_event* wait_for, cl_event* event) {
+  static const auto real =
+      splash::bench::next<decltype(&clEnqueueCopyBuffer)>("clEnqueueCopyBuffer");
+  splash::bench::note(&splash::bench::Commands::copies);
+  return real(queue, from, to, from_offset, to_offset, size, waits, wait_for, event);
 }
 // NOLINTEND(readability-identifier-naming)

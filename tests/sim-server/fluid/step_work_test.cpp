@@ -41,7 +41,7 @@ double distance(const Places& p, std::size_t i, std::size_t j) {
 TEST(StepWork, CountsThePairsThatKernelsVisit) {
   sim::Device device;
   Block block(device, 2'000);
-  const Places p = places_of(device, block);
+  const Places p = places_of(block);
   const auto count = static_cast<std::size_t>(p.params.count);
   std::vector<std::array<int, 3>> cells;
   for (std::size_t i = 0; i < count; ++i) cells.push_back(cell_of(p, i));
@@ -86,8 +86,8 @@ TEST(StepWork, GrowsWithTheWater) {
   Block small(device, 1'000);
   Block large(device, 8'000);
   for (const sim::Profile& profile : {sim::cpu_profile(2), sim::gpu_profile()}) {
-    const auto less = work_of(places_of(device, small), profile);
-    const auto more = work_of(places_of(device, large), profile);
+    const auto less = work_of(places_of(small), profile);
+    const auto more = work_of(places_of(large), profile);
     const double forces =
         more.at("compute_acceleration").operations / less.at("compute_acceleration").operations;
     EXPECT_GT(forces, 8.0) << "a larger cube has fewer of its particles at its faces";
