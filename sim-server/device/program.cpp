@@ -88,7 +88,8 @@ cl::Program build_program(const Device& device, const std::vector<KernelSource>&
                       std::to_string(error) + "):\n" +
                       program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle()) +
                       "Choose another device (--list-devices). If a kernel's line is named above, "
-                      "please report it; if none is, the disk of $POCL_CACHE_DIR may be full");
+                      "please report it; if none is, the disk of $POCL_CACHE_DIR may be full, "
+                      "or memory short or limited (ulimit -v)");
   }
   return program;
 }
