@@ -44,6 +44,7 @@ std::vector<Knob> knobs_of(const Rig& rig) {
   add_rows("cavity", cavity_fields(), sound.cavity, sound, knobs);
   add_rows("cloud", cloud_fields(), sound.cloud, sound, knobs);
   add_rows("fine", fine_fields(), sound.fine, sound, knobs);
+  add_rows("foot", foot_fields(), sound.foot, sound, knobs);
   constexpr std::array kComponents = {"impact", "bubble", "cavity"};
   for (std::size_t c = 0; c < kComponents.size(); ++c) {
     knobs[ControlLayout::mute(c)].name = std::string(kComponents[c]) + "/mute";

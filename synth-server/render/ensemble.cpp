@@ -29,7 +29,8 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       masking_(channel_count(rig), settings.sample_rate),
       cloud_(settings.sample_rate),
-      fine_(rig, settings.sample_rate, settings.seed) {}
+      fine_(rig, settings.sample_rate, settings.seed),
+      underfoot_(rig, settings.sample_rate, settings.seed) {}
 
 void Ensemble::follow(const LiveControls& controls) noexcept {
   settings_.sound = controls.sound();
@@ -48,8 +49,17 @@ void Ensemble::start(const TimedEvent& timed) noexcept {
   }
 }
 
+template <class Event>
+void Ensemble::tread(const Event& event) noexcept {
+  const FootSound& sound = settings_.sound.foot;
+  if (sound.texture <= 0.0 && sound.wash <= 0.0) return;
+  const Routing::Reach reach = routing_.route({event.position, event.body, 0.0}, routes_);
+  underfoot_.add(sound, force_rate(event), reached(reach));
+}
+
 Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
                                        const TimedEvent& timed) noexcept {
+  tread(impact);
   const ImpactSound& sound = settings_.sound.impact;
   const double speed =
       impact_speed(sound, static_cast<double>(impact.speed), static_cast<double>(impact.approach));
@@ -65,8 +75,7 @@ Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
   const auto session = static_cast<std::uint64_t>(timed.session);
   const Noise noise(settings_.seed, session << 24U | static_cast<std::uint64_t>(impact.id));
   const ImpactVoice voice(sound, amplitude, noise, settings_.sample_rate);
-  const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
-  const ImpactPool::Start result = impacts_.start(voice, life, reached, timed.sample);
+  const ImpactPool::Start result = impacts_.start(voice, life, reached(reach), timed.sample);
   if (result == ImpactPool::Start::refused) return Outcome::no_place;
   if (result == ImpactPool::Start::stole) counts_.stolen.add();
   return Outcome::started;
@@ -94,17 +103,17 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
     counts_.unheard.add();
     return Outcome::left_out;
   }
-  const std::span<const Route> reached(routes_.data(), static_cast<std::size_t>(reach.routes));
-  if (!kept && masking() && masking_.covers(tone, reached, sample, bubbles_->ranking())) {
+  const std::span<const Route> routes = reached(reach);
+  if (!kept && masking() && masking_.covers(tone, routes, sample, bubbles_->ranking())) {
     counts_.masked.add();
     return Outcome::left_out;
   }
   if (starts_ >= (kept ? kMostStarts : kMostStarts - kKeptStarts)) return Outcome::no_place;
-  const BubblePool::Started started = bubbles_->start(tone, life, reached, reach.group, sample);
+  const BubblePool::Started started = bubbles_->start(tone, life, routes, reach.group, sample);
   if (started.result == BubblePool::Start::refused) return Outcome::no_place;
   if (started.result == BubblePool::Start::stole) counts_.stolen.add();
   if (settings_.skip_masked && !breaks) {  // what it hides may ring on
-    masking_.note(tone, reached, sample, started.place, bubbles_->ranking());
+    masking_.note(tone, routes, sample, started.place, bubbles_->ranking());
   }
   return Outcome::started;
 }
@@ -112,6 +121,7 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
 template <class BubbleOrCavity>
 Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
                                        const TimedEvent& timed) noexcept {
+  tread(event);
   constexpr bool kIsCavity = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
   const ToneSound& sound = kIsCavity ? settings_.sound.cavity : settings_.sound.bubble;
   const auto radius = static_cast<double>(event.radius);
@@ -132,7 +142,7 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
   if constexpr (kIsCavity) {
     cavity = &event;
   } else {
-    fine_.add(settings_.sound, epsilon, {routes_.data(), static_cast<std::size_t>(reach.routes)});
+    fine_.add(settings_.sound, epsilon, reached(reach));
   }
   return start_tone(tone, reach, cavity, timed.sample);
 }
@@ -141,12 +151,14 @@ void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
   impacts_.mix(from, to, mix);
   bubbles_->mix(from, to, mix);
   fine_.mix(from, to, mix);
+  underfoot_.mix(from, to, mix);
 }
 
 void Ensemble::end_cell(std::int64_t sample) noexcept {
   impacts_.release(sample);
   bubbles_->release(sample);
   fine_.end_cell();
+  underfoot_.end_cell();
   starts_ = 0;
 }
 
@@ -154,6 +166,7 @@ void Ensemble::fade_all(std::int64_t sample) noexcept {
   impacts_.fade_all(sample);
   bubbles_->fade_all(sample);
   fine_.clear();
+  underfoot_.clear();
 }
 
 }  // namespace splash::synth

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "protocol/event.hpp"
@@ -16,6 +17,7 @@
 #include "synth-server/render/live_controls.hpp"
 #include "synth-server/render/masking.hpp"
 #include "synth-server/render/routing.hpp"
+#include "synth-server/render/underfoot.hpp"
 #include "synth-server/voices/cloud.hpp"
 
 namespace splash::synth {
@@ -58,6 +60,13 @@ class Ensemble {
   /// `cavity`: what the tone is, or null: a bubble.
   Outcome start_tone(const BubbleTone& tone, const Routing::Reach& reach,
                      const protocol::Cavity* cavity, std::int64_t sample) noexcept;
+  /// Lets the channels under the event's place feel its force, whatever becomes of its own sound.
+  template <class Event>
+  void tread(const Event& event) noexcept;
+  /// The routes that were found for the event that is being started.
+  [[nodiscard]] std::span<const Route> reached(const Routing::Reach& reach) const noexcept {
+    return {routes_.data(), static_cast<std::size_t>(reach.routes)};
+  }
   [[nodiscard]] bool masking() const noexcept;
 
   EngineSettings settings_;
@@ -69,6 +78,7 @@ class Ensemble {
   Masking masking_;
   Cloud cloud_;
   FineWater fine_;
+  Underfoot underfoot_;
   int starts_ = 0;  ///< in this cell
   Counts counts_;
 };

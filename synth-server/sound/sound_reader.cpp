@@ -29,12 +29,13 @@ void refuse_others(const ConfigMap& map) {
 NamedSound read_map(const ConfigMap& map) {
   refuse_others(map);
   NamedSound sound;
-  map.read(sound_fields(), {"impact", "bubble", "cavity", "cloud", "fine"}, sound);
+  map.read(sound_fields(), {"impact", "bubble", "cavity", "cloud", "fine", "foot"}, sound);
   read_part(map, "impact", impact_fields(), sound.sound.impact);
   read_part(map, "bubble", bubble_fields(), sound.sound.bubble);
   read_part(map, "cavity", cavity_fields(), sound.sound.cavity);
   read_part(map, "cloud", cloud_fields(), sound.sound.cloud);
   read_part(map, "fine", fine_fields(), sound.sound.fine);
+  read_part(map, "foot", foot_fields(), sound.sound.foot);
   return sound;
 }
 

@@ -36,7 +36,8 @@ std::string describe_sound_keys() {
          describe_fields(bubble_fields(), paper.sound.bubble) + "\n### `cavity`\n\n" +
          describe_fields(cavity_fields(), paper.sound.cavity) + "\n### `cloud`\n\n" +
          describe_fields(cloud_fields(), paper.sound.cloud) + "\n### `fine`\n\n" +
-         describe_fields(fine_fields(), paper.sound.fine);
+         describe_fields(fine_fields(), paper.sound.fine) + "\n### `foot`\n\n" +
+         describe_fields(foot_fields(), paper.sound.foot);
 }
 
 }  // namespace splash::synth

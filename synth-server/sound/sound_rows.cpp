@@ -256,4 +256,68 @@ std::vector<Field<FineSound>> fine_fields() {
        &FineSound::release}};
 }
 
+std::vector<Field<FootSound>> foot_fields() {
+  return {
+      {{.key = "texture",
+        .unit = "m",
+        .meaning = "amplitude of the noise under a body where the force on it changes by 1 kN/s "
+                   "(a sole that meets the water at 1 m/s: 13 kN/s), on outputs that are felt; "
+                   "0: none",
+        .min = 0.0,
+        .max = 0.01,
+        .source = "Visell, Giordano, Millet, Cooperstock 2011"},
+       &FootSound::texture},
+      {{.key = "power",
+        .unit = "1",
+        .meaning = "it grows as the change of force to this power: at a third as the speed of "
+                   "what meets the water",
+        .min = 0.05,
+        .max = 2.0},
+       &FootSound::power},
+      {{.key = "frequency",
+        .unit = "Hz",
+        .meaning = "middle of the noise",
+        .min = 20.0,
+        .max = 1000.0,
+        .source = "50 to 300 Hz, where soles feel best"},
+       &FootSound::frequency},
+      {{.key = "q",
+        .unit = "1",
+        .meaning = "its frequency over its width at -3 dB",
+        .min = 0.3,
+        .max = 20.0},
+       &FootSound::q},
+      {{.key = "attack",
+        .unit = "s",
+        .meaning = "time constant within which it follows the force",
+        .min = 0.0005,
+        .max = 0.2},
+       &FootSound::attack},
+      {{.key = "release",
+        .unit = "s",
+        .meaning = "time constant with which it falls",
+        .min = 0.005,
+        .max = 2.0},
+       &FootSound::release},
+      {{.key = "wash",
+        .unit = "m",
+        .meaning = "amplitude of slow swells under a body, by the same law, for beaches and "
+                   "shoes; 0: none",
+        .min = 0.0,
+        .max = 0.01},
+       &FootSound::wash},
+      {{.key = "wash_frequency",
+        .unit = "Hz",
+        .meaning = "the swells are noise under this",
+        .min = 5.0,
+        .max = 60.0},
+       &FootSound::wash_frequency},
+      {{.key = "wash_release",
+        .unit = "s",
+        .meaning = "time constant with which they fall",
+        .min = 0.05,
+        .max = 5.0},
+       &FootSound::wash_release}};
+}
+
 }  // namespace splash::synth

@@ -25,5 +25,6 @@ struct NamedSound {
 [[nodiscard]] std::vector<Field<ToneSound>> cavity_fields();
 [[nodiscard]] std::vector<Field<CloudSound>> cloud_fields();
 [[nodiscard]] std::vector<Field<FineSound>> fine_fields();
+[[nodiscard]] std::vector<Field<FootSound>> foot_fields();
 
 }  // namespace splash::synth

@@ -58,12 +58,26 @@ struct FineSound {
   double release = 0.02;  ///< ... and fade: time constants of their power [s]
 };
 
+/// Water under a foot or a hand, by the change of its force (render/underfoot.hpp).
+struct FootSound {
+  double texture = 0.0;          ///< amplitude at 1 kN/s [m]
+  double power = 1.0 / 3.0;      ///< it grows as the change of force to this power [1]
+  double frequency = 120.0;      ///< middle of its noise [Hz] ...
+  double q = 0.7;                ///< ... over its width at -3 dB [1]
+  double attack = 0.005;         ///< time constant within which it comes up [s] ...
+  double release = 0.1;          ///< ... and with which its amplitude falls [s]
+  double wash = 0.0;             ///< amplitude of slow swells at 1 kN/s [m]
+  double wash_frequency = 30.0;  ///< they are noise under this [Hz] ...
+  double wash_release = 0.6;     ///< ... that falls with this time constant [s]
+};
+
 struct Sound {
   ImpactSound impact;
   ToneSound bubble;
   ToneSound cavity;
   CloudSound cloud;
   FineSound fine;
+  FootSound foot;
 };
 
 /// The numbers of a sound in the order of its members.

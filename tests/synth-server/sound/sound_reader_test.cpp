@@ -60,7 +60,8 @@ TEST(Sound, HasARowForEachOfItsNumbers) {
   const NamedSound sound = parse_sound(
       "name: all\n" + all_rows("impact", impact_fields(), {}) +
           all_rows("bubble", bubble_fields(), {}) + all_rows("cavity", cavity_fields(), {}) +
-          all_rows("cloud", cloud_fields(), {}) + all_rows("fine", fine_fields(), {}),
+          all_rows("cloud", cloud_fields(), {}) + all_rows("fine", fine_fields(), {}) +
+          all_rows("foot", foot_fields(), {}),
       "all.yaml");
   const SoundNumbers paper = numbers_of(Sound{});
   const SoundNumbers set = numbers_of(sound.sound);
@@ -89,6 +90,7 @@ TEST(Sound, EveryRowHasAUnitAMeaningAndARangeAroundThePapersValue) {
   expect_rows_complete(cavity_fields());
   expect_rows_complete(cloud_fields());
   expect_rows_complete(fine_fields());
+  expect_rows_complete(foot_fields());
 }
 
 struct Broken {
