@@ -47,18 +47,22 @@ std::vector<protocol::LogEntry> make_log(const std::vector<EventAt>& events) {
 }
 
 Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
-                        std::int64_t frames) {
+                        std::int64_t frames, const std::vector<std::string>& messages) {
   const ScratchFolder folder;
   const auto list = folder.path() / "events.txt";
   const auto wav = folder.path() / "out.wav";
   std::ofstream file(list);
   write_event_list(log, kRate, file);
   file.close();
-  tests::ChildProcess pd(
-      {"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr", "-r",
-       std::to_string(static_cast<int>(kRate)), "-open", source("pd-patches", rig.patch).string(),
-       "-send",
-       "splash-render " + list.string() + " " + wav.string() + " " + std::to_string(frames)});
+  std::vector<std::string> command = {"pd",       "-batch",
+                                      "-nogui",   "-noaudio",
+                                      "-noprefs", "-stderr",
+                                      "-r",       std::to_string(static_cast<int>(kRate)),
+                                      "-open",    source("pd-patches", rig.patch).string()};
+  for (const std::string& message : messages) command.insert(command.end(), {"-send", message});
+  command.insert(command.end(), {"-send", "splash-render " + list.string() + " " + wav.string() +
+                                              " " + std::to_string(frames)});
+  tests::ChildProcess pd(command);
   const std::optional<int> status = pd.wait(kPatience);
   if (status != 0 || pd.output().find("error") != std::string::npos) {
     throw std::runtime_error("pd ended with " + std::to_string(status.value_or(-1)) + ": " +
@@ -68,10 +72,11 @@ Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPai
 }
 
 Channels render_with_synth(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
-                           std::int64_t frames) {
+                           std::int64_t frames, const synth::Sound& sound) {
   const synth::Rig read = synth::read_rig(source("configs/rigs", rig.rig));
   synth::ReplaySettings settings;
   settings.engine.sample_rate = kRate;
+  settings.engine.sound = sound;
   settings.engine.skip_unfelt = false;  // Pd plays its voices to the end, felt or not
   settings.tail = static_cast<double>(frames) / kRate;  // the last event is never before 0
   Channels channels(static_cast<std::size_t>(synth::channel_count(read)));

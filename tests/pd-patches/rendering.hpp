@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/event_log.hpp"
+#include "synth-server/voices/sound.hpp"
 #include "tests/pd-patches/float_wav.hpp"
 
 namespace splash::pd {
@@ -44,11 +45,14 @@ struct EventAt {
 /// A log of one bundle per event, as sim-server records it: /frame first.
 [[nodiscard]] std::vector<protocol::LogEntry> make_log(const std::vector<EventAt>& events);
 
-/// `frames` samples of each channel. Throws std::runtime_error with pd's output when it fails.
+/// `frames` samples of each channel, after these messages to the patch. Throws std::runtime_error
+/// with pd's output when it fails.
 [[nodiscard]] Channels render_with_pd(const std::vector<protocol::LogEntry>& log,
-                                      const RigPair& rig, std::int64_t frames);
+                                      const RigPair& rig, std::int64_t frames,
+                                      const std::vector<std::string>& messages = {});
 [[nodiscard]] Channels render_with_synth(const std::vector<protocol::LogEntry>& log,
-                                         const RigPair& rig, std::int64_t frames);
+                                         const RigPair& rig, std::int64_t frames,
+                                         const synth::Sound& sound = {});
 
 /// 20 log10 [dB].
 [[nodiscard]] double decibels(double ratio);
