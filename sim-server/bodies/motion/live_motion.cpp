@@ -10,7 +10,15 @@ namespace splash::sim {
 
 namespace {
 
-constexpr double kFades = 0.012;  ///< a wrong prediction fades out with this time constant [s]
+/// A wrong prediction fades out with this time constant, and no faster than in so many periods of
+/// the poses: after them the next ones say where the body is [s, 1].
+constexpr double kFades = 0.012;
+constexpr double kFadesPeriods = 2.0;
+/// The speed at which it fades is the body's, but for this much, and for what comes of moments that
+/// are wrong by so many standard deviations [m/s, rad/s, 1].
+constexpr double kSlack = 0.1;
+constexpr double kTurningSlack = 1.0;
+constexpr double kDoubts = 3.0;
 /// What is wrong by more is no prediction any more: the body is put where it is [m, rad].
 constexpr double kFarOff = 0.10;
 constexpr double kTurnedOff = 1.0;
@@ -29,6 +37,18 @@ constexpr double kLongPeriod = 0.1;  ///< slower poses are single ones [s]
 /// 1 - (3 u^2 - 2 u^3) on [0, 1]: from one to zero without a corner.
 double falling(double u) {
   return u >= 1.0 ? 0.0 : 1.0 - u * u * (3.0 - 2.0 * u);
+}
+
+struct Fading {
+  Vector3 left;  ///< [m, rad]
+  Vector3 rate;  ///< its change that is told [m/s, rad/s]
+};
+
+/// What is left of an offset `dt` later; changes slower than `slack` are not told.
+Fading fading(const Vector3& offset, double fades, double slack, double dt) {
+  const Vector3 left = std::exp(-dt / fades) * offset;
+  const double rate = length(left) / fades;
+  return {left, rate > slack ? -(1.0 - slack / rate) / fades * left : Vector3{}};
 }
 
 }  // namespace
@@ -75,9 +95,12 @@ BodyState LiveMotion::played(const Plan& plan, double moment) const {
 BodyState LiveMotion::state(const Plan& plan, double seconds) const {
   const double dt = std::isfinite(seconds) ? std::max(seconds - plan.seconds, 0.0) : 0.0;
   BodyState state = played(plan, plan.start + plan.rate * dt);
-  const double wrong = std::exp(-dt / kFades);
-  state.position = state.position + wrong * plan.offset;
-  state.rotation = unit(compose(from_turn(wrong * plan.turn_offset), state.rotation));
+  const Fading way = fading(plan.offset, plan.fades, plan.slack, dt);
+  const Fading turn = fading(plan.turn_offset, plan.fades, plan.turning_slack, dt);
+  state.position = state.position + way.left;
+  state.velocity = state.velocity + way.rate;
+  state.rotation = unit(compose(from_turn(turn.left), state.rotation));
+  state.spin = state.spin + turn.rate;
   return state;
 }
 
@@ -152,6 +175,10 @@ void LiveMotion::begin(const PlayedFrame& frame) {
                         .doubt = clock_.doubt(),
                         .speed = length(now.velocity),
                         .spin = length(now.spin)});
+    next.fades = std::max(kFades, kFadesPeriods * std::min(period, kLongPeriod));
+    const double doubted = kDoubts * clock_.doubt() / next.fades;
+    next.slack = kSlack + doubted * length(now.velocity);
+    next.turning_slack = kTurningSlack + doubted * length(now.spin);
     jumped = gate_.has_jumped();
   }
   set_offsets(next, jumped);

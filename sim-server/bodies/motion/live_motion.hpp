@@ -51,8 +51,11 @@ class LiveMotion : public PosedMotion {
     double coast = 0.0;    ///< [s]
     double delay = 0.0;    ///< [s]
     PoseFit fit;
-    Vector3 offset = {};       ///< of the frame before less this one, fades out [m]
-    Vector3 turn_offset = {};  ///< the same of the rotation, in the world [rad]
+    Vector3 offset = {};         ///< of the frame before less this one, fades out [m]
+    Vector3 turn_offset = {};    ///< the same of the rotation, in the world [rad]
+    double fades = 1.0;          ///< its time constant [s]
+    double slack = 0.0;          ///< what of its speed is not told [m/s]
+    double turning_slack = 0.0;  ///< [rad/s]
   };
 
   /// Share of the velocity left `dt` after the last pose, and the time it has been going on at full

@@ -60,7 +60,7 @@ class Play {
         motion_.at(middle + kStep).position - motion_.at(middle - kStep).position;
     const Vector3 velocity = 0.5 / kStep * change;
     fastest_ = std::max(fastest_, length(velocity));
-    EXPECT_LT(length(velocity - state.velocity), 0.2 + 0.1 * length(velocity)) << seconds_;
+    EXPECT_LT(length(velocity - state.velocity), 0.1 + 0.1 * length(velocity)) << seconds_;
   }
 
   GrabbedMotion& motion_;
