@@ -130,6 +130,8 @@ constexpr ArgumentRow kGet[] = {text("name", "as in /set")};
 constexpr ArgumentRow kPreset[] = {
     text("name", "of a sound: one's own or a shipped one, no path"),
     {'f', "seconds", "s", 0, 600, "within which it goes there, 0.02 at least"}};
+constexpr ArgumentRow kPause[] = {{'i', "on", "1", 0, 1, "1: time stands still, 0: it goes on"}};
+constexpr ArgumentRow kTone[] = {{'i', "channel", "1", 0, kLastId, "from 1; 0 ends it"}};
 constexpr ArgumentRow kPing[] = {stamp("t0", "sender's clock when it sent the ping")};
 
 constexpr ArgumentRow kDone[] = {
@@ -216,6 +218,15 @@ constexpr auto kTable = std::to_array<AddressRow>({
      "Moves a number of the sound or of the rig's levels within 20 ms; answered by /value", kSet},
     {"/get", Direction::synth_alone, "Asks for such a number; answered by /value", kGet},
     {"/preset", Direction::synth_alone, "Goes over to another sound; answered by /done", kPreset},
+    {"/tone", Direction::synth_alone,
+     "Plays a soft tone of a second on one channel, in place of water; answered by /done", kTone},
+    {"/pause", Direction::sim_alone,
+     "Simulated time stands still or goes on, what was told sounds to its end; answered by /done",
+     kPause},
+    {"/reset",
+     Direction::sim_alone,
+     "The scene begins anew, water, bodies and their own motions; answered by /done",
+     {}},
     {"/dumpOSC", Direction::to_both, "Prints incoming packets; answered by /done", kDumpOsc},
     {"/error", Direction::to_both, "Turns the report of failures on or off; answered by /done",
      kError},

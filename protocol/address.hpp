@@ -17,6 +17,7 @@ enum class Direction {
   to_sim,       ///< trackers' poses
   to_both,      ///< control: either program takes it
   synth_alone,  ///< control: only the synth takes it
+  sim_alone,    ///< control: only the simulator takes it
   subscribers,  ///< from the simulator to who asked with /notify
   reply,        ///< to who sent the command
 };
@@ -44,7 +45,8 @@ struct AddressRow {
 /// Control: who sends one waits for an answer. Behind its own arguments texts are allowed and
 /// ignored (filling.hpp).
 [[nodiscard]] constexpr bool is_command(const AddressRow& row) noexcept {
-  return row.direction == Direction::to_both || row.direction == Direction::synth_alone;
+  return row.direction == Direction::to_both || row.direction == Direction::synth_alone ||
+         row.direction == Direction::sim_alone;
 }
 
 /// The row's type string with its comma, optional arguments included.

@@ -13,6 +13,7 @@ std::string_view name_of(Direction direction) {
     case Direction::synth_alone:
       return "to the synth";
     case Direction::to_sim:
+    case Direction::sim_alone:
       return "to the simulator";
     case Direction::to_both:
       return "to either program";

@@ -82,6 +82,7 @@ std::unique_ptr<Server::Playing> Server::make_playing(int sample_rate, Recorder*
   settings.muted = muted_;
   settings.monitor = monitor_.get();
   settings.max_voices = options_.engine.max_voices;
+  settings.tones = tones_of(rig_, sample_rate);
   settings.schedule = {options_.latency, options_.late_window, options_.horizon};
   EngineSettings engine = engine_settings(options_, sample_rate);
   engine.watch = watch;
@@ -204,6 +205,15 @@ void Server::start_receiver(protocol::UdpSocket socket) {
   actions.mute = [this, push](bool on) {
     muted_ = on;
     push(on ? Command::Kind::mute : Command::Kind::unmute);
+  };
+  actions.tone = [this](int channel) -> std::string {
+    if (channel > channel_count(rig_)) {
+      return "the rig has " + std::to_string(channel_count(rig_)) + " channels, from 1";
+    }
+    Command command;
+    command.kind = Command::Kind::tone;
+    command.channel = channel - 1;
+    return queue_.push(command) ? "" : "busy";
   };
   add_desk(actions);
   receiver_ = std::make_unique<Receiver>(std::move(socket), queue_,

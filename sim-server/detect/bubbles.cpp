@@ -243,4 +243,11 @@ void Bubbles::renew(double time) {
   pool_ = std::move(next);
 }
 
+void Bubbles::forget() {
+  pool_.clear();
+  skip();
+  memory_.write(fluid_.device(),
+                std::vector<float>(static_cast<std::size_t>(fluid_.params().count), kSlow));
+}
+
 }  // namespace splash::sim

@@ -83,6 +83,8 @@ class Bubbles {
   /// Drops the dead, keeps the order, and adds what collect found to be spawned; called by its
   /// owner after cavities have been searched among the states.
   void renew(double time);
+  /// All are gone, and all water was slow.
+  void forget();
 
  private:
   void upload();

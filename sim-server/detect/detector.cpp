@@ -112,6 +112,11 @@ void Detector::enqueue_contacts(const Step& step) {
                    static_cast<float>(step.piston), touches_.memory());
 }
 
+void Detector::forget() {
+  bubbles_.forget();
+  impacts_.forget();
+}
+
 std::vector<Vector3> Detector::bubble_places() const {
   std::vector<Vector3> places;
   for (const PoolBubble& bubble : bubbles_.pool()) places.push_back(bubble.position);

@@ -42,6 +42,9 @@ class Detector {
   /// What it remembers of the particles, on the device, for checkpoints.
   [[nodiscard]] std::vector<cl::Buffer> state() const { return {bubbles_.memory()}; }
 
+  /// The water and the bodies jumped: bubbles are gone, and who is in the water is found out anew.
+  void forget();
+
   [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
   /// Where they are [m].
   [[nodiscard]] std::vector<Vector3> bubble_places() const;

@@ -104,6 +104,11 @@ ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settin
       touching_(std::min(kTouching * distance.spacing(), settings.impact_release / 2.0)),
       blows_(faces_.size()) {}
 
+void ImpactWatch::forget() {
+  skin_.clear();
+  std::fill(blows_.begin(), blows_.end(), Blow{});
+}
+
 std::vector<double> ImpactWatch::gaps_of(const std::vector<SurfacePoint>& points) const {
   const double faintest = distance_.colour_at(kSpacingsSeen * distance_.spacing());
   std::vector<double> gaps;

@@ -56,6 +56,9 @@ class ImpactWatch {
   [[nodiscard]] std::vector<DetectedImpact> observe(double time, double frame,
                                                     const std::vector<SurfacePoint>& points);
 
+  /// The next call is as the first.
+  void forget();
+
  private:
   /// Of a point of the skin.
   struct Skin {

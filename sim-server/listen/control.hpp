@@ -47,6 +47,8 @@ struct ControlActions {
   std::function<bool(const protocol::Message& message, const PoseMoment& moment)> track = {};
   /// Grabs a body or lets it go; why it cannot, or nothing.
   std::function<std::string(std::int32_t body, bool on)> grab = {};
+  std::function<void(bool)> pause = {};
+  std::function<void()> reset = {};  ///< the scene
   /// The program's numbers; the refused datagrams and messages are added here.
   std::function<protocol::SimStatus()> status = {};
   std::function<void()> quit = {};
@@ -113,6 +115,8 @@ class ControlServer {
   void dump_osc(const Request& request);
   void error(const Request& request);
   void clear_sched(const Request& request);
+  void pause(const Request& request);
+  void reset(const Request& request);
   void quit(const Request& request);
   void ping(const Request& request);
 

@@ -28,8 +28,8 @@ struct ControlServer::Command {
   const char* address;
   void (ControlServer::*run)(const Request&);
 
-  static const std::array<Command, 11>& all() {
-    static constexpr std::array<Command, 11> kCommands = {{
+  static const std::array<Command, 13>& all() {
+    static constexpr std::array<Command, 13> kCommands = {{
         {"/body/pose", &ControlServer::body_pose},
         {"/body/grab", &ControlServer::body_grab},
         {"/status", &ControlServer::status},
@@ -39,6 +39,8 @@ struct ControlServer::Command {
         {"/dumpOSC", &ControlServer::dump_osc},
         {"/error", &ControlServer::error},
         {"/clearSched", &ControlServer::clear_sched},
+        {"/pause", &ControlServer::pause},
+        {"/reset", &ControlServer::reset},
         {"/quit", &ControlServer::quit},
         {"/ping", &ControlServer::ping},
     }};
@@ -170,6 +172,25 @@ void ControlServer::error(const Request& request) {
 /// Poses are taken at once and events are the synth's to hold: nothing is scheduled here.
 void ControlServer::clear_sched(const Request& request) {
   reply(request, protocol::done("/clearSched"));
+}
+
+void ControlServer::pause(const Request& request) {
+  if (!actions_.pause) {
+    fail(request, "this program does not pause");
+    return;
+  }
+  const std::int32_t on = first_int(request.message);
+  actions_.pause(on != 0);
+  reply(request, protocol::done("/pause", on));
+}
+
+void ControlServer::reset(const Request& request) {
+  if (!actions_.reset) {
+    fail(request, "this program has no scene to begin anew");
+    return;
+  }
+  actions_.reset();
+  reply(request, protocol::done("/reset"));
 }
 
 void ControlServer::quit(const Request& request) {

@@ -2,9 +2,11 @@
 #include "sim-server/serve/server.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "program/failure.hpp"
@@ -18,6 +20,7 @@ constexpr double kLinePeriod = 2.0;    ///< between two lines on the state [s]
 constexpr double kMishapPeriod = 1.0;  ///< between two lines on what went wrong [s]
 constexpr double kSlipLimit = 0.100;   ///< time slips when behind by more, while frames keep up [s]
 constexpr double kLeanGauges = 1.0;    ///< between two readings of the gauges under load [s]
+constexpr auto kStillTurn = std::chrono::milliseconds(20);
 constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this long are silent [s]
 
 std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
@@ -99,6 +102,8 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
              .track = [this](const protocol::Message& message,
                              const PoseMoment& moment) { return poses_.track(message, moment); },
              .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
+             .pause = [this](bool on) { paused_ = on; },
+             .reset = [this] { begins_anew_ = true; },
              .status =
                  [this] {
                    const std::lock_guard lock(status_mutex_);
@@ -128,6 +133,11 @@ void Server::run(const std::function<bool()>& ended) {
   next_line_ = started_ + kLinePeriod;
   note_gauges();
   while (!ended() && !is_over()) {
+    if (begins_anew_.exchange(false)) simulation_.begin_anew();
+    if (paused_) {
+      stand_still();
+      continue;
+    }
     const double before = simulation_.seconds();
     const double begin = protocol::monotonic_now();
     simulation_.set_origin(pacer_.origin());
@@ -145,6 +155,22 @@ void Server::run(const std::function<bool()>& ended) {
     note_load(frame.seconds - before, computed - begin + end - due);
   }
   wall_seconds_ = protocol::monotonic_now() - started_;
+}
+
+void Server::stand_still() {
+  FrameResult still;
+  still.seconds = simulation_.seconds();
+  std::this_thread::sleep_for(kStillTurn);
+  pacer_.start(still.seconds);  // simulated time is now, however long that goes on
+  send(still);
+  show(still);
+  {
+    const std::lock_guard lock(status_mutex_);
+    pace_.note(protocol::monotonic_now(), still.seconds, simulation_.totals().steps);
+    status_.real_time_factor = static_cast<float>(pace_.real_time_factor());
+    status_.steps_per_second = static_cast<float>(pace_.steps_per_second());
+  }
+  target_status_.poll();
 }
 
 void Server::note_load(double seconds, double spent) {

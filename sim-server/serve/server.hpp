@@ -61,6 +61,8 @@ class Server {
   void say(const Mishap& mishap);
   void send(const FrameResult& frame);
   void show(const FrameResult& frame);
+  /// One turn of a pause: peers hear that we are there, viewers may look around.
+  void stand_still();
   void note_status(const FrameResult& frame);
   [[nodiscard]] std::uint64_t unsent() const;
   void note_gauges();
@@ -87,6 +89,8 @@ class Server {
   TargetStatus target_status_;
   EventIds ids_;
   std::atomic<bool> quit_ = false;
+  std::atomic<bool> paused_ = false;
+  std::atomic<bool> begins_anew_ = false;
   PoseIntake poses_;
   RecentPace pace_;       ///< for /status
   RecentPace line_pace_;  ///< for the lines on the state

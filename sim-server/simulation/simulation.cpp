@@ -113,7 +113,7 @@ std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
   std::vector<Step> plan;
   for (int k = 0; k < steps.count; ++k) {
     const double time = seconds_ + k * steps.dt;
-    const PistonState piston = piston_at(scene_.wave_maker, time);
+    const PistonState piston = piston_at(scene_.wave_maker, time - begun_);
     plan.push_back({steps.dt, piston.offset, piston.speed, static_cast<int>(poses.size()), k == 0});
     const std::vector<BodyStep> now = bodies_.at(time);
     poses.insert(poses.end(), now.begin(), now.end());
@@ -252,7 +252,8 @@ void Simulation::keep(const FrameResult& result) {
 }
 
 double Simulation::fastest_mover(double seconds) const {
-  return std::max(bodies_.fastest(seconds), std::abs(piston_at(scene_.wave_maker, seconds).speed));
+  return std::max(bodies_.fastest(seconds),
+                  std::abs(piston_at(scene_.wave_maker, seconds - begun_).speed));
 }
 
 void Simulation::set_largest_step(double fastest, double acceleration) {
@@ -273,11 +274,26 @@ Mishap Simulation::examine(const Diagnosis& what, double dt) {
   return mishap;
 }
 
+void Simulation::put_back(double seconds) {
+  fluid_.restore(start_);
+  bodies_.reset(seconds);
+  cavity_watch_.forget();
+}
+
+void Simulation::begin_anew() {
+  for (PosedMotion* body : live_) {
+    if (body != nullptr) body->restart(seconds_);
+  }
+  begun_ = seconds_;
+  put_back(seconds_);
+  detector_.forget();
+  needs_.forget();
+  sound_.keep(fluid_.device(), state());
+}
+
 FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   if (mishap.remedy == Remedy::reset) {
-    fluid_.restore(start_);
-    bodies_.reset(seconds_ + frame);
-    cavity_watch_.forget();
+    put_back(seconds_ + frame);
     ++totals_.resets;
   } else {
     calm(mishap, fluid_, bodies_, recovery_.given_up(), seconds_);

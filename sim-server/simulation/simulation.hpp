@@ -78,6 +78,8 @@ class Simulation {
     needs_.forget();
     cavity_watch_.forget();
   }
+  /// The scene begins anew, its time goes on: water, free bodies and the bodies' own motions.
+  void begin_anew();
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
@@ -127,6 +129,8 @@ class Simulation {
   /// Takes the state back to the last sound one, and notes what was wrong.
   [[nodiscard]] Mishap examine(const Diagnosis& what, double dt);
   /// Ends a frame that no try made sound.
+  /// Water and free bodies as they were when time began; `seconds`: now [s].
+  void put_back(double seconds);
   [[nodiscard]] FrameResult give_up(Mishap& mishap, double frame);
 
   Scene scene_;
@@ -139,6 +143,7 @@ class Simulation {
   Needs needs_;
   Survey survey_;  ///< the last one
   double seconds_ = 0.0;
+  double begun_ = 0.0;         ///< when the scene last began anew [s]
   double detected_at_ = 0.0;   ///< time of the last detection [s]
   double largest_step_ = 0.0;  ///< [s]
   double contact_step_ = 0.0;  ///< no step is longer (bodies/contact_step.hpp) [s]

@@ -15,6 +15,7 @@ struct Command {
     clear_scheduled,  ///< forget what waits; what sounds may end
     mute,             ///< fade out until told otherwise; all goes on unheard
     unmute,           ///< open slowly, as at the start
+    tone,             ///< a test tone on `channel`
   };
   Kind kind = Kind::play;
   protocol::Event event;
@@ -23,6 +24,7 @@ struct Command {
   bool at_once = false;      ///< came without a time: in the next block, `offset` into it
   double offset = 0.0;       ///< of the event after its bundle's time [s]
   std::int32_t session = 0;  ///< of the event's sender, 0: not known
+  int channel = -1;          ///< from 0, -1: none
 };
 
 /// Ten blocks of 20 ms at the 40 000 events per second that fill a datagram per frame; one producer

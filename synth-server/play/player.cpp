@@ -23,6 +23,7 @@ Player::Player(Engine& engine, CommandQueue& queue, Recorder* recorder,
       settings_(settings),
       schedule_(settings.schedule),
       clock_(settings.sample_rate),
+      tone_(settings.tones, settings.sample_rate),
       gate_(settings.start_ramp, settings.sample_rate, !settings.muted),
       meter_(engine.channels(), settings.sample_rate),
       part_(static_cast<std::size_t>(engine.channels())),
@@ -33,7 +34,10 @@ void Player::render(const AudioBlock& block) noexcept {
   if (block.restart || blocks_.get() == 0) take_device(block);
   follow(block);
   queue_.consume_all([this](const Command& command) { obey(command); });
-  if (finishing_.load(std::memory_order_relaxed)) engine_.silence(true);
+  if (finishing_.load(std::memory_order_relaxed)) {
+    engine_.silence(true);
+    tone_.choose(LiveTone::kNone);
+  }
   render_parts(block);
   const std::uint64_t voices = engine_.counters().voices;
   voices_peak_.set(std::max(voices_peak_.get(), voices));
@@ -80,6 +84,8 @@ void Player::obey(const Command& command) noexcept {
       return gate_.open(false);
     case Command::Kind::unmute:
       return gate_.open(true);
+    case Command::Kind::tone:
+      return tone_.choose(command.channel);
   }
 }
 
@@ -110,6 +116,7 @@ void Player::render_parts(const AudioBlock& block) noexcept {
     for (std::size_t c = 0; c < part_.size(); ++c) part_[c] = block.channels[c] + done;
     if (settings_.track != nullptr) settings_.track->give(engine_, engine_.clock() + frames);
     engine_.render(part_.data(), frames);
+    tone_.process(part_.data(), frames);
     gate_.process(part_.data(), static_cast<int>(part_.size()), frames);
     meter_.note(part_.data(), frames);
     if (recorder_ != nullptr) recorder_->push(part_.data(), frames);

@@ -15,6 +15,7 @@
 #include "synth-server/play/command_queue.hpp"
 #include "synth-server/play/gate.hpp"
 #include "synth-server/play/governor.hpp"
+#include "synth-server/play/live_tone.hpp"
 #include "synth-server/play/meter.hpp"
 #include "synth-server/play/sample_clock.hpp"
 #include "synth-server/play/schedule.hpp"
@@ -48,6 +49,7 @@ struct PlayerSettings {
   Track* track = nullptr;                               ///< a log that is played; null: none
   int max_voices = 4096;                                ///< the engine's
   double (*now)() noexcept = &protocol::monotonic_now;  ///< by which the load is measured [s]
+  std::vector<Tone> tones = {};  ///< of each channel, for tests of the transducers
 };
 
 class Player final : public BlockSource {
@@ -80,6 +82,7 @@ class Player final : public BlockSource {
   PlayerSettings settings_;
   ScheduleSettings schedule_;  ///< with the latency that this device's blocks need
   SampleClock clock_;
+  LiveTone tone_;
   Gate gate_;
   Meter meter_;
   std::vector<float*> part_;  ///< channels of a block's part

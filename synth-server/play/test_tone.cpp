@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/play/test_tone.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "synth-server/play/live_tone.hpp"
 
 namespace splash::synth {
 
 TestTone::TestTone(const Rig& rig, double sample_rate)
     : sample_rate_(sample_rate), fade_(Fade::kSeconds, sample_rate) {
+  const std::vector<Tone> tones = tones_of(rig, sample_rate);
   for (const Output& output : rig.outputs) {
-    const double high = std::min(output.band.high, 0.4 * sample_rate);
-    const double middle = std::sqrt(output.band.low * high);
     for (int c = 0; c < channel_count(output); ++c) {
-      voices_.push_back({2.0 * std::numbers::pi * middle / sample_rate, kLevel * output.ceiling,
-                         OutputGuard(output, sample_rate, c)});
+      const Tone& tone = tones[voices_.size()];
+      voices_.push_back({tone.step, tone.amplitude, OutputGuard(output, sample_rate, c)});
     }
   }
 }

@@ -15,7 +15,6 @@ namespace splash::synth {
 
 class TestTone final : public BlockSource {
  public:
-  static constexpr double kLevel = 0.1;  ///< of the channel's ceiling [1]
   static constexpr int kNone = -1;
 
   TestTone(const Rig& rig, double sample_rate);

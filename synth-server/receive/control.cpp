@@ -69,6 +69,10 @@ protocol::Message Control::carry_out(const protocol::Message& message, const Arr
   if (address == "/notify") return notify(message, arrived);
   if (address == "/quit") return quit(arrived.from);
   if (address == "/set" || address == "/get" || address == "/preset") return change(message);
+  if (address == "/tone") {
+    const std::string reason = actions_.tone(integer(message));
+    return reason.empty() ? protocol::done(address) : protocol::fail(address, reason);
+  }
   if (address == "/clearSched") {
     actions_.clear_scheduled();
   } else if (address == "/mute") {

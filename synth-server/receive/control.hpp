@@ -39,6 +39,8 @@ struct ControlActions {
   std::function<std::vector<Value>(std::size_t)> changes = [](auto&&...) {
     return std::vector<Value>();
   };
+  /// A test tone on a channel, from 1, or none; the reason why not, or nothing.
+  std::function<std::string(int)> tone = [](int) { return "no channels"; };
 };
 
 /// Where and when a command came, and what its datagram may still draw.

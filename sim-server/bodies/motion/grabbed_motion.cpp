@@ -42,7 +42,7 @@ GrabbedMotion::Share GrabbedMotion::share(double seconds) const {
 }
 
 void GrabbedMotion::turn_over(double seconds, bool held) {
-  const double way = length(hand_->at(seconds).position - own_->at(seconds).position);
+  const double way = length(hand_->at(seconds).position - own(seconds).position);
   from_ = share(seconds).value;
   since_ = seconds;
   takes_ = std::max(held ? kTakesHold : kLetsGo, kSteepest * way / kSpeed);
@@ -52,7 +52,7 @@ void GrabbedMotion::turn_over(double seconds, bool held) {
 void GrabbedMotion::begin(const PlayedFrame& frame) {
   const std::scoped_lock lock(mutex_);
   if (grabbed_anew_ && share(frame.seconds).value == 0.0) {
-    const BodyState now = own_->at(frame.seconds);
+    const BodyState now = own(frame.seconds);
     hand_ = std::make_unique<LiveMotion>(Keyframe{0.0, now.position, now.rotation});
     last_pose_ = 0.0;
   }
@@ -64,18 +64,18 @@ void GrabbedMotion::begin(const PlayedFrame& frame) {
 }
 
 BodyState GrabbedMotion::at(double seconds) const {
-  const BodyState own = own_->at(seconds);
+  const BodyState script = own(seconds);
   const auto [share, rate] = this->share(seconds);
-  if (share == 0.0 && rate == 0.0) return own;
+  if (share == 0.0 && rate == 0.0) return script;
   const BodyState hand = hand_->at(seconds);
   if (share == 1.0 && rate == 0.0) return hand;
-  const Vector3 way = hand.position - own.position;
-  const Vector3 turn = to_turn(compose(hand.rotation, inverse(own.rotation)));
+  const Vector3 way = hand.position - script.position;
+  const Vector3 turn = to_turn(compose(hand.rotation, inverse(script.rotation)));
   BodyState state;
-  state.position = own.position + share * way;
-  state.rotation = unit(compose(from_turn(share * turn), own.rotation));
-  state.velocity = (1.0 - share) * own.velocity + share * hand.velocity + rate * way;
-  state.spin = (1.0 - share) * own.spin + share * hand.spin + rate * turn;
+  state.position = script.position + share * way;
+  state.rotation = unit(compose(from_turn(share * turn), script.rotation));
+  state.velocity = (1.0 - share) * script.velocity + share * hand.velocity + rate * way;
+  state.spin = (1.0 - share) * script.spin + share * hand.spin + rate * turn;
   return state;
 }
 

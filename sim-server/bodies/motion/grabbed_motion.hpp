@@ -23,6 +23,7 @@ class GrabbedMotion : public PosedMotion {
   void begin(const PlayedFrame& frame) override;
   [[nodiscard]] BodyState at(double seconds) const override;
   void grab(bool on) override;
+  void restart(double seconds) override { begun_ = seconds; }
   [[nodiscard]] bool is_held() const noexcept override { return held_; }
   [[nodiscard]] bool is_tracked() const noexcept override { return false; }
 
@@ -36,9 +37,11 @@ class GrabbedMotion : public PosedMotion {
     double rate = 0.0;   ///< [1/s]
   };
   [[nodiscard]] Share share(double seconds) const;
+  [[nodiscard]] BodyState own(double seconds) const { return own_->at(seconds - begun_); }
   void turn_over(double seconds, bool held);
 
   std::unique_ptr<Motion> own_;
+  double begun_ = 0.0;  ///< simulated time at which its own motion began [s]
   std::mutex mutex_;
   bool grabbed_ = false;              ///< under mutex_, as the next three
   bool grabbed_anew_ = false;         ///< since the last frame began

@@ -25,6 +25,8 @@ class PosedMotion : public Motion {
   virtual void begin(const PlayedFrame& frame) = 0;
   /// From now on it follows its poses, or its own motion.
   virtual void grab(bool /*on*/) {}
+  /// Its own motion begins anew at `seconds` of simulated time.
+  virtual void restart(double /*seconds*/) {}
   /// True while poses move a body that also has a motion of its own.
   [[nodiscard]] virtual bool is_held() const noexcept { return false; }
   /// True for a body that only poses move.
