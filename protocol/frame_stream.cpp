@@ -58,8 +58,11 @@ int listen_at(Endpoint& local) {
 }  // namespace
 
 FrameStream::FrameStream(const FrameStreamSettings& settings, ViewFrame greeting)
+    : FrameStream(settings, [frame = std::move(greeting)] { return frame; }) {}
+
+FrameStream::FrameStream(const FrameStreamSettings& settings, std::function<ViewFrame()> greet)
     : settings_(settings),
-      greeting_(std::make_shared<const ViewFrame>(std::move(greeting))),
+      greet_([make = std::move(greet)] { return std::make_shared<const ViewFrame>(make()); }),
       local_(settings.listen) {
   listener_ = listen_at(local_);
   wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
@@ -111,7 +114,7 @@ void FrameStream::run() {
       write(viewers_[i]);
     }
     drop_gone();
-    if (polled[0].revents != 0) welcome();
+    if (polled[0].revents != 0 || full_) welcome();
     note_wanted();
   }
 }
@@ -137,7 +140,7 @@ void FrameStream::welcome() {
   (void)setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   (void)setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
   (void)setsockopt(descriptor, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
-  viewers_.push_back({descriptor, 0, {greeting_}, 0});
+  viewers_.push_back({descriptor, 0, {greet_()}, 0});
   write(viewers_.back());
   drop_gone();
 }

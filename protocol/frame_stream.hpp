@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -29,6 +30,8 @@ class FrameStream {
 
   /// Listens. Throws std::runtime_error that names the port, the cause and what to do.
   FrameStream(const FrameStreamSettings& settings, ViewFrame greeting);
+  /// `greet` makes it for each viewer, on the stream's thread.
+  FrameStream(const FrameStreamSettings& settings, std::function<ViewFrame()> greet);
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
@@ -64,7 +67,7 @@ class FrameStream {
   void note_wanted();
 
   FrameStreamSettings settings_;
-  Shared greeting_;
+  std::function<Shared()> greet_;
   int listener_ = -1;
   int wake_ = -1;
   Endpoint local_;

@@ -23,8 +23,9 @@ void add_rows(const std::string& name, const std::vector<Field<Part>>& fields, c
   for (const Field<Part>& field : fields) {
     const double& number = part.*std::get<double Part::*>(field.member);
     const program::Row& row = field.row;
-    knobs[static_cast<std::size_t>(&number - first)] = {name + '/' + row.key, row.min, row.max,
-                                                        row.min > 0.0 && row.unit != "dB"};
+    knobs[static_cast<std::size_t>(&number - first)] = {
+        name + '/' + row.key, row.min, row.max, row.min > 0.0 && row.unit != "dB", row.unit,
+        row.meaning};
   }
 }
 
@@ -32,6 +33,14 @@ const program::Row& row_of(const std::vector<Field<OutputEntry>>& rows, const ch
   return std::find_if(rows.begin(), rows.end(),
                       [&](const auto& field) { return field.row.key == key; })
       ->row;
+}
+
+constexpr const char* kMuteKey = "mute";
+constexpr const char* kSoloKey = "solo";
+
+Knob switch_called(const std::string& of, const std::string& key) {
+  const char* meaning = key == kMuteKey ? "1: silent" : "1: heard, and all its like without it not";
+  return {of + '/' + key, 0.0, 1.0, false, "1", meaning};
 }
 
 std::vector<Knob> knobs_of(const Rig& rig) {
@@ -47,8 +56,8 @@ std::vector<Knob> knobs_of(const Rig& rig) {
   add_rows("foot", foot_fields(), sound.foot, sound, knobs);
   constexpr std::array kComponents = {"impact", "bubble", "cavity"};
   for (std::size_t c = 0; c < kComponents.size(); ++c) {
-    knobs[ControlLayout::mute(c)].name = std::string(kComponents[c]) + "/mute";
-    knobs[ControlLayout::solo(c)].name = std::string(kComponents[c]) + "/solo";
+    knobs[ControlLayout::mute(c)] = switch_called(kComponents[c], kMuteKey);
+    knobs[ControlLayout::solo(c)] = switch_called(kComponents[c], kSoloKey);
   }
   const auto rows = output_fields();
   const program::Row& gain = row_of(rows, "gain_db");
@@ -59,10 +68,12 @@ std::vector<Knob> knobs_of(const Rig& rig) {
     const auto at = [&](ControlLayout::OutputNumber number) -> Knob& {
       return knobs[ControlLayout::of_output(o, number)];
     };
-    at(ControlLayout::gain_db) = {name + "/gain_db", gain.min, gain.max, false};
-    at(ControlLayout::ceiling) = {name + "/ceiling", ceiling.min, rig.outputs[o].ceiling, true};
-    at(ControlLayout::output_mute).name = name + "/mute";
-    at(ControlLayout::output_solo).name = name + "/solo";
+    at(ControlLayout::gain_db) = {name + "/gain_db", gain.min,    gain.max, false,
+                                  gain.unit,         gain.meaning};
+    at(ControlLayout::ceiling) = {name + "/ceiling", ceiling.min,    rig.outputs[o].ceiling, true,
+                                  ceiling.unit,      ceiling.meaning};
+    at(ControlLayout::output_mute) = switch_called(name, kMuteKey);
+    at(ControlLayout::output_solo) = switch_called(name, kSoloKey);
   }
   const std::vector<std::string> names = channel_names(rig);
   for (std::size_t c = 0; c < channels; ++c) {
@@ -70,9 +81,14 @@ std::vector<Knob> knobs_of(const Rig& rig) {
     const auto at = [&](ControlLayout::ChannelNumber number) -> Knob& {
       return knobs[layout.of_channel(c, number)];
     };
-    at(ControlLayout::trim_db) = {name + "/trim_db", trim.min, trim.max, false};
-    at(ControlLayout::channel_mute).name = name + "/mute";
-    at(ControlLayout::channel_solo).name = name + "/solo";
+    at(ControlLayout::trim_db) = {name + "/trim_db",
+                                  trim.min,
+                                  trim.max,
+                                  false,
+                                  "dB",
+                                  "of this channel, on top of its output's gain"};
+    at(ControlLayout::channel_mute) = switch_called(name, kMuteKey);
+    at(ControlLayout::channel_solo) = switch_called(name, kSoloKey);
   }
   return knobs;
 }

@@ -21,6 +21,8 @@ struct Knob {
   double min = 0.0;
   double max = 1.0;
   bool logarithmic = false;  ///< moves evenly in its logarithm
+  std::string unit = "1";
+  std::string meaning = {};
 };
 
 /// From any thread but the audio callback's.

@@ -30,8 +30,8 @@ double to_unix(double monotonic) {
 
 }  // namespace
 
-Monitor::Monitor(const protocol::FrameStreamSettings& settings, const Rig& rig, int sample_rate,
-                 std::function<bool()> is_muted)
+Monitor::Monitor(const protocol::FrameStreamSettings& settings, const Rig& rig, const Desk& desk,
+                 int sample_rate, std::function<bool()> is_muted)
     : pans_(pans_of(rig)),
       is_muted_(std::move(is_muted)),
       peaks_written_(pans_.size()),
@@ -39,7 +39,8 @@ Monitor::Monitor(const protocol::FrameStreamSettings& settings, const Rig& rig, 
       slot_peaks_(kSlots * pans_.size()),
       peaks_read_(pans_.size()),
       peaks_(pans_.size()),
-      stream_(asking(settings), rig_frame(rig, sample_rate)),
+      stream_(asking(settings),
+              [&rig, &desk, sample_rate] { return rig_frame(rig, desk, sample_rate); }),
       thread_([this] { run(); }) {}
 
 Monitor::~Monitor() {

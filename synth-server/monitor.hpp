@@ -20,10 +20,10 @@ namespace splash::synth {
 
 class Monitor final : public BlockTap {
  public:
-  /// Listens; `sample_rate` [Hz] is the device's at the start. Throws std::runtime_error that says
-  /// what to do.
-  Monitor(const protocol::FrameStreamSettings& settings, const Rig& rig, int sample_rate,
-          std::function<bool()> is_muted);
+  /// Listens; `rig` and `desk` outlive it. `sample_rate` [Hz] is the device's at the start. Throws
+  /// std::runtime_error that says what to do.
+  Monitor(const protocol::FrameStreamSettings& settings, const Rig& rig, const Desk& desk,
+          int sample_rate, std::function<bool()> is_muted);
   ~Monitor() override;
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;

@@ -41,7 +41,7 @@ double place_of(const Output& output, int channel) {
 
 }  // namespace
 
-std::string describe_for_viewers(const Rig& rig, int sample_rate) {
+std::string describe_for_viewers(const Rig& rig, const Desk& desk, int sample_rate) {
   Json json;
   json["rig"] = rig.name;
   json["description"] = rig.description;
@@ -61,13 +61,23 @@ std::string describe_for_viewers(const Rig& rig, int sample_rate) {
     first += channel_count(output);
   }
   json["channels"] = channel_names(rig);
+  json["rows"] = Json::array();
+  for (const Knob& knob : desk.knobs()) {
+    json["rows"].push_back({{"name", knob.name},
+                            {"min", knob.min},
+                            {"max", knob.max},
+                            {"value", desk.get(knob.name).value_or(knob.min)},
+                            {"logarithmic", knob.logarithmic},
+                            {"unit", knob.unit},
+                            {"meaning", knob.meaning}});
+  }
   // A name may have any bytes: those that are no UTF-8 are replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-protocol::ViewFrame rig_frame(const Rig& rig, int sample_rate) {
+protocol::ViewFrame rig_frame(const Rig& rig, const Desk& desk, int sample_rate) {
   protocol::FrameWriter writer(protocol::kRigFrame, protocol::unix_now());
-  writer.text(describe_for_viewers(rig, sample_rate));
+  writer.text(describe_for_viewers(rig, desk, sample_rate));
   return std::move(writer).take();
 }
 

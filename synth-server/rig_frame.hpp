@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "protocol/frame.hpp"
+#include "synth-server/desk.hpp"
 #include "synth-server/output/rig.hpp"
 
 namespace splash::synth {
 
 /// JSON. `sample_rate` [Hz].
-[[nodiscard]] std::string describe_for_viewers(const Rig& rig, int sample_rate);
-[[nodiscard]] protocol::ViewFrame rig_frame(const Rig& rig, int sample_rate);
+[[nodiscard]] std::string describe_for_viewers(const Rig& rig, const Desk& desk, int sample_rate);
+[[nodiscard]] protocol::ViewFrame rig_frame(const Rig& rig, const Desk& desk, int sample_rate);
 
 /// What a channel gives to either side of a stereo monitor [1].
 struct Pan {

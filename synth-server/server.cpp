@@ -150,7 +150,7 @@ void Server::start_monitor() {
   if (!options_.show) return;
   monitor_ = std::make_unique<Monitor>(
       protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow}, rig_,
-      format_.sample_rate, [this] { return muted_.load(); });
+      desk_, format_.sample_rate, [this] { return muted_.load(); });
 }
 
 void Server::record(const float* const* channels, int frames) {
