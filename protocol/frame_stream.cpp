@@ -114,7 +114,7 @@ void FrameStream::run() {
       write(viewers_[i]);
     }
     drop_gone();
-    if (polled[0].revents != 0 || full_) welcome();
+    if (polled[0].revents != 0) welcome();
     note_wanted();
   }
 }

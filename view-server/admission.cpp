@@ -16,14 +16,19 @@ struct Row {
   Way way;
 };
 
-constexpr std::array<Row, 8> kAllowed = {{{"/body/grab", Way::sim},
-                                          {"/body/pose", Way::sim},
-                                          {"/mute", Way::synth},
-                                          {"/set", Way::synth},
-                                          {"/get", Way::synth},
-                                          {"/preset", Way::synth},
-                                          {"/clearSched", Way::both},
-                                          {"/ping", Way::here}}};
+constexpr std::string_view kPose = "/body/pose";
+
+constexpr std::array<Row, 11> kAllowed = {{{"/body/grab", Way::sim},
+                                           {kPose, Way::sim},
+                                           {"/pause", Way::sim},
+                                           {"/reset", Way::sim},
+                                           {"/mute", Way::synth},
+                                           {"/tone", Way::synth},
+                                           {"/set", Way::synth},
+                                           {"/get", Way::synth},
+                                           {"/preset", Way::synth},
+                                           {"/clearSched", Way::both},
+                                           {"/ping", Way::here}}};
 
 bool is_at_home(std::string_view host) {
   const std::string name(host.substr(0, host.rfind(':')));
@@ -32,7 +37,7 @@ bool is_at_home(std::string_view host) {
 }
 
 Admitted refused(std::string address, std::string reason) {
-  return {Way::refused, {}, std::move(address), std::move(reason)};
+  return {Way::refused, {}, {}, std::move(address), std::move(reason)};
 }
 
 }  // namespace
@@ -48,8 +53,9 @@ Admitted admit(protocol::Bytes bytes) {
   if (read.refusal != protocol::Refusal::none) {
     return refused("/", std::string(protocol::describe(read.refusal)));
   }
-  if (read.packet.time || read.packet.messages.size() != 1) {
-    return refused("#bundle", "one message is taken, no bundle");
+  const bool single = read.packet.messages.size() == 1;
+  if (!single || (read.packet.time && read.packet.messages.front().address != kPose)) {
+    return refused("#bundle", "one message is taken; in a bundle, a pose");
   }
   protocol::Message& message = read.packet.messages.front();
   const auto row = std::find_if(kAllowed.begin(), kAllowed.end(), [&](const Row& allowed) {
@@ -57,7 +63,7 @@ Admitted admit(protocol::Bytes bytes) {
   });
   if (row == kAllowed.end()) return refused(message.address, "a page may not say this");
   if (const auto reason = protocol::violation(message)) return refused(message.address, *reason);
-  return {row->way, std::move(message), {}, {}};
+  return {row->way, std::move(message), read.packet.time, {}, {}};
 }
 
 }  // namespace splash::view

@@ -2,6 +2,7 @@
 // What is let in: which pages may speak to the server, and what of theirs goes on to the programs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,12 +21,13 @@ enum class Way { refused, sim, synth, both, here };
 
 struct Admitted {
   Way way = Way::refused;
-  protocol::Message message;  ///< where it is not refused
-  std::string address;        ///< of what was refused, as far as it can be told
-  std::string reason;         ///< why it was
+  protocol::Message message;                   ///< where it is not refused
+  std::optional<protocol::TimeTag> made = {};  ///< when, by the page's clock: of a pose
+  std::string address;                         ///< of what was refused, as far as it can be told
+  std::string reason;                          ///< why it was
 };
 
-/// One OSC message of a page.
+/// One OSC message of a page; a pose may lie in a bundle, whose time tag says when it was made.
 [[nodiscard]] Admitted admit(protocol::Bytes bytes);
 
 }  // namespace splash::view

@@ -20,7 +20,9 @@ void run(const view::Options& options) {
   std::printf("listening: %s\nopen http://%s/\n", place.c_str(), place.c_str());
   std::fflush(stdout);
   service.ready("http://" + place + "/");
-  server.run();
+  server.run([&service] {
+    if (service.is_due()) service.alive();
+  });
   service.stopping();
 }
 

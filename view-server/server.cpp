@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The only file that includes Boost.Beast, which takes long to compile.
+// The only file that includes Boost.Beast, which takes long to compile, with the two kinds of
+// connection beside it.
 #include "view-server/server.hpp"
 
 #include <utility>  // Boost 1.74 forgets it in C++20
@@ -8,12 +9,10 @@
 #include <array>
 #include <boost/asio/ip/udp.hpp>
 #include <boost/asio/signal_set.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <csignal>
-#include <deque>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
@@ -23,31 +22,27 @@
 #include "protocol/limits.hpp"
 #include "view-server/admission.hpp"
 #include "view-server/feed.hpp"
-#include "view-server/page.hpp"
+#include "view-server/page_socket.hpp"
+#include "view-server/query.hpp"
+#include "view-server/visit.hpp"
 
 namespace splash::view {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-using asio::ip::tcp;
 using asio::ip::udp;
-using boost::system::error_code;
 
 constexpr std::size_t kPagesMax = 16;
-constexpr std::size_t kQueueMax = 64;     ///< messages that a slow page may have waiting
-constexpr std::size_t kSoundAsked = 16;   ///< as many as the synth allows
-constexpr int kNotifyEvery = 10;          ///< seconds; the programs forget clients after a minute
-constexpr std::size_t kHeaderMax = 8192;  ///< of a request [bytes]
-constexpr auto kPatience = std::chrono::seconds(10);
+constexpr std::size_t kListensMax = 1024;  ///< addresses
+constexpr std::size_t kSoundAsked = 16;    ///< as many as the synth allows
+constexpr int kNotifyEvery = 10;           ///< seconds; the programs forget clients after a minute
+/// So long the programs are looked at for one question about the tree, and so soon it is answered.
+constexpr auto kInterest = std::chrono::seconds(30);
+constexpr auto kSoon = std::chrono::milliseconds(700);
+constexpr auto kTurn = std::chrono::milliseconds(100);
+constexpr auto kNoRoom = std::chrono::milliseconds(200);  ///< no descriptor is left: wait so long
 
 udp::endpoint to_udp(const protocol::Endpoint& endpoint) {
   return {asio::ip::address_v4(endpoint.address), endpoint.port};
-}
-
-std::string_view view_of(beast::string_view text) {
-  return {text.data(), text.size()};
 }
 
 SharedFrame bytes_of(const protocol::Message& message) {
@@ -58,185 +53,6 @@ bool is_state(const protocol::ViewFrame& frame) {
   return frame.size() >= protocol::kFrameHead &&
          protocol::frame_kind(frame.data()) == protocol::kStateFrame;
 }
-
-const char* type_of(std::string_view name) {
-  if (name.ends_with(".html")) return "text/html; charset=utf-8";
-  if (name.ends_with(".css")) return "text/css";
-  return "text/javascript";
-}
-
-using Request = http::request<http::empty_body>;
-using Response = http::response<http::string_body>;
-
-Response answer(const Request& request, http::status status, std::string text, const char* type) {
-  Response response(status, request.version());
-  response.set(http::field::content_type, type);
-  response.set(http::field::cache_control, "no-cache");
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("X-Frame-Options", "DENY");
-  response.body() = std::move(text);
-  response.prepare_payload();
-  response.keep_alive(false);
-  return response;
-}
-
-/// A file of the page.
-Response file_for(const Request& request) {
-  std::string_view name = view_of(request.target());
-  name = name.substr(0, name.find('?'));
-  name.remove_prefix(name.starts_with('/') ? 1 : 0);
-  if (name.empty()) name = "index.html";
-  if (request.method() != http::verb::get) {
-    return answer(request, http::status::method_not_allowed, "only GET\n", "text/plain");
-  }
-  for (const PageFile& file : page_files()) {
-    if (file.name == name) {
-      return answer(request, http::status::ok, std::string(file.text), type_of(name));
-    }
-  }
-  return answer(request, http::status::not_found, "no such file\n", "text/plain");
-}
-
-class Page;
-
-/// What a page may do.
-class PageOwner {
- public:
-  virtual void heard(Page& page, protocol::Bytes message) = 0;
-  virtual void wants_state() = 0;
-  virtual void left(const std::shared_ptr<Page>& page) = 0;
-
- protected:
-  ~PageOwner() = default;
-};
-
-/// One browser on its WebSocket.
-class Page : public std::enable_shared_from_this<Page> {
- public:
-  Page(beast::tcp_stream stream, PageOwner& owner) : socket_(std::move(stream)), owner_(owner) {}
-
-  void accept(const Request& request, std::function<void()> accepted) {
-    socket_.set_option(beast::websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(protocol::kMaxDatagram);
-    socket_.auto_fragment(false);
-    socket_.async_accept(request, [self = shared_from_this(),
-                                   accepted = std::move(accepted)](const error_code& error) {
-      if (error) return self->end();
-      accepted();
-      self->read();
-    });
-  }
-  /// A page that does not take what it got loses this.
-  void send(const SharedFrame& bytes, bool text = false) {
-    if (ended_ || waiting_.size() >= kQueueMax) return;
-    waiting_.push_back({bytes, text});
-    if (waiting_.size() == 1) write();
-  }
-  void send_state(const SharedFrame& frame) {
-    if (std::exchange(wants_state_, false)) send(frame);
-  }
-  [[nodiscard]] bool wants_state() const noexcept { return wants_state_; }
-  void end() {
-    if (std::exchange(ended_, true)) return;
-    beast::get_lowest_layer(socket_).close();
-    owner_.left(shared_from_this());
-  }
-  std::set<std::int32_t> grabbed;  ///< bodies
-
- private:
-  struct Waiting {
-    SharedFrame bytes;
-    bool text = false;
-  };
-
-  void read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
-      if (error) return self->end();
-      self->take();
-      self->read();
-    });
-  }
-  void take() {
-    const auto data = buffer_.data();
-    if (socket_.got_text()) {
-      // Nothing is said in words.
-    } else if (data.size() == 0) {
-      wants_state_ = true;
-      owner_.wants_state();
-    } else {
-      owner_.heard(*this, {static_cast<const std::byte*>(data.data()), data.size()});
-    }
-    buffer_.consume(buffer_.size());
-  }
-  void write() {
-    const Waiting& next = waiting_.front();
-    socket_.text(next.text);
-    socket_.async_write(asio::buffer(*next.bytes),
-                        [self = shared_from_this()](const error_code& error, std::size_t) {
-                          if (error) return self->end();
-                          self->waiting_.pop_front();
-                          if (!self->waiting_.empty()) self->write();
-                        });
-  }
-
-  beast::websocket::stream<beast::tcp_stream> socket_;
-  PageOwner& owner_;
-  beast::flat_buffer buffer_;
-  std::deque<Waiting> waiting_;
-  bool wants_state_ = false;
-  bool ended_ = false;
-};
-
-/// One connection until it has asked for something.
-class Visit : public std::enable_shared_from_this<Visit> {
- public:
-  using Upgrade = std::function<void(beast::tcp_stream, const Request&)>;
-  Visit(tcp::socket socket, const std::vector<std::string>& ours, Upgrade upgrade)
-      : stream_(std::move(socket)), ours_(ours), upgrade_(std::move(upgrade)) {
-    parser_.header_limit(kHeaderMax);
-    parser_.body_limit(0);
-  }
-
-  void begin() {
-    stream_.expires_after(kPatience);
-    http::async_read(stream_, buffer_, parser_,
-                     [self = shared_from_this()](const error_code& error, std::size_t) {
-                       if (!error) self->serve();
-                     });
-  }
-
- private:
-  void serve() {
-    const Request& request = parser_.get();
-    if (!is_own(view_of(request[http::field::host]), view_of(request[http::field::origin]),
-                ours_)) {
-      return reply(answer(request, http::status::forbidden,
-                          "this server speaks only to its own page: reach it by its address, or "
-                          "start it with --origin NAME:PORT\n",
-                          "text/plain"));
-    }
-    if (!beast::websocket::is_upgrade(request)) return reply(file_for(request));
-    if (request.target() != "/view") {
-      return reply(answer(request, http::status::not_found, "it is /view\n", "text/plain"));
-    }
-    stream_.expires_never();
-    upgrade_(std::move(stream_), request);
-  }
-  void reply(Response response) {
-    response_ = std::move(response);
-    http::async_write(stream_, response_, [self = shared_from_this()](const error_code&, auto) {
-      error_code ignored;
-      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-    });
-  }
-
-  beast::tcp_stream stream_;
-  const std::vector<std::string>& ours_;
-  Upgrade upgrade_;
-  beast::flat_buffer buffer_;
-  http::request_parser<http::empty_body> parser_;
-  Response response_;
-};
 
 tcp::acceptor listen_at(asio::io_context& context, const protocol::Endpoint& where) {
   try {
@@ -257,7 +73,7 @@ asio::ip::address_v4 talking_address(const Options& options) {
 
 }  // namespace
 
-class Server::Hub final : public PageOwner {
+class Server::Hub final : public PageOwner, public Host {
  public:
   explicit Hub(const Options& options)
       : options_(options),
@@ -265,15 +81,20 @@ class Server::Hub final : public PageOwner {
         acceptor_(listen_at(context_, options.listen)),
         talk_(context_, udp::endpoint(talking_address(options), 0)),
         ticks_(context_),
+        room_(context_),
+        turns_(context_),
+        interest_(context_),
+        osc_(context_),
         water_(context_, options.sim_show, protocol::kSceneFrame,
-               {[this] { note_feed(water_, 1); }, [this](const auto& f) { show(f); }}),
+               {[this] { note_feed(water_); }, [this](const auto& f) { show(f); }}),
         sound_(context_, options.synth_show, protocol::kRigFrame,
-               {[this] { note_feed(sound_, kSoundAsked); }, [this](const auto& f) { hear(f); }}) {
+               {[this] { note_feed(sound_); }, [this](const auto& f) { hear(f); }}) {
     signals_.async_wait([this](const error_code& error, int) {
       if (!error) context_.stop();
     });
     accept();
     listen_to_programs();
+    open_osc();
   }
 
   asio::io_context& context() noexcept { return context_; }
@@ -282,61 +103,151 @@ class Server::Hub final : public PageOwner {
             acceptor_.local_endpoint().port()};
   }
 
+  void keep_turning(const std::function<void()>& turn) {
+    turn();
+    turns_.expires_after(kTurn);
+    turns_.async_wait([this, turn](const error_code& error) {
+      if (!error) keep_turning(turn);
+    });
+  }
+
   void heard(Page& page, protocol::Bytes bytes) override {
-    const Admitted said = admit(bytes);
+    if (page.watches()) return carry_out(admit(bytes), &page);
+    take_osc(bytes, &page);
+  }
+  /// {"COMMAND": "LISTEN" or "IGNORE", "DATA": "/synth/impact/q"}
+  void told(Page& page, std::string_view text) override {
+    const auto said = nlohmann::json::parse(text, nullptr, false);
+    if (page.watches() || !said.is_object()) return;
+    const auto word = [&said](const char* key) {
+      const auto found = said.find(key);
+      return found != said.end() && found->is_string() ? found->get<std::string>() : std::string();
+    };
+    const std::string path = word("DATA");
+    if (word("COMMAND") == "IGNORE") page.listens_to.erase(path);
+    const bool more = page.listens_to.size() < kListensMax;
+    if (word("COMMAND") == "LISTEN" && more) page.listens_to.insert(path);
+  }
+  void wants_state() override { ask_for_state(); }
+  void left(const std::shared_ptr<Page>& page) override {
+    if (pages_.erase(page) + listeners_.erase(page) == 0) return;
+    for (const std::int32_t body : page->grabbed) say(options_.sim, {"/body/grab", {body, 0}});
+    look();
+  }
+
+  void ask(const Target& target, Reply reply) override {
+    interested_ = true;
+    interest_.expires_after(kInterest);
+    interest_.async_wait([this](const error_code& error) {
+      if (error) return;
+      interested_ = false;
+      look();
+    });
+    look();
+    const auto wait = std::make_shared<asio::steady_timer>(context_, looks_since_ + kSoon);
+    wait->async_wait([this, wait, path = std::string(target.path),
+                      attribute = std::string(target.attribute),
+                      reply = std::move(reply)](const error_code& error) {
+      if (!error) reply(query(known_, path, attribute, osc_port_));
+    });
+  }
+
+  void welcome(beast::tcp_stream stream, const Request& request) override {
+    if (pages_.size() + listeners_.size() >= kPagesMax) return;
+    const bool watches = request.target() == "/view";
+    const auto page = std::make_shared<Page>(std::move(stream), *this, watches);
+    page->accept(request, [this, page] {
+      (page->watches() ? pages_ : listeners_).insert(page);
+      look();
+      if (page->watches()) greet(*page);
+    });
+  }
+
+ private:
+  /// Whether anybody looks at the programs.
+  void look() {
+    const bool wanted = interested_ || !pages_.empty() || !listeners_.empty();
+    if (wanted == looks_) return;
+    looks_ = wanted;
+    water_.look(wanted);
+    sound_.look(wanted);
+    if (wanted) {
+      looks_since_ = std::chrono::steady_clock::now();
+      tick(0);
+    } else {
+      known_ = {};
+      for (const auto& program : {options_.sim, options_.synth}) say(program, {"/notify", {0}});
+    }
+  }
+
+  void greet(Page& page) {
+    page.send(presence(), true);
+    for (const Feed* feed : {&water_, &sound_}) {
+      if (feed->connected()) page.send(feed->greeting());
+    }
+    for (const auto& [name, value] : changed_) {
+      page.send(bytes_of(protocol::value_of(name, static_cast<double>(value))));
+    }
+    ask_for_sound();
+  }
+
+  void carry_out(const Admitted& said, Page* page) {
     switch (said.way) {
       case Way::refused:
-        return page.send(bytes_of(protocol::fail(said.address, said.reason)));
+        if (page != nullptr) page->send(bytes_of(protocol::fail(said.address, said.reason)));
+        return;
       case Way::here:
-        return pong(page, said.message);
+        if (page != nullptr) pong(*page, said.message);
+        return;
       case Way::both:
         say(options_.sim, said.message);
         return say(options_.synth, said.message);
       case Way::synth:
         return say(options_.synth, said.message);
       case Way::sim:
-        note_grab(page, said.message);
+        if (page != nullptr) note_grab(*page, said.message);
+        if (said.made) return send(options_.sim, protocol::encode(*said.made, {said.message}));
         return say(options_.sim, said.message);
     }
   }
-  void wants_state() override { ask_for_state(); }
-  void left(const std::shared_ptr<Page>& page) override {
-    if (pages_.erase(page) == 0) return;
-    for (const std::int32_t body : page->grabbed) say(options_.sim, {"/body/grab", {body, 0}});
-    if (!pages_.empty()) return;
-    water_.look(false);
-    sound_.look(false);
-    for (const auto& program : {options_.sim, options_.synth}) say(program, {"/notify", {0}});
+  /// In the tree's addresses.
+  void take_osc(protocol::Bytes bytes, Page* page) {
+    for (const protocol::Message& message : protocol::decode(bytes).packet.messages) {
+      if (const auto own = meant(message)) carry_out(admit(protocol::encode(*own)), page);
+    }
+  }
+  /// At the page's port, if nobody else has it.
+  void open_osc() {
+    const auto where = acceptor_.local_endpoint();
+    error_code error;
+    osc_.open(udp::v4(), error);
+    osc_.bind({where.address(), where.port()}, error);
+    if (error) return;
+    osc_port_ = where.port();
+    listen_for_osc();
+  }
+  void listen_for_osc() {
+    osc_.async_receive(asio::buffer(osc_packet_),
+                       [this](const error_code& error, std::size_t size) {
+                         if (!error) take_osc(protocol::Bytes(osc_packet_.data(), size), nullptr);
+                         if (error != asio::error::operation_aborted) listen_for_osc();
+                       });
   }
 
- private:
   void accept() {
     acceptor_.async_accept([this](const error_code& error, tcp::socket socket) {
-      if (!error) {
-        error_code ignored;  // a browser may be gone again
-        socket.set_option(tcp::no_delay(true), ignored);
-        std::make_shared<Visit>(
-            std::move(socket), options_.origins,
-            [this](auto stream, const Request& request) { welcome(std::move(stream), request); })
-            ->begin();
-      }
+      if (error) return accept_later();
+      error_code ignored;  // a browser may be gone again
+      socket.set_option(tcp::no_delay(true), ignored);
+      std::make_shared<Visit>(std::move(socket), options_.origins, *this)->begin();
       accept();
     });
   }
-
-  void welcome(beast::tcp_stream stream, const Request& request) {
-    if (pages_.size() >= kPagesMax) return;
-    const auto page = std::make_shared<Page>(std::move(stream), *this);
-    page->accept(request, [this, page] {
-      const bool first = pages_.empty();
-      pages_.insert(page);
-      water_.look(true);
-      sound_.look(true);
-      page->send(presence(), true);
-      for (const Feed* feed : {&water_, &sound_}) {
-        if (feed->connected()) page->send(feed->greeting());
-      }
-      if (first) tick(0);
+  /// Without a descriptor for it, who waits would be seen again at once, and for ever.
+  void accept_later() {
+    room_.expires_after(kNoRoom);
+    room_.async_wait([this](const error_code& error) {
+      if (!error) accept();
     });
   }
 
@@ -349,12 +260,18 @@ class Server::Hub final : public PageOwner {
     return std::make_shared<const protocol::ViewFrame>(std::move(bytes));
   }
 
-  void note_feed(Feed& feed, std::size_t frames) {
-    state_asked_ = false;
+  void note_feed(const Feed& feed) {
+    (&feed == &sound_ ? sound_asked_ : state_asked_) = false;
     for (const auto& page : pages_) page->send(presence(), true);
     if (!feed.connected()) return;
-    if (&feed == &sound_) feed.ask(frames);
+    ask_for_sound();
     subscribe();
+  }
+  /// Only pages hear: who asks for the tree costs the synth nothing.
+  void ask_for_sound() {
+    if (pages_.empty() || sound_asked_ || !sound_.connected()) return;
+    sound_asked_ = true;
+    sound_.ask(kSoundAsked);
   }
 
   void ask_for_state() {
@@ -376,12 +293,20 @@ class Server::Hub final : public PageOwner {
   }
   void hear(const SharedFrame& frame) {
     for (const auto& page : pages_) page->send(frame);
-    if (protocol::frame_kind(frame->data()) != protocol::kRigFrame) sound_.ask(1);
+    if (protocol::frame_kind(frame->data()) == protocol::kRigFrame) {
+      const auto* text = reinterpret_cast<const char*>(frame->data()) + protocol::kFrameHead;
+      note_rig({text, frame->size() - protocol::kFrameHead}, known_);
+      changed_.clear();
+    } else if (pages_.empty()) {
+      sound_asked_ = false;
+    } else {
+      sound_.ask(1);
+    }
   }
 
   /// Asks both programs how they are, each second, and for their events.
   void tick(int second) {
-    if (pages_.empty()) return;
+    if (!looks_) return;
     if (second % kNotifyEvery == 0) subscribe();
     for (const auto& program : {options_.sim, options_.synth}) say(program, {"/status", {}});
     ticks_.expires_after(std::chrono::seconds(1));
@@ -390,7 +315,7 @@ class Server::Hub final : public PageOwner {
     });
   }
   void subscribe() {
-    if (pages_.empty()) return;
+    if (!looks_) return;
     for (const auto& program : {options_.sim, options_.synth}) say(program, {"/notify", {1}});
   }
 
@@ -399,8 +324,11 @@ class Server::Hub final : public PageOwner {
     if (message.address == "/status" || message.address == "/notify") {
       message = protocol::filled_up(std::move(message), protocol::kFilledQuestion);
     }
+    send(program, protocol::encode(message));
+  }
+  void send(const protocol::Endpoint& program, const std::vector<std::byte>& packet) {
     error_code ignored;  // UDP may lose
-    talk_.send_to(asio::buffer(protocol::encode(message)), to_udp(program), 0, ignored);
+    talk_.send_to(asio::buffer(packet), to_udp(program), 0, ignored);
   }
 
   void pong(Page& page, const protocol::Message& ping) {
@@ -420,19 +348,44 @@ class Server::Hub final : public PageOwner {
   }
 
   void listen_to_programs() {
-    talk_.async_receive_from(
-        asio::buffer(packet_), from_, [this](const error_code& error, std::size_t size) {
-          const auto address = from_.address();
-          const bool known = address == to_udp(options_.sim).address() ||
-                             address == to_udp(options_.synth).address();
-          const protocol::Bytes bytes(packet_.data(), size);
-          if (!error && known && protocol::gate(bytes) == protocol::Refusal::none) {
-            const auto shared =
-                std::make_shared<const protocol::ViewFrame>(bytes.begin(), bytes.end());
-            for (const auto& page : pages_) page->send(shared);
-          }
-          if (error != asio::error::operation_aborted) listen_to_programs();
-        });
+    talk_.async_receive_from(asio::buffer(packet_), from_,
+                             [this](const error_code& error, std::size_t size) {
+                               const auto address = from_.address();
+                               const bool known = address == to_udp(options_.sim).address() ||
+                                                  address == to_udp(options_.synth).address();
+                               const protocol::Bytes bytes(packet_.data(), size);
+                               if (!error && known) pass_on(bytes);
+                               if (error != asio::error::operation_aborted) listen_to_programs();
+                             });
+  }
+
+  /// What a program said, to all who hear it.
+  void pass_on(protocol::Bytes bytes) {
+    const auto read = protocol::decode(bytes);
+    if (read.refusal != protocol::Refusal::none) return;
+    const auto shared = std::make_shared<const protocol::ViewFrame>(bytes.begin(), bytes.end());
+    for (const auto& page : pages_) page->send(shared);
+    for (const protocol::Message& message : read.packet.messages) note(message);
+  }
+  void note(const protocol::Message& message) {
+    if (message.address == "/status.reply" && !message.arguments.empty()) {
+      const auto* program = std::get_if<std::string>(&message.arguments.front());
+      if (program != nullptr) (*program == "sim-server" ? known_.sim : known_.synth) = message;
+    }
+    const std::string address = told_as(message);
+    if (address.empty()) return;
+    protocol::Message told{address, message.arguments};
+    if (message.address == "/value") {
+      const auto* value = std::get_if<float>(&message.arguments.back());
+      if (value == nullptr) return;
+      const std::string& name = std::get<std::string>(message.arguments.front());
+      known_.values[name] = static_cast<double>(*value);
+      changed_[name] = *value;
+      told.arguments = {*value};
+    }
+    for (const auto& page : listeners_) {
+      if (page->listens_to.contains(address)) page->send(bytes_of(told));
+    }
   }
 
   Options options_;
@@ -441,8 +394,21 @@ class Server::Hub final : public PageOwner {
   tcp::acceptor acceptor_;
   udp::socket talk_;
   asio::steady_timer ticks_;
+  asio::steady_timer room_;
+  asio::steady_timer turns_;
+  asio::steady_timer interest_;
+  udp::socket osc_;
+  int osc_port_ = 0;  ///< 0: none
+  std::array<std::byte, protocol::kMaxDatagram + 1> osc_packet_ = {};
   std::set<std::shared_ptr<Page>> pages_;
+  std::set<std::shared_ptr<Page>> listeners_;
+  bool interested_ = false;  ///< somebody asked for the tree
+  bool looks_ = false;       ///< at the programs
+  std::chrono::steady_clock::time_point looks_since_ = {};
+  Known known_;
+  std::map<std::string, float> changed_;  ///< numbers of the rig since its frame
   bool state_asked_ = false;
+  bool sound_asked_ = false;
   std::array<std::byte, protocol::kMaxDatagram + 1> packet_ = {};
   udp::endpoint from_;
   Feed water_;
@@ -456,7 +422,8 @@ protocol::Endpoint Server::local() const {
   return hub_->local();
 }
 
-void Server::run() {
+void Server::run(const std::function<void()>& turn) {
+  if (turn) hub_->keep_turning(turn);
   hub_->context().run();
 }
 

@@ -3,6 +3,7 @@
 // of the pages to the programs. One thread does it all.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "view-server/options.hpp"
@@ -18,8 +19,8 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   [[nodiscard]] protocol::Endpoint local() const;
-  /// Until SIGINT, SIGTERM or stop().
-  void run();
+  /// Until SIGINT, SIGTERM or stop(). Calls `turn` several times a second: it has not hung.
+  void run(const std::function<void()>& turn = {});
   /// From any thread.
   void stop();
 

@@ -149,7 +149,7 @@ const std::vector<Room>& rooms() {
       {"synth-server/figure", {}, {"kissfft/", "kiss_fft", "CLI/"}},
       {"synth-server", {"program", "protocol", "synth-server/"}, {"CLI/", "boost/", "nlohmann/"}},
 
-      {"view-server", {"program", "protocol"}, {"CLI/", "boost/"}},
+      {"view-server", {"program", "protocol"}, {"CLI/", "boost/", "nlohmann/"}},
       {"pd-patches", {"program", "protocol"}, {"CLI/"}},
       {"tests",
        {"program", "protocol", "sim-server/", "synth-server/", "view-server", "pd-patches"},

@@ -35,8 +35,21 @@ TEST(Admission, CommandsGoWhereTheyBelong) {
             Way::sim);
   EXPECT_EQ(way_of({"/body/grab", {3, 1}}), Way::sim);
   EXPECT_EQ(way_of({"/mute", {1}}), Way::synth);
+  EXPECT_EQ(way_of({"/tone", {7}}), Way::synth);
+  EXPECT_EQ(way_of({"/pause", {1}}), Way::sim);
+  EXPECT_EQ(way_of({"/reset", {}}), Way::sim);
   EXPECT_EQ(way_of({"/clearSched", {}}), Way::both);
   EXPECT_EQ(way_of({"/ping", {protocol::TimeTag{5}}}), Way::here);
+}
+
+TEST(Admission, APoseMaySayWhenItWasMade) {
+  const protocol::Message pose =
+      protocol::to_message(protocol::BodyPose{0, {0.0F, 0.0F, 0.0F}, 0.0F, 0.0F, 0.0F, 1.0F});
+  const Admitted admitted = admit(protocol::encode(protocol::TimeTag{77}, {pose}));
+  EXPECT_EQ(admitted.way, Way::sim);
+  ASSERT_TRUE(admitted.made);
+  EXPECT_EQ(admitted.made->value, 77U);
+  EXPECT_EQ(admit(protocol::encode(protocol::TimeTag{77}, {pose, pose})).way, Way::refused);
 }
 
 TEST(Admission, EverythingElseStaysOut) {
@@ -44,7 +57,8 @@ TEST(Admission, EverythingElseStaysOut) {
     const std::string name(row.address);
     const bool allowed = name == "/body/grab" || name == "/body/pose" || name == "/mute" ||
                          name == "/set" || name == "/get" || name == "/preset" ||
-                         name == "/clearSched" || name == "/ping";
+                         name == "/clearSched" || name == "/pause" || name == "/reset" ||
+                         name == "/tone" || name == "/ping";
     EXPECT_TRUE(allowed || way_of({name, {}}) == Way::refused) << name;
   }
   EXPECT_EQ(way_of({"/mute", {2}}), Way::refused) << "out of range";

@@ -6,14 +6,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "protocol/control.hpp"
 #include "protocol/frame_stream.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
@@ -141,7 +147,9 @@ TEST_F(ViewServer, ServesItsPageAndRefusesForeigners) {
     browser.say("GET " + path + " HTTP/1.1\r\nHost: " + host_name + "\r\n\r\n");
     return browser.hear("\r\n\r\n");
   };
-  EXPECT_THAT(ask("/", host()), StartsWith("HTTP/1.1 200"));
+  const std::string page = ask("/", host());
+  EXPECT_THAT(page, StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(page, HasSubstr("Content-Security-Policy: default-src 'none'; script-src 'self'; "));
   EXPECT_THAT(ask("/../main.cpp", host()), StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(ask("/", "evil.example"), StartsWith("HTTP/1.1 403"));
   Browser foreign(server_.local());
@@ -172,6 +180,78 @@ TEST_F(ViewServer, CommandsReachTheProgramsAndWhatWasGrabbedIsLetGo) {
     EXPECT_THAT(page->hear("a page may not say this"), HasSubstr("/quit"));
   }
   EXPECT_TRUE(gets(sim_, "/body/grab")) << "the page has gone";
+}
+
+/// The JSON that comes for a path.
+std::string asked(const protocol::Endpoint& server, const std::string& host,
+                  const std::string& path) {
+  const auto browser = std::make_unique<Browser>(server);
+  browser->say("GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\nAccept: */*\r\n\r\n");
+  return browser->hear("}\n");  // never: to the end
+}
+
+TEST_F(ViewServer, TellsItsTreeWithoutFetchingAFrame) {
+  EXPECT_THAT(asked(server_.local(), host(), "/?HOST_INFO"), HasSubstr("\"OSC_PORT\":"));
+  EXPECT_THAT(asked(server_.local(), host(), "/synth/status/voices"),
+              HasSubstr("\"FULL_PATH\":\"/synth/status/voices\""));
+  EXPECT_THAT(asked(server_.local(), host(), "/synth/nothing"), StartsWith("HTTP/1.1 404"));
+  EXPECT_FALSE(water_.wanted() || sound_.wanted());
+}
+
+TEST_F(ViewServer, TakesOscAtItsAddressesAndTellsWhoListens) {
+  protocol::UdpSocket client(protocol::Endpoint{INADDR_LOOPBACK, 0});
+  client.send_to(server_.local(), protocol::encode({"/synth/impact/q", {7.0F}}));
+  EXPECT_TRUE(gets(synth_, "/set"));
+  client.send_to(server_.local(), protocol::encode({"/sim/pause", {1}}));
+  EXPECT_TRUE(gets(sim_, "/pause"));
+  Browser listener(server_.local());
+  std::string hello = upgrade(host(), "http://" + host());
+  listener.say(hello.replace(hello.find("/view"), 5, "/"));
+  EXPECT_THAT(listener.hear("\r\n\r\n"), HasSubstr("101 Switching"));
+  listener.say(message(1, R"({"COMMAND": "LISTEN", "DATA": "/synth/impact/q"})"));
+  listener.say(message(2, osc({"/synth/mute", {1}})));
+  EXPECT_TRUE(gets(synth_, "/mute")) << "what it said before has been heard, too";
+  std::array<std::byte, protocol::kMaxDatagram> buffer;
+  std::optional<protocol::Endpoint> talks;
+  while (!talks) {
+    const auto got = synth_.receive(buffer.data(), buffer.size(), 5.0);
+    ASSERT_TRUE(got);
+    if (protocol::decode({buffer.data(), got->size}).packet.messages[0].address == "/status") {
+      talks = got->from;
+    }
+  }
+  synth_.send_to(*talks, protocol::encode(protocol::value_of("impact/frequency", 300.0)));
+  synth_.send_to(*talks, protocol::encode(protocol::value_of("impact/q", 7.0)));
+  EXPECT_THAT(listener.hear("/synth/impact/q"), testing::Not(HasSubstr("frequency")));
+}
+
+// The test and the server share their descriptors: what waits cannot be accepted.
+TEST_F(ViewServer, WithoutADescriptorLeftItWaitsInPeace) {
+  const Browser early(server_.local());
+  const int waiting = socket(AF_INET, SOCK_STREAM, 0);
+  rlimit usual{};
+  getrlimit(RLIMIT_NOFILE, &usual);
+  const rlimit few{std::min<rlim_t>(usual.rlim_cur, 256), usual.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &few);
+  std::vector<int> taken;
+  for (int copy = dup(waiting); copy >= 0; copy = dup(waiting)) taken.push_back(copy);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(server_.local().address);
+  address.sin_port = htons(server_.local().port);
+  EXPECT_EQ(connect(waiting, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  const auto used = [] {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  const double before = used();
+  usleep(1'000'000);
+  EXPECT_LT(used() - before, 0.2);
+  for (const int descriptor : taken) close(descriptor);
+  close(waiting);
+  setrlimit(RLIMIT_NOFILE, &usual);
+  EXPECT_NE(open(), nullptr) << "served as soon as there is room";
 }
 
 /// Mutated frames of a client, many to a connection: it serves the next page as if nothing was.

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "view-server/query.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "protocol/address.hpp"
+
+namespace splash::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using protocol::AddressRow;
+using protocol::ArgumentRow;
+using protocol::Direction;
+
+constexpr std::string_view kSim = "/sim";
+constexpr std::string_view kSynth = "/synth";
+constexpr int kRead = 1;
+constexpr int kWrite = 2;
+
+constexpr std::array<std::string_view, 8> kAttributes = {
+    "FULL_PATH", "TYPE", "ACCESS", "RANGE", "VALUE", "DESCRIPTION", "UNIT", "CONTENTS"};
+/// Commands that a page may say, by the program that takes them (admission.cpp).
+constexpr std::array<std::string_view, 4> kToSim = {"/body/grab", "/body/pose", "/pause", "/reset"};
+constexpr std::array<std::string_view, 3> kToSynth = {"/mute", "/tone", "/preset"};
+/// Events; the simulator tells them.
+constexpr std::array<std::string_view, 3> kEvents = {"/impact", "/bubble", "/cavity"};
+
+template <std::size_t N>
+bool is_among(const std::array<std::string_view, N>& all, std::string_view one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+/// The node of an address, made with all above it where it is not there.
+Json& node_of(Json& root, const std::string& address) {
+  Json* node = &root;
+  for (std::size_t begin = 1; begin < address.size();) {
+    const std::size_t end = std::min(address.find('/', begin), address.size());
+    Json& contents = (*node)["CONTENTS"];
+    Json& child = contents[address.substr(begin, end - begin)];
+    if (child.is_null()) child = {{"FULL_PATH", address.substr(0, end)}, {"ACCESS", 0}};
+    node = &child;
+    begin = end + 1;
+  }
+  return *node;
+}
+
+Json range_of(const ArgumentRow& row) {
+  if (row.type != 'i' && row.type != 'f') return nullptr;
+  return {{"MIN", row.min}, {"MAX", row.max}};
+}
+
+std::string words_of(const AddressRow& row) {
+  std::string words(row.meaning);
+  for (const ArgumentRow& argument : row.arguments) {
+    words += "; " + std::string(argument.name) + ": " + std::string(argument.meaning);
+  }
+  return words;
+}
+
+void add(Json& root, std::string_view program, const AddressRow& row, int access) {
+  Json& node = node_of(root, std::string(program) + std::string(row.address));
+  node["TYPE"] = protocol::type_tags(row).substr(1);
+  node["ACCESS"] = access;
+  node["RANGE"] = Json::array();
+  node["UNIT"] = Json::array();
+  for (const ArgumentRow& argument : row.arguments) {
+    node["RANGE"].push_back(range_of(argument));
+    node["UNIT"].push_back(argument.unit);
+  }
+  node["DESCRIPTION"] = words_of(row);
+}
+
+void add_commands(Json& root) {
+  for (const AddressRow& row : protocol::address_table()) {
+    const bool named =
+        !row.arguments.empty() && row.address == "/body/pose" && row.arguments.front().type == 's';
+    if (named) continue;  // one address has one type
+    if (is_among(kToSim, row.address)) add(root, kSim, row, kWrite);
+    if (is_among(kToSynth, row.address)) add(root, kSynth, row, kWrite);
+    if (is_among(kEvents, row.address)) add(root, kSim, row, kRead);
+  }
+}
+
+void add_rows(Json& root, const Known& known) {
+  for (const Known::Row& row : known.rows) {
+    Json& node = node_of(root, std::string(kSynth) + '/' + row.name);
+    const auto value = known.values.find(row.name);
+    node["TYPE"] = "f";
+    node["ACCESS"] = kRead | kWrite;
+    node["RANGE"] = {{{"MIN", row.min}, {"MAX", row.max}}};
+    node["VALUE"] = Json::array();
+    if (value != known.values.end()) node["VALUE"].push_back(value->second);
+    node["DESCRIPTION"] = row.meaning;
+    node["UNIT"] = {row.unit};
+  }
+}
+
+Json value_of(const protocol::Argument& argument) {
+  if (const auto* whole = std::get_if<std::int32_t>(&argument)) return *whole;
+  if (const auto* number = std::get_if<float>(&argument)) return *number;
+  if (const auto* text = std::get_if<std::string>(&argument)) return *text;
+  return nullptr;
+}
+
+/// Each field of a program's status is an address of its own.
+void add_status(Json& root, std::string_view program, std::string_view name,
+                const std::optional<protocol::Message>& told) {
+  for (const AddressRow& row : protocol::address_table()) {
+    if (row.address != "/status.reply" || row.arguments.front().fixed != name) continue;
+    for (std::size_t i = 1; i < row.arguments.size(); ++i) {
+      const ArgumentRow& field = row.arguments[i];
+      Json& node = node_of(root, std::string(program) + "/status/" + std::string(field.name));
+      node["TYPE"] = std::string(1, field.type);
+      node["ACCESS"] = kRead;
+      node["RANGE"] = {range_of(field)};
+      node["VALUE"] = Json::array();
+      if (told && i < told->arguments.size()) node["VALUE"].push_back(value_of(told->arguments[i]));
+      node["DESCRIPTION"] = field.meaning;
+      node["UNIT"] = {field.unit};
+    }
+  }
+}
+
+Json tree(const Known& known) {
+  Json root = {{"FULL_PATH", "/"}, {"ACCESS", 0}, {"DESCRIPTION", "splash: feel water"}};
+  add_commands(root);
+  add_status(root, kSim, "sim-server", known.sim);
+  add_status(root, kSynth, "synth-server", known.synth);
+  add_rows(root, known);
+  return root;
+}
+
+Json host_info(int port) {
+  Json info = {{"NAME", "splash"},
+               {"EXTENSIONS",
+                {{"ACCESS", true},
+                 {"VALUE", true},
+                 {"RANGE", true},
+                 {"DESCRIPTION", true},
+                 {"UNIT", true},
+                 {"LISTEN", true},
+                 {"PATH_CHANGED", false}}}};
+  if (port != 0) {
+    info["OSC_PORT"] = port;
+    info["OSC_TRANSPORT"] = "UDP";
+  }
+  return info;
+}
+
+Answer answer(const Json& json) {
+  return {200, json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
+
+const Json* find(const Json& root, std::string_view path) {
+  const Json* node = &root;
+  for (std::size_t begin = 1; begin < path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    const auto contents = node->find("CONTENTS");
+    if (contents == node->end()) return nullptr;
+    const auto child = contents->find(std::string(path.substr(begin, end - begin)));
+    if (child == contents->end()) return nullptr;
+    node = &*child;
+    begin = end + 1;
+  }
+  return node;
+}
+
+std::optional<std::string> behind(std::string_view prefix, const std::string& address) {
+  const bool has = address.size() > prefix.size() && address.starts_with(prefix) &&
+                   address[prefix.size()] == '/';
+  return has ? std::optional(address.substr(prefix.size())) : std::nullopt;
+}
+
+}  // namespace
+
+void note_rig(std::string_view text, Known& known) {
+  known.rows.clear();
+  known.values.clear();
+  const Json rig = Json::parse(text, nullptr, false);
+  if (!rig.is_object() || !rig.contains("rows") || !rig["rows"].is_array()) return;
+  for (const Json& row : rig["rows"]) {
+    try {
+      const auto name = row.at("name").get<std::string>();
+      known.rows.push_back({name, row.at("min").get<double>(), row.at("max").get<double>(),
+                            row.at("unit").get<std::string>(),
+                            row.at("meaning").get<std::string>()});
+      known.values[name] = row.at("value").get<double>();
+    } catch (const Json::exception&) {  // a row of another kind says nothing here
+    }
+  }
+}
+
+Answer query(const Known& known, std::string_view path, std::string_view attribute, int port) {
+  if (attribute == "HOST_INFO") return answer(host_info(port));
+  const Json root = tree(known);
+  const Json* node = find(root, path);
+  if (node == nullptr) return {404, {}};
+  if (attribute.empty()) return answer(*node);
+  if (!is_among(kAttributes, attribute)) return {400, {}};
+  const auto value = node->find(std::string(attribute));
+  if (value == node->end()) return {204, {}};
+  return answer({{std::string(attribute), *value}});
+}
+
+std::optional<protocol::Message> meant(const protocol::Message& message) {
+  if (const auto own = behind(kSim, message.address)) {
+    if (!is_among(kToSim, *own)) return std::nullopt;
+    return protocol::Message{*own, message.arguments};
+  }
+  const auto own = behind(kSynth, message.address);
+  if (!own) return std::nullopt;
+  if (is_among(kToSynth, *own)) return protocol::Message{*own, message.arguments};
+  if (message.arguments.size() != 1) return std::nullopt;
+  const auto* whole = std::get_if<std::int32_t>(&message.arguments.front());
+  const auto* number = std::get_if<float>(&message.arguments.front());
+  if (whole == nullptr && number == nullptr) return std::nullopt;
+  const float value = number != nullptr ? *number : static_cast<float>(*whole);
+  return protocol::Message{"/set", {own->substr(1), value}};
+}
+
+std::string told_as(const protocol::Message& message) {
+  if (is_among(kEvents, message.address)) return std::string(kSim) + message.address;
+  if (message.address != "/value" || message.arguments.empty()) return {};
+  const auto* name = std::get_if<std::string>(&message.arguments.front());
+  return name != nullptr ? std::string(kSynth) + '/' + *name : std::string();
+}
+
+}  // namespace splash::view
