@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Bodies that are held: where each is wanted, and the poses that bring it there, smoothed and
-// bounded to what a body may do. Each holder (a pointer, a controller) holds one body.
+// Bodies that are held, and the poses that they follow: a hundred a second at even moments, smoothed
+// and bounded to what a body may do. Each holder (a pointer, a controller) holds one body.
+import { HandPath } from './hand_path.js';
 import { OneEuro } from './one_euro.js';
-import { between, clamp, length, scale, sub, add } from './vector.js';
+import { add, between, clamp, length, scale, sub } from './vector.js';
 
-const EVERY = 10; // [ms] between poses
+const PERIOD = 0.01; // [s] between poses
+const LATEST = 0.2; // [s]: a page that stood still for longer leaves poses out
 const SPEED_MAX = 5; // [m/s]
+const TURN = 12; // [1/s]: a turn is followed with the inverse of this time
+
+const seconds = () => performance.now() / 1000;
 
 export class Grabs {
   constructor(link) {
     this.link = link;
     this.held = new Map(); // holder -> what it holds
     this.box = null;
-    setInterval(() => this.send(), EVERY);
+    setInterval(() => this.send(), (1000 * PERIOD) / 2);
   }
 
   /// Where bodies may go: the tank and the air above it.
@@ -28,20 +33,25 @@ export class Grabs {
 
   take(holder, index, place, turn) {
     if (this.holds(index)) return false;
-    this.held.set(holder, { index, place: [...place], turn: [...turn], wanted: [...place],
-      wantedTurn: [...turn], filter: new OneEuro(place), at: performance.now() });
+    const now = seconds();
+    this.held.set(holder, { index, place: [...place], turn: [...turn],
+      path: new HandPath(place, turn, now), filter: new OneEuro(place), next: now });
     this.link.send('/body/grab', ',ii', index, 1);
     this.send();
     return true;
   }
 
-  /// Where the holder has its body now; the turn is left as it is where none is given.
-  move(holder, place, turn) {
+  /// Where the holder had its body at `moment` of performance.now() [s]; the turn is left as it is
+  /// where none is given.
+  move(holder, place, turn, moment = seconds()) {
     const grab = this.held.get(holder);
     if (!grab || !place.every(Number.isFinite)) return;
+    const now = seconds();
     const { lower, upper } = this.box;
-    grab.wanted = place.map((x, i) => clamp(x, lower[i], upper[i]));
-    if (turn && turn.every(Number.isFinite)) grab.wantedTurn = turn;
+    const last = grab.path.spots.at(-1);
+    const known = turn?.every(Number.isFinite) ? turn : last.turn;
+    const then = Math.abs(now - moment) < 1 ? Math.min(moment, now) : now;
+    grab.path.add(place.map((x, i) => clamp(x, lower[i], upper[i])), known, then, now);
   }
 
   letGo(holder) {
@@ -60,18 +70,24 @@ export class Grabs {
     for (const { index } of this.held.values()) this.link.send('/body/grab', ',ii', index, 1);
   }
 
+  /// All poses whose moment has come; each says when that was.
   send() {
-    const now = performance.now();
+    const now = seconds();
     for (const grab of this.held.values()) {
-      const step = clamp((now - grab.at) / 1000, 0.002, 0.1);
-      grab.at = now;
-      const smooth = grab.filter.next(grab.wanted, step);
-      const way = sub(smooth, grab.place);
-      const far = length(way);
-      const most = SPEED_MAX * step;
-      grab.place = add(grab.place, scale(way, far > most ? most / far : 1));
-      grab.turn = between(grab.turn, grab.wantedTurn, Math.min(1, 12 * step));
-      this.link.send('/body/pose', ',ifffffff', grab.index, ...grab.place, ...grab.turn);
+      if (now - grab.next > LATEST) grab.next = now - LATEST;
+      for (; grab.next <= now - grab.path.hold; grab.next += PERIOD) {
+        this.follow(grab, grab.path.at(grab.next));
+        this.link.sendAt(performance.timeOrigin / 1000 + grab.next, '/body/pose', ',ifffffff',
+          grab.index, ...grab.place, ...grab.turn);
+      }
     }
+  }
+
+  follow(grab, { place, turn }) {
+    const way = sub(grab.filter.next(place, PERIOD), grab.place);
+    const far = length(way);
+    const most = SPEED_MAX * PERIOD;
+    grab.place = add(grab.place, scale(way, far > most ? most / far : 1));
+    grab.turn = between(grab.turn, turn, TURN * PERIOD);
   }
 }

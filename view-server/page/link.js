@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The WebSocket to view-server: opens it again when it ends, and knows the server's clock by /ping.
-import { decode, encode } from './osc.js';
+import { decode, encode, encodeAt } from './osc.js';
 import { readFrame } from './wire.js';
 
 const PING_EVERY = 500; // [ms]
@@ -49,6 +49,11 @@ export class Link {
 
   send(address, types, ...values) {
     if (this.isOpen) this.socket.send(encode(address, types, ...values));
+  }
+
+  /// In a bundle that says when it was made, by the page's clock [Unix s].
+  sendAt(time, address, types, ...values) {
+    if (this.isOpen) this.socket.send(encodeAt(time, address, types, ...values));
   }
 
   /// Asks for one more state.

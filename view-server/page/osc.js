@@ -12,25 +12,42 @@ function textBytes(text) {
   return bytes;
 }
 
+/// An NTP time tag of Unix time [s].
+function timeBytes(time) {
+  const bytes = new Uint8Array(8);
+  const view = new DataView(bytes.buffer);
+  const whole = Math.floor(time);
+  view.setUint32(0, (whole + EPOCH) % ERA);
+  view.setUint32(4, Math.floor((time - whole) * ERA));
+  return bytes;
+}
+
 /// `types` as in ",if"; a t is Unix time [s].
 export function encode(address, types, ...values) {
   const parts = [textBytes(address), textBytes(types)];
   values.forEach((value, k) => {
     const type = types[k + 1];
     if (type === 's') return parts.push(textBytes(value));
-    const bytes = new Uint8Array(type === 't' ? 8 : 4);
+    if (type === 't') return parts.push(timeBytes(value));
+    const bytes = new Uint8Array(4);
     const view = new DataView(bytes.buffer);
     if (type === 'i') view.setInt32(0, value);
-    else if (type === 'f') view.setFloat32(0, value);
-    else {
-      const whole = Math.floor(value);
-      view.setUint32(0, (whole + EPOCH) % ERA);
-      view.setUint32(4, Math.floor((value - whole) * ERA));
-    }
+    else view.setFloat32(0, value);
     return parts.push(bytes);
   });
   const out = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
   parts.reduce((at, part) => (out.set(part, at), at + part.length), 0);
+  return out;
+}
+
+/// A bundle of one message, made at `time`, Unix time [s].
+export function encodeAt(time, address, types, ...values) {
+  const message = encode(address, types, ...values);
+  const out = new Uint8Array(20 + message.length);
+  out.set(textBytes('#bundle'));
+  out.set(timeBytes(time), 8);
+  new DataView(out.buffer).setInt32(16, message.length);
+  out.set(message, 20);
   return out;
 }
 

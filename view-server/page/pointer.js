@@ -4,6 +4,9 @@
 import { rayHits } from './shapes.js';
 import { about, add, conjugate, dot, product, scale, sub, turn } from './vector.js';
 
+/// The first comes as the hand moves, the other once a picture.
+const MOVES = 'onpointerrawupdate' in window ? 'pointerrawupdate' : 'pointermove';
+
 export class Pointers {
   constructor(canvas, camera, solids, grabs) {
     Object.assign(this, { canvas, camera, solids, grabs });
@@ -11,6 +14,7 @@ export class Pointers {
     const on = (name, act) => canvas.addEventListener(name, act, { passive: false });
     on('pointerdown', (e) => this.start(e));
     on('pointermove', (e) => this.go(e));
+    on(MOVES, (e) => this.drag(e));
     for (const name of ['pointerup', 'pointercancel', 'lostpointercapture']) {
       on(name, (e) => this.end(e));
     }
@@ -28,6 +32,7 @@ export class Pointers {
   pick({ from, along }) {
     let best = { index: -1, distance: Infinity };
     this.solids.bodies.forEach((body, index) => {
+      if (body.free) return; // the water has it
       const back = conjugate(body.turn);
       const t = rayHits(body.places, turn(back, sub(from, body.place)), turn(back, along));
       if (t < best.distance) best = { index, distance: t };
@@ -68,12 +73,19 @@ export class Pointers {
       this.canvas.style.cursor = over >= 0 ? 'grab' : 'default';
       return;
     }
-    if (hold.depth !== undefined) {
-      hold.last = event;
-      this.grabs.move(event.pointerId, this.place(hold, event));
-    } else this.turnCamera(hold, event);
+    if (hold.depth === undefined) this.turnCamera(hold, event);
     hold.x = event.clientX;
     hold.y = event.clientY;
+  }
+
+  drag(event) {
+    const hold = this.down.get(event.pointerId);
+    if (hold?.depth === undefined) return;
+    const joined = event.getCoalescedEvents?.() ?? [];
+    for (const one of joined.length ? joined : [event]) {
+      hold.last = one;
+      this.grabs.move(event.pointerId, this.place(hold, one), hold.turn, one.timeStamp / 1000);
+    }
   }
 
   turnCamera(hold, event) {

@@ -14,6 +14,7 @@ function inThrees(flat) {
 
 function scene(buffer) {
   const told = json(buffer);
+  told.name = told.scene;
   for (const body of told.bodies) {
     if (!body.mesh) continue;
     body.vertices = inThrees(body.mesh.vertices);
