@@ -32,7 +32,8 @@ class Service : public testing::Test {
     fs::create_directories(folder_ / "tools");
     write_program(folder_ / "tools" / "cmake");
     write_program(folder_ / "tools" / "dpkg-query");
-    for (const char* name : {"sim-server", "synth-server"}) write_program(build() / "bin" / name);
+    for (const char* name : {"sim-server", "synth-server", "view-server"})
+      write_program(build() / "bin" / name);
     std::ofstream(build() / "bin" / "sim-server")
         << "#!/bin/sh\necho \"scene   $2\"; echo 'middle  0.915,0.5,0.25'\n";
     std::ofstream(folder_ / "tools" / "dpkg-query")
@@ -68,13 +69,16 @@ TEST_F(Service, HasThisTreesPaths) {
   EXPECT_THAT(result.output, HasSubstr("systemctl --user enable --now splash-sim"));
   const std::string sim = read_text(unit("splash-sim"));
   const std::string synth = read_text(unit("splash-synth"));
+  const std::string view = read_text(unit("splash-view"));
+  EXPECT_THAT(view, HasSubstr("/a & 100%% b/bin/view-server\" --listen 127.0.0.1:8080 "));
   const std::string configs = std::string(SPLASH_SOURCE_DIR) + "/configs/";
-  EXPECT_THAT(sim, HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
-                             "scenes/pool.yaml\" --target 127.0.0.1:57310\n"));
+  EXPECT_THAT(sim,
+              HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
+                        "scenes/pool.yaml\" --target 127.0.0.1:57310 --show 127.0.0.1:57301\n"));
   EXPECT_THAT(
       synth, HasSubstr("/bin/synth-server\" --rig \"" + configs + "rigs/tiles36.yaml\" --sound \"" +
                        configs + "sounds/calibrated.yaml\" --middle=0.915,0.5,0.25 "));
-  for (const std::string& text : {sim, synth}) {
+  for (const std::string& text : {sim, synth, view}) {
     EXPECT_THAT(text, Not(testing::ContainsRegex("@[A-Z]+@")));
     EXPECT_THAT(text, HasSubstr("\nType=notify\n"));
     EXPECT_THAT(text, testing::ContainsRegex("\nWatchdogSec=[0-9]+\n"));
@@ -92,8 +96,9 @@ TEST_F(Service, IsWhatSystemdTakes) {
   ASSERT_EQ(launch("basin").exit_code, 0);
   const std::string verify =
       "XDG_RUNTIME_DIR='" + build().string() + "' systemd-analyze verify --user --man=no '";
-  const CommandResult right = run_command(verify + unit("splash-sim").string() + "' '" +
-                                          unit("splash-synth").string() + "' 2>&1");
+  const CommandResult right =
+      run_command(verify + unit("splash-sim").string() + "' '" + unit("splash-synth").string() +
+                  "' '" + unit("splash-view").string() + "' 2>&1");
   EXPECT_THAT(right.output, Not(HasSubstr("splash-")));
   std::ofstream(unit("splash-sim"), std::ios::app) << "[Service]\nWatchdogSecs=3\n";
   EXPECT_THAT(run_command(verify + unit("splash-sim").string() + "' 2>&1").output,

@@ -153,6 +153,14 @@ TEST_P(Service, WithoutAWatchdogGivesNone) {
   EXPECT_EQ(manager.wait_for("WATCHDOG=1", 0.5), "");
 }
 
+TEST(ViewService, IsReadyAndGivesSignsOfLife) {
+  NotifySocket manager;
+  const Daemon daemon("view-server", {},
+                      {{"NOTIFY_SOCKET", manager.address()}, {"WATCHDOG_USEC", kPeriod}});
+  EXPECT_THAT(manager.wait_for("READY=1", kPatience), HasSubstr("STATUS=http://127.0.0.1:"));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(manager.wait_for("WATCHDOG=1", kPatience), "WATCHDOG=1");
+}
+
 std::string name_of(const testing::TestParamInfo<Program>& program) {
   return program.param.simulates ? "Sim" : "Synth";
 }
