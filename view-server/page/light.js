@@ -2,7 +2,7 @@
 // One lamp above the tank, seen from it: how high bodies and water stand, so that bodies throw
 // shadows and the water's surface throws caustics on what lies below.
 import { OVER_ALL, Target, overAll, program, use } from './gl.js';
-import { PARTICLE } from './particles.js';
+import { MIRRORED, PARTICLE, REACH } from './particles.js';
 
 const SIDE = 256; // texels of the maps' edges
 const LEAN = [0.22, -0.14]; // of the lamp's rays: x and y over z
@@ -11,7 +11,9 @@ const LEAN = [0.22, -0.14]; // of the lamp's rays: x and y over z
 export const LIGHT = `
 const vec2 LEAN = vec2(${LEAN.join(', ')});
 uniform vec4 mapBox;   // lower corner, size [m] of what the maps show at the floor's height
+uniform vec4 walls;    // of the tank, lower and upper corner seen from above [m]
 uniform float floorZ;
+uniform float level;   // of the water at rest [m]: heights count from there, so that small ones are fine
 
 /// Towards the lamp.
 vec3 lamp() { return normalize(vec3(LEAN, 1.0)); }
@@ -53,8 +55,9 @@ float lampReaches(vec3 p) {
 float waterLight(vec3 p) {
   vec2 at = mapPlace(p);
   vec4 w = texture(waves, at);
-  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))) || w.b < 0.01) return 1.0;
-  return mix(1.0, w.g, w.b * smoothstep(0.0, 0.02, w.r / w.b - p.z));
+  bool out_ = any(lessThan(p.xy, walls.xy - 0.002)) || any(greaterThan(p.xy, walls.zw + 0.002));
+  if (out_ || w.b < 0.01) return 1.0;
+  return mix(1.0, w.g, w.b * smoothstep(0.0, 0.02, level + w.r / w.b - p.z));
 }
 `;
 
@@ -75,15 +78,26 @@ void main() {
   gl_PointSize = max(2.0 * radius / max(mapBox.z, mapBox.w) * ${SIDE}.0, 2.0);
 }`;
 
-const WATER_FRAGMENT = `
+const MIRROR_VERTEX = `${PARTICLE}${LIGHT}${FALL}${MIRRORED}
 uniform float radius;
+out float height;
+void main() {
+  vec3 p = place();
+  bool there = mirrored(p, gl_VertexID) && (tag.y & SPRAY) == 0u;
+  height = p.z;
+  gl_Position = there ? fromLamp(p) : vec4(2.0, 2.0, 2.0, 1.0);
+  gl_PointSize = max(2.0 * radius / max(mapBox.z, mapBox.w) * ${SIDE}.0, 2.0);
+}`;
+
+const WATER_FRAGMENT = `
+uniform float radius, level;
 in float height;
 out vec4 colour;
 void main() {
   vec2 q = gl_PointCoord * 2.0 - 1.0;
   float rest = 1.0 - dot(q, q);
   if (rest < 0.0) discard;
-  colour = vec4(height + radius * (sqrt(rest) - 0.4), 0.0, 1.0, 1.0);
+  colour = vec4(height - level + radius * (sqrt(rest) - 0.4), 0.0, 1.0, 1.0);
 }`;
 
 /// Gaussian along one axis of height (times coverage) and coverage.
@@ -110,18 +124,18 @@ const CAUSTICS = `${LIGHT}
 in vec2 uv;
 uniform sampler2D source;
 out vec4 colour;
-float h(vec2 at) { vec4 s = texture(source, at); return s.b > 0.05 ? s.r / s.b : floorZ; }
+float h(vec2 at) { vec4 s = texture(source, at); return s.b > 0.05 ? s.r / s.b : floorZ - level; }
 void main() {
   vec4 s = texture(source, uv);
   float covered = s.b;
   vec2 e = 2.0 / vec2(${SIDE}.0), m = e * mapBox.zw;
-  float z = h(uv), c = 0.25 * max(z - floorZ, 0.0) + 0.02;
+  float z = h(uv), c = 0.25 * max(z + level - floorZ, 0.0) + 0.02;
   float xx = (h(uv + vec2(e.x, 0.0)) - 2.0 * z + h(uv - vec2(e.x, 0.0))) / (m.x * m.x);
   float yy = (h(uv + vec2(0.0, e.y)) - 2.0 * z + h(uv - vec2(0.0, e.y))) / (m.y * m.y);
   float xy = (h(uv + e) - h(uv + vec2(e.x, -e.y)) - h(uv + vec2(-e.x, e.y)) + h(uv - e))
              / (4.0 * m.x * m.y);
   float spread = (1.0 - c * xx) * (1.0 - c * yy) - c * c * xy * xy;
-  float light = clamp(1.0 / max(abs(spread), 0.25), 0.45, 3.2);
+  float light = clamp(1.0 / max(abs(spread), 0.25), 0.5, 2.4);
   colour = vec4(s.r, covered > 0.9 ? light : 1.0, covered, 1.0);
 }`;
 
@@ -142,12 +156,15 @@ void main() { colour = vec4(height, 0.0, 1.0, 1.0); }`;
 export class LightMaps {
   constructor(gl) {
     this.gl = gl;
-    const near = () => new Target(gl, gl.RGBA16F, gl.LINEAR);
+    // Caustics are made of second differences, which half floats leave in steps.
+    const fine = gl.getExtension('OES_texture_float_linear') ? gl.RGBA32F : gl.RGBA16F;
+    const near = () => new Target(gl, fine, gl.LINEAR);
     this.heights = new Target(gl, gl.RGBA16F, gl.NEAREST, true).fit(SIDE, SIDE);
-    this.raw = new Target(gl, gl.RGBA16F, gl.LINEAR, true).fit(SIDE, SIDE);
+    this.raw = new Target(gl, fine, gl.LINEAR, true).fit(SIDE, SIDE);
     this.other = near().fit(SIDE, SIDE);
     this.waves = near().fit(SIDE, SIDE);
     this.water = program(gl, WATER_VERTEX, WATER_FRAGMENT);
+    this.mirror = program(gl, MIRROR_VERTEX, WATER_FRAGMENT);
     this.body = program(gl, BODY_VERTEX, BODY_FRAGMENT);
     this.smooth = program(gl, OVER_ALL, SMOOTH);
     this.caustics = program(gl, OVER_ALL, CAUSTICS);
@@ -158,7 +175,8 @@ export class LightMaps {
     const gl = this.gl;
     const { lower, upper } = world.tank;
     const margin = 0.08 * Math.max(upper[0] - lower[0], upper[1] - lower[1]);
-    this.uniforms = { floorZ: lower[2], mapBox: [lower[0] - margin, lower[1] - margin,
+    this.uniforms = { floorZ: lower[2], level: world.level,
+      walls: [lower[0], lower[1], upper[0], upper[1]], mapBox: [lower[0] - margin, lower[1] - margin,
       upper[0] - lower[0] + 2 * margin, upper[1] - lower[1] + 2 * margin] };
     gl.enable(gl.DEPTH_TEST);
     gl.disable(gl.BLEND);
@@ -168,8 +186,12 @@ export class LightMaps {
       body.draw();
     }
     this.raw.bind([0, 0, 0, 0]);
-    use(gl, this.water, { ...this.uniforms, ...particles.uniforms, radius: 0.75 * world.spacing });
+    const shared = { ...this.uniforms, ...particles.uniforms, radius: 0.75 * world.spacing,
+      tankLower: lower, tankUpper: upper, reach: REACH * world.spacing };
+    use(gl, this.water, shared);
     particles.drawWater();
+    use(gl, this.mirror, shared);
+    particles.drawWater(3);
     const step = (0.42 * world.spacing) / 3;
     const wide = this.uniforms.mapBox;
     this.other.bind();

@@ -18,6 +18,22 @@ vec3 place() {
 float speed() { float s = float(tag.x) / 255.0; return 8.0 * s * s; }
 `;
 
+/// Water reaches up to the tank's walls, particles do not: mirrored at them it goes on, so that its
+/// surface is as smooth there as anywhere. Three copies: at the x wall, the y wall, and both.
+export const MIRRORED = `
+uniform vec3 tankLower, tankUpper;
+uniform float reach; // of the mirrored water beyond a wall [m]
+bool mirrored(inout vec3 p, int copy) {
+  vec2 wall = mix(tankLower.xy, tankUpper.xy, step(0.5 * (tankLower.xy + tankUpper.xy), p.xy));
+  bvec2 turned = bvec2(copy != 1, copy != 0);
+  bvec2 near = lessThan(abs(p.xy - wall), vec2(reach));
+  if (turned.x) p.x = 2.0 * wall.x - p.x;
+  if (turned.y) p.y = 2.0 * wall.y - p.y;
+  return (near.x || !turned.x) && (near.y || !turned.y);
+}
+`;
+export const REACH = 4; // spacings
+
 export class Particles {
   constructor(gl) {
     this.gl = gl;

@@ -175,7 +175,7 @@ export class Solids {
     const ground = quad([l[0] - far, l[1] - far, z], [u[0] + far, l[1] - far, z],
       [u[0] + far, u[1] + far, z], [l[0] - far, u[1] + far, z], [0, 0, 1]);
     const draw = (mesh) => meshOn(gl, mesh.places, mesh.normals);
-    const sand = world.slope ? [0.60, 0.49, 0.33] : [0.40, 0.46, 0.48];
+    const sand = world.slope ? [0.60, 0.49, 0.33] : [0.27, 0.34, 0.37];
     this.still = [
       { material: 0, tint: [0.030, 0.043, 0.058], draw: draw(ground) },
       { material: 1, tint: sand, draw: draw(floorOf(world)) },
@@ -183,7 +183,7 @@ export class Solids {
     ];
     this.bodies = world.bodies.map((body, index) => {
       const mesh = trianglesOf(body);
-      return { ...mesh, draw: draw(mesh), tint: PALETTE[index % PALETTE.length], glow: 0,
+      return { ...mesh, draw: draw(mesh), free: body.motion === 'free', tint: PALETTE[index % PALETTE.length], glow: 0,
         pose: STILL, place: [0, 0, 0], turn: [0, 0, 0, 1] };
     });
   }

@@ -3,7 +3,7 @@
 // narrow-range filter (Truong & Yuksel 2018), thickness, and both with the solids to one picture.
 import { OVER_ALL, Target, overAll, program, use } from './gl.js';
 import { LIGHT, LIT } from './light.js';
-import { PARTICLE } from './particles.js';
+import { MIRRORED, PARTICLE, REACH } from './particles.js';
 
 const HIDDEN = 'vec4(2.0, 2.0, 2.0, 1.0)'; // outside the picture
 
@@ -26,6 +26,16 @@ void main() {
   put(place(), radius);
   fast = speed();
   if ((tag.y & SPRAY) != 0u) gl_Position = ${HIDDEN};
+}`;
+
+/// Water behind the walls.
+const MIRROR_VERTEX = `${POINT}${MIRRORED}
+void main() {
+  vec3 p = place();
+  bool there = mirrored(p, gl_VertexID) && (tag.y & SPRAY) == 0u;
+  put(p, radius);
+  fast = 0.0;
+  if (!there) gl_Position = ${HIDDEN};
 }`;
 
 /// Drops: five for each particle that flies, within the water that it stands for.
@@ -64,26 +74,33 @@ float depthOf(float z) {
 }
 `;
 
-/// Water does not reach through the tank's walls: its front is cut at them, which is flat glass.
-const DEPTH = `${SPHERE}
+const TANK = `
 uniform mat4 viewBack;
 uniform vec3 eye, tankLower, tankUpper;
-uniform vec2 pixels;
+/// Where a way out of the eye, its length 1, enters the tank's walls and leaves them.
+vec2 within(vec3 p) {
+  vec3 along = mat3(viewBack) * p;
+  vec3 a = (tankLower - eye) / along, b = (tankUpper - eye) / along;
+  vec3 first = min(a, b), last = max(a, b);
+  return vec2(max(first.x, first.y), min(last.x, last.y));
+}
+`;
+
+/// Water does not reach through the tank's walls: its front is cut at them, which is flat glass.
+const DEPTH = `${SPHERE}${TANK}
 out vec4 colour;
 void main() {
   vec3 n;
   vec3 p = front(n);
-  vec3 along = mat3(viewBack) * p;
-  vec3 a = (tankLower - eye) / along, b = (tankUpper - eye) / along;
-  vec3 first = min(a, b), last = max(a, b);
-  float enters = max(first.x, first.y), leaves = min(last.x, last.y);
-  if (enters < leaves && enters > 1.0) p *= enters;
+  vec2 inside = within(p);
+  if (inside.x >= inside.y) discard;
+  p *= max(inside.x, 1.0);
   colour = vec4(-p.z, 0.0, 0.0, 1.0);
   gl_FragDepth = depthOf(p.z);
 }`;
 
 /// Chord of the sphere, such that what particles add up to is their volume; foam with it.
-const THICKNESS = `${SPHERE}
+const THICKNESS = `${SPHERE}${TANK}
 uniform sampler2D solidDepth;
 uniform vec2 pixels;
 uniform float share3; // a particle's volume over its sphere's
@@ -92,6 +109,8 @@ void main() {
   vec3 n;
   vec3 p = front(n);
   if (texture(solidDepth, gl_FragCoord.xy / pixels).r < depthOf(middle.z)) discard;
+  vec2 inside = within(p);
+  if (inside.x >= inside.y) discard;
   float chord = 2.0 * own * n.z * share3;
   colour = vec4(chord, chord * smoothstep(0.9, 2.8, fast), 0.0, 1.0);
 }`;
@@ -177,6 +196,7 @@ uniform sampler2D solids, solidDepth, surface, depth, thickness;
 uniform mat4 viewBack, projection;
 uniform vec2 slope;
 uniform vec3 eye, absorbed; // [1/m] of red, green, blue
+uniform vec3 tankLower, tankUpper;
 uniform float foamLength;   // [m] of fast water that is white
 out vec4 colour;
 
@@ -198,6 +218,12 @@ void main() {
   vec3 p = vec3((uv * 2.0 - 1.0) * slope * z, -z);
   vec3 world = (viewBack * vec4(p, 1.0)).xyz;
   vec3 view = normalize(p);
+  // Behind the far walls there is none.
+  vec2 far = mix(tankLower.xy - world.xy, world.xy - tankUpper.xy,
+                 step(eye.xy, 0.5 * (tankLower.xy + tankUpper.xy)));
+  float pixel = z * slope.y * 2.0 / float(textureSize(solids, 0).y);
+  float shown = s.a * (1.0 - smoothstep(-pixel, pixel, max(far.x, far.y)));
+  if (shown < 0.01) return;
   if (dot(n, view) > 0.0) n = normalize(n - 1.05 * dot(n, view) * view);
   vec2 thick = texture(thickness, uv).rg;
 
@@ -221,7 +247,7 @@ void main() {
   vec3 r = mat3(viewBack) * reflect(view, n);
   float f = 0.02 + 0.98 * pow(1.0 - max(dot(n, -view), 0.0), 5.0);
   vec3 seen = mix(body, room(r), min(f, 0.85) * (1.0 - 0.6 * foam));
-  colour = vec4(mix(behind, seen, s.a), 1.0);
+  colour = vec4(mix(behind, seen, shown), 1.0);
 }`;
 
 const DROP = `${SPHERE}${LIGHT}
@@ -271,6 +297,7 @@ export class Water {
     this.gl = gl;
     const make = (vertex, fragment) => program(gl, vertex, fragment);
     this.depthPass = make(WATER_VERTEX, DEPTH);
+    this.mirrorPass = make(MIRROR_VERTEX, DEPTH);
     this.thickPass = make(WATER_VERTEX, THICKNESS);
     this.bubblePass = make(BUBBLE_VERTEX, BUBBLE);
     this.dropPass = make(SPRAY_VERTEX, DROP);
@@ -309,6 +336,8 @@ export class Water {
     this.depths[0].fit(w, h).bind([0, 0, 0, 0]);
     use(gl, this.depthPass, shared);
     particles.drawWater();
+    use(gl, this.mirrorPass, { ...shared, reach: REACH * world.spacing });
+    particles.drawWater(3);
 
     const half = [Math.ceil(w / 2), Math.ceil(h / 2)];
     this.thick[0].fit(...half).bind([0, 0, 0, 0]);
