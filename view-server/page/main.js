@@ -17,6 +17,7 @@ import { Solids } from './solids.js';
 import { Sound } from './sound.js';
 import { between, mix } from './vector.js';
 import { Water } from './water.js';
+import { Words } from './words.js';
 
 const at = (id) => document.getElementById(id);
 const options = new URLSearchParams(location.search); // ?points, ?share=0.5
@@ -48,13 +49,16 @@ let tilesFirst = 0;
 let muted = false;
 let alive = { sim: false, synth: false };
 let wantsPicture = false;
-const status = {};
+const words = new Words();
 const shown = []; // lag of events to the picture [s]
 
 const link = new Link({
   open: () => grabs.again(),
   closed: () => { alive = { sim: false, synth: false }; playout.clear(); },
-  told: (said) => { alive = said; },
+  told: (said) => {
+    alive = said;
+    if (!said.sim || !said.synth) words.forget();
+  },
   SPC1: (scene) => {
     world = scene;
     world.level = null;
@@ -80,10 +84,11 @@ const link = new Link({
     pressed('mute', muted);
     const before = peaks?.length === levels.peaks.length ? peaks : levels.peaks;
     peaks = levels.peaks.map((peak, i) => Math.max(peak, FALL * before[i]));
+    panel.levels(peaks);
   },
   SPA1: (frame) => sound.take(frame),
   osc: ({ address, values, time }) => {
-    if (address === '/status.reply') status[values[0]] = values;
+    if (address === '/status.reply') words.note(values, performance.now() / 1000);
     else if (address === '/value') panel.value(values);
     else if (address === '/fail') warn(`${values[0]}: ${values[1]}`);
     else if (address in EVENTS) happen(address, values, time);
@@ -91,7 +96,7 @@ const link = new Link({
 });
 const sound = new Sound(link);
 const grabs = new Grabs(link);
-const panel = new Panel(at('rows'), at('preset'), link);
+const panel = new Panel(at, link);
 const pointers = new Pointers(canvas, camera, solids, grabs);
 const gamepads = new Gamepads(camera, solids, grabs);
 const film = new Film(canvas, sound);
@@ -130,29 +135,24 @@ function warn(text) {
   warned = performance.now();
 }
 
+/// Time goes on, and nothing moves in it.
+function paused() {
+  const [before, now] = playout.states.slice(-2);
+  return Boolean(now) && now.simulated === before.simulated;
+}
+
 function tellState() {
+  pressed('pause', paused());
   if (performance.now() - warned < 4000) return;
-  const [sim, synth] = [status['sim-server'], status['synth-server']];
-  let text;
-  let bad = true;
-  if (!link.isOpen) text = 'view-server does not answer; connecting again';
-  else if (!alive.sim) text = 'No simulator yet: it is started with --show';
-  else if (!world || !playout.states.length) text = 'The water comes to rest';
-  else if (sim && sim[11] < 0.9 && sim[11] > 0) {
-    text = `Slower than real time: ${sim[11].toFixed(2)} simulated seconds a second`;
-  } else if (!alive.synth) text = 'No synth: the water is seen, not heard';
-  else {
-    bad = false;
-    text = muted ? 'Muted' : world.description;
-    if (synth && synth[3] > 0) text += ` (${synth[3]} events late)`;
-  }
+  const { text, bad } = words.say({ open: link.isOpen, ...alive, muted, paused: paused(),
+    rests: !world || !playout.states.length, description: world?.description });
   if (at('state').textContent !== text) at('state').textContent = text;
   at('state').className = bad ? 'warning' : '';
 }
 
 function tellFigures() {
   const ms = (x) => `${Math.round(1000 * x)} ms`;
-  const sim = status['sim-server'];
+  const sim = words.last('sim-server');
   const parts = [`${world.particles} particles`, `${rate.toFixed(0)} pictures/s`,
     `95 % of pictures younger than ${ms(playout.age)}`];
   if (sound.lag !== null) {
@@ -244,6 +244,8 @@ const ACTS = {
     pressed('sound', sound.isOn);
   },
   mute: () => link.send('/mute', ',i', muted ? 0 : 1),
+  pause: () => link.send('/pause', ',i', paused() ? 0 : 1),
+  reset: () => link.send('/reset', ','),
   look: () => world && camera.frame(world.tank),
   picture: () => { wantsPicture = true; },
   film: () => {
@@ -256,10 +258,11 @@ const ACTS = {
     at('more').setAttribute('aria-expanded', !at('panel').hidden);
   },
 };
-const KEYS = { s: 'sound', m: 'mute', v: 'look', p: 'picture', f: 'film', o: 'more' };
+const KEYS = { ' ': 'pause', r: 'reset', s: 'sound', m: 'mute', v: 'look', p: 'picture', f: 'film', o: 'more' };
 for (const [id, act] of Object.entries(ACTS)) at(id).addEventListener('click', act);
 window.addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest('input, select')) return;
+  if (event.key === ' ' && event.target.closest('button, summary')) return; // it is pressed by that
   if (KEYS[event.key]) ACTS[KEYS[event.key]]();
   const turn = { ArrowLeft: [0.06, 0], ArrowRight: [-0.06, 0], ArrowUp: [0, 0.06],
     ArrowDown: [0, -0.06] }[event.key];
@@ -275,6 +278,6 @@ setInterval(() => {
 }, 250);
 
 /// For tests and for whoever looks with the browser's tools.
-window.splash = { camera, solids, playout, sound, link, grabs, events: [], peaks: () => peaks,
+window.splash = { camera, solids, playout, sound, link, grabs, events: [], peaks: () => peaks, alive: () => alive,
   rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, share: () => share, world: () => world };
 requestAnimationFrame(picture);

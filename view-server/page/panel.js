@@ -1,69 +1,69 @@
 // SPDX-License-Identifier: MIT
-// The sound's numbers: asked for with /get, moved with /set, told by /value. Names and ranges are
-// those of configs/sounds/README.md.
+// The panel: the sound's numbers, the rig's outputs and channels. Names, ranges, units and meanings
+// are those that the synth tells with its rig; it tells changes by /value, whoever makes them.
+import { Channels } from './channels.js';
+import { Slider, Switch } from './slider.js';
 
-const VOICES = { impact: ['gain_db', 'frequency', 'q', 'release'],
-  bubble: ['gain_db', 'pitch', 'damping', 'rise', 'physical'],
-  cavity: ['gain_db', 'pitch', 'damping', 'rise', 'physical'] };
-const RANGES = { gain_db: [-60, 24, 'dB'], frequency: [20, 2000, 'Hz'], q: [0.6, 50, ''],
-  release: [0.01, 5, 's'], pitch: [0.05, 20, ''], damping: [0.1, 20, ''], rise: [0, 1, ''],
-  physical: [0, 1, ''] };
 const PRESETS = ['cirio2013', 'calibrated', 'loudspeaker', 'deep', 'drops'];
 const OVER = 0.5; // [s] within which a preset is gone over to
+const OPENED = ['impact', 'bubble', 'cavity']; // of the groups, from the start
 
 export class Panel {
-  constructor(root, chooser, link) {
-    Object.assign(this, { root, link, rows: new Map(), outputs: [] });
-    for (const name of PRESETS) chooser.add(new Option(name, name));
-    chooser.addEventListener('change', () => {
-      if (chooser.value) link.send('/preset', ',sf', chooser.value, OVER);
-      setTimeout(() => this.askAll(), 1000 * OVER + 200);
+  /// `at`: the element of an id.
+  constructor(at, link) {
+    Object.assign(this, { at, link, rows: new Map() });
+    this.channels = new Channels(at('channels'), at('channel'), link);
+    for (const name of PRESETS) at('preset').add(new Option(name, name));
+    at('preset').addEventListener('change', () => {
+      if (at('preset').value) link.send('/preset', ',sf', at('preset').value, OVER);
+    });
+    at('turn').addEventListener('click', () => {
+      at('turn').setAttribute('aria-pressed', this.channels.turn());
     });
   }
 
   build(rig) {
-    this.root.replaceChildren();
     this.rows.clear();
-    for (const { name } of rig.outputs) this.add(`rig/${name}/gain_db`, [-60, 24, 'dB']);
-    for (const [voice, keys] of Object.entries(VOICES)) {
-      for (const key of keys) this.add(`${voice}/${key}`, RANGES[key]);
+    this.at('rows').replaceChildren();
+    this.at('outputs').replaceChildren();
+    const ofChannels = new Set(rig.channels.map((name) => `rig/${name}`));
+    for (const row of rig.rows ?? []) {
+      const group = row.name.slice(0, row.name.lastIndexOf('/'));
+      if (ofChannels.has(group)) continue;
+      const own = group.startsWith('rig/');
+      const slider = this.add(row, own ? row.name.slice(4) : row.name.slice(group.length + 1));
+      if (own) this.at('outputs').append(slider.label);
+      else this.group(group).append(slider.label);
     }
-    this.askAll();
+    this.channels.build(rig, (row) => this.add(row, row.name.slice(row.name.lastIndexOf('/') + 1)));
   }
 
-  add(name, [low, high, unit]) {
-    const even = low <= 0; // else by ratios
-    const label = document.createElement('label');
-    const slider = document.createElement('input');
-    const shown = document.createElement('output');
-    label.className = 'row';
-    label.append(name.replaceAll('/', ' ').replaceAll('_db', ''), slider, shown);
-    Object.assign(slider, { type: 'range', min: 0, max: 1, step: 0.002, disabled: true });
-    const toValue = (t) => (even ? low + t * (high - low) : low * (high / low) ** t);
-    const toShare = (v) => (even ? (v - low) / (high - low) : Math.log(v / low) / Math.log(high / low));
-    const show = (value) => {
-      shown.value = `${value.toPrecision(3)} ${unit}`;
-      slider.setAttribute('aria-valuetext', shown.value);
-    };
-    slider.addEventListener('input', () => {
-      show(toValue(+slider.value));
-      this.link.send('/set', ',sf', name, toValue(+slider.value));
-    });
-    this.rows.set(name, (value) => {
-      slider.disabled = false;
-      show(value);
-      if (document.activeElement !== slider) slider.value = toShare(value);
-    });
-    this.root.append(label);
+  add(row, title) {
+    const Kind = /\/(mute|solo)$/.test(row.name) ? Switch : Slider;
+    const slider = new Kind(row, title, (value) => this.link.send('/set', ',sf', row.name, value));
+    this.rows.set(row.name, slider);
+    return slider;
   }
 
-  /// A few at a time: the synth answers a host only so often.
-  askAll() {
-    [...this.rows.keys()].forEach((name, i) =>
-      setTimeout(() => this.link.send('/get', ',s', name), 130 * i));
+  group(name) {
+    const known = [...this.at('rows').children].find((child) => child.dataset.group === name);
+    if (known) return known;
+    const made = document.createElement('details');
+    made.dataset.group = name;
+    made.open = OPENED.includes(name);
+    const title = document.createElement('summary');
+    title.textContent = name;
+    made.append(title);
+    this.at('rows').append(made);
+    return made;
   }
 
   value([name, value]) {
-    this.rows.get(name)?.(value);
+    this.rows.get(name)?.show(value);
+    this.channels.value(name, value);
+  }
+
+  levels(peaks) {
+    if (!this.at('panel').hidden) this.channels.levels(peaks);
   }
 }

@@ -43,7 +43,7 @@ export class Sound {
   take(frame) {
     this.rate = frame.rate;
     for (const sample of frame.samples) this.recent[this.at++ % this.recent.length] = sample;
-    if (!this.isOn) return;
+    if (!this.isOn || !this.node) return;
     const samples = frame.samples.slice();
     this.node.port.postMessage({ samples, rate: frame.rate, moment: frame.moment,
       first: frame.first }, [samples.buffer]);
