@@ -57,6 +57,8 @@ nlohmann::json event_of(const std::string& type, double x, double y) {
           {"clickCount", 1}};
 }
 
+int browsers = 0;
+
 int fifo(const std::string& path) {
   if (mkfifo(path.c_str(), 0600) != 0) throw std::runtime_error("mkfifo " + path);
   return open(path.c_str(), O_RDWR | O_CLOEXEC);
@@ -68,7 +70,8 @@ bool Chromium::is_there() {
   return !found().empty();
 }
 
-Chromium::Chromium(const std::string& url) : folder_(temporary_path("chromium")) {
+Chromium::Chromium(const std::string& url)
+    : folder_(temporary_path("chromium-" + std::to_string(++browsers))) {
   fs::create_directories(folder_);
   to_ = fifo(folder_ + "/to");
   from_ = fifo(folder_ + "/from");
