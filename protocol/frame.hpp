@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -44,6 +45,18 @@ class FrameWriter {
   template <class Number>
   requires std::integral<Number> || std::floating_point<Number>
   void put(Number value) { store(std::bit_cast<FrameBits<Number>>(value), sizeof(Number)); }
+  template <class Number>
+  void put_all(std::span<const Number> values) {
+    std::size_t at = bytes_.size();
+    bytes_.resize(at + values.size_bytes());
+    for (const Number value : values) {
+      const auto bits = std::bit_cast<FrameBits<Number>>(value);
+      for (std::size_t i = 0; i < sizeof bits; ++i) {
+        bytes_[at + i] = static_cast<std::byte>(bits >> (8 * i));
+      }
+      at += sizeof bits;
+    }
+  }
   void text(std::string_view text) {
     const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
     bytes_.insert(bytes_.end(), bytes, bytes + text.size());

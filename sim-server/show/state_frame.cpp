@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "protocol/limits.hpp"
 
@@ -32,11 +33,12 @@ class Box {
       if (!empty) extent = std::max(extent, upper_[axis] - static_cast<double>(corner_[axis]));
     }
     unit_ = extent > 0.0 ? static_cast<float>(extent / kCounts) : 1.0F;
+    per_metre_ = 1.0 / static_cast<double>(unit_);
   }
   [[nodiscard]] std::uint64_t counts(std::size_t axis, double place) const {
-    const double way = (place - static_cast<double>(corner_[axis])) / static_cast<double>(unit_);
+    const double way = (place - static_cast<double>(corner_[axis])) * per_metre_;
     if (!(way > 0.0)) return 0;  // nor a number that is none
-    return static_cast<std::uint64_t>(std::lround(std::min(way, kCounts)));
+    return static_cast<std::uint64_t>(std::min(way, kCounts) + 0.5);
   }
   [[nodiscard]] const std::array<float, 3>& corner() const noexcept { return corner_; }
   [[nodiscard]] float unit() const noexcept { return unit_; }
@@ -46,6 +48,7 @@ class Box {
   Vector3 upper_ = {-1e30, -1e30, -1e30};
   std::array<float, 3> corner_ = {};  // [m]
   float unit_ = 1.0F;                 // [m]
+  double per_metre_ = 1.0;            // counts
 };
 
 double part(const std::vector<float>& vector, const ShownWater& water, std::size_t axis,
@@ -69,10 +72,10 @@ std::uint64_t packed(const Box& box, const Vector3& place) {
 }
 
 /// (s / 255)^2 of kShownSpeed.
-std::uint64_t speed_code(double speed) {
-  const double share = std::sqrt(speed / kShownSpeed);
-  if (!(share > 0.0)) return 0;
-  return static_cast<std::uint64_t>(std::lround(255.0 * std::min(share, 1.0)));
+std::uint64_t speed_code(float speed) {
+  const float share = std::sqrt(speed / static_cast<float>(kShownSpeed));
+  if (!(share > 0.0F)) return 0;
+  return static_cast<std::uint64_t>(255.0F * std::min(share, 1.0F) + 0.5F);
 }
 
 /// In the order of their ids.
@@ -80,10 +83,10 @@ std::vector<std::uint64_t> packed(const ShownWater& water, const Box& box) {
   std::vector<std::uint64_t> all(water.count);
   for (std::size_t i = 0; i < water.count; ++i) {
     Vector3 place;
-    double square = 0.0;
+    float square = 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       place[axis] = part(water.position, water, axis, i);
-      const double speed = part(water.velocity, water, axis, i);
+      const float speed = water.velocity[axis * water.stride + i];
       square += speed * speed;
     }
     std::uint64_t flags = 0;
@@ -116,7 +119,7 @@ protocol::ViewFrame state_frame(const ShownWater& water, const ShownState& state
   for (const float x : box.corner()) writer.put(x);
   writer.put(box.unit());
   for (const ShownBody& body : state.bodies) put_body(body, writer);
-  for (const std::uint64_t particle : packed(water, box)) writer.put(particle);
+  writer.put_all(std::span<const std::uint64_t>(packed(water, box)));
   for (const Vector3& bubble : state.bubbles) {
     writer.put(packed(box, bubble) | std::uint64_t{kBubble} << 56U);
   }
