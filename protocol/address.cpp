@@ -108,6 +108,28 @@ constexpr ArgumentRow kNamedPose[] = {text("body", "name of the body in the scen
 constexpr ArgumentRow kBodyGrab[] = {
     {'i', "body", "1", 0, 255, "index of the body in the scene"},
     {'i', "on", "1", 0, 1, "1: it follows /body/pose from now on, 0: its own motion"}};
+constexpr ArgumentRow reading(bool optional) {
+  return {'f', "force", "N", -1e6, 1e6, "of the sensors from there on, below 0: drift, as 0",
+          {},  optional};
+}
+constexpr ArgumentRow kPressure[] = {
+    {'i', "first", "1", 0, 65535,
+     "sensor of the first value: those of tile 0, of tile 1 and so on"},
+    reading(false),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true),
+    reading(true)};
 constexpr ArgumentRow kForce[] = {{'i', "body", "1", 0, 255, "index of the body in the scene"},
                                   {'f', "fx", "N", -1e6, 1e6, "force of the water on the body"},
                                   {'f', "fy", "N", -1e6, 1e6, "same"},
@@ -116,7 +138,31 @@ constexpr ArgumentRow kForce[] = {{'i', "body", "1", 0, 255, "index of the body 
                                   {'f', "ty", "N m", -1e6, 1e6, "same"},
                                   {'f', "tz", "N m", -1e6, 1e6, "same"}};
 
-constexpr ArgumentRow kNotify[] = {{'i', "streams", "1", 0, 1, "1: events; 0 ends them"}};
+constexpr ArgumentRow rate(std::string_view name, std::string_view meaning) {
+  return {'f', name, name[1] == 'f' ? "N s/m" : "N m s", -1e9, 1e9, meaning};
+}
+constexpr ArgumentRow kForceRate[] = {
+    {'i', "body", "1", 0, 255, "index of the body in the scene"},
+    rate("dfx", "what a speed along x adds to fx; 0 or less"),
+    rate("dfy", "same along y"),
+    rate("dfz", "same along z"),
+    rate("dtx", "what an angular velocity about x adds to tx; 0 or less"),
+    rate("dty", "same about y"),
+    rate("dtz", "same about z")};
+constexpr ArgumentRow speed(std::string_view name, std::string_view meaning) {
+  return {'f', name, name[0] == 'v' ? "m/s" : "rad/s", -1e6, 1e6, meaning};
+}
+constexpr ArgumentRow kBodyTwist[] = {{'i', "body", "1", 0, 255, "index of the body in the scene"},
+                                      speed("vx", "velocity of the body's origin"),
+                                      speed("vy", "same"),
+                                      speed("vz", "same, upwards"),
+                                      speed("wx", "angular velocity, in the scene's axes"),
+                                      speed("wy", "same"),
+                                      speed("wz", "same")};
+
+constexpr ArgumentRow kNotify[] = {
+    {'i', "streams", "1", 0, 3,
+     "1: events, 2: forces (the simulator alone), 3: both; 0 ends them"}};
 constexpr ArgumentRow kSync[] = {{'i', "id", "1", -kLastInt - 1, kLastInt, "returned in /synced"}};
 constexpr ArgumentRow kDumpOsc[] = {
     {'i', "level", "1", 0, 3, "0: off, 1: text, 2: hexadecimal, 3: both"}};
@@ -205,8 +251,13 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/body/pose", Direction::to_sim, "The same, the body by its name", kNamedPose},
     {"/body/grab", Direction::to_sim,
      "Grabs a body that has a motion of its own, or lets it go; answered by /done", kBodyGrab},
+    {"/tile/pressure", Direction::to_sim,
+     "What the force sensors of a floor of tiles feel; the last one ends a scan", kPressure},
     {"/force", Direction::subscribers,
-     "Reserved, never sent: force and torque of the water on a body", kForce},
+     "Force and torque of the water on a body, the mean over a frame", kForce},
+    {"/force/rate", Direction::subscribers, "How that depends on the body's speed", kForceRate},
+    {"/body/at", Direction::subscribers, "Where such a body is at the frame's end", kBodyPose},
+    {"/body/twist", Direction::subscribers, "How it moves then", kBodyTwist},
     {"/notify", Direction::to_both, "Subscribes the sender to streams; answered by /done", kNotify},
     {"/status", Direction::to_both, "Asks for /status.reply", {}},
     {"/version", Direction::to_both, "Asks for /version.reply", {}},

@@ -102,6 +102,7 @@ protocol::Message Control::change(const protocol::Message& message) {
 
 // Who cannot be told that it is a client is none.
 protocol::Message Control::notify(const protocol::Message& message, const Arrived& arrived) {
+  if (integer(message) > 1) return protocol::fail(message.address, "the synth has stream 1 alone");
   std::erase(clients_, arrived.from);
   if (integer(message) == 0) return protocol::done(message.address, 0);
   if (clients_.size() == kMostClients) {
