@@ -40,7 +40,7 @@ void PoseIntake::take(const protocol::BodyPose& pose, const PoseMoment& moment) 
 
 bool PoseIntake::track(const protocol::Message& message, const PoseMoment& moment) {
   const PoseStamp stamp = {moment.arrival, moment.sent};
-  return trackers_.take(message, stamp, [&](const MappedPose& pose) {
+  const bool taken = trackers_.take(message, stamp, [&](const MappedPose& pose) {
     const auto body = static_cast<std::int32_t>(pose.body);
     PoseRefusal refusal = pose.refusal;
     PosedMotion* const live = simulation_.live_body(body);
@@ -49,6 +49,7 @@ bool PoseIntake::track(const protocol::Message& message, const PoseMoment& momen
     }
     note(body, refusal, moment.arrival);
   });
+  return taken || trackers_.is_of_sender(message.address);
 }
 
 void PoseIntake::note(std::int32_t body, PoseRefusal refusal, double now) {

@@ -25,7 +25,8 @@ class PoseIntake {
 
   /// On the thread that listens, for each pose as it comes.
   void take(const protocol::BodyPose& pose, const PoseMoment& moment);
-  /// Same, for each message that is no command; false: the scene's `tracking` does not map it.
+  /// Same, for each message that is no command; false: no sender that the scene's `tracking` names
+  /// may have sent it.
   bool track(const protocol::Message& message, const PoseMoment& moment);
 
   /// All that were refused here. From any thread.

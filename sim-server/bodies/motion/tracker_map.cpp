@@ -105,6 +105,11 @@ bool are_simultaneous(const PoseStamp& a, const PoseStamp& b) {
   return a.sent.has_value() == b.sent.has_value() && std::abs(a.arrival - b.arrival) <= kTogether;
 }
 
+/// "/VMC" of "/VMC/Ext/OK".
+std::string beginning_of(const std::string& address) {
+  return address.substr(0, address.find('/', 1));
+}
+
 /// /body/pose with a name in place of a number, which needs no `tracking`.
 TrackerSource named_pose(std::size_t body, const std::string& name) {
   TrackerSource source;
@@ -121,6 +126,8 @@ TrackerSource named_pose(std::size_t body, const std::string& name) {
 TrackerMap::TrackerMap(const Scene& scene) {
   const Quaternion turn = from_turn({0.0, 0.0, std::numbers::pi / 180.0 * scene.tracking.yaw});
   for (const TrackerSource& source : scene.tracking.sources) {
+    senders_.insert(beginning_of(source.address));
+    if (!source.rotation_address.empty()) senders_.insert(beginning_of(source.rotation_address));
     const Quaternion& rest = scene.bodies.at(source.body).rest.rotation;
     sources_.push_back({source, scene.tracking.position, turn, rest});
   }
@@ -129,6 +136,10 @@ TrackerMap::TrackerMap(const Scene& scene) {
       sources_.push_back({named_pose(b, scene.bodies[b].name)});
     }
   }
+}
+
+bool TrackerMap::is_of_sender(const std::string& address) const {
+  return senders_.contains(beginning_of(address));
 }
 
 MappedPose TrackerMap::place(const Source& source) {

@@ -5,6 +5,8 @@
 
 #include <functional>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "protocol/message.hpp"
@@ -31,6 +33,10 @@ class TrackerMap {
   bool take(const protocol::Message& message, const PoseStamp& stamp,
             const std::function<void(const MappedPose&)>& give);
 
+  /// Whether a source's sender may well send this, too: its address begins as one of the source's.
+  /// A tracker tells more than a scene has a use for.
+  [[nodiscard]] bool is_of_sender(const std::string& address) const;
+
  private:
   /// A position and a rotation of one moment may come in two messages, in either order.
   struct Source {
@@ -52,6 +58,7 @@ class TrackerMap {
   [[nodiscard]] static MappedPose place(const Source& source);
 
   std::vector<Source> sources_;
+  std::set<std::string> senders_;  ///< what their addresses begin with, up to the second /
 };
 
 }  // namespace splash::sim

@@ -242,6 +242,18 @@ TEST(TrackerMap, SaysWhatIsNoPose) {
   EXPECT_EQ(mapped.poses[1].refusal, PoseRefusal::no_rotation);
 }
 
+// So that a scene that maps one of a suit's trackers does not call all others a mistake.
+TEST(TrackerMap, KnowsWhatElseItsSendersSay) {
+  const TrackerMap map(scene_with(R"(  sources:
+    - {body: hand, preset: vmc, name: A}
+)"));
+  EXPECT_TRUE(map.is_of_sender("/VMC/Ext/OK"));
+  EXPECT_TRUE(map.is_of_sender("/VMC/Ext/Bone/Pos"));
+  EXPECT_FALSE(map.is_of_sender("/VMCExt"));
+  EXPECT_FALSE(map.is_of_sender("/statu"));
+  EXPECT_FALSE(map.is_of_sender("/"));
+}
+
 TEST(TrackerMap, LeavesOthersMessagesAlone) {
   Mapped mapped("  sources: [{body: hand, preset: vmc, name: A}]\n");
   EXPECT_FALSE(mapped.take({"/VMC/Ext/Tra/Pos", {std::string("B"), 0.1F}}));
