@@ -109,6 +109,7 @@ class ControlServer {
   void body_pose(const Request& request);
   void body_grab(const Request& request);
   void status(const Request& request);
+  void tile_pressure(const Request& request);
   void version(const Request& request);
   void sync(const Request& request);
   void notify(const Request& request);

@@ -28,10 +28,11 @@ struct ControlServer::Command {
   const char* address;
   void (ControlServer::*run)(const Request&);
 
-  static const std::array<Command, 13>& all() {
-    static constexpr std::array<Command, 13> kCommands = {{
+  static const std::array<Command, 14>& all() {
+    static constexpr std::array<Command, 14> kCommands = {{
         {"/body/pose", &ControlServer::body_pose},
         {"/body/grab", &ControlServer::body_grab},
+        {"/tile/pressure", &ControlServer::tile_pressure},
         {"/status", &ControlServer::status},
         {"/version", &ControlServer::version},
         {"/sync", &ControlServer::sync},
@@ -114,6 +115,11 @@ void ControlServer::body_pose(const Request& request) {
     actions_.pose(*pose, {request.monotonic, request.sent});
     count(&ControlCounts::poses);
   }
+}
+
+void ControlServer::tile_pressure(const Request& request) {
+  if (actions_.track && actions_.track(request.message, {request.monotonic, request.sent})) return;
+  fail(request, "no body of this scene has motion: {kind: pressure}");
 }
 
 void ControlServer::body_grab(const Request& request) {

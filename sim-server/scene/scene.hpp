@@ -115,7 +115,7 @@ struct Keyframe {
   Quaternion rotation = {0.0, 0.0, 0.0, 1.0};  ///< body to world
 };
 
-enum class MotionKind { fixed, script, csv, trc, osc, free };
+enum class MotionKind { fixed, script, csv, trc, osc, touch, pressure, free };
 
 /// What a body does while its tracker is silent: goes on as it moved, for a while, or stays.
 enum class GapKind { bridge, hold };
@@ -132,6 +132,10 @@ struct MotionSettings {
   GapKind gap = GapKind::bridge;       ///< osc
   double gap_limit = 0.025;            ///< osc, bridge: so long the body goes on as it moved [s]
   double delay_limit = 0.030;          ///< osc: uneven poses are played up to so much later [s]
+  double hover = 0.0;                  ///< same: out of the water, above where it stands [m]
+  double lift = 0.12;                  ///< touch, pressure: it waits so far above the water [m]
+  double fall = 1.0;                   ///< touch, pressure: comes down so fast [m/s]
+  double rise = 0.6;                   ///< touch, pressure: and goes up so fast [m/s]
   double density = 0.0;                ///< free [kg/m3]; 0: from `mass`
   double mass = 0.0;                   ///< free [kg]; 0: from `density`
   Vector3 velocity = {0.0, 0.0, 0.0};  ///< free: when time begins [m/s]
@@ -148,6 +152,10 @@ struct BodySettings {
   MotionSettings motion;
 };
 
+/// Whether a floor that feels it moves the body: a foot, of which nothing is known while it is up.
+[[nodiscard]] inline bool is_felt(const BodySettings& body) noexcept {
+  return body.motion.kind == MotionKind::touch || body.motion.kind == MotionKind::pressure;
+}
 /// Whether the water moves the body.
 [[nodiscard]] inline bool is_free(const BodySettings& body) noexcept {
   return body.motion.kind == MotionKind::free;
@@ -226,9 +234,11 @@ struct ServeSettings {
 /// A tracker's messages and the body that they move. They give the body's pose as the sender sees
 /// it; scene/tracking_reader has the words of each.
 struct TrackerSource {
-  std::size_t body = 0;            ///< index among the scene's
-  std::string address;             ///< OSC, of the messages with the position
-  std::vector<std::string> match;  ///< what their first arguments are; empty: anything
+  std::size_t body = 0;                      ///< index among the scene's
+  std::string name;                          ///< of the tracker, or of the source; empty: any
+  std::array<double, 2> floor = {1.0, 1.0};  ///< tuio: size of the surface [m]
+  std::string address;                       ///< OSC, of the messages with the position
+  std::vector<std::string> match;            ///< what their first arguments are; empty: anything
   std::array<std::size_t, 3> position = {0, 1, 2};  ///< which arguments are x y z
   std::string rotation_address;                     ///< OSC, of those with the rotation
   std::vector<std::string> rotation_match;          ///< what their first arguments are
@@ -241,11 +251,22 @@ struct TrackerSource {
   Keyframe mount;  ///< the body on the tracker, in its axes after `axes`
 };
 
+/// A floor of tiles with force sensors, that says /tile/pressure.
+struct FloorSettings {
+  bool present = false;
+  int columns = 6;      ///< of tiles, along +x
+  int rows = 6;         ///< along +y
+  double tile = 0.305;  ///< edge of one [m]
+  int sensors = 1;      ///< of a tile: 1, or 4 at its corners
+  double load = 20.0;   ///< that puts a foot down [N]
+};
+
 /// Trackers other than /body/pose.
 struct TrackingSettings {
   Vector3 position = {0.0, 0.0, 0.0};  ///< the senders' origin in the scene [m]
   double yaw = 0.0;                    ///< the senders' room is turned by this about z [deg]
   std::vector<TrackerSource> sources;
+  FloorSettings floor;
 };
 
 struct Scene {

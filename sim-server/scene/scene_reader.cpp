@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/scene/scene_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -98,11 +99,24 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
 /// A key that this kind of motion does not use is a mistake, not a no-op.
 void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
   static const std::map<std::string, std::set<std::string>> kUsedBy = {
-      {"keyframes", {"script"}}, {"smooth", {"script"}}, {"repeat", {"script", "csv", "trc"}},
-      {"file", {"csv", "trc"}},  {"markers", {"trc"}},   {"sole", {"trc"}},
-      {"start", {"csv", "trc"}}, {"gap", {"osc"}},       {"gap_limit", {"osc"}},
-      {"delay_limit", {"osc"}},  {"density", {"free"}},  {"mass", {"free"}},
-      {"velocity", {"free"}},    {"spin", {"free"}},     {"restitution", {"free"}},
+      {"keyframes", {"script"}},
+      {"smooth", {"script"}},
+      {"repeat", {"script", "csv", "trc"}},
+      {"file", {"csv", "trc"}},
+      {"markers", {"trc"}},
+      {"sole", {"trc"}},
+      {"start", {"csv", "trc"}},
+      {"gap", {"osc"}},
+      {"gap_limit", {"osc"}},
+      {"delay_limit", {"osc"}},
+      {"lift", {"touch", "pressure"}},
+      {"fall", {"touch", "pressure"}},
+      {"rise", {"touch", "pressure"}},
+      {"density", {"free"}},
+      {"mass", {"free"}},
+      {"velocity", {"free"}},
+      {"spin", {"free"}},
+      {"restitution", {"free"}},
       {"friction", {"free"}}};
   for (const auto& [key, kinds] : kUsedBy) {
     if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
@@ -121,8 +135,9 @@ void check_markers(const ConfigMap& map, const MotionEntry& entry) {
 
 MotionSettings read_motion(const ConfigMap& map) {
   static const std::map<std::string, MotionKind> kKinds = {
-      {"fixed", MotionKind::fixed}, {"script", MotionKind::script}, {"csv", MotionKind::csv},
-      {"trc", MotionKind::trc},     {"osc", MotionKind::osc},       {"free", MotionKind::free}};
+      {"fixed", MotionKind::fixed}, {"script", MotionKind::script},    {"csv", MotionKind::csv},
+      {"trc", MotionKind::trc},     {"osc", MotionKind::osc},          {"free", MotionKind::free},
+      {"touch", MotionKind::touch}, {"pressure", MotionKind::pressure}};
   MotionEntry entry;
   map.read(motion_fields(), {"keyframes"}, entry);
   entry.kind = kKinds.at(entry.kind_name);
@@ -146,8 +161,8 @@ MotionSettings read_motion(const ConfigMap& map) {
 
 void read_rest(const ConfigMap& map, BodySettings& body) {
   const MotionKind kind = body.motion.kind;
-  const bool needed =
-      kind == MotionKind::fixed || kind == MotionKind::osc || kind == MotionKind::free;
+  const bool needed = kind == MotionKind::fixed || kind == MotionKind::osc ||
+                      kind == MotionKind::free || is_felt(body);
   if (needed) {
     const ConfigMap rest = map.child("rest");
     rest.read(rest_fields(), {}, body.rest);
@@ -240,6 +255,35 @@ FluidSettings read_fluid(const ConfigMap& map) {
   return entry;
 }
 
+/// Where a foot that a floor feels is just out of the water, and whether there is such a floor.
+void find_hovers(const ConfigMap& map, Scene& scene) {
+  constexpr double kClear = 0.01;  // [m]
+  const std::vector<ConfigMap> entries = map.list("bodies");
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    BodySettings& body = scene.bodies[b];
+    if (!is_felt(body)) continue;
+    const bool tiles = body.motion.kind == MotionKind::pressure;
+    const auto& sources = scene.tracking.sources;
+    const bool told = tiles ? scene.tracking.floor.present
+                            : std::any_of(sources.begin(), sources.end(),
+                                          [&](const auto& source) { return source.body == b; });
+    if (!told) {
+      throw entries[b].error("motion", tiles ? "needs a `floor` in the scene's `tracking`"
+                                             : "needs a source with preset: tuio in the scene's "
+                                               "`tracking`");
+    }
+    double sole = body.rest.position[2];
+    for (std::size_t i = 0; i < 3; ++i) {
+      Vector3 edge = {0.0, 0.0, 0.0};
+      edge[i] = 0.5 * body.shape.size[i];
+      sole -= std::abs(rotate(body.rest.rotation, edge)[2]);
+    }
+    double surface = sole;
+    for (const WaterBlock& water : scene.water) surface = std::max(surface, water.upper[2]);
+    body.motion.hover = surface - sole + kClear;
+  }
+}
+
 /// Whoever confuses the two kinds of file is told so, not that a key is unknown.
 void refuse_rig(const ConfigMap& map) {
   if (!map.has("outputs") || map.has("tank") || map.has("fluid")) return;
@@ -275,6 +319,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   if (const auto tracking = map.optional_child("tracking")) {
     scene.tracking = read_tracking(*tracking, scene);
   }
+  find_hovers(map, scene);
   return scene;
 }
 

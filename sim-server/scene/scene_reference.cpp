@@ -88,7 +88,8 @@ std::string scene_reference() {
          section("### `bodies`: a list", body_fields()) +
          section("### `shape` of a body", shape_fields()) +
          section("### or, in its place, a mesh", mesh_fields()) +
-         section("### `rest` of a body (kinds `fixed`, `osc` and `free`)", rest_fields()) +
+         section("### `rest` of a body (kinds `fixed`, `osc`, `touch`, `pressure` and `free`)",
+                 rest_fields()) +
          section("### `motion` of a body (optional)", motion_fields()) +
          section("### `keyframes` of a scripted motion: a list", keyframe_fields()) +
          section("### `gauges` (optional): what `--gauges FILE.csv` writes", gauges_fields()) +
@@ -99,6 +100,7 @@ std::string scene_reference() {
          section("### `tracking` (optional): trackers that do not send `/body/pose`",
                  tracking_fields()) +
          section("### `sources` of the tracking: a list", tracker_fields()) +
+         section("### `floor` of the tracking (optional): tiles that feel weight", floor_fields()) +
          section("### `mount` of a source (optional): the body on its tracker", mount_fields());
 }
 

@@ -188,8 +188,10 @@ Fields<MotionEntry> recorded_fields() {
       {{.key = "kind",
         .unit = "",
         .meaning = "fixed: stays at rest; script: keyframes; csv: poses from a file; trc: markers "
-                   "from a file; osc: /body/pose messages; free: the water and gravity move it.",
-        .choices = {"fixed", "script", "csv", "trc", "osc", "free"}},
+                   "from a file; osc: /body/pose messages; touch: a foot on a surface that "
+                   "tells where it is touched; pressure: a foot on a floor that feels weight; "
+                   "free: the water and gravity move it.",
+        .choices = {"fixed", "script", "csv", "trc", "osc", "touch", "pressure", "free"}},
        &M::kind_name},
       {{.key = "smooth",
         .unit = "",
@@ -251,6 +253,31 @@ Fields<MotionEntry> live_fields() {
   };
 }
 
+Fields<MotionEntry> felt_fields() {
+  using M = MotionEntry;
+  return {
+      {{.key = "lift",
+        .unit = "m",
+        .meaning = "touch, pressure: so far above the water the foot waits for its next touch.",
+        .min = 0,
+        .max = 2},
+       &M::lift},
+      {{.key = "fall",
+        .unit = "m/s",
+        .meaning = "touch, pressure: when it is touched it comes down at this speed from 0.01 m "
+                   "above the water as the scene begins; its impacts are as fast.",
+        .min = 0.05,
+        .max = 10},
+       &M::fall},
+      {{.key = "rise",
+        .unit = "m/s",
+        .meaning = "touch, pressure: and leaves at this one.",
+        .min = 0.05,
+        .max = 10},
+       &M::rise},
+  };
+}
+
 Fields<MotionEntry> free_fields() {
   using M = MotionEntry;
   return {
@@ -300,7 +327,7 @@ Fields<MotionEntry> free_fields() {
 const Fields<MotionEntry>& motion_fields() {
   static const Fields<MotionEntry> kFields = [] {
     Fields<MotionEntry> all = recorded_fields();
-    for (const auto& part : {live_fields(), free_fields()}) {
+    for (const auto& part : {live_fields(), felt_fields(), free_fields()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

@@ -72,6 +72,7 @@ struct TrackerEntry {
   std::string angles = "degrees";
   std::vector<std::string> axes = {"x", "y", "z"};
   double unit = 1.0;
+  std::vector<double> floor = {};
 };
 
 [[nodiscard]] const Fields<Scene>& scene_fields();
@@ -95,6 +96,7 @@ struct TrackerEntry {
 [[nodiscard]] const Fields<ServeSettings>& serve_fields();
 [[nodiscard]] const Fields<TrackingSettings>& tracking_fields();
 [[nodiscard]] const Fields<TrackerEntry>& tracker_fields();
+[[nodiscard]] const Fields<FloorSettings>& floor_fields();
 [[nodiscard]] const Fields<Keyframe>& mount_fields();
 /// What senders of the common kinds send, under the names of `preset`.
 [[nodiscard]] const std::map<std::string, TrackerEntry>& tracker_presets();

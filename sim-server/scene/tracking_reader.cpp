@@ -113,17 +113,52 @@ void read_rotation(const ConfigMap& map, const TrackerEntry& entry, TrackerSourc
       own ? read_match(map, "rotation_match", entry, entry.rotation_match) : source.match;
 }
 
-std::size_t find_tracked(const ConfigMap& map, const std::string& name, const Scene& scene) {
+/// `kind`: of its motion, as `word` says.
+std::size_t find_tracked(const ConfigMap& map, const std::string& name, const Scene& scene,
+                         MotionKind kind, const std::string& word) {
   std::string known;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodySettings& body = scene.bodies[b];
-    if (body.motion.kind != MotionKind::osc) continue;
+    if (body.motion.kind != kind) continue;
     if (body.name == name) return b;
     known += (known.empty() ? "" : ", ") + body.name;
   }
-  throw map.error("body",
-                  "there is no body named '" + name +
-                      "' with motion: {kind: osc}; there are: " + (known.empty() ? "none" : known));
+  throw map.error("body", "there is no body named '" + name + "' with motion: {kind: " + word +
+                              "}; there are: " + (known.empty() ? "none" : known));
+}
+
+/// What is alike for poses and for a surface that is touched.
+void read_mount(const ConfigMap& map, TrackerSource& source) {
+  const auto mount = map.optional_child("mount");
+  if (!mount) return;
+  mount->read(mount_fields(), {}, source.mount);
+  const Quaternion& q = source.mount.rotation;
+  if (std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) < 1.0e-3) {
+    throw mount->error("rotation", "is no rotation: its length is zero");
+  }
+  source.mount.rotation = unit(q);
+}
+
+TrackerSource read_surface(const ConfigMap& map, const TrackerEntry& entry, const Scene& scene) {
+  static const std::vector<std::string> kAddresses = {"/tuio/2Dcur", "/tuio/2Dobj", "/tuio/2Dblb"};
+  for (const char* key : {"match", "position", "rotation_address", "rotation_match", "rotation",
+                          "euler", "angles", "unit"}) {
+    if (map.has(key)) throw map.error(key, "has no meaning for the preset tuio");
+  }
+  if (std::find(kAddresses.begin(), kAddresses.end(), entry.address) == kAddresses.end()) {
+    throw map.error("address", "must be one of TUIO's: /tuio/2Dcur, /tuio/2Dobj, /tuio/2Dblb");
+  }
+  TrackerSource source;
+  source.body = find_tracked(map, entry.body, scene, MotionKind::touch, "touch");
+  source.name = entry.name;
+  source.address = entry.address;
+  if (entry.floor.size() != 2) {
+    throw map.error("floor", "must be the surface's width and depth in metres, as in [1.8, 1.8]");
+  }
+  std::copy(entry.floor.begin(), entry.floor.end(), source.floor.begin());
+  read_axes(map, entry, source);
+  read_mount(map, source);
+  return source;
 }
 
 TrackerSource read_source(const ConfigMap& map, const Scene& scene) {
@@ -136,8 +171,11 @@ TrackerSource read_source(const ConfigMap& map, const Scene& scene) {
   } else if (!map.has("address")) {
     throw map.error("address", "is missing: give it, or a `preset`");
   }
+  if (entry.preset == "tuio") return read_surface(map, entry, scene);
+  if (map.has("floor")) throw map.error("floor", "has no meaning but for the preset tuio");
   TrackerSource source;
-  source.body = find_tracked(map, entry.body, scene);
+  source.body = find_tracked(map, entry.body, scene, MotionKind::osc, "osc");
+  source.name = entry.name;
   source.address = read_address(map, "address", entry.address, entry.name);
   source.match = read_match(map, "match", entry, entry.match);
   const auto position = read_indices(map, "position", entry.position);
@@ -146,22 +184,31 @@ TrackerSource read_source(const ConfigMap& map, const Scene& scene) {
   read_rotation(map, entry, source);
   read_axes(map, entry, source);
   source.unit = entry.unit;
-  if (const auto mount = map.optional_child("mount")) {
-    mount->read(mount_fields(), {}, source.mount);
-    const Quaternion& q = source.mount.rotation;
-    if (std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) < 1.0e-3) {
-      throw mount->error("rotation", "is no rotation: its length is zero");
-    }
-    source.mount.rotation = unit(q);
-  }
+  read_mount(map, source);
   return source;
+}
+
+bool needs_floor(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodySettings& body) {
+    return body.motion.kind == MotionKind::pressure;
+  });
+}
+
+void read_floor(const ConfigMap& map, const Scene& scene, FloorSettings& floor) {
+  map.read(floor_fields(), {}, floor);
+  floor.present = true;
+  if (floor.sensors != 1 && floor.sensors != 4) throw map.error("sensors", "must be 1 or 4");
+  if (!needs_floor(scene)) {
+    throw map.error("columns", "there is a floor, but no body with motion: {kind: pressure}");
+  }
 }
 
 }  // namespace
 
 TrackingSettings read_tracking(const ConfigMap& map, const Scene& scene) {
   TrackingSettings tracking;
-  map.read(tracking_fields(), {"sources"}, tracking);
+  map.read(tracking_fields(), {"sources", "floor"}, tracking);
+  if (const auto floor = map.optional_child("floor")) read_floor(*floor, scene, tracking.floor);
   for (const ConfigMap& entry : map.list("sources")) {
     tracking.sources.push_back(read_source(entry, scene));
     for (std::size_t i = 0; i + 1 < tracking.sources.size(); ++i) {
@@ -169,7 +216,9 @@ TrackingSettings read_tracking(const ConfigMap& map, const Scene& scene) {
       throw entry.error("body", "another source moves it already");
     }
   }
-  if (tracking.sources.empty()) throw map.error("sources", "name at least one");
+  if (tracking.sources.empty() && !tracking.floor.present) {
+    throw map.error("sources", "name at least one, or a `floor`");
+  }
   return tracking;
 }
 

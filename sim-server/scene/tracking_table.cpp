@@ -35,6 +35,8 @@ const std::map<std::string, TrackerEntry>& tracker_presets() {
         .rotation_match = {"{name}", "quat"},
         .rotation = {2, 3, 4, 5},
         .axes = kUpIsY}},
+      // https://www.tuio.org: TUIO 1.1, a surface seen from above with y towards its front edge.
+      {"tuio", {.address = "/tuio/2Dcur", .match = {"set"}, .axes = {"x", "-y", "z"}}},
   };
   return kPresets;
 }
@@ -68,7 +70,8 @@ Fields<TrackerEntry> message_fields() {
   return {
       {{.key = "body",
         .unit = "",
-        .meaning = "Name of the body that the messages move; its motion is of kind osc.",
+        .meaning = "Name of the body that the messages move; its motion is of kind osc, for tuio "
+                   "of kind touch.",
         .required = true},
        &T::body},
       {{.key = "preset",
@@ -80,7 +83,7 @@ Fields<TrackerEntry> message_fields() {
       {{.key = "name",
         .unit = "",
         .meaning = "What the sender calls the tracker: stands for {name} in the address and in "
-                   "what is matched."},
+                   "what is matched. tuio: the source whose cursors are meant; left out: any."},
        &T::name},
       {{.key = "address",
         .unit = "",
@@ -137,6 +140,12 @@ Fields<TrackerEntry> number_fields() {
         .min = 1.0e-6,
         .max = 1000},
        &T::unit},
+      {{.key = "floor",
+        .unit = "m",
+        .meaning = "tuio: width and depth of the surface, for which its coordinates are 1.",
+        .min = 0.01,
+        .max = 100},
+       &T::floor},
   };
 }
 
@@ -149,6 +158,36 @@ const Fields<TrackerEntry>& tracker_fields() {
     all.insert(all.end(), numbers.begin(), numbers.end());
     return all;
   }();
+  return kFields;
+}
+
+const Fields<FloorSettings>& floor_fields() {
+  using F = FloorSettings;
+  static const Fields<F> kFields = {
+      {{.key = "columns",
+        .unit = "1",
+        .meaning =
+            "Tiles along x. Tile 0 has its corner at the `position` of the tracking; numbers "
+            "grow along x, then row by row along y, as those of a rig.",
+        .min = 1,
+        .max = 64},
+       &F::columns},
+      {{.key = "rows", .unit = "1", .meaning = "Tiles along y.", .min = 1, .max = 64}, &F::rows},
+      {{.key = "tile", .unit = "m", .meaning = "Edge of a tile.", .min = 0.01, .max = 10},
+       &F::tile},
+      {{.key = "sensors",
+        .unit = "1",
+        .meaning = "Of a tile: 1, or 4 at its corners at -x -y, +x -y, -x +y and +x +y.",
+        .min = 1,
+        .max = 4},
+       &F::sensors},
+      {{.key = "load",
+        .unit = "N",
+        .meaning = "Puts a foot down; half of it, and less, lifts it.",
+        .min = 2,
+        .max = 1000},
+       &F::load},
+  };
   return kFields;
 }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "sim-server/bodies/motion/floor_motion.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -38,7 +40,20 @@ void PoseIntake::take(const protocol::BodyPose& pose, const PoseMoment& moment) 
   note(pose.body, give(pose, moment), moment.arrival);
 }
 
+void PoseIntake::stand(const FloorTouch& touch, double arrival) const {
+  auto* const foot =
+      dynamic_cast<FloorMotion*>(simulation_.live_body(static_cast<std::int32_t>(touch.body)));
+  if (foot == nullptr) return;
+  if (touch.down) {
+    foot->touch(touch.place, touch.rotation, arrival);
+  } else {
+    foot->lift(arrival);
+  }
+}
+
 bool PoseIntake::track(const protocol::Message& message, const PoseMoment& moment) {
+  const GiveTouch touch = [&](const FloorTouch& told) { stand(told, moment.arrival); };
+  if (surfaces_.take(message, moment.arrival, touch) || floor_.take(message, touch)) return true;
   const PoseStamp stamp = {moment.arrival, moment.sent};
   const bool taken = trackers_.take(message, stamp, [&](const MappedPose& pose) {
     const auto body = static_cast<std::int32_t>(pose.body);

@@ -11,7 +11,9 @@
 #include "protocol/event.hpp"
 #include "protocol/message.hpp"
 #include "sim-server/bodies/motion/pose_refusal.hpp"
+#include "sim-server/bodies/motion/pressure_feet.hpp"
 #include "sim-server/bodies/motion/tracker_map.hpp"
+#include "sim-server/bodies/motion/tuio_feet.hpp"
 #include "sim-server/listen/control.hpp"
 #include "sim-server/serve/report.hpp"
 #include "sim-server/simulation/simulation.hpp"
@@ -21,12 +23,15 @@ namespace splash::sim {
 class PoseIntake {
  public:
   explicit PoseIntake(const Simulation& simulation)
-      : simulation_(simulation), trackers_(simulation.scene()) {}
+      : simulation_(simulation),
+        trackers_(simulation.scene()),
+        surfaces_(simulation.scene()),
+        floor_(simulation.scene()) {}
 
   /// On the thread that listens, for each pose as it comes.
   void take(const protocol::BodyPose& pose, const PoseMoment& moment);
-  /// Same, for each message that is no command; false: no sender that the scene's `tracking` names
-  /// may have sent it.
+  /// Same, for each message that is no command; false: no sender that
+  /// the scene's `tracking` names may have sent it.
   bool track(const protocol::Message& message, const PoseMoment& moment);
 
   /// All that were refused here. From any thread.
@@ -35,12 +40,15 @@ class PoseIntake {
   [[nodiscard]] NamedCounts refusals(const ControlCounts& wire) const;
 
  private:
+  void stand(const FloorTouch& touch, double arrival) const;
   [[nodiscard]] PoseRefusal give(const protocol::BodyPose& pose, const PoseMoment& moment) const;
   void note(std::int32_t body, PoseRefusal refusal, double now);
   void say(std::int32_t body, PoseRefusal refusal, double now);
 
   const Simulation& simulation_;
   TrackerMap trackers_;
+  TuioFeet surfaces_;
+  PressureFeet floor_;
   std::array<std::atomic<std::uint64_t>, kPoseRefusals> counts_ = {};
   std::bitset<256> said_;   ///< of bodies that no pose can move
   double next_line_ = 0.0;  ///< monotonic [s]

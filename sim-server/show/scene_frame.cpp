@@ -38,6 +38,10 @@ const char* name_of(MotionKind kind) {
       return "trc";
     case MotionKind::osc:
       return "osc";
+    case MotionKind::touch:
+      return "touch";
+    case MotionKind::pressure:
+      return "pressure";
     case MotionKind::free:
       break;
   }

@@ -42,7 +42,7 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
   std::vector<std::unique_ptr<Motion>> motions;
   for (const BodySettings& body : scene.bodies) {
     auto motion = make_motion(body, tracker);
-    const bool grabbable = !is_free(body) && body.motion.kind != MotionKind::osc;
+    const bool grabbable = !is_free(body) && !is_felt(body) && body.motion.kind != MotionKind::osc;
     if (grabbable) motion = std::make_unique<GrabbedMotion>(std::move(motion));
     motions.push_back(std::move(motion));
     live.push_back(dynamic_cast<PosedMotion*>(motions.back().get()));

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "program/config.hpp"
+#include "sim-server/bodies/motion/floor_motion.hpp"
 #include "sim-server/bodies/motion/free_motion.hpp"
 #include "sim-server/bodies/motion/live_motion.hpp"
 #include "sim-server/bodies/motion/marker_motion.hpp"
@@ -95,6 +96,12 @@ std::unique_ptr<Motion> make_motion(const BodySettings& body,
     case MotionKind::osc:
       return std::make_unique<LiveMotion>(body.rest, LiveLimits{}, gap_of(motion),
                                           motion.delay_limit);
+    case MotionKind::touch:
+    case MotionKind::pressure:
+      return std::make_unique<FloorMotion>(body.rest, FloorSteps{.hover = motion.hover,
+                                                                 .lift = motion.lift,
+                                                                 .fall = motion.fall,
+                                                                 .rise = motion.rise});
     case MotionKind::free:
       return std::make_unique<FreeMotion>(
           BodyState{body.rest.position, body.rest.rotation, motion.velocity, motion.spin});

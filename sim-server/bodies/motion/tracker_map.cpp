@@ -128,6 +128,7 @@ TrackerMap::TrackerMap(const Scene& scene) {
   for (const TrackerSource& source : scene.tracking.sources) {
     senders_.insert(beginning_of(source.address));
     if (!source.rotation_address.empty()) senders_.insert(beginning_of(source.rotation_address));
+    if (is_felt(scene.bodies.at(source.body))) continue;
     const Quaternion& rest = scene.bodies.at(source.body).rest.rotation;
     sources_.push_back({source, scene.tracking.position, turn, rest});
   }
