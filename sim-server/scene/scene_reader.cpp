@@ -257,7 +257,7 @@ FluidSettings read_fluid(const ConfigMap& map) {
 
 /// Where a foot that a floor feels is just out of the water, and whether there is such a floor.
 void find_hovers(const ConfigMap& map, Scene& scene) {
-  constexpr double kClear = 0.01;  // [m]
+  constexpr double kClear = 0.005;  // [m]
   const std::vector<ConfigMap> entries = map.list("bodies");
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     BodySettings& body = scene.bodies[b];

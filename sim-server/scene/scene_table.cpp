@@ -264,7 +264,7 @@ Fields<MotionEntry> felt_fields() {
        &M::lift},
       {{.key = "fall",
         .unit = "m/s",
-        .meaning = "touch, pressure: when it is touched it comes down at this speed from 0.01 m "
+        .meaning = "touch, pressure: when it is touched it comes down at this speed from 5 mm "
                    "above the water as the scene begins; its impacts are as fast.",
         .min = 0.05,
         .max = 10},

@@ -123,6 +123,7 @@ const std::vector<Room>& rooms() {
       {"sim-server/show",
        {"protocol", "sim-server/scene/", "sim-server/bodies/motion", "sim-server/fluid"},
        {"nlohmann/"}},
+      {"sim-server/tracker_monitor", {"program", "protocol", "sim-server/scene"}, {"CLI/"}},
       {"sim-server/serve", {"program", "protocol", "sim-server/"}, {"nlohmann/"}},
       {"sim-server", {"program", "protocol", "sim-server/"}, {"CLI/"}},
 

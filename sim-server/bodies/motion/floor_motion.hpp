@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A foot on a floor that tells where it is touched, and nothing of what is above it. While it is
 // touched the foot stands there; then it rises. The next touch finds it anywhere: it comes down
-// from just above the water, so that it meets the water a hundredth of a second after the touch.
+// from just above the water, so that it meets the water within a hundredth of a second of the
+// touch.
 #pragma once
 
 #include <mutex>

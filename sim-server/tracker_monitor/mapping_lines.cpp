@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/tracker_monitor/mapping_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "protocol/address.hpp"
+#include "sim-server/scene/scene_table.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kUnitTolerance = 0.1;  ///< of a quaternion's length, as of /body/pose [1]
+constexpr double kNotMetres = 20.0;     ///< coordinates beyond are no metres of any room
+
+const std::string kHole = "{name}";
+
+/// What stands for {name} in `text`: of a text without the hole "", if it is the same.
+std::optional<std::string> name_in(const std::string& pattern, const std::string& text) {
+  const std::size_t at = pattern.find(kHole);
+  if (at == std::string::npos) return pattern == text ? std::optional("") : std::nullopt;
+  const std::string before = pattern.substr(0, at);
+  const std::string after = pattern.substr(at + kHole.size());
+  if (text.size() <= before.size() + after.size()) return std::nullopt;
+  if (!text.starts_with(before) || !text.ends_with(after)) return std::nullopt;
+  return text.substr(at, text.size() - before.size() - after.size());
+}
+
+std::string text_of(const protocol::Argument& argument) {
+  if (const auto* text = std::get_if<std::string>(&argument)) return *text;
+  if (const auto* number = std::get_if<std::int32_t>(&argument)) return std::to_string(*number);
+  return {};
+}
+
+/// The name that makes the message one of the preset's; "" where it needs none.
+std::optional<std::string> name_by(const protocol::Message& message, const std::string& address,
+                                   const std::vector<std::string>& match) {
+  std::optional<std::string> name = name_in(address, message.address);
+  if (!name || message.arguments.size() < match.size()) return std::nullopt;
+  for (std::size_t i = 0; i < match.size(); ++i) {
+    const auto part = name_in(match[i], text_of(message.arguments[i]));
+    if (!part) return std::nullopt;
+    if (!part->empty()) name = part;
+  }
+  return name;
+}
+
+/// In single quotes, as YAML wants it.
+std::string quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string source_lines(const std::string& source) {
+  return "tracking:\n  sources:\n    - {body: BODY, " + source + "}\n";
+}
+
+/// Of a whole bundle the lines are offered once.
+std::optional<std::string> of_surface(const protocol::Message& message) {
+  if (!message.address.starts_with("/tuio/2D")) return std::nullopt;
+  const bool first = !message.arguments.empty() && text_of(message.arguments.front()) == "alive";
+  if (!first) return "# part of a frame, see alive\n";
+  const bool plain = message.address == tracker_presets().at("tuio").address;
+  return source_lines("preset: tuio, floor: [1.83, 1.83]" +
+                      (plain ? "" : ", address: " + message.address)) +
+         "# floor: the surface's size in metres; a body for each foot, with motion: {kind: "
+         "touch}\n";
+}
+
+std::optional<std::string> by_preset(const protocol::Message& message) {
+  for (const auto& [preset, entry] : tracker_presets()) {
+    for (const bool turns : {false, true}) {
+      if (turns && entry.rotation_address.empty() && entry.rotation_match.empty()) continue;
+      const std::string& address =
+          turns && !entry.rotation_address.empty() ? entry.rotation_address : entry.address;
+      const auto name = name_by(message, address, turns ? entry.rotation_match : entry.match);
+      if (!name) continue;
+      return source_lines("preset: " + preset + (name->empty() ? "" : ", name: " + quoted(*name)));
+    }
+  }
+  return std::nullopt;
+}
+
+std::string list_of(std::size_t first, std::size_t count) {
+  std::string list = "[";
+  for (std::size_t i = 0; i < count; ++i) {
+    list += (i > 0 ? ", " : "") + std::to_string(first + i);
+  }
+  return list + "]";
+}
+
+/// What comes before the numbers: texts and whole numbers that tell trackers apart.
+std::size_t labels_of(const protocol::Message& message) {
+  std::size_t count = 0;
+  for (const auto& argument : message.arguments) {
+    if (std::holds_alternative<float>(argument)) return count;
+    ++count;
+  }
+  return 0;
+}
+
+std::string spelled_out(const protocol::Message& message) {
+  const std::size_t first = labels_of(message);
+  std::vector<double> numbers;
+  for (std::size_t i = first; i < message.arguments.size(); ++i) {
+    const auto* number = std::get_if<float>(&message.arguments[i]);
+    if (number == nullptr) break;
+    numbers.push_back(static_cast<double>(*number));
+  }
+  if (numbers.size() < 3) return "# no position: three numbers at least (type f) are wanted\n";
+  std::string source = "address: " + message.address;
+  std::string match;
+  for (std::size_t i = 0; i < first; ++i) {
+    match += (i > 0 ? ", " : "") + quoted(text_of(message.arguments[i]));
+  }
+  if (first > 0) source += ", match: [" + match + "]";
+  source += ", position: " + list_of(first, 3);
+  std::string doubt;
+  if (numbers.size() >= 7) {
+    const double length =
+        std::hypot(std::hypot(numbers[3], numbers[4]), std::hypot(numbers[5], numbers[6]));
+    if (std::abs(length - 1.0) <= kUnitTolerance) source += ", rotation: " + list_of(first + 3, 4);
+  } else if (numbers.size() == 6) {
+    source += ", rotation: " + list_of(first + 3, 3);
+    doubt += "# three angles: see that `euler` and `angles` are the sender's\n";
+  }
+  if (std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])}) > kNotMetres) {
+    source += ", unit: 0.001";
+    doubt += "# taken for millimetres: see that `unit` is the sender's\n";
+  }
+  return source_lines(source) + doubt + "# see that `axes` are the sender's: [x, y, z] has z up\n";
+}
+
+}  // namespace
+
+std::string mapping_lines(const protocol::Message& message) {
+  if (message.address == "/body/pose") {
+    return "# needs no line of `tracking`: a body with motion: {kind: osc} follows it\n";
+  }
+  if (message.address == "/tile/pressure") {
+    return "tracking:\n  floor: {columns: 6, rows: 6, tile: 0.305, sensors: 1}\n"
+           "# and a body for each foot, with motion: {kind: pressure}\n";
+  }
+  if (protocol::find_address(message.address) != nullptr) {
+    return "# a message of splash's own (protocol/README.md), no pose\n";
+  }
+  if (const auto surface = of_surface(message)) return *surface;
+  const auto known = by_preset(message);
+  return known ? *known : spelled_out(message);
+}
+
+}  // namespace splash::sim
