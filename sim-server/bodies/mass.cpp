@@ -30,4 +30,17 @@ std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies) {
   return all;
 }
 
+std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies) {
+  std::vector<FreeBody> all;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].motion.kind != MotionKind::osc) continue;
+    if (all.size() == static_cast<std::size_t>(kFreeBodiesMax)) break;
+    FreeBody felt = {};
+    felt.body = static_cast<int>(b);
+    felt.size = static_cast<float>(length(bodies[b].shape.size) / 2.0);
+    all.push_back(felt);
+  }
+  return all;
+}
+
 }  // namespace splash::sim

@@ -14,5 +14,8 @@ namespace splash::sim {
 
 /// The free ones of a scene's bodies, for the device.
 [[nodiscard]] std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies);
+/// Those that follow poses, whose push is felt: their mass is not known, and left out. As many as
+/// may be free at most.
+[[nodiscard]] std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies);
 
 }  // namespace splash::sim

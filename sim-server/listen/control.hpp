@@ -49,6 +49,8 @@ struct ControlActions {
   std::function<std::string(std::int32_t body, bool on)> grab = {};
   std::function<void(bool)> pause = {};
   std::function<void()> reset = {};  ///< the scene
+  /// Why nobody can be sent forces; empty: /notify 2 is obeyed.
+  std::function<std::string()> no_forces = {};
   /// The program's numbers; the refused datagrams and messages are added here.
   std::function<protocol::SimStatus()> status = {};
   std::function<void()> quit = {};
@@ -107,9 +109,9 @@ class ControlServer {
   void count(std::uint64_t ControlCounts::*counter);
 
   void body_pose(const Request& request);
+  void tile_pressure(const Request& request);
   void body_grab(const Request& request);
   void status(const Request& request);
-  void tile_pressure(const Request& request);
   void version(const Request& request);
   void sync(const Request& request);
   void notify(const Request& request);

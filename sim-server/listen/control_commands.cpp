@@ -156,9 +156,16 @@ void ControlServer::sync(const Request& request) {
 
 void ControlServer::notify(const Request& request) {
   const auto streams = first_int(request.message);
+  if ((static_cast<unsigned>(streams) & kForceStream) != 0) {
+    const std::string reason = actions_.no_forces ? actions_.no_forces() : "no forces here";
+    if (!reason.empty()) {
+      fail(request, reason);
+      return;
+    }
+  }
   if (streams == 0) {
     targets_.unsubscribe(request.from);
-  } else if (!targets_.subscribe(request.from)) {
+  } else if (!targets_.subscribe(request.from, static_cast<unsigned>(streams))) {
     fail(request, "full: " + std::to_string(kMaxSubscribers) + " subscribers");
     return;
   }

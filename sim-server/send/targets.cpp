@@ -22,25 +22,31 @@ Targets::Targets(const std::vector<protocol::Endpoint>& fixed, Clock clock)
   }
 }
 
-bool Targets::subscribe(const protocol::Endpoint& endpoint) {
+bool Targets::subscribe(const protocol::Endpoint& endpoint, unsigned streams) {
   const std::lock_guard lock(mutex_);
   drop_expired();
   const double expires = clock_() + kSubscriptionLease;
   if (const auto known = find(targets_, endpoint); known != targets_.end()) {
     known->expires = expires;
+    known->streams = known->fixed ? streams | kEventStream : streams;
     return true;
   }
   const auto subscribers = std::count_if(targets_.begin(), targets_.end(),
                                          [](const Target& target) { return !target.fixed; });
   if (static_cast<std::size_t>(subscribers) >= kMaxSubscribers) return false;
-  targets_.push_back({.endpoint = endpoint, .fixed = false, .expires = expires});
+  targets_.push_back(
+      {.endpoint = endpoint, .fixed = false, .expires = expires, .streams = streams});
   return true;
 }
 
 bool Targets::unsubscribe(const protocol::Endpoint& endpoint) {
   const std::lock_guard lock(mutex_);
   const auto known = find(targets_, endpoint);
-  if (known == targets_.end() || known->fixed) return false;
+  if (known == targets_.end()) return false;
+  if (known->fixed) {
+    known->streams = kEventStream;
+    return false;
+  }
   targets_.erase(known);
   return true;
 }
@@ -51,10 +57,24 @@ void Targets::renew(const protocol::Endpoint& endpoint) {
   if (known != targets_.end()) known->expires = clock_() + kSubscriptionLease;
 }
 
-void Targets::send(protocol::UdpSocket& socket, protocol::Bytes packet) {
+/// Of those named at start the lease bounds what they asked for besides.
+bool Targets::takes(const Target& target, unsigned stream) const {
+  if ((target.streams & stream) == 0) return false;
+  return stream == kEventStream || target.expires >= clock_();
+}
+
+bool Targets::wants(unsigned stream) {
+  const std::lock_guard lock(mutex_);
+  drop_expired();
+  return std::any_of(targets_.begin(), targets_.end(),
+                     [&](const Target& target) { return takes(target, stream); });
+}
+
+void Targets::send(protocol::UdpSocket& socket, protocol::Bytes packet, unsigned stream) {
   const std::lock_guard lock(mutex_);
   drop_expired();
   for (auto& target : targets_) {
+    if (!takes(target, stream)) continue;
     ++(socket.send_to(target.endpoint, packet) ? target.sent : target.failed);
   }
 }

@@ -18,11 +18,15 @@ namespace splash::sim {
 /// A subscriber that says nothing for this long is dropped [s]: nobody unplugs politely.
 inline constexpr double kSubscriptionLease = 60.0;
 inline constexpr std::size_t kMaxSubscribers = 16;
+/// Streams, as the bits of /notify.
+inline constexpr unsigned kEventStream = 1;
+inline constexpr unsigned kForceStream = 2;
 
 struct Target {
   protocol::Endpoint endpoint;
-  bool fixed = true;         ///< named at start, else a subscriber
-  double expires = 0.0;      ///< of a subscriber, monotonic [s]
+  bool fixed = true;     ///< named at start, else a subscriber
+  double expires = 0.0;  ///< of what was asked for with /notify, monotonic [s]
+  unsigned streams = kEventStream;
   std::uint64_t sent = 0;    ///< datagrams handed to the kernel
   std::uint64_t failed = 0;  ///< datagrams the kernel refused
 };
@@ -35,20 +39,24 @@ class Targets {
   explicit Targets(const std::vector<protocol::Endpoint>& fixed,
                    Clock clock = protocol::monotonic_now);
 
-  /// False when the list is full. Subscribing again renews the lease.
-  bool subscribe(const protocol::Endpoint& endpoint);
+  /// False when the list is full. Subscribing again renews the lease. Targets named at start get
+  /// events whatever they ask for.
+  bool subscribe(const protocol::Endpoint& endpoint, unsigned streams = kEventStream);
   /// False when it was no subscriber. Targets named at start stay.
   bool unsubscribe(const protocol::Endpoint& endpoint);
   /// Any sign of life renews the lease of a subscriber.
   void renew(const protocol::Endpoint& endpoint);
 
-  /// The same bytes to all. Refusals are counted, not thrown: UDP may lose.
-  void send(protocol::UdpSocket& socket, protocol::Bytes packet);
+  /// The same bytes to all of a stream. Refusals are counted, not thrown: UDP may lose.
+  void send(protocol::UdpSocket& socket, protocol::Bytes packet, unsigned stream = kEventStream);
+  /// Whether anybody gets the stream.
+  [[nodiscard]] bool wants(unsigned stream);
 
   [[nodiscard]] std::vector<Target> list() const;
 
  private:
   void drop_expired();
+  [[nodiscard]] bool takes(const Target& target, unsigned stream) const;
 
   mutable std::mutex mutex_;
   Clock clock_;

@@ -126,6 +126,7 @@ std::string to_json(const RunReport& report) {
   json["late"] = known_or_null(report.late);
   json["lost"] = known_or_null(report.lost);
   json["shown_frames"] = report.shown;
+  json["felt_frames"] = report.felt;
   json["behind"] = report.behind;
   json["slipped_seconds"] = finite_or_null(report.slipped_seconds);
   json["most_behind"] = finite_or_null(report.most_behind);

@@ -62,6 +62,7 @@ struct RunReport {
   std::optional<std::uint64_t> late;   ///< events the targets got too late; empty: none answered
   std::optional<std::uint64_t> lost;   ///< bundles the targets missed; empty: none answered
   std::uint64_t shown = 0;             ///< frames that were read back for viewers
+  std::uint64_t felt = 0;              ///< frames whose forces on bodies were found
   std::uint64_t behind = 0;            ///< frames that were late against the wall clock
   double slipped_seconds = 0.0;        ///< simulated time given up to stay in real time
   double most_behind = 0.0;            ///< the latest frame [s]

@@ -28,6 +28,7 @@ void put_water(const Simulation& simulation, RunReport& report) {
   const SolverWork work = simulation.solver_work();
   report.divergence_solve = totals_of(work.divergence);
   report.density_solve = totals_of(work.density);
+  report.felt = totals.felt;
   report.retried = totals.retried;
   report.calmed = totals.calmed;
   report.resets = totals.resets;

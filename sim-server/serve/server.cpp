@@ -2,6 +2,7 @@
 #include "sim-server/serve/server.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <stdexcept>
@@ -68,6 +69,13 @@ std::string grab(const Simulation& simulation, int body, bool on) {
   return {};
 }
 
+/// Why nobody can feel the water of this scene; empty: one can.
+std::string no_forces(const Simulation& simulation) {
+  if (simulation.can_feel()) return {};
+  const bool solves = simulation.scene().fluid.solver == PressureKind::divergence_free;
+  return solves ? "no forces with solver: divergence_free" : "no body has motion: {kind: osc}";
+}
+
 protocol::UdpSocket open_socket(const Options& options) {
   return program::failing_with(program::kExitUnavailable, [&] {
     return protocol::UdpSocket(sending_endpoint(options.targets, options.listen));
@@ -87,6 +95,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       sender_(
           targets_, socket_, log_ ? &*log_ : nullptr,
           {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),
+      forces_(targets_, socket_, sender_.session()),
       pacer_({.real_time = options.real_time, .slip_limit = kSlipLimit}),
       overload_({.has_gauges = gauges_.has_value()}),
       target_status_(options.targets, protocol::monotonic_now,
@@ -104,6 +113,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
              .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
              .pause = [this](bool on) { paused_ = on; },
              .reset = [this] { begins_anew_ = true; },
+             .no_forces = [this] { return no_forces(simulation_); },
              .status =
                  [this] {
                    const std::lock_guard lock(status_mutex_);
@@ -141,8 +151,10 @@ void Server::run(const std::function<bool()>& ended) {
     const double before = simulation_.seconds();
     const double begin = protocol::monotonic_now();
     simulation_.set_origin(pacer_.origin());
+    simulation_.feel(targets_.wants(kForceStream));
     const FrameResult frame = simulation_.advance();
     const double computed = protocol::monotonic_now();
+    tell_forces(frame);
     pacer_.wait_until(frame.seconds);
     const double due = protocol::monotonic_now();
     send(frame);
@@ -203,6 +215,26 @@ void Server::send(const FrameResult& frame) {
   auto events = number_events(frame.found, simulation_, latency, ids_);
   keep_going([&] { sender_.send_step(time, std::move(events)); },
              [this] { sender_.stop_logging(); });
+}
+
+/// At once: who closes a loop over them wants no delay.
+void Server::tell_forces(const FrameResult& frame) {
+  if (frame.pushes.empty()) return;
+  std::vector<ForceReading> readings;
+  for (const BodyPush& push : frame.pushes) {
+    const BodyState state =
+        simulation_.bodies().state(static_cast<std::size_t>(push.body), frame.seconds);
+    const auto& [x, q, v, w] = state;
+    const auto six = [](const Vector3& a, const Vector3& b) {
+      return std::array<double, 6>{a[0], a[1], a[2], b[0], b[1], b[2]};
+    };
+    readings.push_back({.body = push.body,
+                        .at = {x[0], x[1], x[2], q[0], q[1], q[2], q[3]},
+                        .twist = six(v, w),
+                        .force = six(push.force, push.torque),
+                        .rate = six(push.by_speed, push.by_spin)});
+  }
+  forces_.send(simulation_.totals().steps, pacer_.unix_origin() + frame.seconds, readings);
 }
 
 void Server::show(const FrameResult& frame) {

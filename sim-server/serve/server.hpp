@@ -15,6 +15,7 @@
 #include "sim-server/listen/control.hpp"
 #include "sim-server/options.hpp"
 #include "sim-server/send/event_sender.hpp"
+#include "sim-server/send/force_sender.hpp"
 #include "sim-server/send/target_status.hpp"
 #include "sim-server/serve/numbered_events.hpp"
 #include "sim-server/serve/overload.hpp"
@@ -60,6 +61,7 @@ class Server {
   /// On stderr, not more often than once a second.
   void say(const Mishap& mishap);
   void send(const FrameResult& frame);
+  void tell_forces(const FrameResult& frame);
   void show(const FrameResult& frame);
   /// One turn of a pause: peers hear that we are there, viewers may look around.
   void stand_still();
@@ -83,6 +85,7 @@ class Server {
   std::optional<GaugeFile> gauges_;
   std::optional<Show> show_;
   EventSender sender_;
+  ForceSender forces_;
   Pacer pacer_;
   Overload overload_;
   double next_gauges_ = 0.0;  ///< simulated time before which they are not read [s]

@@ -37,6 +37,13 @@ std::vector<SkinPoint> skins_of(const Scene& scene, const FluidParams& p) {
   return sample_skins(scene.bodies, static_cast<double>(p.spacing));
 }
 
+/// Null where no body follows poses or the solver has no pressures of a step.
+std::unique_ptr<BodyPushes> make_pushes(Fluid& fluid, const Scene& scene) {
+  const std::vector<FreeBody> felt = felt_bodies(scene.bodies);
+  const bool may = scene.fluid.solver == PressureKind::weakly_compressible && !felt.empty();
+  return may ? std::make_unique<BodyPushes>(fluid, felt) : nullptr;
+}
+
 /// Where all particles are; waits [m].
 std::vector<Vector3> read_places(Fluid& fluid) {
   const auto count = static_cast<std::size_t>(fluid.params().count);
@@ -79,6 +86,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
+  pushes_ = make_pushes(fluid_, scene_);
   rehearse();
 }
 
@@ -93,6 +101,7 @@ void Simulation::rehearse() {
   for (const Step& step : plan) {
     fluid_.prepare(step);
     if (&step == &plan.back()) detector_.rehearse(step);
+    if (&step == &plan.back() && pushes_) pushes_->add(fluid_, step);
     fluid_.advance(step);
   }
   static_cast<void>(fluid_.survey());
@@ -160,23 +169,27 @@ FrameResult Simulation::hold_still(double frame) {
   detected_at_ = seconds_;
   still.seconds = seconds_;
   still.survey = survey_;
+  if (feels_) still.pushes = felt_;  // as nothing has changed
   totals_.mean_excess_sum += survey_.mean_excess;
   return still;
 }
 
 void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since) {
   fluid_.begin_watch(plan.size());
+  if (feels_) pushes_->begin(fluid_);
   for (std::size_t k = 0; k < plan.size(); ++k) {
     Step step = plan[k];
     if (hook_) hook_(fluid_, step, Moment::before);
     fluid_.prepare(step);
     if (k + 1 == plan.size()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
     if (hook_) hook_(fluid_, step, Moment::between);
+    if (feels_) pushes_->add(fluid_, step);
     fluid_.advance(step);
     fluid_.device().queue().flush();  // else a driver may begin with nothing before the end
   }
   fluid_.enqueue_survey();
   detector_.enqueue_read();
+  if (feels_) pushes_->enqueue_read(fluid_);
   fluid_.device().queue().finish();
 }
 
@@ -208,6 +221,10 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   result.seconds = seconds_;
   result.found = collect(detect_time, since);
   result.survey = fluid_.survey_result();
+  if (feels_) {
+    result.pushes = felt_ = pushes_->pushes(steps * dt);
+    ++totals_.felt;
+  }
   detected_at_ = detect_time;
   keep(result);
   return result;

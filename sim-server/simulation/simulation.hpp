@@ -5,13 +5,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/bodies/motion/posed_motion.hpp"
 #include "sim-server/detect/cavity_watch.hpp"
 #include "sim-server/detect/detector.hpp"
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/free_bodies/body_pushes.hpp"
 #include "sim-server/fluid/health/checkpoint.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/holding.hpp"
@@ -27,6 +30,7 @@ struct FrameResult {
   double seconds = 0.0;  ///< simulated time at its end [s]
   Detections found;
   Survey survey;
+  std::vector<BodyPush> pushes;  ///< on bodies that poses move, while somebody wants to feel them
   std::optional<Mishap> mishap;  ///< something went wrong; found is of a sound try, or empty
 };
 
@@ -46,6 +50,7 @@ struct RunTotals {
   AirTotals air;
   NoCavity no_cavity;
   SkipTotals skipped;
+  std::uint64_t felt = 0;  ///< frames whose pushes on bodies were found
 };
 
 /// Where in a step a hook is called.
@@ -80,6 +85,10 @@ class Simulation {
   }
   /// The scene begins anew, its time goes on: water, free bodies and the bodies' own motions.
   void begin_anew();
+  /// Whether the pushes on bodies are found, from the next frame on. Needs can_feel().
+  void feel(bool on) noexcept { feels_ = on && pushes_ != nullptr; }
+  /// A body follows poses, and the water is weakly compressible.
+  [[nodiscard]] bool can_feel() const noexcept { return pushes_ != nullptr; }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
@@ -141,7 +150,10 @@ class Simulation {
   Detector detector_;
   CavityWatch cavity_watch_;
   Needs needs_;
-  Survey survey_;  ///< the last one
+  Survey survey_;                       ///< the last one
+  std::unique_ptr<BodyPushes> pushes_;  ///< null where nobody can feel any
+  bool feels_ = false;
+  std::vector<BodyPush> felt_;  ///< of the last frame that was computed
   double seconds_ = 0.0;
   double begun_ = 0.0;         ///< when the scene last began anew [s]
   double detected_at_ = 0.0;   ///< time of the last detection [s]

@@ -51,6 +51,16 @@ TEST(Examples, AHandThatOneMovesIsHeardByTheOther) {
               ContainsRegex("impact +[0-9.]+ m/s   body 0 at \\([-0-9.]+, [-0-9.]+, 0.[45]"));
 }
 
+TEST(Examples, AnotherFeelsTheHandsBuoyancy) {
+  const auto simulator = water_with_a_hand();
+  ASSERT_TRUE(simulator->process().wait_for_text("running")) << simulator->process().output();
+  ChildProcess sender(example("send_hand.py", *simulator, "60"));
+  ChildProcess feeler(example("feel_force.py", *simulator, "60"));
+  EXPECT_TRUE(feeler.wait_for_text("N  ###", 60.0)) << feeler.output();
+  feeler.signal(SIGINT);
+  EXPECT_EQ(feeler.wait_for_end(), 0) << feeler.output();
+}
+
 /// The README's block of Python, at another port.
 std::string readme_example(int port) {
   std::ifstream file(kSource + "/README.md");

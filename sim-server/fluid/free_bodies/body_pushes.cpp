@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/free_bodies/body_pushes.hpp"
+
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/fluid/kernel_sources.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr std::size_t kSums = 12;  ///< of each body
+
+}  // namespace
+
+BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies)
+    : list_(bodies),
+      count_(static_cast<int>(bodies.size())),
+      groups_(fluid.groups()),
+      bodies_(fluid.device(), std::span<const FreeBody>(bodies)),
+      reach_(fluid.device(), bodies.size() * SPLASH_REACH_FIELDS *
+                                 static_cast<std::size_t>(fluid.params().capacity)),
+      reached_(fluid.device(), bodies.size() * groups_),
+      parts_(fluid.device(), bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES),
+      sums_(fluid.device(), kSums * bodies.size()),
+      no_solve_(fluid.device(), 1),
+      read_(kSums * bodies.size()) {
+  Device& device = fluid.device();
+  const cl::Program program =
+      build_program(device, free_body_sources(), kernel_defines(fluid.parts()), false);
+  reach_bodies_ = Kernel(program, "reach_bodies", device.profile().group);
+  weigh_water_ = Kernel(program, "weigh_water", device.profile().team);
+  sum_pushes_ = Kernel(program, "sum_pushes", 1);
+}
+
+void BodyPushes::begin(Fluid& fluid) {
+  sums_.enqueue_clear(fluid.device());
+}
+
+void BodyPushes::add(Fluid& fluid, const Step& step) {
+  cl::CommandQueue& queue = fluid.device().queue();
+  const Boundary& boundary = fluid.boundary();
+  const PointArrays& points = boundary.points();
+  const cl::Buffer& params = fluid.params_buffer().memory();
+  const cl::Buffer& places = fluid.particles().position.memory();
+  const auto dt = static_cast<float>(step.dt);
+  reach_bodies_.run(queue, list_.size() * groups_, params, dt, count_, bodies_.memory(),
+                    boundary.steps().memory(), step.first_body, fluid.grid().cell_start(), places,
+                    fluid.particles().velocity.memory(), fluid.density().memory(),
+                    fluid.body_images().memory(), fluid.pressure_term().memory(),
+                    fluid.density().memory(), boundary.grid().cell_start(),
+                    points.position.memory(), points.velocity.memory(), boundary.volume().memory(),
+                    points.id.memory(), boundary.owner().memory(), points.stride, reach_.memory(),
+                    reached_.memory());
+  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS, params, 0, no_solve_.memory(),
+                         count_, dt, dt, bodies_.memory(), boundary.steps().memory(),
+                         step.first_body, places, fluid.pressure_term().memory(), reach_.memory(),
+                         reached_.memory(), parts_.memory());
+  sum_pushes_.run(queue, list_.size(), count_, bodies_.memory(), parts_.memory(), sums_.memory());
+}
+
+void BodyPushes::enqueue_read(Fluid& fluid) {
+  sums_.enqueue_read(fluid.device(), read_);
+}
+
+std::vector<BodyPush> BodyPushes::pushes(double seconds) const {
+  std::vector<BodyPush> all;
+  for (std::size_t b = 0; b < list_.size(); ++b) {
+    BodyPush push;
+    push.body = list_[b].body;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto sum = [&](std::size_t field) {
+        return static_cast<double>(read_[kSums * b + field + i]) / seconds;
+      };
+      push.force[i] = sum(0);
+      push.torque[i] = sum(3);
+      push.by_speed[i] = -sum(6);
+      push.by_spin[i] = -sum(9);
+    }
+    all.push_back(push);
+  }
+  return all;
+}
+
+}  // namespace splash::sim

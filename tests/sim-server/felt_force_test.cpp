@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// The force of the water that those feel who ask for it: that of sums in double precision, the
+// weight of what a held body displaces, all the momentum that the water gets, and how it changes
+// with the body's speed. While nobody asks nothing is found.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "sim-server/device/device.hpp"
+#include "sim-server/gauge/body_force.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation/simulation.hpp"
+
+namespace splash::sim {
+namespace {
+
+const std::string kHeldBox = R"(
+tank: {lower: [0, 0, 0], upper: [0.4, 0.4, 0.6]}
+water: [{lower: [0, 0, 0], upper: [0.4, 0.4, 0.36]}]
+bodies:
+  - name: box
+    shape: {size: [0.12, 0.12, 0.12]}
+    motion: {kind: osc}
+    rest: {position: [0.2, 0.2, 0.2]}
+)";
+
+constexpr double kFrame = 1.0 / 160.0;  // [s]
+
+/// A body that poses move at `speed` along x from `from` on.
+void push_poses(Simulation& simulation, const Vector3& from, double speed) {
+  PosedMotion* const body = simulation.live_body(0);
+  const double now = simulation.seconds();
+  const Vector3 place = from + Vector3{speed * now, 0.0, 0.0};
+  static_cast<void>(body->push(place, {0.0, 0.0, 0.0, 1.0}, {now, {}}));
+}
+
+BodyForce in_doubles(Simulation& simulation, Fluid& fluid) {
+  return body_force(read_water(fluid, true), simulation.bodies().points(), 0,
+                    simulation.bodies().state(0, simulation.seconds()));
+}
+
+TEST(FeltForce, IsThatOfSumsInDoublePrecision) {
+  Device device;
+  const Scene scene = parse_scene("fluid: {spacing: 0.03}" + kHeldBox, "held.yaml");
+  Simulation simulation(device, scene, {});
+  ASSERT_TRUE(simulation.can_feel());
+  EXPECT_TRUE(simulation.advance().pushes.empty()) << "nobody asked";
+  EXPECT_EQ(simulation.totals().felt, 0U);
+  simulation.feel(true);
+  BodyForce sum;
+  double seconds = 0.0;
+  simulation.set_hook([&](Fluid& fluid, Step& step, Moment moment) {
+    if (moment != Moment::between) return;
+    const BodyForce now = in_doubles(simulation, fluid);
+    sum.force = sum.force + step.dt * now.force;
+    sum.torque = sum.torque + step.dt * now.torque;
+    seconds += step.dt;
+  });
+  for (int k = 0; k < 3; ++k) {
+    sum = {};
+    seconds = 0.0;
+    const FrameResult frame = simulation.advance();
+    ASSERT_EQ(frame.pushes.size(), 1U);
+    const BodyPush& push = frame.pushes[0];
+    EXPECT_EQ(push.body, 0);
+    const double force = length(sum.force) / seconds;
+    EXPECT_GT(force, 1.0);
+    EXPECT_LT(length(push.force - (1.0 / seconds) * sum.force), 1.0e-4 * force);
+    EXPECT_LT(length(push.torque - (1.0 / seconds) * sum.torque), 1.0e-4 * 0.12 * force);
+  }
+  EXPECT_EQ(simulation.totals().felt, 3U);
+  simulation.feel(false);
+  EXPECT_TRUE(simulation.advance().pushes.empty());
+}
+
+TEST(FeltForce, OfAHeldBoxIsTheWeightOfWhatItDisplaces) {
+  Device device;
+  const Scene scene = parse_scene("fluid: {spacing: 0.02}" + kHeldBox, "held.yaml");
+  Simulation simulation(device, scene, {});
+  simulation.feel(true);
+  Vector3 mean = {};
+  constexpr int kFrames = 40;
+  for (int k = 0; k < kFrames; ++k) {
+    const FrameResult frame = simulation.advance();
+    ASSERT_EQ(frame.pushes.size(), 1U);
+    mean = mean + (1.0 / kFrames) * frame.pushes[0].force;
+  }
+  const double weight = 998.0 * 9.81 * 0.12 * 0.12 * 0.12;
+  std::printf("buoyancy %.4f of the displaced weight\n", mean[2] / weight);
+  EXPECT_NEAR(mean[2] / weight, 1.0, 0.03);
+  EXPECT_NEAR(mean[0] / weight, 0.0, 0.02);
+}
+
+/// A ball of water that floats in the air without weight, and a plate that runs into it: the
+/// momentum that it gets, and that of the forces in it [1].
+double momentum_felt(double speed, int frames) {
+  Device device;
+  const Scene scene = parse_scene(R"(
+fluid: {spacing: 0.02, gravity: [0, 0, 0], settle: never, sound_speed: 20}
+tank: {lower: [-0.5, -0.3, 0], upper: [0.5, 0.3, 0.6]}
+water: [{lower: [-0.1, -0.1, 0.2], upper: [0.1, 0.1, 0.4], form: sphere}]
+bodies:
+  - name: plate
+    shape: {size: [0.06, 0.16, 0.16]}
+    motion: {kind: osc}
+    rest: {position: [-0.15, 0, 0.3]}
+)",
+                                  "ball.yaml");
+  Simulation simulation(device, scene, {});
+  simulation.feel(true);
+  Vector3 given = {};
+  const auto momentum = [&] {
+    const WaterState water = read_water(simulation.fluid(), false);
+    Vector3 sum = {};
+    for (const Vector3& velocity : water.velocity) sum = sum + water.mass * velocity;
+    return sum;
+  };
+  const Vector3 before = momentum();
+  for (int k = 0; k < frames; ++k) {
+    push_poses(simulation, {-0.15, 0.0, 0.3}, speed);
+    const double start = simulation.seconds();
+    const FrameResult frame = simulation.advance();
+    EXPECT_EQ(frame.pushes.size(), 1U);
+    if (frame.pushes.empty()) return 0.0;
+    given = given - (frame.seconds - start) * frame.pushes[0].force;
+  }
+  const Vector3 got = momentum() - before;
+  std::printf("at %.1f m/s: momentum %.4f N s, by forces %.4f N s\n", speed, got[0], given[0]);
+  EXPECT_GT(got[0], 0.3 * 4.18 * speed);
+  return given[0] / got[0];
+}
+
+TEST(FeltForce, IsAllTheMomentumThatTheWaterGets) {
+  EXPECT_NEAR(momentum_felt(0.3, 70), 1.0, 0.005);
+  EXPECT_NEAR(momentum_felt(1.0, 22), 1.0, 0.005);
+}
+
+// The body moves on from the frame's first step at either of two speeds: the force of the second
+// step differs by the rate. Without what rubs, which acts in one direction alone.
+TEST(FeltForce, ChangesWithTheSpeedByItsRate) {
+  Device device;
+  const Scene scene = parse_scene("fluid: {spacing: 0.03, artificial: 0}" + kHeldBox, "held.yaml");
+  Simulation simulation(device, scene, {});
+  simulation.feel(true);
+  const Vector3 rate = simulation.advance().pushes.at(0).by_speed;
+  const Snapshot water = simulation.fluid().snapshot();
+  const double start = simulation.seconds();
+  const auto force_at = [&](double speed) {
+    simulation.resume(water, start);
+    int step_number = 0;
+    double found = 0.0;
+    simulation.set_hook([&](Fluid& fluid, Step& step, Moment moment) {
+      if (moment == Moment::before && step_number == 0) {
+        const auto steps = static_cast<int>(std::lround(kFrame / step.dt));
+        std::vector<BodyStep> all;
+        for (int k = 0; k < steps; ++k) {
+          BodyStep body = simulation.bodies().at(start).at(0);
+          body.vz = static_cast<float>(speed);
+          body.pz += static_cast<float>(speed * k * step.dt);
+          all.push_back(body);
+        }
+        fluid.set_bodies(all);
+      }
+      if (moment == Moment::between && step_number == 1) {
+        BodyState state = simulation.bodies().state(0, start);
+        state.position[2] += speed * step.dt;
+        state.velocity[2] = speed;
+        found =
+            body_force(read_water(fluid, true), simulation.bodies().points(), 0, state).force[2];
+      }
+      if (moment == Moment::between) ++step_number;
+    });
+    static_cast<void>(simulation.advance());
+    return found;
+  };
+  constexpr double kSpeed = 0.05;
+  const double change = (force_at(kSpeed) - force_at(-kSpeed)) / (2.0 * kSpeed);
+  std::printf("dF/dv %.1f N s/m, by the rate %.1f\n", change, rate[2]);
+  EXPECT_LT(change, 0.0);
+  EXPECT_NEAR(rate[2] / change, 1.0, 0.1);
+}
+
+TEST(FeltForce, NeedsABodyThatFollowsPosesAndPressuresOfAStep) {
+  Device device;
+  const Scene solver =
+      parse_scene("fluid: {spacing: 0.03, solver: divergence_free}" + kHeldBox, "held.yaml");
+  EXPECT_FALSE(Simulation(device, solver, {}).can_feel());
+}
+
+}  // namespace
+}  // namespace splash::sim
