@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// A hand feels the water of the real simulator through examples/force, and nothing soon after that
+// was killed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "examples/force/splash_force.hpp"
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+/// A loop at 1 kHz that holds the disc's middle at the water's surface, and what it feels.
+class Hand {
+ public:
+  explicit Hand(std::uint16_t port) : water_("127.0.0.1", port, 0) {}
+
+  /// Turns for `seconds`; the force at the end [N].
+  double turn(double seconds) {
+    const double end = protocol::monotonic_now() + seconds;
+    while (protocol::monotonic_now() < end) {
+      const splash_force::Vector place = {0.0, 0.0, SmallScene::kLevel};
+      water_.send_pose(place, {0.0, 0.0, 0.0, 1.0});
+      const double now = protocol::monotonic_now();
+      const double force = water_.force(place, {}, {}).force[2];
+      // By the slew limit of 200 N/s, or nothing at all after a silence.
+      const double most = 200.0 * (now - last_ + 2.0e-3);
+      if (last_ > 0.0 && force != 0.0)
+        steepest_ = std::max(steepest_, std::abs(force - force_) / most);
+      last_ = now;
+      force_ = force;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return force_;
+  }
+  [[nodiscard]] double steepest() const { return steepest_; }
+
+ private:
+  splash_force::Client water_;
+  double last_ = 0.0;
+  double force_ = 0.0;
+  double steepest_ = 0.0;
+};
+
+TEST(Force, IsFeltAndGoneWhenTheSimulatorIsKilled) {
+  const SmallScene scene(tracked());
+  Simulator simulator({"--scene", scene.path()});
+  ASSERT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
+  Hand hand(simulator.endpoint().port);
+  double felt = 0.0;
+  for (int k = 0; k < 300 && felt < 1.0; ++k) felt = hand.turn(0.1);
+  ASSERT_GE(felt, 1.0) << "the disc's buoyancy is 4 N";
+  EXPECT_LE(hand.steepest(), 1.0) << "it grew in a ramp";
+  hand.turn(0.5);
+  simulator.process().signal(SIGKILL);
+  const double killed = protocol::monotonic_now();
+  double after = killed;
+  while (hand.turn(0.001) != 0.0 && after - killed < 5.0) after = protocol::monotonic_now();
+  std::cout << "felt " << felt << " N, none " << 1e3 * (after - killed) << " ms after the kill\n";
+  // 50 ms after the last word; what lay in the socket and this machine's other work take some more.
+  EXPECT_LT(after - killed, 0.150);
+  EXPECT_LE(hand.steepest(), 1.0) << "it went in a ramp";
+}
+
+TEST(Force, IsFoundOnlyWhileSomebodyAsks) {
+  const SmallScene scene(tracked());
+  const std::string report = temporary_path("felt.json");
+  const auto felt_frames = [&](bool asks) {
+    Simulator simulator({"--scene", scene.path(), "--report", report});
+    EXPECT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
+    if (asks) {
+      EXPECT_FALSE(simulator.ask({"/notify", {2}}, "/done").arguments.empty());
+      EXPECT_FALSE(simulator.ask({"/version", {}}, "/force").arguments.empty()) << "streamed";
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    simulator.process().signal(SIGTERM);
+    EXPECT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+    std::ifstream file(report);
+    const auto frames = nlohmann::json::parse(file).at("felt_frames").get<int>();
+    std::filesystem::remove(report);
+    return frames;
+  };
+  EXPECT_EQ(felt_frames(false), 0);
+  EXPECT_GT(felt_frames(true), 0);
+}
+
+TEST(Force, IsRefusedWhereNoBodyFollowsPoses) {
+  const SmallScene scene(plunging());
+  Simulator simulator({"--scene", scene.path()});
+  const protocol::Message reply = simulator.ask({"/notify", {2}}, "/fail");
+  ASSERT_EQ(reply.arguments.size(), 2U);
+  EXPECT_THAT(std::get<std::string>(reply.arguments[1]), testing::HasSubstr("kind: osc"));
+}
+
+}  // namespace
+}  // namespace splash::tests
