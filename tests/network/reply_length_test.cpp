@@ -131,7 +131,7 @@ TEST_F(OnTwoHosts, NoReplyOfTheSynthIsLongerThanItsRequest) {
             protocol::parse_endpoint("10.77.0.2:57310", 0));
   afar.drawn_by(protocol::encode(Message{"/status", {}}));
   EXPECT_TRUE(
-      synth->wait_for_text("asked /status in a datagram of 12 bytes; the reply has 112 bytes"));
+      synth->wait_for_text("asked /status in a datagram of 12 bytes; the reply has 116 bytes"));
   try_commands(home, afar, {});
 }
 
@@ -160,12 +160,12 @@ TEST_F(OnTwoHosts, NoReplyOfThePdPatchIsLongerThanItsRequest) {
             protocol::parse_endpoint("10.77.0.2:57310", 0));
   const Message status{"/status", {}};
   const auto bare = protocol::encode(status);
-  ASSERT_TRUE(soon([&] { return home.drawn_by(bare).bytes == 112; })) << pd.output();
+  ASSERT_TRUE(soon([&] { return home.drawn_by(bare).bytes == 116; })) << pd.output();
   EXPECT_EQ(afar.drawn_by(bare).datagrams, 0U);
-  EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 108))).datagrams, 0U);
-  EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 112)), 1).bytes, 112U);
+  EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 112))).datagrams, 0U);
+  EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 116)), 1).bytes, 116U);
   const auto bundle = bundle_of(status);
-  const std::size_t room = (bundle.size() + kHeaders) / (112 + kHeaders);
+  const std::size_t room = (bundle.size() + kHeaders) / (116 + kHeaders);
   const Drawn drawn = afar.drawn_by(bundle, room);
   expect_no_more("bundle", "/status", bundle.size(), drawn);
   EXPECT_EQ(drawn.datagrams, room);

@@ -150,8 +150,8 @@ TEST(SynthTells, WhoseQuestionWasTooShortOnceASecond) {
     ASSERT_GE(lines.size(), 1U);
     EXPECT_LE(static_cast<double>(lines.size()), protocol::monotonic_now() - start + 1.0);
     EXPECT_EQ(lines[0], protocol::to_string(asker.local()) +
-                            " asked /status in a datagram of 12 bytes; the reply has 112 bytes and "
-                            "was not sent. Fill the question up with text to 112 bytes "
+                            " asked /status in a datagram of 12 bytes; the reply has 116 bytes and "
+                            "was not sent. Fill the question up with text to 116 bytes "
                             "(protocol/README.md, 'Who is answered')");
   }
   std::byte buffer[64];
