@@ -184,8 +184,8 @@ part_size() {
 
 part_stages() {
   mkdir -p "$out/stages"
-  attend "$1" "$2" "$bin/bench-fluid" --part stages --part limits --most-particles 4000000 \
-    --seconds $(($1 / 2)) --out "$out/stages"
+  attend "$1" "$2" "$bin/bench-fluid" --part stages --part pool --part limits --most-particles 4000000 \
+    --seconds $(($1 / 3)) --out "$out/stages"
 }
 
 # --- Energy, if the driver tells --------------------------------------------------------------

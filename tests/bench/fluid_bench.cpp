@@ -26,7 +26,7 @@ using namespace splash;
 using namespace splash::bench;
 
 struct Options {
-  std::vector<std::string> parts = {"kernels", "size", "stages", "limits", "error"};
+  std::vector<std::string> parts = {"kernels", "size", "stages", "limits", "pool", "error"};
   std::vector<std::string> cases;
   std::filesystem::path out = tests::source_folder() / "out" / "fluid";
   std::size_t resolutions = 2;
@@ -35,7 +35,7 @@ struct Options {
   Clock clock = Clock::wall;
   int device = -1;
   std::string profile;        ///< of profiles(); empty: as suits the device
-  double seconds = 0.0;       ///< that size and limits may take each; 0: as long as they take
+  double seconds = 0.0;       ///< that size, limits and pool may take each; 0: as long as they take
   std::vector<double> there;  ///< GB/s, G operations/s and us a launch of a device to foretell
 
   [[nodiscard]] Until until() const {
@@ -77,8 +77,9 @@ void measure_cost(const Options& options) {
     against_size(device, options.most_particles, options.until(), csv.get(),
                  options.out / "size.svg");
   }
-  if (options.wants("limits")) {
-    against_limits(device, options.most_particles, options.until(), options.other_device(),
+  const Asks asks = {options.wants("limits"), options.wants("pool")};
+  if (asks.cube || asks.pool) {
+    against_limits(device, asks, options.most_particles, options.until(), options.other_device(),
                    csv.get());
   }
   if (options.wants("stages")) stage_by_stage(device, csv.get());
@@ -101,7 +102,7 @@ void measure(const Options& options) {
   std::filesystem::create_directories(options.out);
   const sim::DeviceFacts facts = sim::Device(options.device).facts();
   std::printf("device: %s\n", describe(facts).c_str());
-  for (const char* part : {"kernels", "size", "stages", "limits"}) {
+  for (const char* part : {"kernels", "size", "stages", "limits", "pool"}) {
     if (!options.wants(part)) continue;
     measure_cost(options);
     break;
@@ -124,21 +125,23 @@ int main(int argc, char** argv) {
   std::vector<std::string> cases;
   for (const SweepCase& item : sweep_cases()) cases.push_back(item.name);
   app.add_option("--part", options.parts,
-                 "Only these: kernels, size, stages, limits, error (repeatable)")
-      ->check(CLI::IsMember({"kernels", "size", "stages", "limits", "error"}));
+                 "Only these: kernels, size, stages, limits (of a cube), pool (its limits), error "
+                 "(repeatable)")
+      ->check(CLI::IsMember({"kernels", "size", "stages", "limits", "pool", "error"}));
   app.add_option("--case", options.cases, "Only this case (repeatable)")
       ->check(CLI::IsMember(cases));
   app.add_option("--resolutions", options.resolutions, "Only so many, coarse ones first")
       ->capture_default_str()
       ->check(CLI::Range(1, 100));
-  app.add_option("--most-particles", options.most_particles, "Of kernels, size and limits")
+  app.add_option("--most-particles", options.most_particles, "Of kernels, size, limits and pool")
       ->capture_default_str();
-  app.add_option("--seconds", options.seconds,
-                 "That size and limits may take each: larger sizes are left out (default: all)")
+  app.add_option(
+         "--seconds", options.seconds,
+         "That size, limits and pool may take each: larger sizes are left out (default: all)")
       ->check(CLI::NonNegativeNumber);
   app.add_option(
          "--there", options.there,
-         "GB/s, G operations/s and us a launch of another device: what limits would be there")
+         "GB/s, G operations/s and us a launch of a GPU: what limits and pool would be there")
       ->expected(3)
       ->check(CLI::PositiveNumber);
   app.add_flag("--all", options.all, "All qualities at all resolutions: hours instead of minutes");
@@ -149,9 +152,10 @@ int main(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(clocks));
   app.add_option("--out", options.out, "Folder for tables and pictures")->capture_default_str();
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
-  app.add_option("--profile", options.profile,
-                 "How kernels, size, stages and limits cut work: cpu, cpu-ranks (cpu with the "
-                 "sort of gpu) or gpu (default: as suits the device)")
+  app.add_option(
+         "--profile", options.profile,
+         "How kernels, size, stages, limits and pool cut work: cpu, cpu-ranks (cpu with the "
+         "sort of gpu) or gpu (default: as suits the device)")
       ->check(CLI::IsMember({"cpu", "cpu-ranks", "gpu"}));
   CLI11_PARSE(app, argc, argv);
   try {

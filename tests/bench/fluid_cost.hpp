@@ -12,6 +12,12 @@
 
 namespace splash::bench {
 
+/// Water that is held against limits.
+struct Asks {
+  bool cube = false;
+  bool pool = false;
+};
+
 /// When a measurement over growing sizes has to be over.
 struct Until {
   double end = 0.0;  ///< as protocol::monotonic_now() counts; 0: never [s]
@@ -33,7 +39,7 @@ void against_size(sim::Device& device, int most_particles, const Until& until, s
                   const std::filesystem::path& picture);
 /// Kernel by kernel; `device` with profiling. `there`: another device, of which the least times are
 /// told, too, or nothing.
-void against_limits(sim::Device& device, int most_particles, const Until& until,
+void against_limits(sim::Device& device, const Asks& asks, int most_particles, const Until& until,
                     const Limits& there, std::FILE* csv);
 /// Of a cube of water, and of the pool with its bodies and detectors; `device` with profiling.
 void stage_by_stage(sim::Device& device, std::FILE* csv);

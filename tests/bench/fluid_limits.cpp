@@ -10,6 +10,7 @@
 // programs only slow them.
 #include <algorithm>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -229,10 +230,22 @@ void of_pool(Place& at, int count) {
   print(asked, measure.found(), at.here, at.there, at.csv);
 }
 
+/// Of sizes that grow, up to what time allows.
+void each(Place at, void (*run)(Place&, int), std::initializer_list<int> sizes, int most_particles,
+          const Until& until) {
+  double last = 0.0;
+  for (const int count : sizes) {
+    if (count > most_particles || !until.allows(16.0 * last)) break;
+    const double begin = protocol::monotonic_now();
+    run(at, count);
+    last = protocol::monotonic_now() - begin;
+  }
+}
+
 }  // namespace
 
-void against_limits(Device& device, int most_particles, const Until& until, const Limits& there,
-                    std::FILE* csv) {
+void against_limits(Device& device, const Asks& asks, int most_particles, const Until& until,
+                    const Limits& there, std::FILE* csv) {
   const Limits here = limits_of(device);
   std::printf(
       "\nThe device streams %.1f GB/s from memory (triad), computes %.1f G operations/s, %.1f G "
@@ -244,18 +257,9 @@ void against_limits(Device& device, int most_particles, const Until& until, cons
   if (csv != nullptr) {
     std::fprintf(csv, "limits,,%g,%g,%g\n", here.bandwidth, here.arithmetic, here.launch);
   }
-  Place at = {device, here, with_runs(there), csv};
-  for (const auto& [run, sizes] :
-       {std::pair{&of_cube, std::vector<int>{15'625, 250'000, 1'000'000, 4'000'000}},
-        std::pair{&of_pool, std::vector<int>{0, 250'000, 4'000'000}}}) {
-    double last = 0.0;
-    for (const int count : sizes) {
-      if (count > most_particles || !until.allows(16.0 * last)) break;
-      const double begin = protocol::monotonic_now();
-      run(at, count);
-      last = protocol::monotonic_now() - begin;
-    }
-  }
+  const Place at = {device, here, with_runs(there), csv};
+  if (asks.pool) each(at, of_pool, {0, 250'000, 4'000'000}, most_particles, until);
+  if (asks.cube) each(at, of_cube, {15'625, 250'000, 1'000'000, 4'000'000}, most_particles, until);
 }
 
 }  // namespace splash::bench
