@@ -99,9 +99,10 @@ std::size_t width(const Device& device) {
   return device.lanes() == 1 ? 1 : 16;
 }
 
-/// One busy work-item for each core of a CPU, many for each of a GPU's units.
+/// Busy work-items: some for each core of a CPU, since one may join in late, many for each of a
+/// GPU's units.
 std::size_t busy_items(const Device& device) {
-  return device.facts().compute_units * std::size_t{device.lanes() == 1 ? 4096U : 1U};
+  return device.facts().compute_units * std::size_t{device.lanes() == 1 ? 4096U : 16U};
 }
 
 constexpr int kRounds = 2048;
@@ -122,8 +123,8 @@ int mixed(std::size_t k) {
 }
 
 double scalar(Device& device, const cl::Program& program) {
-  constexpr int kShifts = 131072;
-  const std::size_t items = device.facts().compute_units;
+  constexpr int kShifts = 8192;
+  const std::size_t items = std::size_t{16} * device.facts().compute_units;
   Buffer<int> out(device, items);
   Kernel shift(program, "shift", 1);
   const double seconds =
@@ -132,8 +133,8 @@ double scalar(Device& device, const cl::Program& program) {
 }
 
 double counts(Device& device, const cl::Program& program) {
-  constexpr int kPoints = 65536, kCells = 4096;
-  const std::size_t items = device.facts().compute_units;
+  constexpr int kPoints = 8192, kCells = 4096;
+  const std::size_t items = std::size_t{16} * device.facts().compute_units;
   std::vector<int> cells(items * kPoints);
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = mixed(i) % kCells;
   Buffer<int> of(device, std::span<const int>(cells)), count(device, items * kCells);
@@ -145,7 +146,7 @@ double counts(Device& device, const cl::Program& program) {
 }
 
 double runs(Device& device, const cl::Program& program) {
-  constexpr int kRuns = 256, kVisits = 65536;
+  constexpr int kRuns = 256, kVisits = 4096;
   std::vector<int> start(kRuns + 1, 0);
   for (std::size_t k = 1; k < start.size(); ++k) {
     start[k] = start[k - 1] + 1 + mixed(k) % 3;
@@ -238,7 +239,7 @@ Limits limits_of(Device& device) {
   Limits limits;
   // Three arrays of 128 MiB: beyond caches.
   limits.bandwidth = bandwidth_of(device, std::size_t{384} << 20U);
-  const std::size_t items = std::size_t{device.lanes() == 1 ? 4U : 64U} * busy_items(device);
+  const std::size_t items = 4 * busy_items(device);
   const double computes = computing(device, program, items);
   limits.arithmetic = kOfRound * static_cast<double>(items * width(device)) * kRounds / computes;
   limits.scalar = scalar(device, program);
