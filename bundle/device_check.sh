@@ -151,7 +151,7 @@ part_programs() {
 
 # Of the widths that kernels can be built for, the one that this device gets.
 part_kernels() {
-  local others='*8_lanes*:*relaxed*'
+  local others='*8_lanes*'
   if [[ -z $scalar && $device_line == *'(CPU'* ]]; then others+=':*/1_lanes*'; else others+=':*16_lanes*'; fi
   run_tests "$1" "$2" "sim_fluid_test:NeighbourGrids.*:*Density*:*Acceleration*:*Twin*:*SurveyOf*:*KeepOut*\
 :*HealthOf*:*Integrate*:*EitherSolver*:*Stretched*-$others" "sim_detect_test:*-$others" \

@@ -21,7 +21,7 @@ std::size_t bubble_room(int particles) {
 }
 
 cl::Program build(Device& device) {
-  return build_program(device, kernels::detect(), {}, false);
+  return build_program(device, kernels::detect(), {});
 }
 
 std::vector<float> places(const std::vector<SkinPoint>& skin) {

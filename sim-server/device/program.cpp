@@ -69,13 +69,12 @@ void Kernel::launch(cl::CommandQueue& queue, std::size_t count, std::size_t grou
 }
 
 cl::Program build_program(const Device& device, const std::vector<KernelSource>& sources,
-                          const std::vector<std::string>& defines, bool relaxed) {
+                          const std::vector<std::string>& defines) {
   std::string text;
   for (const KernelSource& source : sources) {
     text += "#line 1 \"" + source.name + "\"\n" + source.text + "\n";
   }
   std::string options = "-cl-std=CL1.2 -cl-mad-enable -cl-no-signed-zeros";
-  if (relaxed) options += " -cl-fast-relaxed-math";
   options += " -DLANES=" + std::to_string(device.lanes());
   options += " -DTEAM=" + std::to_string(device.profile().team);
   options += " -DJUDGES=" + std::to_string(device.profile().judges);

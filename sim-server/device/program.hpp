@@ -16,12 +16,11 @@ struct KernelSource {
 };
 
 /// Builds `sources` as one program. `defines`: "NAME=VALUE" build constants; keep them few, each
-/// combination is compiled and cached apart. `relaxed`: allow -cl-fast-relaxed-math, for programs
-/// whose error the double-precision twins bound; guards are built without it.
+/// combination is compiled and cached apart.
 /// Throws DeviceError with the compiler's log.
 [[nodiscard]] cl::Program build_program(const Device& device,
                                         const std::vector<KernelSource>& sources,
-                                        const std::vector<std::string>& defines, bool relaxed);
+                                        const std::vector<std::string>& defines);
 
 /// OpenCL on CPUs compiles a kernel when it first runs, which takes seconds for all of them.
 struct KernelCount {

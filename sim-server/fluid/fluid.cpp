@@ -26,13 +26,12 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
              const KernelBuild& build)
     : device_(device),
       params_(params),
-      build_(build),
       parts_(build.whole ? KernelParts{} : parts_needed(params, outlines.shapes)) {
   load_particles(particles, !outlines.shapes.empty());
   params_.capacity = sorted_.stride;
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   build_kernels(boundary, outlines);
-  solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_), build.relaxed);
+  solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_));
 }
 
 void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodies) {
@@ -63,8 +62,8 @@ void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodi
 
 void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines) {
   const std::vector<std::string> defines = kernel_defines(parts_);
-  const cl::Program program = build_program(device_, fluid_sources(), defines, build_.relaxed);
-  const cl::Program guard = build_program(device_, survey_sources(), defines, false);
+  const cl::Program program = build_program(device_, fluid_sources(), defines);
+  const cl::Program guard = build_program(device_, survey_sources(), defines);
   const auto particles = static_cast<std::size_t>(params_.count);
   const Profile& profile = device_.profile();
   grid_ = NeighbourGrid(device_, program, params_, particles, profile.sort_chunks);

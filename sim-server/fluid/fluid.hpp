@@ -23,8 +23,6 @@ namespace splash::sim {
 
 /// How kernels are built.
 struct KernelBuild {
-  bool relaxed =
-      false;           ///< with relaxed mathematics; no faster with PoCL, its vectors are explicit
   bool whole = false;  ///< with parts that the scene does not need, too (parts.hpp)
 };
 
@@ -162,7 +160,6 @@ class Fluid {
 
   Device& device_;
   FluidParams params_;
-  KernelBuild build_;
   KernelParts parts_;
 
   Buffer<FluidParams> params_buffer_;

@@ -9,7 +9,7 @@ std::vector<KernelSource> gauge();
 namespace {
 
 cl::Program build(Fluid& fluid) {
-  return build_program(fluid.device(), kernels::gauge(), {}, false);
+  return build_program(fluid.device(), kernels::gauge(), {});
 }
 
 }  // namespace

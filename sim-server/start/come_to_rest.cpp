@@ -103,7 +103,7 @@ Fluid part_of(Fluid& whole, const Scene& scene, const Bodies& bodies, const Snap
           places,
           boundary,
           body_outlines(scene.bodies),
-          {false, !scene.skip.kernels}};
+          {.whole = !scene.skip.kernels}};
 }
 
 /// What has become of that part is what becomes of them in `all`.

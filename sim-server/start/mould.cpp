@@ -23,7 +23,7 @@ Mould::Mould(Fluid& fluid, const std::vector<bool>& kept)
   }
   kept_ = Buffer<int>(fluid.device(), std::vector<int>(kept.begin(), kept.end()));
   place_ = Buffer<float>(fluid.device(), place);
-  put_back_ = Kernel(build_program(fluid.device(), kernels::mould(), {}, false), "put_back");
+  put_back_ = Kernel(build_program(fluid.device(), kernels::mould(), {}), "put_back");
 }
 
 void Mould::put_back() {

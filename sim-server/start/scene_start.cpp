@@ -69,7 +69,7 @@ Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
   holding = wanted_holding(scene, poses, particles);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
   return {device,   make_params(sounding, particles), settled(sounding, particles, holding),
-          boundary, body_outlines(scene.bodies),      {false, !scene.skip.kernels}};
+          boundary, body_outlines(scene.bodies),      {.whole = !scene.skip.kernels}};
 }
 
 double start_flow(Fluid& fluid, const Scene& scene) {

@@ -92,7 +92,7 @@ double fastest(Device& device, const std::function<void()>& launch) {
 }
 
 cl::Program probes(Device& device) {
-  return build_program(device, {{"tests/bench/probes", kProbes}}, {}, false);
+  return build_program(device, {{"tests/bench/probes", kProbes}}, {});
 }
 
 std::size_t width(const Device& device) {
@@ -185,7 +185,7 @@ double held(Device& device) {
   constexpr int kTimes = 1024;
   std::vector<KernelSource> sources = fluid_sources();
   sources.push_back({"tests/bench/hold_out", kHold});
-  Kernel hold_out(build_program(device, sources, kernel_defines({}), false), "hold_out", 1);
+  Kernel hold_out(build_program(device, sources, kernel_defines({})), "hold_out", 1);
   FluidParams p = {};
   p.spacing = 0.03F;
   BodyShape box = {};

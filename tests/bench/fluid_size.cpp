@@ -115,7 +115,7 @@ StageTimes of_pool(Device& device) {
 /// Of a kernel that does nothing, wall and processor [s].
 std::pair<double, double> empty_launch(Device& device) {
   const KernelSource source = {"tests/bench/nothing", "kernel void nothing(int n) { (void)n; }\n"};
-  Kernel nothing(build_program(device, {source}, {}, false), "nothing");
+  Kernel nothing(build_program(device, {source}, {}), "nothing");
   constexpr int kLaunches = 2000;
   const auto run = [&] {
     for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, k);

@@ -25,7 +25,7 @@ BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies)
       read_(kSums * bodies.size()) {
   Device& device = fluid.device();
   const cl::Program program =
-      build_program(device, free_body_sources(), kernel_defines(fluid.parts()), false);
+      build_program(device, free_body_sources(), kernel_defines(fluid.parts()));
   reach_bodies_ = Kernel(program, "reach_bodies", device.profile().group);
   weigh_water_ = Kernel(program, "weigh_water", device.profile().team);
   sum_pushes_ = Kernel(program, "sum_pushes", 1);

@@ -33,7 +33,7 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       force_(device, 6 * bodies.size()),
       no_solve_(device, 1),
       force_read_(6 * bodies.size()) {
-  const cl::Program program = build_program(device, free_body_sources(), defines, false);
+  const cl::Program program = build_program(device, free_body_sources(), defines);
   films_ = Films(device, program, bodies, skin);
   const std::size_t group = device.profile().group;
   const std::size_t team = device.profile().team;

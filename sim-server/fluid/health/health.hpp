@@ -96,7 +96,7 @@ struct Patient {
 class Health {
  public:
   Health() = default;
-  /// `program`: the survey's, without relaxed mathematics.
+  /// `program`: the survey's.
   Health(Device& device, const cl::Program& program, const FluidParams& params);
 
   /// A frame of so many steps begins.

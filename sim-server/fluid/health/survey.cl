@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Health and limits of the whole fluid, once a frame, in a program of its own that is built
-// without relaxed mathematics: only of finite numbers is the difference to themselves zero.
+// Health and limits of the whole fluid, once a frame: only of finite numbers is the difference to
+// themselves zero.
 
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"
-
-#ifdef __FAST_RELAXED_MATH__
-#error "the survey guards against infinities: build it without relaxed mathematics"
-#endif
 
 typedef struct {
   float speed2;        // largest [m2/s2]

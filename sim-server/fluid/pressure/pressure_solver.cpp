@@ -35,13 +35,12 @@ const Buffer<float>& PressureSolver::carried(const Fluid& fluid) const {
 }
 
 std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
-                                                     const std::vector<std::string>& defines,
-                                                     bool relaxed) {
+                                                     const std::vector<std::string>& defines) {
   if (params.solver == SPLASH_DIVERGENCE_FREE) {
-    return std::make_unique<DivergenceFree>(device, params, defines, relaxed);
+    return std::make_unique<DivergenceFree>(device, params, defines);
   }
   if (params.solver == SPLASH_GRID_PROJECTED) {
-    return std::make_unique<GridProjected>(device, params, defines, relaxed);
+    return std::make_unique<GridProjected>(device, params, defines);
   }
   return std::make_unique<WeaklyCompressible>();
 }

@@ -65,7 +65,6 @@ class PressureSolver {
 
 /// The one that `params` ask for, its kernels built with `defines`.
 [[nodiscard]] std::unique_ptr<PressureSolver> make_pressure_solver(
-    Device& device, const FluidParams& params, const std::vector<std::string>& defines,
-    bool relaxed);
+    Device& device, const FluidParams& params, const std::vector<std::string>& defines);
 
 }  // namespace splash::sim

@@ -9,7 +9,7 @@ std::vector<KernelSource> detect();
 }  // namespace kernels
 
 cl::Program detect_program(Device& device) {
-  return build_program(device, kernels::detect(), {}, false);
+  return build_program(device, kernels::detect(), {});
 }
 
 Step prepare(Water& water) {

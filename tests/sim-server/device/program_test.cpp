@@ -25,7 +25,7 @@ TEST(Programs, JoinTheirFilesAndConstants) {
                                "kernel void fill(int count, global int* out) {\n"
                                "  const int i = get_global_id(0);\n"
                                "  if (i < count) out[i] = twice(i) + OFFSET;\n}\n"};
-  const cl::Program program = build_program(device, {kHelper, kernel}, {"OFFSET=100"}, false);
+  const cl::Program program = build_program(device, {kHelper, kernel}, {"OFFSET=100"});
   Kernel fill(program, "fill");
   // Fewer than a work-group, whole groups and a rest; never one past the end.
   for (const int count : {1, 63, 64, 65, 1000}) {
@@ -42,7 +42,7 @@ TEST(Programs, JoinTheirFilesAndConstants) {
 TEST(Programs, TellHowManyOfTheirKernelsHaveRun) {
   Device device;
   const cl::Program program = build_program(
-      device, {{"some/two.cl", "kernel void a(int n) {}\nkernel void b(int n) {}\n"}}, {}, false);
+      device, {{"some/two.cl", "kernel void a(int n) {}\nkernel void b(int n) {}\n"}}, {});
   std::vector<KernelCount> told;
   Kernel a(program, "a");
   Kernel b(program, "b");
@@ -62,7 +62,7 @@ TEST(Programs, RunNothingOfNothingAndWholeTeams) {
   const KernelSource kernel = {"some/count.cl",
                                "kernel void count(global int* out) {\n"
                                "  out[get_global_id(0)] = 1000 * get_local_size(0) + 1;\n}\n"};
-  Kernel count(build_program(device, {kernel}, {}, false), "count", 24);
+  Kernel count(build_program(device, {kernel}, {}), "count", 24);
   const Buffer<int> out(device, 100);
   count.run(device.queue(), 0, out.memory());
   count.run_teams(device.queue(), 0, out.memory());
@@ -83,7 +83,7 @@ TEST(Programs, TakeNoLargerGroupsThanTheKernelAllows) {
                                "kernel void size(global int* out) {\n"
                                "  out[get_global_id(0)] = get_local_size(0);\n}\n"};
   const std::size_t limit = device.handle().getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
-  Kernel size(build_program(device, {kernel}, {}, false), "size", 4 * limit);
+  Kernel size(build_program(device, {kernel}, {}), "size", 4 * limit);
   const Buffer<int> out(device, limit);
   size.run_teams(device.queue(), 1, out.memory());
   EXPECT_EQ(out.read(device, limit), std::vector<int>(limit, static_cast<int>(limit)));
@@ -95,7 +95,7 @@ TEST(Programs, AnErrorNamesItsFileAndLine) {
                                "// fine\nkernel void k(int a) {\n  a = wrong;\n}\n"};
   EXPECT_THAT(
       [&] {
-        static_cast<void>(build_program(device, {kHelper, broken}, {}, false));
+        static_cast<void>(build_program(device, {kHelper, broken}, {}));
       },
       ThrowsMessage<std::runtime_error>(
           AllOf(HasSubstr("the kernels do not build on " + device.facts().name),
@@ -104,15 +104,12 @@ TEST(Programs, AnErrorNamesItsFileAndLine) {
 
 TEST(Programs, KnowHowTheyAreBuilt) {
   const Device device(-1, false, 8);
-  const KernelSource check = {
-      "some/check.cl",
-      "#if LANES != 8\n#error lanes\n#endif\n"
-      "#if defined(__FAST_RELAXED_MATH__) != RELAXED\n#error maths\n#endif\n"
-      "kernel void k(int a) {}\n"};
-  EXPECT_NO_THROW(static_cast<void>(build_program(device, {check}, {"RELAXED=0"}, false)));
-  EXPECT_NO_THROW(static_cast<void>(build_program(device, {check}, {"RELAXED=1"}, true)));
-  EXPECT_THROW(static_cast<void>(build_program(device, {check}, {"RELAXED=1"}, false)),
-               std::runtime_error);
+  const KernelSource check = {"some/check.cl",
+                              "#if LANES != 8\n#error lanes\n#endif\n"
+                              "#if WANTED != 1\n#error defines\n#endif\n"
+                              "kernel void k(int a) {}\n"};
+  EXPECT_NO_THROW(static_cast<void>(build_program(device, {check}, {"WANTED=1"})));
+  EXPECT_THROW(static_cast<void>(build_program(device, {check}, {"WANTED=0"})), std::runtime_error);
 }
 
 }  // namespace

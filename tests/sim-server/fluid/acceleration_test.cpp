@@ -13,7 +13,7 @@ namespace splash::sim {
 namespace {
 
 /// Relative to the sum of the magnitudes of all pushes on the particle. Measured at most 3.3e-6
-/// with PoCL, with relaxed mathematics alike.
+/// with PoCL.
 constexpr double kBound = 2.0e-5;
 
 class Acceleration : public ::testing::TestWithParam<Build> {};
@@ -23,7 +23,7 @@ TEST_P(Acceleration, IsTheTwins) {
   double worst = 0.0;
   for (Water& water : situations()) {
     SCOPED_TRACE(water.name);
-    water.start(device, {.relaxed = GetParam().relaxed});
+    water.start(device);
     water.stir(1.0, 7);
     FluidState state;
     water.step(1.0e-4, [&](Fluid& fluid) { state = read_state(fluid, water.piston.offset); });
@@ -45,11 +45,11 @@ TEST_P(Acceleration, OfAllTogetherIsGravity) {
   Water& water = all.at(1);
   water.scene.fluid.gravity = {0.0, 0.0, 0.0};
   water.scene.fluid.pull = {0.0, 0.0, 0.0};
-  water.start(device, {.relaxed = GetParam().relaxed});
+  water.start(device);
   FluidParams open = water.params;
   open.wall_count = 0;
   water.fluid = std::make_unique<Fluid>(device, open, water.particles, std::vector<BoundaryPoint>{},
-                                        Outlines{}, KernelBuild{.relaxed = GetParam().relaxed});
+                                        Outlines{});
   water.stir(1.0, 8);
   water.step(1.0e-4);
   Vector3 sum = {0.0, 0.0, 0.0};

@@ -12,7 +12,7 @@
 namespace splash::sim {
 namespace {
 
-/// Relative. Measured at most 4.3e-6 with PoCL, with relaxed mathematics alike: tens of float
+/// Relative. Measured at most 4.3e-6 with PoCL: tens of float
 /// roundings of 6e-8.
 constexpr double kBound = 1.0e-5;
 
@@ -23,7 +23,7 @@ TEST_P(Density, IsTheTwins) {
   double worst = 0.0;
   for (Water& water : situations()) {
     SCOPED_TRACE(water.name);
-    water.start(device, {.relaxed = GetParam().relaxed});
+    water.start(device);
     water.fluid->set_bodies(water.bodies->at(0.0));
     water.fluid->prepare(water.step_at(0.0));
     const FluidState state = read_state(*water.fluid, water.piston.offset);
@@ -51,7 +51,7 @@ TEST_P(Density, OfOthersOutlivesNoNumbers) {
     SCOPED_TRACE(bad);
     std::vector<Water> all = situations();
     Water& water = all.front();
-    water.start(device, {.relaxed = GetParam().relaxed});
+    water.start(device);
     Snapshot snapshot = water.fluid->snapshot();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const std::size_t i : {7U, 300U}) {

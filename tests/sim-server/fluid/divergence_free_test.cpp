@@ -60,9 +60,9 @@ std::vector<double> part_of(const std::vector<Vector3>& vectors, std::size_t axi
   return part;
 }
 
-void start(Water& water, Device& device, const Build& build) {
+void start(Water& water, Device& device) {
   water.scene.fluid.solver = PressureKind::divergence_free;
-  water.start(device, {.relaxed = build.relaxed});
+  water.start(device);
   water.stir(0.3, 7);
 }
 
@@ -70,7 +70,7 @@ TEST_P(DivergenceFreeTwin, KnowsHowDensityAnswers) {
   Device device(-1, false, GetParam().lanes);
   for (Water& water : situations()) {
     SCOPED_TRACE(water.name);
-    start(water, device, GetParam());
+    start(water, device);
     FluidState state;
     water.step(kStep, [&](Fluid& fluid) { state = read_state(fluid, water.piston.offset); });
     const TwinResponse twin = twin_response(state, water.piston.speed);
@@ -125,7 +125,7 @@ TEST_P(DivergenceFreeTwin, SolvesAsTheTwinDoes) {
   for (Water& water : situations()) {
     SCOPED_TRACE(water.name);
     if (water.name == "strays") continue;  // pairs at one place: their gradient is rounding
-    start(water, device, GetParam());
+    start(water, device);
     water.step(kStep);
     static_cast<void>(water.fluid->survey());
     const SolverWork first = water.fluid->solver_work();
@@ -180,7 +180,7 @@ TEST(DivergenceFree, CountsItsWorkFromWhereItIsToldTo) {
   Device device;
   std::vector<Water> all = situations();
   Water& water = all.front();
-  start(water, device, {});
+  start(water, device);
   for (int k = 0; k < 3; ++k) water.step(kStep);
   static_cast<void>(water.fluid->survey());
   const SolverWork before = water.fluid->solver_work();

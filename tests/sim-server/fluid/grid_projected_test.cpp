@@ -75,7 +75,7 @@ double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
 TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   Device device(-1, false, GetParam().lanes);
   Water water = odd_tank();
-  water.start(device, {.relaxed = GetParam().relaxed});
+  water.start(device, {});
   water.stir(0.3, 7);
   for (int k = 0; k < 3; ++k) water.step(kStep);
   FluidState before;

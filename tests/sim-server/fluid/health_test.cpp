@@ -20,7 +20,7 @@ constexpr double kDt = 1.0e-4;  // [s]
 class HealthOf : public ::testing::TestWithParam<Build> {
  protected:
   HealthOf() {
-    water_.start(device_, {.relaxed = GetParam().relaxed});
+    water_.start(device_);
     water_.stir(1.0, 31);
     water_.step(kDt);
   }
@@ -102,7 +102,7 @@ TEST_P(HealthOf, AStepTooLongIsSeenWhateverCameOfIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, HealthOf, kBuilds, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, HealthOf, kScalarAndVector, build_name);
 
 TEST(HealthWords, EachFaultHasItsOwn) {
   for (std::size_t k = 0; k < kFaults; ++k) {

@@ -54,7 +54,7 @@ TEST(KernelFiles, CompileWithTheirOwnIncludes) {
     std::set<std::string> seen;
     std::vector<KernelSource> sources;
     add_file(file, seen, sources);
-    EXPECT_NO_THROW(static_cast<void>(build_program(device, sources, {}, false))) << file;
+    EXPECT_NO_THROW(static_cast<void>(build_program(device, sources, {}))) << file;
   }
 }
 

@@ -119,7 +119,7 @@ class NeighbourGrids : public ::testing::TestWithParam<Path> {
   }
 
   Device device_{-1, false, GetParam().profile};
-  cl::Program program_ = build_program(device_, fluid_sources(), {}, false);
+  cl::Program program_ = build_program(device_, fluid_sources(), {});
   Scene scene_;
   std::vector<Vector3> places_;
   FluidParams params_ = {};

@@ -53,8 +53,8 @@ class Parts : public ::testing::TestWithParam<PressureKind> {
   static void expect_no_difference(Device& device, Water lean, Water whole) {
     SCOPED_TRACE(lean.name);
     for (Water* water : {&lean, &whole}) water->scene.fluid.solver = GetParam();
-    const Snapshot without = after_some_steps(lean, device, {false, false});
-    const Snapshot with = after_some_steps(whole, device, {false, true});
+    const Snapshot without = after_some_steps(lean, device, {.whole = false});
+    const Snapshot with = after_some_steps(whole, device, {.whole = true});
     EXPECT_EQ(whole.fluid->parts().left_out(), 0);
     EXPECT_GT(lean.fluid->parts().left_out(), 0);
     expect_alike(without, with);

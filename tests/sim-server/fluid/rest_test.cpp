@@ -210,7 +210,7 @@ TEST_P(Resting, IsNoHarmThatGaugesSortBetweenFrames) {
   EXPECT_GT(asleep, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, Resting, kBuilds, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, Resting, kScalarAndVector, build_name);
 
 }  // namespace
 }  // namespace splash::sim

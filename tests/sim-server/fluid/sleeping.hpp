@@ -30,7 +30,7 @@ class Sleeping : public ::testing::TestWithParam<Build> {
     water_.motions = {[this](double) {
       return BodyState{{0.12, 0.12, height_}, {0, 0, 0, 1}, {0.0, 0.0, -drop_}, {0, 0, 0}};
     }};
-    water_.start(device_, {.relaxed = GetParam().relaxed});
+    water_.start(device_);
     water_.fluid->still();
     water_.fluid->let_sleep(kRule);
   }

@@ -18,7 +18,7 @@ namespace {
 class SurveyOf : public ::testing::TestWithParam<Build> {
  protected:
   SurveyOf() {
-    water_.start(device_, {.relaxed = GetParam().relaxed});
+    water_.start(device_);
     water_.stir(1.0, 31);
     water_.step(1.0e-4);
   }
@@ -95,21 +95,7 @@ TEST_P(SurveyOf, SpeedsAndExcessAreTheTwins) {
   EXPECT_NEAR(survey.mean_excess, sum / static_cast<double>(state.id.size()), 1.0e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, SurveyOf,
-                         ::testing::Values(Build{1, false}, Build{16, false}, Build{16, true}),
-                         build_name);
-
-TEST(SurveyProgram, RefusesRelaxedMaths) {
-  const Device device;
-  EXPECT_NO_THROW(static_cast<void>(build_program(device, survey_sources(), {}, false)));
-  try {
-    static_cast<void>(build_program(device, survey_sources(), {}, true));
-    FAIL() << "built";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("without relaxed mathematics"), std::string::npos)
-        << error.what();
-  }
-}
+INSTANTIATE_TEST_SUITE_P(Builds, SurveyOf, kScalarAndVector, build_name);
 
 }  // namespace
 }  // namespace splash::sim

@@ -28,7 +28,7 @@ constexpr float kFollow = 0.01F;
 }  // namespace
 
 DivergenceFree::DivergenceFree(Device& device, const FluidParams& params,
-                               const std::vector<std::string>& defines, bool relaxed)
+                               const std::vector<std::string>& defines)
     : particles_(static_cast<std::size_t>(params.count)),
       groups_(device.vectors_of(params.count)),
       stride_(static_cast<std::size_t>(params.capacity)),
@@ -45,7 +45,7 @@ DivergenceFree::DivergenceFree(Device& device, const FluidParams& params,
       error_part_(device, 2 * groups_),
       state_{Buffer<SolveState>(device, 1), Buffer<SolveState>(device, 1)},
       state_read_{} {
-  const cl::Program program = build_program(device, divergence_free_sources(), defines, relaxed);
+  const cl::Program program = build_program(device, divergence_free_sources(), defines);
   const std::size_t group = device.profile().group;
   recall_pressure_ = Kernel(program, "recall_pressure");
   measure_response_ = Kernel(program, "measure_response", group);

@@ -16,8 +16,8 @@ namespace splash::sim {
 
 class DivergenceFree : public PressureSolver {
  public:
-  DivergenceFree(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
-                 bool relaxed);
+  DivergenceFree(Device& device, const FluidParams& params,
+                 const std::vector<std::string>& defines);
 
   void recall_pressure(Fluid& fluid) override;
   void accelerate(Fluid& fluid, const Step& step) override;

@@ -41,7 +41,7 @@ double filter_rate(double spacing) {
 }
 
 GridProjected::GridProjected(Device& device, const FluidParams& params,
-                             const std::vector<std::string>& defines, bool relaxed)
+                             const std::vector<std::string>& defines)
     : grid_(lay_mac_grid(params)),
       particles_(static_cast<std::size_t>(params.count)),
       cells_(cells_in(grid_)),
@@ -69,7 +69,7 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
       along_(device, room_),
       state_(device, 1),
       state_read_{} {
-  const cl::Program program = build_program(device, grid_projected_sources(), defines, relaxed);
+  const cl::Program program = build_program(device, grid_projected_sources(), defines);
   const std::size_t group = device.profile().group;
   gather_faces_ = Kernel(program, "gather_faces");
   find_deviation_ = Kernel(program, "find_deviation");

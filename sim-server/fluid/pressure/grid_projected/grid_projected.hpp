@@ -26,8 +26,7 @@ inline constexpr double kGridWay = 1.0;
 
 class GridProjected : public PressureSolver {
  public:
-  GridProjected(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
-                bool relaxed);
+  GridProjected(Device& device, const FluidParams& params, const std::vector<std::string>& defines);
 
   void recall_pressure(Fluid& fluid) override;
   void accelerate(Fluid& fluid, const Step& step) override;
