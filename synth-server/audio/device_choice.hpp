@@ -9,11 +9,11 @@
 namespace splash::synth {
 
 struct DeviceChoice {
-  std::string api;      ///< "jack", "alsa", "pulse"; empty: the first that has a device
-  std::string device;   ///< a name or the unmistakable part of one; empty: the default
-  int channels = 2;     ///< needed
-  int sample_rate = 0;  ///< [Hz]; 0: what the device prefers
-  int block = 256;      ///< wanted frames per call; the device may have its own
+  std::string api;               ///< "jack", "alsa", "pulse"; empty: the first that has a device
+  std::string device;            ///< a name or the unmistakable part of one; empty: the default
+  int channels = 2;              ///< needed
+  int sample_rate = 0;           ///< [Hz]; 0: what the device prefers
+  int block = 256;               ///< wanted frames per call; the device may have its own
   std::vector<int> places = {};  ///< the device's channel of each, from 1 on; empty: in order
 };
 

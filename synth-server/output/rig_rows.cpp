@@ -9,17 +9,17 @@ constexpr const char* kPaper = "paper, section 6";
 }  // namespace
 
 std::vector<Field<RigEntry>> rig_fields() {
-  return {{{.key = "name", .unit = "", .meaning = "what the rig is called", .required = true},
-           &RigEntry::name},
-          {{.key = "description", .unit = "", .meaning = "one line for lists"},
-           &RigEntry::description},
-          {{.key = "device_channels",
-            .unit = "",
-            .meaning = "the device's channel of each of the rig's, in their order, from 1 on, e.g. "
-                       "[3, 1]; left out: one after another",
-            .min = 1,
-            .max = kMostDeviceChannels},
-           &RigEntry::device_channel_numbers}};
+  return {
+      {{.key = "name", .unit = "", .meaning = "what the rig is called", .required = true},
+       &RigEntry::name},
+      {{.key = "description", .unit = "", .meaning = "one line for lists"}, &RigEntry::description},
+      {{.key = "device_channels",
+        .unit = "",
+        .meaning = "the device's channel of each of the rig's, in their order, from 1 on, e.g. "
+                   "[3, 1]; left out: one after another",
+        .min = 1,
+        .max = kMostDeviceChannels},
+       &RigEntry::device_channel_numbers}};
 }
 
 std::vector<Field<OutputEntry>> output_fields() {

@@ -129,7 +129,7 @@ TEST(Calibration, HoldsForOtherBurstsAndTransducers) {
   ImpactSound ringing{.release = 2.0, .frequency = 270.0, .q = 20.0};
   for (ImpactSound* impact : {&dull, &ringing}) {
     impact->sensation = 1.0;
-    EXPECT_NEAR(bursts({*impact, {}, {}, {}, {}}, 0.5, rig).level_db, 21.0, 1.5) << impact->q;
+    EXPECT_NEAR(bursts({*impact, {}, {}, {}, {}, {}}, 0.5, rig).level_db, 21.0, 1.5) << impact->q;
   }
 }
 
