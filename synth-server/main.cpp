@@ -17,6 +17,7 @@
 #include "synth-server/replay_file.hpp"
 #include "synth-server/server.hpp"
 #include "synth-server/sound_choice.hpp"
+#include "synth-server/sweep.hpp"
 #include "synth-server/test_tone.hpp"
 
 namespace {
@@ -134,6 +135,7 @@ void run(Options options) {
   if (!options.render.empty()) return render_log(options, rig);
   const sigset_t signals = block_signals();
   if (!options.test_tone.empty()) return play_test_tone(options, rig, signals);
+  if (options.sweep != 0) return measure(options, rig, signals);
   Server server(options, rig);
   service.ready(rig.name + ", " + std::to_string(channel_count(rig)) + " channels, on " +
                 protocol::to_string(server.local()));

@@ -84,6 +84,16 @@ void add_output(CLI::App& app, Options& options) {
   app.add_option("--test-tone", options.test_tone,
                  "A soft tone on each channel in turn, or on the one of that number; then end")
       ->type_name("all|N");
+  auto* sweep = app.add_option("--sweep", options.sweep,
+                               "A rising sine on the channel of that number, to measure its "
+                               "transducer with a sensor and any recorder; then end")
+                    ->check(CLI::Range(1, 2048))
+                    ->type_name("N");
+  app.add_option("--response", options.response,
+                 "With --sweep: reads a recording of it (first channel) and prints the equaliser "
+                 "for the rig's file")
+      ->needs(sweep)
+      ->type_name("WAV");
   app.add_option("--record-audio", options.record_audio, "Also write the live output to this file")
       ->type_name("WAV");
   app.add_option(
