@@ -148,6 +148,7 @@ splash $version for Linux on x86-64: nothing is installed, this folder may lie a
   bin/sim-server --list-devices    which devices there are
   bin/sim-server --scene pool --target HOST:57310
   bin/synth-server --rig stereo
+  bin/view-server                  the water in a browser (sim-server --show 127.0.0.1:57301)
   bin/sim-server --help            and so on for each in bin/
 
 It needs an OpenCL driver: NVIDIA's, AMD's, Intel's or PoCL, which are found without files in /etc too.

@@ -75,6 +75,22 @@ class MadeBundle : public Bundle {
   }
 };
 
+// What ./splash bundle gives to make.sh has each program that is installed.
+TEST_F(MadeBundle, IsAskedForEveryProgram) {
+  const std::string launcher = text_of(kScripts.parent_path() / "splash");
+  const std::size_t list = launcher.find("readonly kBundled=(");
+  ASSERT_NE(list, std::string::npos);
+  const std::string bundled = launcher.substr(list, launcher.find(')', list) - list);
+  for (const char* room : {"sim-server", "synth-server", "synth-server/figure", "view-server"}) {
+    const std::string file = text_of(kScripts.parent_path() / room / "CMakeLists.txt");
+    const std::string begins = "install(TARGETS ";
+    const std::size_t name = file.find(begins);
+    ASSERT_NE(name, std::string::npos) << room;
+    const std::size_t first = name + begins.size();
+    EXPECT_THAT(bundled, HasSubstr(file.substr(first, file.find(' ', first) - first))) << room;
+  }
+}
+
 /// Of each row "package | version | files | licence", in full.
 void expect_licences(const fs::path& top) {
   std::ifstream rows(top / "share/libraries.txt");
