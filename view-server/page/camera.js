@@ -56,7 +56,7 @@ export class Camera {
     const projection = perspective(FOVY, this.aspect, near, far);
     const both = multiply(projection, view);
     return { view, projection, both, back: inverse(both), viewBack: inverse(view), eye: this.eye,
-      near, far, focal: projection[5], aspect: this.aspect };
+      near, far, focal: projection[5], aspect: this.aspect, skew: [0, 0] };
   }
 
   /// The ray through a place of the picture: x and y from -1 to 1, y upwards.

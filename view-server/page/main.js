@@ -18,6 +18,7 @@ import { Sound } from './sound.js';
 import { between, mix } from './vector.js';
 import { Water } from './water.js';
 import { Words } from './words.js';
+import { Headset } from './xr.js';
 
 const at = (id) => document.getElementById(id);
 const options = new URLSearchParams(location.search); // ?points, ?share=0.5
@@ -169,6 +170,10 @@ let share = Number(options.get('share')) || 1;
 let rate = 60;
 let meanTook = 1000 / 60; // [ms]
 let before = performance.now();
+const headset = new Headset({ gl, solids, grabs, pick: (ray) => pointers.pick(ray),
+  world: () => world, prepare, draw: drawAll });
+if (smooth) headset.isThere().then((there) => { at('headset').hidden = !there; });
+
 function keepPace() {
   const now = performance.now();
   const took = Math.min(now - before, 2000);
@@ -198,28 +203,33 @@ function picture() {
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   camera.aspect = width / height;
+  if (headset.session || !prepare()) return;
+  drawAll({ width, height, share }, camera.matrices());
+  if (wantsPicture) savePicture(canvas, world.name);
+  wantsPicture = false;
+}
+
+let moment = 0; // that is shown
+/// Everything as it is to be shown now; whether there is anything. Asks for the next state.
+function prepare() {
   const now = link.now();
   const view = world && playout.at(now, sound.lag === null ? 0 : sound.lag - 0.025);
-  if (view) {
-    shown.push(now - view.moment);
-    if (shown.length > 60) shown.shift();
-    particles.show(view);
-    poseBodies(view);
-    drawAll({ width, height, share }, view.moment);
-    if (wantsPicture) savePicture(canvas, world.name);
-    wantsPicture = false;
-    ++pictures;
-    if (pictures % 3 === 0) drawCharts(now);
-  }
   const newest = playout.states.at(-1);
   if (newest && newest !== answered) {
     answered = newest;
     link.ask();
   }
+  if (!view) return false;
+  moment = view.moment;
+  shown.push(now - moment);
+  if (shown.length > 60) shown.shift();
+  particles.show(view);
+  poseBodies(view);
+  if (++pictures % 3 === 0) drawCharts(now);
+  return true;
 }
 
-function drawAll(size, moment) {
-  const seen = camera.matrices();
+function drawAll(size, seen) {
   const marks = () => rings.draw(seen, moment, camera.size);
   if (points) return points.draw(size, seen, world, particles, solids, marks);
   lights.draw(world, particles, solids.bodies);
@@ -246,6 +256,11 @@ const ACTS = {
   mute: () => link.send('/mute', ',i', muted ? 0 : 1),
   pause: () => link.send('/pause', ',i', paused() ? 0 : 1),
   reset: () => link.send('/reset', ','),
+  headset: async () => {
+    if (headset.session) return headset.stop();
+    await headset.start(() => pressed('headset', false)).catch((error) => warn(error.message));
+    return pressed('headset', headset.session !== null);
+  },
   look: () => world && camera.frame(world.tank),
   picture: () => { wantsPicture = true; },
   film: () => {
@@ -278,6 +293,6 @@ setInterval(() => {
 }, 250);
 
 /// For tests and for whoever looks with the browser's tools.
-window.splash = { camera, solids, playout, sound, link, grabs, events: [], peaks: () => peaks, alive: () => alive,
+window.splash = { camera, solids, playout, sound, link, grabs, headset, events: [], peaks: () => peaks, alive: () => alive,
   rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, share: () => share, world: () => world };
 requestAnimationFrame(picture);

@@ -22,6 +22,7 @@ const FRAGMENT = `${LIGHT}${LIT}
 in vec3 world, facing;
 uniform vec3 eye, tint;
 uniform int material;
+uniform bool sand;          // a floor without seams
 uniform float glow;
 uniform vec4 tiles;         // corner [m], edge [m], columns; no columns: none
 uniform float levels[64];
@@ -58,9 +59,9 @@ void main() {
   if (material == 1) {
     float edge = tiles.w > 0.0 ? tiles.z : length(tankBox.zw - tankBox.xy) / 9.0;
     vec2 corner = tiles.w > 0.0 ? tiles.xy : 0.5 * (tankBox.xy + tankBox.zw);
-    float s = seam(world.xy - corner, edge);
+    float s = sand ? 0.0 : seam(world.xy - corner, edge);
     vec2 cell = floor((world.xy - corner) / edge);
-    float vary = fract(sin(dot(cell, vec2(12.98, 78.23))) * 43758.5);
+    float vary = sand ? 0.5 : fract(sin(dot(cell, vec2(12.98, 78.23))) * 43758.5);
     base = base * (0.93 + 0.10 * vary) * (1.0 - 0.45 * s);
     float level = tileLevel(world.xy);
     float drawn = level > 0.0 ? clamp(1.2 + log(level) / 5.76, 0.0, 1.0) : 0.0; // -60 to -10 dB
@@ -196,7 +197,8 @@ export class Solids {
     const gl = this.gl;
     const { lower: l, upper: u } = this.world.tank;
     const shared = { ...light, both: camera.both, eye: camera.eye, tiles: rig.tiles,
-      levels: rig.levels, tankBox: [l[0], l[1], u[0], u[1]] };
+      levels: rig.levels, tankBox: [l[0], l[1], u[0], u[1]],
+      sand: Boolean(this.world.slope) && rig.tiles[3] === 0 };
     gl.enable(gl.DEPTH_TEST);
     for (const solid of [...this.still, ...this.bodies.map((b) => ({ ...b, material: 2 }))]) {
       use(gl, this.shader, { ...shared, pose: solid.pose ?? STILL, material: solid.material,

@@ -146,10 +146,11 @@ const NORMAL = `
 in vec2 uv;
 uniform sampler2D source;
 uniform vec2 pixels, slope; // slope: x and y over z at the picture's edge
+uniform vec2 skew;          // of the view: where straight ahead is, 0: in the middle
 out vec4 colour;
 vec3 at(vec2 q) {
   float z = texture(source, q).r;
-  return z > 0.0 ? vec3((q * 2.0 - 1.0) * slope * z, -z) : vec3(0.0);
+  return z > 0.0 ? vec3((q * 2.0 - 1.0 + skew) * slope * z, -z) : vec3(0.0);
 }
 void main() {
   vec3 p = at(uv);
@@ -194,7 +195,7 @@ const COMPOSE = `${LIGHT}${LIT}
 in vec2 uv;
 uniform sampler2D solids, solidDepth, surface, depth, thickness;
 uniform mat4 viewBack, projection;
-uniform vec2 slope;
+uniform vec2 slope, skew;
 uniform vec3 eye, absorbed; // [1/m] of red, green, blue
 uniform vec3 tankLower, tankUpper;
 uniform float foamLength;   // [m] of fast water that is white
@@ -215,7 +216,7 @@ void main() {
   if (z > 0.0 && solidDistance(uv) < z - 0.002) return;
   if (z <= 0.0) z = solidDistance(uv);
   vec3 n = normalize(s.xyz);
-  vec3 p = vec3((uv * 2.0 - 1.0) * slope * z, -z);
+  vec3 p = vec3((uv * 2.0 - 1.0 + skew) * slope * z, -z);
   vec3 world = (viewBack * vec4(p, 1.0)).xyz;
   vec3 view = normalize(p);
   // Behind the far walls there is none.
@@ -231,7 +232,7 @@ void main() {
   float straight = max(solidDistance(uv) - z, 0.0) / max(-view.z, 0.2);
   float path = min(mix(thick.r, straight, 0.5), 1.1 * straight);
   vec3 meets = p + refract(view, n, 0.75) * path;
-  vec2 there = clamp(meets.xy / (-meets.z * slope) * 0.5 + 0.5, vec2(0.001), vec2(0.999));
+  vec2 there = clamp((meets.xy / (-meets.z * slope) - skew) * 0.5 + 0.5, vec2(0.001), vec2(0.999));
   if (solidDistance(there) < z) there = uv;
   vec3 through = texture(solids, there).rgb;
   vec3 kept = exp(-absorbed * path);
@@ -313,8 +314,9 @@ export class Water {
     this.thick = [0, 1].map(() => new Target(gl, gl.RGBA16F, gl.LINEAR));
   }
 
-  /// `drawSolids` and `drawMarks` draw into what is bound; the picture goes to the canvas.
-  draw({ width, height, share }, camera, world, particles, light, drawSolids, drawMarks) {
+  /// `drawSolids` and `drawMarks` draw into what is bound; the picture goes to a part of `frame`, or to
+  /// the canvas.
+  draw({ width, height, share, frame = null, x = 0, y = 0 }, camera, world, particles, light, drawSolids, drawMarks) {
     const gl = this.gl;
     const slope = [camera.aspect / camera.focal, 1 / camera.focal];
     const { lower, upper } = world.tank;
@@ -364,7 +366,7 @@ export class Water {
       }
     }
     this.surface.fit(w, h).bind();
-    overAll(gl, this.normals, { source: this.depths[0].colour, pixels, slope });
+    overAll(gl, this.normals, { source: this.depths[0].colour, pixels, slope, skew: camera.skew });
 
     this.whole.fit(width, height).bind([0, 0, 0, 1]);
     const wide = Math.min(upper[2] - lower[2], world.level - lower[2]);
@@ -390,8 +392,8 @@ export class Water {
     gl.disable(gl.BLEND);
     gl.depthMask(true);
 
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.viewport(0, 0, width, height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+    gl.viewport(x, y, width, height);
     overAll(gl, this.finish, { source: this.whole.colour, pixels: [width, height] });
   }
 }
