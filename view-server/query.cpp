@@ -13,7 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using protocol::AddressRow;
 using protocol::ArgumentRow;
-using protocol::Direction;
 
 constexpr std::string_view kSim = "/sim";
 constexpr std::string_view kSynth = "/synth";
