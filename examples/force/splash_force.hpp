@@ -5,13 +5,15 @@
 // hand safe: see Safety.
 //
 //   splash_force::Client water("127.0.0.1", 57300, 0);  // the simulator, and the body's number
-//   // CHAI3D, in the haptic loop; CHAI3D's x points to the user, splash's as the scene says:
+//   // CHAI3D, in the haptic loop. Its x points to the user and its y to the right:
 //   device->getPosition(x); device->getLinearVelocity(v);
-//   water.send_pose({x.x(), x.y(), x.z()}, {0, 0, 0, 1});
-//   const auto f = water.force({x.x(), x.y(), x.z()}, {v.x(), v.y(), v.z()}, {0, 0, 0});
-//   device->setForce(cVector3d(f.force[0], f.force[1], f.force[2]));
-//   // OpenHaptics, in the scheduler's callback: positions are in millimetres, y up:
-//   //   x = pos[2] / 1000, y = pos[0] / 1000, z = pos[1] / 1000, and forces back the same way.
+//   const splash_force::Vector place = {-x.x(), -x.y(), x.z()}, speed = {-v.x(), -v.y(), v.z()};
+//   water.send_pose(place, {0, 0, 0, 1});
+//   const auto f = water.force(place, speed, {0, 0, 0}).force;
+//   device->setForce(chai3d::cVector3d(-f[0], -f[1], f[2]));
+//   // OpenHaptics, in the scheduler's callback. Millimetres, x to the right, y up:
+//   //   place = {-pos[2] / 1000, -pos[0] / 1000, pos[1] / 1000}
+//   //   and the force for it is {-f[1], f[2], -f[0]}.
 //
 // It was tried with simulated devices (tests/examples), not with any real one: begin with a low
 // max_force.

@@ -161,8 +161,53 @@ TEST_F(Control, AnyPacketRenewsASubscription) {
 }
 
 TEST_F(Control, NotifyRefusesStreamsThatAreNotSent) {
-  EXPECT_THAT(reason(ask({"/notify", {2}})), HasSubstr("allowed 0 to 1"));
+  EXPECT_THAT(reason(ask({"/notify", {4}})), HasSubstr("allowed 0 to 3"));
+  EXPECT_THAT(reason(ask({"/notify", {2}})), HasSubstr("no forces here"));
+  EXPECT_THAT(reason(ask({"/notify", {3}})), HasSubstr("no forces here"));
   EXPECT_TRUE(targets_.list().empty());
+}
+
+TEST_F(Control, NotifySubscribesToForcesWhereThereAreAny) {
+  server_ = nullptr;
+  std::string why = "the water solves";
+  ControlServer server({.listen = {}}, {.no_forces = [&] { return why; }}, targets_);
+  const auto ask_server = [&](std::int32_t streams) {
+    peer_.send(server.local(), Message{"/notify", {streams}});
+    return peer_.message();
+  };
+  EXPECT_THAT(reason(ask_server(2)), HasSubstr("the water solves"));
+  why.clear();
+  EXPECT_EQ(ask_server(2), protocol::done("/notify", 2));
+  EXPECT_TRUE(targets_.wants(kForceStream));
+  EXPECT_FALSE(targets_.wants(kEventStream));
+  EXPECT_EQ(ask_server(3), protocol::done("/notify", 3));
+  EXPECT_TRUE(targets_.wants(kEventStream));
+  EXPECT_EQ(ask_server(0), protocol::done("/notify", 0));
+  EXPECT_FALSE(targets_.wants(kForceStream));
+}
+
+TEST_F(Control, TakesWhatAFloorFeelsWhereThereIsOne) {
+  server_ = nullptr;
+  bool has_floor = false;
+  int taken = 0;
+  ControlServer server({.listen = {}},
+                       {.track =
+                            [&](const Message&, const PoseMoment&) {
+                              taken += has_floor ? 1 : 0;
+                              return has_floor;
+                            }},
+                       targets_);
+  const auto ask_server = [&](const Message& message) {
+    peer_.send(server.local(), message);
+    peer_.send(server.local(), Message{"/sync", {1}});
+    return peer_.message();
+  };
+  EXPECT_THAT(reason(ask_server({"/tile/pressure", {0, 5.0F}})), HasSubstr("kind: pressure"));
+  static_cast<void>(peer_.message());
+  has_floor = true;
+  EXPECT_EQ(ask_server({"/tile/pressure", {0, 5.0F, -1.0F}}).address, "/synced");
+  EXPECT_EQ(taken, 1);
+  EXPECT_THAT(reason(ask_server({"/tile/pressure", {0, 1}})), testing::Not(HasSubstr("no /fail")));
 }
 
 TEST_F(Control, QuitFromThisHostIsDoneAndObeyed) {

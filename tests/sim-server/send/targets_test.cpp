@@ -42,6 +42,32 @@ TEST_F(TargetsTest, SubscribersExpireUnlessTheySpeak) {
   EXPECT_EQ(targets.list().size(), 3U);  // two fixed, which do not expire, and the lively one
 }
 
+TEST_F(TargetsTest, EachGetsTheStreamsThatItAskedFor) {
+  const std::array<std::byte, 4> packet{};
+  test::Peer feels;
+  EXPECT_FALSE(targets.wants(kForceStream));
+  EXPECT_TRUE(targets.subscribe(feels.endpoint(), kForceStream));
+  EXPECT_TRUE(targets.wants(kForceStream));
+  targets.send(socket, packet);
+  EXPECT_TRUE(feels.silent()) << "events";
+  targets.send(socket, packet, kForceStream);
+  EXPECT_TRUE(feels.bytes().has_value());
+  now += 1.5 * kSubscriptionLease;
+  EXPECT_FALSE(targets.wants(kForceStream)) << "it is gone";
+}
+
+TEST_F(TargetsTest, ATargetNamedAtStartGetsForcesForALeaseOnly) {
+  EXPECT_TRUE(targets.subscribe(port(1), kForceStream));
+  EXPECT_TRUE(targets.wants(kForceStream));
+  EXPECT_TRUE(targets.wants(kEventStream));
+  now += 1.5 * kSubscriptionLease;
+  EXPECT_FALSE(targets.wants(kForceStream));
+  EXPECT_TRUE(targets.wants(kEventStream));
+  EXPECT_TRUE(targets.subscribe(port(1), kForceStream));
+  EXPECT_FALSE(targets.unsubscribe(port(1)));
+  EXPECT_FALSE(targets.wants(kForceStream));
+}
+
 TEST_F(TargetsTest, RenewingDoesNotSubscribe) {
   targets.renew(port(77));
   EXPECT_EQ(targets.list().size(), 2U);
