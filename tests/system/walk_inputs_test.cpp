@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// One walk by four ways: its markers, their poses over OSC, where its feet touch over TUIO, and
+// the weight that force plates felt. Each foot contact is the same impact, at nearly the same time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim-server/device/device.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/serve/pose_intake.hpp"
+#include "sim-server/simulation/simulation.hpp"
+#include "sim-server/start/scene_start.hpp"
+#include "tests/sim-server/bodies/motion/plate_log.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kRate = 60.0;          ///< of cameras and of the surface [1/s]
+constexpr double kFrame = 1.0 / kRate;  // [s]
+constexpr double kEnd = 2.5;            ///< of the recording [s]
+
+/// The walk's scene with this of either foot.
+Scene scene_of(const std::string& left, const std::string& right, const std::string& tracking) {
+  const auto foot = [](const std::string& name, const std::string& motion) {
+    return "  - name: " + name +
+           "\n    shape: {kind: box, size: [0.29, 0.10, 0.07], rocker: 0.03, flat: 0.5}\n" + motion;
+  };
+  return parse_scene(
+      "detect: {impact_lookahead: 0.005}\nfluid: {particles: 12000}\n"
+      "tank: {lower: [-0.2, -0.3, -0.05], upper: [1.35, 0.3, 0.4]}\n"
+      "water: [{lower: [-0.2, -0.3, -0.05], upper: [1.35, 0.3, 0.0]}]\nbodies:\n" +
+          foot("foot_left", left) + foot("foot_right", right) + tracking,
+      SPLASH_SOURCE_DIR "/configs/scenes/inputs.yaml");
+}
+
+Scene marker_scene() {
+  const auto motion = [](const std::string& side) {
+    std::string markers;
+    for (const char* name :
+         {"Heel", "Toe.Tip", "Toe.Lat", "Toe.Med", "Midfoot.Sup", "Midfoot.Lat"}) {
+      markers += (markers.empty() ? "" : ", ") + side + "." + name;
+    }
+    return "    motion: {kind: trc, file: walk.trc, markers: [" + markers + "], sole: true}\n";
+  };
+  return scene_of(motion("L"), motion("R"), "");
+}
+
+std::string stands(const std::string& kind, const std::string& place) {
+  return "    motion: {kind: " + kind + "}\n    rest: {position: " + place + "}\n";
+}
+
+struct Contact {
+  int body = 0;
+  double time = 0.0;
+};
+
+/// Gives a message that came at a time [s].
+using Give = std::function<void(const protocol::Message& message, double arrival)>;
+using Send = std::function<void(double now, const Give& give)>;
+
+/// Impacts of the walk in this scene; `send` says what came since it was last asked.
+std::vector<DetectedImpact> impacts_of(const Scene& scene, const Send& send) {
+  Device device;
+  Simulation simulation(device, scene, {});
+  PoseIntake intake(simulation);
+  std::vector<DetectedImpact> impacts;
+  while (simulation.seconds() < kEnd) {
+    const double now = simulation.seconds();
+    send(now, [&](const protocol::Message& message, double arrival) {
+      EXPECT_TRUE(intake.track(message, {arrival, {}})) << message.address;
+    });
+    const FrameResult frame = simulation.advance();
+    impacts.insert(impacts.end(), frame.found.impacts.begin(), frame.found.impacts.end());
+  }
+  EXPECT_EQ(simulation.totals().resets, 0U);
+  EXPECT_EQ(intake.refused(), 0U);
+  return impacts;
+}
+
+/// What walks, frame by frame of the cameras: the poses that the markers give.
+class Walk {
+ public:
+  Walk() : scene_(marker_scene()) {
+    std::vector<PosedMotion*> live;
+    const Bodies bodies = make_bodies(scene_, {}, live);
+    for (int k = 0; k <= static_cast<int>(kEnd * kRate); ++k) {
+      poses_.push_back({bodies.state(0, k * kFrame), bodies.state(1, k * kFrame)});
+    }
+    reference = impacts_of(scene_, [](double, const auto&) {});
+  }
+
+  /// Calls `tell` for each camera frame once it is due.
+  [[nodiscard]] Send each_frame(
+      const std::function<void(std::size_t, double, const Give&)>& tell) const {
+    return [this, tell, next = std::size_t{0}](double now, const auto& give) mutable {
+      for (; next < poses_.size() && static_cast<double>(next) * kFrame <= now + 1e-9; ++next) {
+        tell(next, static_cast<double>(next) * kFrame, give);
+      }
+    };
+  }
+  [[nodiscard]] const BodyState& pose(std::size_t frame, std::size_t foot) const {
+    return poses_.at(frame).at(foot);
+  }
+
+  std::vector<DetectedImpact> reference;
+
+ private:
+  Scene scene_;
+  std::vector<std::array<BodyState, 2>> poses_;
+};
+
+/// Of a foot's impacts the one that is nearest to its contact; null: it has none.
+const DetectedImpact* impact_near(const std::vector<DetectedImpact>& impacts,
+                                  const Contact& contact) {
+  const DetectedImpact* nearest = nullptr;
+  for (const DetectedImpact& impact : impacts) {
+    if (impact.body != contact.body) continue;
+    const double far = std::abs(impact.time - contact.time);
+    if (nearest == nullptr || far < std::abs(nearest->time - contact.time)) nearest = &impact;
+  }
+  return nearest;
+}
+
+/// The contacts of tests/data/walk_contacts.csv behind the first step.
+constexpr Contact kContacts[] = {{1, 0.6183}, {0, 1.2467}, {1, 1.8533}};
+
+/// Of the water's surface, as in walk_test.cpp: a foot that glides in slowly takes its time over it
+/// [m].
+constexpr double kRoughness = 0.1 * 0.0158;
+
+void expect_the_same(const char* way, const std::vector<DetectedImpact>& reference,
+                     const std::vector<DetectedImpact>& impacts, double within) {
+  for (const Contact& contact : kContacts) {
+    const DetectedImpact* const wanted = impact_near(reference, contact);
+    const DetectedImpact* const found = impact_near(impacts, contact);
+    ASSERT_TRUE(wanted != nullptr && found != nullptr) << way;
+    const double glides = kRoughness / wanted->approach;
+    std::printf("%s, contact at %.4f s: markers %+.1f ms (%.2f m/s), this %+.1f ms\n", way,
+                contact.time, 1e3 * (wanted->time - contact.time), wanted->approach,
+                1e3 * (found->time - contact.time));
+    EXPECT_NEAR(found->time, wanted->time, within + glides) << way << " at " << contact.time;
+  }
+}
+
+TEST(WalkInputs, AreTheSameImpacts) {
+  const Walk walk;
+  const std::vector<PlateRow> plates = read_plates();
+
+  const std::string sources =
+      "tracking:\n  sources:\n"
+      "    - {body: foot_left, address: /walk, match: [left], position: [1, 2, 3], rotation: [4, "
+      "5, "
+      "6, 7]}\n"
+      "    - {body: foot_right, address: /walk, match: [right], position: [1, 2, 3], rotation: [4, "
+      "5, 6, 7]}\n";
+  const auto by_osc = impacts_of(
+      scene_of(stands("osc", "[0.8, 0.06, 0.1]"), stands("osc", "[0.3, -0.13, 0.1]"), sources),
+      walk.each_frame([&](std::size_t frame, double time, const Give& give) {
+        for (std::size_t foot = 0; foot < 2; ++foot) {
+          const BodyState& pose = walk.pose(frame, foot);
+          protocol::Message message = {"/walk", {std::string(foot == 0 ? "left" : "right")}};
+          for (const double part : pose.position) {
+            message.arguments.emplace_back(static_cast<float>(part));
+          }
+          for (const double part : pose.rotation) {
+            message.arguments.emplace_back(static_cast<float>(part));
+          }
+          give(message, time);
+        }
+      }));
+  expect_the_same("OSC", walk.reference, by_osc, kFrame);
+
+  const std::string surface =
+      "tracking:\n  position: [-0.2, 0.3, 0]\n  sources:\n"
+      "    - {body: foot_left, preset: tuio, floor: [1.55, 0.6]}\n"
+      "    - {body: foot_right, preset: tuio, floor: [1.55, 0.6]}\n";
+  std::array<int, 2> names = {};
+  int names_given = 0;
+  const auto by_tuio = impacts_of(
+      scene_of(stands("touch", "[0.8, 0.06, 0.035]"), stands("touch", "[0.3, -0.13, 0.035]"),
+               surface),
+      walk.each_frame([&](std::size_t frame, double time, const Give& give) {
+        const PlateRow& row = plates.at(static_cast<std::size_t>(std::lround(150.0 * time)));
+        const std::string address = "/tuio/2Dcur";
+        protocol::Message alive = {address, {std::string("alive")}};
+        std::vector<protocol::Message> messages;
+        for (std::size_t foot = 0; foot < 2; ++foot) {
+          const BodyState& pose = walk.pose(frame, foot);
+          if (row.feet.at(foot).force < 20.0) {
+            names[foot] = 0;
+            continue;
+          }
+          if (names[foot] == 0) names[foot] = ++names_given;
+          alive.arguments.emplace_back(names[foot]);
+          messages.push_back(
+              {address,
+               {std::string("set"), names[foot],
+                static_cast<float>((pose.position[0] + 0.2) / 1.55),
+                static_cast<float>((0.3 - pose.position[1]) / 0.6), 0.0F, 0.0F, 0.0F}});
+        }
+        messages.insert(messages.begin(), alive);
+        messages.push_back({address, {std::string("fseq"), static_cast<int>(frame)}});
+        for (const auto& message : messages) give(message, time);
+      }));
+  expect_the_same("TUIO", walk.reference, by_tuio, kFrame);
+
+  const Scene tiles = scene_of(
+      stands("pressure", "[0.8, 0.06, 0.035]"), stands("pressure", "[0.3, -0.13, 0.035]"),
+      "tracking: {position: [-0.34, -0.915, 0], floor: {columns: 6, rows: 6, sensors: 4}}\n");
+  std::size_t next = 0;
+  const auto by_weight = impacts_of(tiles, [&](double now, const auto& give) {
+    for (; next < plates.size() && plates[next].time <= now + 1e-9; ++next) {
+      for (const auto& message : pressure_messages(readings_of(plates[next], tiles.tracking))) {
+        give(message, plates[next].time);
+      }
+    }
+  });
+  expect_the_same("weight", walk.reference, by_weight, 0.020);
+  for (const Contact& contact : kContacts) {
+    const DetectedImpact* const found = impact_near(by_weight, contact);
+    ASSERT_NE(found, nullptr);
+    EXPECT_NEAR(found->time, contact.time, 0.020) << "after the plates";
+  }
+}
+
+}  // namespace
+}  // namespace splash::sim
