@@ -108,28 +108,28 @@ constexpr ArgumentRow kNamedPose[] = {text("body", "name of the body in the scen
 constexpr ArgumentRow kBodyGrab[] = {
     {'i', "body", "1", 0, 255, "index of the body in the scene"},
     {'i', "on", "1", 0, 1, "1: it follows /body/pose from now on, 0: its own motion"}};
-constexpr ArgumentRow reading(bool optional) {
-  return {'f', "force", "N", -1e6, 1e6, "of the sensors from there on, below 0: drift, as 0",
-          {},  optional};
+constexpr ArgumentRow reading(std::string_view name, std::string_view meaning,
+                              bool optional = true) {
+  return {'f', name, "N", -1e6, 1e6, meaning, {}, optional};
 }
 constexpr ArgumentRow kPressure[] = {
     {'i', "first", "1", 0, 65535,
      "sensor of the first value: those of tile 0, of tile 1 and so on"},
-    reading(false),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true),
-    reading(true)};
+    reading("f0", "what that one feels; below 0, which is drift: as 0", false),
+    reading("f1", "same of the next one"),
+    reading("f2", "same of the next one"),
+    reading("f3", "same of the next one"),
+    reading("f4", "same of the next one"),
+    reading("f5", "same of the next one"),
+    reading("f6", "same of the next one"),
+    reading("f7", "same of the next one"),
+    reading("f8", "same of the next one"),
+    reading("f9", "same of the next one"),
+    reading("f10", "same of the next one"),
+    reading("f11", "same of the next one"),
+    reading("f12", "same of the next one"),
+    reading("f13", "same of the next one"),
+    reading("f14", "same of the next one")};
 constexpr ArgumentRow kForce[] = {{'i', "body", "1", 0, 255, "index of the body in the scene"},
                                   {'f', "fx", "N", -1e6, 1e6, "force of the water on the body"},
                                   {'f', "fy", "N", -1e6, 1e6, "same"},
