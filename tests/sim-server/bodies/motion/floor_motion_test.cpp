@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/bodies/motion/motion_checks.hpp"
 
