@@ -38,13 +38,19 @@ JackServer::JackServer(const std::string& name, int channels, int period, int ra
   setenv("JACK_NO_START_SERVER", "1", 1);
   jack_set_error_function(ignore);
   jack_set_info_function(ignore);
-  jackd_ = std::make_unique<tests::ChildProcess>(std::vector<std::string>{
-      "jackd", "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C", "0", "-P",
-      std::to_string(channels), "-r", std::to_string(rate), "-p", std::to_string(period)});
-  if (wait_until([this] { return !jackd_->running() || reachable(); }, 20.0) && jackd_->running()) {
-    return;
+  constexpr int kCrashed = 128;  // it ended by a signal
+  constexpr int kTries = 3;      // jackd 1.9.21 crashes now and then while it starts
+  int status = kCrashed;
+  for (int tries = 0; tries < kTries && status >= kCrashed; ++tries) {
+    jackd_ = std::make_unique<tests::ChildProcess>(std::vector<std::string>{
+        "jackd", "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C", "0", "-P",
+        std::to_string(channels), "-r", std::to_string(rate), "-p", std::to_string(period)});
+    if (wait_until([this] { return !jackd_->running() || reachable(); }, 20.0) &&
+        jackd_->running()) {
+      return;
+    }
+    status = jackd_->wait_for_end(1.0);
   }
-  const int status = jackd_->wait_for_end(1.0);
   throw std::runtime_error("jackd did not start (status " + std::to_string(status) +
                            (status == 127 ? ": it is not installed, 'apt install jackd2'" : "") +
                            ")\n" + jackd_->output());
