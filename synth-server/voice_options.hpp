@@ -10,8 +10,9 @@
 
 #include "synth-server/render/engine.hpp"
 
-namespace CLI {
-class App;  // a header that takes seconds to compile, and that only the command line needs
+// Its header takes seconds to compile, and only the command line needs it.
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name
+class App;
 }  // namespace CLI
 
 namespace splash::synth {
