@@ -31,7 +31,7 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
   params_.capacity = sorted_.stride;
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   build_kernels(boundary, outlines);
-  solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_));
+  solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_), parts_.bodies);
 }
 
 void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodies) {
@@ -94,7 +94,7 @@ void Fluid::prepare(const Step& step) {
   sort_particles();
   wake_and_sleep(step);
   compute_density(step);
-  solver_->recall_pressure(*this);
+  solver_->recall_pressure(*this, step);
 }
 
 void Fluid::advance(const Step& step) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "sim-server/fluid/params/smoothing.hpp"
+#include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/lattice.hpp"
 #include "sim-server/scene/resolution.hpp"
@@ -155,7 +156,8 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.solver = number_of(scene.fluid.solver);
   p.wave_speed = static_cast<float>(longest_wave(scene));
   p.tolerance = static_cast<float>(scene.fluid.tolerance);
-  p.way = static_cast<float>(kWay * step_factor(scene.fluid));
+  const bool on_grid = scene.fluid.solver == PressureKind::grid_projected;
+  p.way = static_cast<float>((on_grid ? kGridWay : kWay) * step_factor(scene.fluid));
   const auto walls = tank_walls(scene);
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);

@@ -36,8 +36,8 @@ Fields<F> method_fields() {
                    "divergence_free, the demand that nothing compresses (sim-server/fluid/README "
                    "says which suits what); grid_projected, the same demand, made of a grid, so "
                    "that waves and vortices last "
-                   "(sim-server/fluid/pressure/grid_projected/README): not with bodies, a slope "
-                   "or a wave maker.",
+                   "(sim-server/fluid/pressure/grid_projected/README): not with free bodies, a "
+                   "slope or a wave maker.",
         .choices = {"weakly_compressible", "divergence_free", "grid_projected"},
         .source = "Monaghan 2005; Bender & Koschier 2017; Raveendran, Wojtan & Turk 2011"},
        &F::solver_name},
@@ -100,7 +100,7 @@ Fields<F> force_fields() {
         .meaning = "Multiplies the default time step; smaller is slower and steadier. With "
                    "weakly_compressible what is beyond 1.05 makes sound slower, and water more "
                    "compressible by the square (sim-server/fluid/README has a table); not where "
-                   "`sound_speed` is given.",
+                   "`sound_speed` is given, nor with grid_projected.",
         .min = 0.05,
         .max = 2},
        &F::time_step_factor},

@@ -173,7 +173,13 @@ void check_detect(const ConfigMap& map, const DetectSettings& d) {
 
 void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
   const double most = longest_step_factor(fluid.solver);
-  if (fluid.time_step_factor <= most || !map.has("sound_speed")) return;
+  if (fluid.time_step_factor <= most) return;
+  if (fluid.solver == PressureKind::grid_projected) {
+    throw map.error("time_step_factor",
+                    "must be in 0.05.." + text(most) + " with the solver grid_projected, got '" +
+                        text(fluid.time_step_factor) + "': in longer steps its water gains energy");
+  }
+  if (!map.has("sound_speed")) return;
   throw map.error("time_step_factor",
                   "must be in 0.05.." + text(most) +
                       " with a sound_speed of the scene's own, got '" +
@@ -210,8 +216,9 @@ void check_sound(const ConfigMap& fluid, const Scene& scene) {
 std::string solver_lacks(const Scene& scene) {
   if (scene.fluid.solver != PressureKind::grid_projected) return {};
   const std::string cannot = "grid_projected cannot do ";
-  if (!scene.bodies.empty()) {
-    return cannot + "bodies yet, and this scene has " + std::to_string(scene.bodies.size());
+  const auto free = std::count_if(scene.bodies.begin(), scene.bodies.end(), is_free);
+  if (free > 0) {
+    return cannot + "bodies that the water moves yet, and this scene has " + std::to_string(free);
   }
   if (scene.slope.present) return cannot + "a slope yet, and this scene has one";
   if (scene.wave_maker.present) return cannot + "a wave maker yet, and this scene has one";

@@ -25,7 +25,7 @@ void check_free(const program::ConfigMap& map, const MotionSettings& motion);
 /// A free body must start between the tank's walls; a body with a prescribed motion need not.
 void check_place(const program::ConfigMap& body, const Vector3& place, const Tank& tank);
 void check_detect(const program::ConfigMap& map, const DetectSettings& detect);
-/// Steps no longer than the solver's water stands at a speed of sound that is given.
+/// Steps no longer than the solver's water stands, at a speed of sound that is given or on a grid.
 void check_time_step(const program::ConfigMap& map, const FluidSettings& fluid);
 /// Sound that is given is fast enough for the scene's depth and for what falls and flows in it.
 /// `scene` has its bodies.

@@ -177,9 +177,12 @@ std::string summary(const RunReport& report) {
   if (report.density_solve.solves > 0) {
     const SolveTotals& divergence = report.divergence_solve;
     const SolveTotals& density = report.density_solve;
-    text << "solver    iterations per step: divergence " << divergence.mean() << ", at most "
-         << divergence.most << "; density " << density.mean() << ", at most " << density.most
-         << "; given up " << divergence.given_up + density.given_up << '\n';
+    text << "solver    iterations per step: ";
+    if (divergence.solves > 0) {
+      text << "divergence " << divergence.mean() << ", at most " << divergence.most << "; ";
+    }
+    text << "density " << density.mean() << ", at most " << density.most << "; given up "
+         << divergence.given_up + density.given_up << '\n';
   }
   text << "events    " << report.events.impacts << " impacts, " << report.events.bubbles
        << " bubbles, " << report.events.cavities << " cavities";

@@ -62,7 +62,7 @@ typedef struct {
   int solver;           // SPLASH_WEAKLY_COMPRESSIBLE, _DIVERGENCE_FREE or _GRID_PROJECTED
   float wave_speed;     // of the longest wave, sqrt(g H) of the deepest water [m/s]
   float tolerance;      // divergence-free: mean density error at which a solve is done [1]
-  float way;            // divergence-free: as far as anything goes in a step [spacings]
+  float way;            // as far as anything goes in a step, but with the state equation [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
 

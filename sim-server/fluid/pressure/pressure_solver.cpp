@@ -11,7 +11,7 @@ namespace {
 /// Pressure by the state equation: the density kernel has it already, and nothing is kept.
 class WeaklyCompressible : public PressureSolver {
  public:
-  void recall_pressure(Fluid& /*fluid*/) override {}
+  void recall_pressure(Fluid& /*fluid*/, const Step& /*step*/) override {}
   void accelerate(Fluid& fluid, const Step& step) override {
     fluid.compute_acceleration(step, fluid.particles().velocity);
     if (FreeBodies* bodies = fluid.free_bodies()) bodies->answer(fluid, step);
@@ -35,12 +35,13 @@ const Buffer<float>& PressureSolver::carried(const Fluid& fluid) const {
 }
 
 std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
-                                                     const std::vector<std::string>& defines) {
+                                                     const std::vector<std::string>& defines,
+                                                     bool bodies) {
   if (params.solver == SPLASH_DIVERGENCE_FREE) {
     return std::make_unique<DivergenceFree>(device, params, defines);
   }
   if (params.solver == SPLASH_GRID_PROJECTED) {
-    return std::make_unique<GridProjected>(device, params, defines);
+    return std::make_unique<GridProjected>(device, params, defines, bodies);
   }
   return std::make_unique<WeaklyCompressible>();
 }

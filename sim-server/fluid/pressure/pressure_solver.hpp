@@ -39,8 +39,9 @@ class PressureSolver {
   PressureSolver& operator=(const PressureSolver&) = delete;
   virtual ~PressureSolver() = default;
 
-  /// After density: leaves in Fluid::pressure_term() what is known before the step is solved.
-  virtual void recall_pressure(Fluid& fluid) = 0;
+  /// After density: leaves in Fluid::pressure_term() what is known before the step is solved, or,
+  /// where its length is 0, for whoever wants to read it.
+  virtual void recall_pressure(Fluid& fluid, const Step& step) = 0;
   /// Fills Fluid::acceleration(), and pressure_term() with what pushed.
   virtual void accelerate(Fluid& fluid, const Step& step) = 0;
   /// Then the state moves on by step.dt: as the acceleration says, unless the solver knows better.
@@ -63,8 +64,10 @@ class PressureSolver {
   virtual void note_recalled(Device& /*device*/) {}
 };
 
-/// The one that `params` ask for, its kernels built with `defines`.
+/// The one that `params` ask for, its kernels built with `defines`; `bodies`: the scene may have
+/// some.
 [[nodiscard]] std::unique_ptr<PressureSolver> make_pressure_solver(
-    Device& device, const FluidParams& params, const std::vector<std::string>& defines);
+    Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+    bool bodies);
 
 }  // namespace splash::sim

@@ -5,11 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
 
+#include "sim-server/fluid/health/checkpoint.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/start/settle.hpp"
 #include "tests/sim-server/fluid/grid_projected_twin.hpp"
 #include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
@@ -112,7 +117,16 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   const std::vector<double> pressure = read(device, solver.pressures(), 0, cells);
   const MacFaces change = twin.change(gathered, p, pressure, kStep);
   const MacFaces changed = read_faces(device, solver, solver.change());
-  EXPECT_LT(apart(changed, change), 2.0e-5);
+  const MacFaces known = twin.known(gathered);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      if (known[axis][c] > 0.0) {
+        ASSERT_NEAR(changed[axis][c], change[axis][c], 2.0e-5) << axis << ' ' << c;
+      } else {
+        ASSERT_TRUE(changed[axis][c] == 0.0 || changed[axis][c] > 1.0e29) << axis << ' ' << c;
+      }
+    }
+  }
   MacFaces still = gathered.mean;
   MacFaces pushed = twin.change(gathered, p, MacField(cells, 0.0), kStep);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -128,9 +142,9 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   EXPECT_GT(asked, 1.0);
   EXPECT_LT(std::sqrt(left / asked), 2.0e-4);
 
-  // Spacing: the state equation's pressures of water with sound of 0.4 H a step.
+  // Spacing: the state equation's pressures of water with slow sound.
   FluidState spacing = before;
-  const double slow = 0.4 * static_cast<double>(p.support) / kStep;
+  const double slow = kSpacingWay * static_cast<double>(p.support) / kStep;
   spacing.params.gravity_x = spacing.params.gravity_y = spacing.params.gravity_z = 0.0F;
   spacing.params.viscous = spacing.params.artificial = 0.0F;
   spacing.params.sound_speed = static_cast<float>(slow);
@@ -139,7 +153,6 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
         twin_pressure_term(spacing.params, before.density[i], before.knit[i]);
   }
   const std::vector<TwinAcceleration> push = twin_acceleration(spacing);
-  const MacFaces known = twin.known(gathered);
   const double filtered = 1.0 - std::exp(-filter_rate(0.02) * kStep);
   const Snapshot after = water.fluid->snapshot();
   double worst_speed = 0.0;
@@ -155,7 +168,7 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
                          place[1] > 0.09 - off || place[2] < off;
     walls += stopped;
     if (stopped) continue;
-    const Vector3 speed = v - filtered * twice[i] + (0.05 * kStep) * push[i].value;
+    const Vector3 speed = v - filtered * twice[i] + (kSpacingKick * kStep) * push[i].value;
     worst_place = std::max(worst_place, length(vector_of(*water.fluid, after.position, i) - place));
     worst_speed = std::max(worst_speed, length(vector_of(*water.fluid, after.velocity, i) - speed));
   }
@@ -164,7 +177,9 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   EXPECT_LT(worst_place, 1.0e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedTwin, kBuilds, build_name);
+// The other ways of building take their time to compile, and differ in nothing that is here.
+INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedTwin,
+                         ::testing::Values(Build{1, false}, Build{16, false}), build_name);
 
 TEST(GridProjected, GivesTheSameBitsTwice) {
   Device device;
@@ -199,7 +214,7 @@ TEST(GridProjected, StepsOnADeviceOfManyWorkItemsAsOnACpu) {
     worst =
         std::max(worst, static_cast<double>(std::abs(ends[0].velocity[i] - ends[1].velocity[i])));
   }
-  EXPECT_LT(worst, 5.0e-4);
+  EXPECT_LT(worst, 1.0e-4);
 }
 
 TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
@@ -227,6 +242,109 @@ TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
   EXPECT_NEAR(floor / (998.0 * 9.81 * depth), 1.0, 0.005);
   const SolveWork work = water.fluid->solver_work().density;
   EXPECT_EQ(work.given_up, 0);
+}
+
+/// Health says what is wrong, and from the last sound state the water goes on as if nothing had
+/// been: the solve keeps nothing of the step that went wrong.
+TEST(GridProjected, GoesOnFromASoundStateAsIfNothingHadBeen) {
+  Device device;
+  Water water = odd_tank();
+  water.start(device);
+  water.stir(0.3, 5);
+  const auto watched = [&](const std::function<void()>& meanwhile) {
+    water.fluid->begin_watch(1);
+    water.fluid->set_bodies({});
+    water.fluid->prepare(water.step_at(kStep));
+    meanwhile();
+    water.fluid->advance(water.step_at(kStep));
+    static_cast<void>(water.fluid->survey());
+    return water.fluid->health().diagnosis();
+  };
+  const auto sound = [&] {
+    EXPECT_FALSE(watched([] {}).has_value());
+    water.fluid->health().accept();
+  };
+  for (int k = 0; k < 5; ++k) sound();
+  Checkpoint checkpoint;
+  checkpoint.keep(device, water.fluid->state());
+  for (int k = 0; k < 3; ++k) sound();
+  const Snapshot straight = water.fluid->snapshot();
+
+  checkpoint.recall(device, water.fluid->state());
+  water.fluid->note_recalled();
+  water.fluid->health().forget();
+  const auto wrong = watched([&] {
+    Buffer<float> velocity = water.fluid->particles().velocity;
+    const std::vector<float> none = {std::numeric_limits<float>::quiet_NaN()};
+    velocity.write(device, none, 40);
+  });
+  ASSERT_TRUE(wrong.has_value());
+  EXPECT_EQ(wrong->fault, Fault::not_finite);
+
+  checkpoint.recall(device, water.fluid->state());
+  water.fluid->note_recalled();
+  water.fluid->health().forget();
+  for (int k = 0; k < 3; ++k) sound();
+  const Snapshot again = water.fluid->snapshot();
+  EXPECT_EQ(straight.position, again.position);
+  EXPECT_EQ(straight.velocity, again.velocity);
+}
+
+/// A ball that is held under water: it displaces its volume, and the pressures around it carry it
+/// as Archimedes says.
+TEST(GridProjected, ABallUnderWaterIsBorneByWhatItDisplaces) {
+  Device device;
+  constexpr double kDepth = 0.3;
+  const Vector3 middle = {0.161, 0.147, 0.142};
+  Scene scene = tank_scene(0.015, {0.3, 0.3, 0.5}, kDepth);
+  BodySettings ball;
+  ball.name = "ball";
+  ball.shape.kind = ShapeKind::sphere;
+  ball.shape.size = {0.12, 0.12, 0.12};
+  ball.rest.position = middle;
+  scene.bodies = {ball};
+  scene.fluid.solver = PressureKind::grid_projected;
+  Water water;
+  water.scene = scene;
+  const std::vector<Keyframe> poses = {ball.rest};
+  water.particles = initial_particles(scene, poses);
+  water.motions = {[&](double) {
+    BodyState state;
+    state.position = middle;
+    return state;
+  }};
+  water.start(device);
+  settle(*water.fluid, water.bodies->at(0.0), 0.0, 0.5, 1.0e-2);
+  for (int k = 0; k < 100; ++k) water.step(1.0e-2);
+  EXPECT_LT(water.fluid->survey().speed, 0.03 * std::sqrt(9.81 * kDepth));
+  const GridProjected& solver = solver_of(water);
+  const MacGrid& grid = solver.grid();
+  const MacLevel& level = grid.level[0];
+  const auto cells = static_cast<std::size_t>(level.cells);
+  const std::vector<double> pressure = read(device, solver.pressures(), 0, cells);
+  const std::vector<double> space = read(device, solver.space(), 0, cells);
+  const MacFaces gap = read_faces(device, solver, solver.gap());
+  const double area = static_cast<double>(grid.hx) * static_cast<double>(grid.hy);
+  const double volume = area * static_cast<double>(grid.hz);
+  const MacTwin twin(grid);
+  double displaced = 0.0;
+  double force = 0.0;
+  for (int k = 0; k < level.nz; ++k) {
+    for (int j = 0; j < level.ny; ++j) {
+      for (int i = 0; i < level.nx; ++i) {
+        const auto c = static_cast<std::size_t>(twin.number(i, j, k));
+        displaced += volume * (1.0 - space[c]);
+        // What the cell presses on the body with, and not on the water beside it.
+        force += area * pressure[c] *
+                 (gap[2][c + static_cast<std::size_t>(level.layer)] - gap[2][c]) * -1.0;
+      }
+    }
+  }
+  const double ball_volume = std::numbers::pi * std::pow(0.12, 3) / 6.0;
+  std::printf("volume %.4f, force %.4f of what they should be\n", displaced / ball_volume,
+              force / (998.0 * 9.81 * ball_volume));
+  EXPECT_NEAR(displaced / ball_volume, 1.0, 0.03);
+  EXPECT_NEAR(force / (998.0 * 9.81 * ball_volume), 1.0, 0.05);
 }
 
 /// The first sloshing mode of a tank 1 m long, half a metre deep, on ten layers.

@@ -51,6 +51,7 @@ double MacTwin::hat(const Vector3& place, const std::array<int, 3>& cell, std::s
   for (std::size_t a = 0; a < 3; ++a) {
     double d = (place[a] - lower_[a]) / edge_[a] - cell[a];
     if (a != axis) {
+      if (cell[a] == cells_[a]) return 0.0;
       d -= 0.5;
       if (cell[a] == 0) d = std::max(d, 0.0);
       if (a < 2 && cell[a] == cells_[a] - 1) d = std::min(d, 0.0);

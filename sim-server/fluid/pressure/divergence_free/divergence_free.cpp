@@ -58,7 +58,7 @@ DivergenceFree::DivergenceFree(Device& device, const FluidParams& params,
   end_solves_ = Kernel(program, "end_solves");
 }
 
-void DivergenceFree::recall_pressure(Fluid& fluid) {
+void DivergenceFree::recall_pressure(Fluid& fluid, const Step& /*step*/) {
   recall_pressure_.run(fluid.device().queue(), particles_, fluid.params_buffer().memory(),
                        fluid.particles().id.memory(), all_.memory(),
                        fluid.pressure_term().memory());

@@ -19,7 +19,7 @@ class DivergenceFree : public PressureSolver {
   DivergenceFree(Device& device, const FluidParams& params,
                  const std::vector<std::string>& defines);
 
-  void recall_pressure(Fluid& fluid) override;
+  void recall_pressure(Fluid& fluid, const Step& step) override;
   void accelerate(Fluid& fluid, const Step& step) override;
   void enqueue_work(Device& device) override;
   [[nodiscard]] SolverWork work() const override;

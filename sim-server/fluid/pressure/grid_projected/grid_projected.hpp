@@ -19,16 +19,24 @@ namespace splash::sim {
 /// In a step nothing goes farther than this [spacings].
 inline constexpr double kGridWay = 1.0;
 
-/// What the second-order filter takes of the velocities that the grid does not see: at the
-/// frequency of a wave as long as 2 pi spacings, sqrt(g / dx), with the earth's g whatever the
-/// scene's [1/s].
+/// What the second-order filter takes of the velocities that the grid does not see: half the
+/// frequency of a wave 2 pi spacings long, sqrt(g / dx), with the earth's g whatever the scene's
+/// [1/s].
 [[nodiscard]] double filter_rate(double spacing);
+
+/// Spacing in a step of the default length: how far its sound goes [supports], and what part of its
+/// push stays as speed [1]. In shorter ones both count by the time that they take.
+inline constexpr double kSpacingWay = 0.25;
+inline constexpr double kSpacingKick = 0.05;
 
 class GridProjected : public PressureSolver {
  public:
-  GridProjected(Device& device, const FluidParams& params, const std::vector<std::string>& defines);
+  /// `bodies`: the scene has some.
+  GridProjected(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
+                bool bodies);
 
-  void recall_pressure(Fluid& fluid) override;
+  /// Where a step follows nobody asks: pressure_term() stays the state equation's, for spacing.
+  void recall_pressure(Fluid& fluid, const Step& step) override;
   void accelerate(Fluid& fluid, const Step& step) override;
   void move(Fluid& fluid, const Step& step) override;
   [[nodiscard]] const Buffer<float>& carried(const Fluid& fluid) const override;
@@ -36,7 +44,7 @@ class GridProjected : public PressureSolver {
   [[nodiscard]] SolverWork work() const override;
   void forget_work(Device& device) override;
   [[nodiscard]] std::vector<cl::Buffer> kept() const override {
-    return {pressure_.memory(), flags_.memory()};
+    return {pressure_.memory(), wet_.memory()};
   }
   /// Nothing of it is by particle: after restore_pressure a solve begins from no pressure.
   [[nodiscard]] std::vector<float> pressure(Device& device) override;
@@ -52,28 +60,38 @@ class GridProjected : public PressureSolver {
   [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_; }
   [[nodiscard]] const Buffer<float>& change() const noexcept { return change_; }
   [[nodiscard]] const Buffer<float>& pressures() const noexcept { return pressure_; }
+  [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
+  [[nodiscard]] const Buffer<float>& space() const noexcept { return space_; }
 
  private:
-  void gather(Fluid& fluid, const Buffer<float>& value, const Buffer<float>& mean);
-  void solve(Fluid& fluid, float dt);
+  /// What they leave open of the grid.
+  void place_bodies(Fluid& fluid, const Step& step);
+  void solve(Fluid& fluid, const Step& step);
 
   MacGrid grid_;
+  double part_;  ///< of the default step's length, by the scene's factor [1]
   std::size_t particles_;
-  std::size_t cells_;  ///< inside, and one more along each axis
+  std::size_t cells_;   ///< inside, and one more along each axis
+  std::size_t strips_;  ///< of these that are gathered for together
   std::size_t room_;
 
   Buffer<MacGrid> grid_buffer_;
-  Buffer<float> mean_;          ///< of the particles' velocities, on faces [m/s]
-  Buffer<float> weight_;        ///< of the particles around a face [1]
-  Buffer<float> fill_;          ///< of cells [1]
-  Buffer<float> deviation_;     ///< of particles [m/s]
-  Buffer<float> seen_;          ///< its mean on faces [m/s]
-  Buffer<float> change_;        ///< by the step, on faces [m/s]
-  Buffer<float> spacing_term_;  ///< p / rho^2 by the state equation
-  Buffer<float> carried_;       ///< what took particles along in the last step [m/s]
-  Buffer<float> pressure_;      ///< of cells [Pa]
-  Buffer<int> flags_;           ///< MAC_ of kernels/mac_cell.h
+  Buffer<float> mean_;       ///< of the particles' velocities, on faces [m/s]
+  Buffer<float> weight_;     ///< of the particles around a face [1]
+  Buffer<float> fill_;       ///< of cells [1]
+  Buffer<float> deviation_;  ///< of particles [m/s]
+  Buffer<float> seen_;       ///< its mean on faces [m/s]
+  Buffer<float> change_;     ///< by the step, on faces [m/s]
+  Buffer<float> carried_;    ///< what took particles along in the last step [m/s]
+  Buffer<float> pressure_;   ///< of cells [Pa]
+  Buffer<float> wet_;        ///< 1 where a cell holds water
   Buffer<int> most_;
+
+  // Of bodies; of one element where there are none (kernels/bodies.cl).
+  bool bodies_;
+  Buffer<float> gap_;    ///< open part of faces [1]
+  Buffer<float> space_;  ///< open part of cells [1]
+  Buffer<int> owner_;    ///< body that cuts a cell, -1: none
 
   // The solve's, over all levels; the last three over the finest.
   Buffer<float> link_;
@@ -90,7 +108,10 @@ class GridProjected : public PressureSolver {
   std::array<SolveState, 1> state_read_;
 
   Kernel gather_faces_;
+  Kernel gather_again_;
   Kernel find_deviation_;
+  Kernel cut_cells_;
+  Kernel fill_beside_bodies_;
   Kernel push_faces_;
   Kernel lay_system_;
   Kernel solve_pressure_;

@@ -4,65 +4,82 @@
 // each axis. The lower face of a cell along an axis has the cell's number. Walls are mirrors: what
 // is nearer to one than the middle of the last cell counts to that cell in full.
 
+#include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define MAC_FLUID 1                   // flags of a cell: it holds water
-#define MAC_FACE(axis) (2 << (axis))  // the solve found the velocity of its lower face
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define MAC_LIGHT 1e-6f  // faces with less weight than this hold nothing [particles]
-#define MAC_FULL 0.5f    // cells that are fuller than this hold water [1]
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+
+#define MAC_LIGHT 1e-6f     // faces with less weight than this hold nothing [particles]
+#define MAC_FULL 0.5f       // cells that are fuller than this hold water [1]
+#define MAC_UNKNOWN 1e30f   // what stands where a step found no change of a face's velocity
+#define MAC_KNOWN 1e29f     // less is known
+
+#if LANES == 16
+#define WHOLE(a) convert_int16(a)
+#elif LANES == 8
+#define WHOLE(a) convert_int8(a)
+#else
+#define WHOLE(a) convert_int(a)
+#endif
 
 // What is no number becomes the least: no index leaves the arrays.
-static float within(float a, float least, float most) {
-  return fmin(fmax(a, least), most);
+static lanes within(lanes a, float least, float most) {
+  return fmin(fmax(a, (lanes)(least)), (lanes)(most));
 }
 
-// Where a coordinate is between places that are `h` apart, the first at `from`.
+// Where coordinates are between places along an axis: above which, and how far [1].
 typedef struct {
-  int lower, upper;  // the places beside it, from 0
-  float share;       // of the upper one
+  lanes lower, share;
 } Between;
 
-// On the faces along an axis, of which the last is number `n`.
-static Between between_faces(float x, float from, float h, int n) {
-  const float at = (x - from) / h;
-  const float lower = within(floor(at), 0.0f, n - 1);
-  const Between b = {(int)lower, (int)lower + 1, within(at - lower, 0.0f, 1.0f)};
+// On the faces, of which the last is number `n`.
+static Between between_faces(lanes x, float from, float inverse, int n) {
+  const lanes at = (x - from) * inverse;
+  const lanes lower = within(floor(at), 0.0f, n - 1);
+  const Between b = {lower, within(at - lower, 0.0f, 1.0f)};
   return b;
 }
 
 // On the middles of `n` cells between walls.
-static Between between_middles(float x, float from, float h, int n) {
-  const float at = within((x - from) / h - 0.5f, 0.0f, n - 1);
-  const float lower = within(floor(at), 0.0f, max(n - 2, 0));
-  const Between b = {(int)lower, min((int)lower + 1, n - 1), at - lower};
+static Between between_middles(lanes x, float from, float inverse, int n) {
+  const lanes at = within((x - from) * inverse - 0.5f, 0.0f, n - 1);
+  const lanes lower = within(floor(at), 0.0f, max(n - 2, 0));
+  const Between b = {lower, at - lower};
   return b;
 }
 
-// A particle among the places of the three faces, and of the middles.
+// Particles among the places of the three faces, and of the middles.
 typedef struct {
   Between face[3], middle[3];
-  bool on_grid;  // not above it
+  lane_flags on_grid;  // not above it
 } Placed;
 
-static Placed place_on_grid(constant MacGrid* g, float x, float y, float z) {
+static Placed place_on_grid(constant MacGrid* g, lanes x, lanes y, lanes z) {
   const MacLevel l = g->level[0];
   Placed at;
-  at.face[0] = between_faces(x, g->x, g->hx, l.nx);
-  at.face[1] = between_faces(y, g->y, g->hy, l.ny);
-  at.face[2] = between_faces(z, g->z, g->hz, l.nz);
-  at.middle[0] = between_middles(x, g->x, g->hx, l.nx);
-  at.middle[1] = between_middles(y, g->y, g->hy, l.ny);
-  at.middle[2] = between_middles(z, g->z, g->hz, l.nz);
-  at.on_grid = z < g->z + g->hz * ((float)l.nz - 0.5f);
+  at.face[0] = between_faces(x, g->x, g->ix, l.nx);
+  at.face[1] = between_faces(y, g->y, g->iy, l.ny);
+  at.face[2] = between_faces(z, g->z, g->iz, l.nz);
+  at.middle[0] = between_middles(x, g->x, g->ix, l.nx);
+  at.middle[1] = between_middles(y, g->y, g->iy, l.ny);
+  at.middle[2] = between_middles(z, g->z, g->iz, l.nz);
+  at.on_grid = z < (lanes)(g->z + g->hz * ((float)l.nz - 0.5f));
   return at;
 }
 
-// The eight places around a particle for the faces along `axis`, or for the middles (3).
+// The eight places around particles for the faces along an axis, or for the middles (3): the
+// number of the first, how far it is to the others, and the weights.
 typedef struct {
-  int cell[8];
-  float weight[8];
+  lane_flags first;
+  int x, y, z;
+  lanes weight[8];
 } Around;
 
 static Around around(constant MacGrid* g, const Placed* at, int axis) {
@@ -71,14 +88,47 @@ static Around around(constant MacGrid* g, const Placed* at, int axis) {
   const Between by = axis == 1 ? at->face[1] : at->middle[1];
   const Between bz = axis == 2 ? at->face[2] : at->middle[2];
   Around a;
-  for (int k = 0; k < 8; ++k) {
-    const bool ux = k & 1, uy = k & 2, uz = k & 4;
-    a.cell[k] = ((uz ? bz.upper : bz.lower) + 1) * l.layer +
-                ((uy ? by.upper : by.lower) + 1) * l.row + (ux ? bx.upper : bx.lower) + 1;
-    a.weight[k] = (ux ? bx.share : 1.0f - bx.share) * (uy ? by.share : 1.0f - by.share) *
-                  (uz ? bz.share : 1.0f - bz.share);
-  }
+  a.x = axis == 0 || l.nx > 1 ? 1 : 0;
+  a.y = axis == 1 || l.ny > 1 ? l.row : 0;
+  a.z = axis == 2 || l.nz > 1 ? l.layer : 0;
+  a.first = (WHOLE(bz.lower) + 1) * l.layer + (WHOLE(by.lower) + 1) * l.row + WHOLE(bx.lower) + 1;
+  const lanes high = bz.share * by.share, deep = bz.share - high, low = by.share - high;
+  const lanes rest = 1.0f - bz.share - low;
+  a.weight[1] = rest * bx.share;
+  a.weight[0] = rest - a.weight[1];
+  a.weight[3] = low * bx.share;
+  a.weight[2] = low - a.weight[3];
+  a.weight[5] = deep * bx.share;
+  a.weight[4] = deep - a.weight[5];
+  a.weight[7] = high * bx.share;
+  a.weight[6] = high - a.weight[7];
   return a;
+}
+
+// What stands there: x first, then y, then z.
+static void load_around(const Around* a, global const float* field, lanes* value) {
+#if LANES > 1
+  int first[LANES];
+  float part[8][LANES];
+  STORE(a->first, first, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    global const float* f = field + first[lane];
+    part[0][lane] = f[0];
+    part[1][lane] = f[a->x];
+    part[2][lane] = f[a->y];
+    part[3][lane] = f[a->y + a->x];
+    part[4][lane] = f[a->z];
+    part[5][lane] = f[a->z + a->x];
+    part[6][lane] = f[a->z + a->y];
+    part[7][lane] = f[a->z + a->y + a->x];
+  }
+  for (int k = 0; k < 8; ++k) value[k] = LOAD(part[k], 0);
+#else
+  global const float* f = field + a->first;
+  for (int k = 0; k < 8; ++k) {
+    value[k] = f[(k & 1 ? a->x : 0) + (k & 2 ? a->y : 0) + (k & 4 ? a->z : 0)];
+  }
+#endif
 }
 
 // Cell number `item` of those inside and, along each axis, the one above them; the last: whether

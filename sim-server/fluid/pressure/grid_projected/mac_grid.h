@@ -24,6 +24,7 @@ typedef struct {
 typedef struct {
   float x, y, z;     // lower corner [m]
   float hx, hy, hz;  // edges of a cell [m]
+  float ix, iy, iz;  // one over them [1/m]
   float share;       // volume of a particle over that of a cell [1]
   int levels;
   MacLevel level[SPLASH_MAC_LEVELS];

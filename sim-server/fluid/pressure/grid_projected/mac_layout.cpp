@@ -9,7 +9,7 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(MacGrid) == 8 * sizeof(float) + SPLASH_MAC_LEVELS * sizeof(MacLevel));
+static_assert(sizeof(MacGrid) == 11 * sizeof(float) + SPLASH_MAC_LEVELS * sizeof(MacLevel));
 
 /// Between levels, so that a vector that begins in one and reads past its end finds nothing of the
 /// next.
@@ -77,6 +77,9 @@ MacGrid lay_mac_grid(const FluidParams& params) {
   grid.hx = static_cast<float>(edge[0]);
   grid.hy = static_cast<float>(edge[1]);
   grid.hz = static_cast<float>(edge[2]);
+  grid.ix = static_cast<float>(1.0 / edge[0]);
+  grid.iy = static_cast<float>(1.0 / edge[1]);
+  grid.iz = static_cast<float>(1.0 / edge[2]);
   grid.share =
       static_cast<float>(static_cast<double>(params.mass) /
                          static_cast<double>(params.rest_density) / (edge[0] * edge[1] * edge[2]));
@@ -94,7 +97,7 @@ MacGrid lay_mac_grid(const FluidParams& params) {
 
 std::size_t mac_room(const MacGrid& grid) {
   const MacLevel& last = grid.level[grid.levels - 1];
-  return static_cast<std::size_t>(last.first + last.cells + kGap);
+  return static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.cells) + kGap;
 }
 
 }  // namespace splash::sim

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What keeps the particles apart evenly: pressures by the state equation, of water in which sound
 // is slow, push as in pressure/acceleration.cl. Nothing heavy hangs on them, the grid carries that.
-//   a_i = - sum_j m (P_i + P_j) grad W_ij - P_i rho0 grad share_i            [m/s2]
+//   a_i = - sum_j m (P_i + P_j) grad W_ij - P_i rho0 grad (share_i + f_i)    [m/s2]
+// with walls and bodies as there.
 
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_image.h"
 #include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/neighbours/group.h"
@@ -11,10 +14,31 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/smoothing.h"
 
+static BodyShare share_of_bodies(constant FluidParams* p, const Group* g,
+                                 global const int* body_start, global const float* body_position,
+                                 global const float* body_volume, int stride) {
+  BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
+  Near near;
+  begin_search(&near);
+  while (search(p, g, body_start, body_position, stride, &near)) {
+    for (int k = 0; k < near.count; ++k) {
+      const int j = NEAR(near, k);
+      const Pair pair = pair_with(p, g, body_position, stride, j);
+      add_share(p, &pair, body_volume[j], &share);
+    }
+  }
+  return share;
+}
+
+
 // `slower`: square of that sound over the scene's. All particles move.
 kernel void find_spacing(constant FluidParams* p, float slower, global const int* cell_start,
-                         global const float* position, global const float* term, float piston,
-                         global float* acceleration, global int* moving) {
+                         global const float* position, global const float* term,
+                         global const float* images, global const int* body_start,
+                         global const float* body_position, global const float* body_volume,
+                         int body_stride, global const BodyStep* bodies, int first_body,
+                         int body_count, float piston, global float* acceleration,
+                         global int* moving) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
@@ -37,15 +61,21 @@ kernel void find_spacing(constant FluidParams* p, float slower, global const int
         z += f * pair.dz;
       }
     }
+    lanes bx = 0.0f, by = 0.0f, bz = 0.0f;
+    if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
+      const BodyShare share = share_of_bodies(p, &g, body_start, body_position, body_volume,
+                                              body_stride);
+      const BodyImage image = load_image(p, images, first);
+      image_gradient(p, &image, &share, &bx, &by, &bz);
+    }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);
     const lanes by_wall = slower * own * p->rest_density;
-    ax = select(ax, gradient * x - by_wall * wall.gx, g.mine);
-    ay = select(ay, gradient * y - by_wall * wall.gy, g.mine);
-    az = select(az, gradient * z - by_wall * wall.gz, g.mine);
+    ax = select(ax, gradient * x - by_wall * (wall.gx + bx), g.mine);
+    ay = select(ay, gradient * y - by_wall * (wall.gy + by), g.mine);
+    az = select(az, gradient * z - by_wall * (wall.gz + bz), g.mine);
     turn = g.next;
   }
-  const lane_flags all = -1;
-  STORE(all, moving, first);
+  STORE(LANE_NUMBERS < (lane_flags)(last - first), moving, first);
   STORE(ax, acceleration, first);
   STORE(ay, acceleration + n, first);
   STORE(az, acceleration + 2 * n, first);

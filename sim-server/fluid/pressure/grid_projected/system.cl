@@ -3,16 +3,27 @@
 // of each cell that holds water, over the six around it,
 //   sum_faces (f - f') / h^2 = -div u + contraction                                       [1/s]
 // where nothing goes through walls, and f' is 0 at the surface: a hat over a half-space whose
-// surface is s cells above its middle is filled by 1/2 + s - s |s| / 2, so the
-// cells' fills say where between their middles the surface is, a part t of the way, and the face's
-// term is f / (t h^2) (ghost fluid: Gibou et al. 2002). Water that has come apart within is pressed
-// together again: its cells contract at the rate REGAINED of what they lack.
+// surface is s cells above its middle is filled by 1/2 + s - s |s| / 2, so the cells' fills say
+// where between their middles the surface is, a part t of the way, and the face's term is f / (t
+// h^2) (ghost fluid: Gibou et al. 2002). Water that has come apart within is pressed together
+// again: its cells contract at the rate REGAINED of what they lack.
 
 #include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define REGAINED 1.0f  // [1/s]
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+
+#define REGAINED 1.0f     // [1/s]
 #define MOST_LACK 0.2f    // of a cell's fill, that counts [1]
 #define LEAST_WAY 0.1f    // to the surface, between two middles [1]
 
@@ -69,43 +80,72 @@ static bool is_inner(const MacLevel l, global const float* fill, int4 at) {
   return true;
 }
 
+// What bodies leave open of a face or a cell, where there are any.
+static float open_of(global const float* part, int c) { return HAS_BODIES ? part[c] : 1.0f; }
+
+// Whether a cell has room for water or air: if not, nothing moves towards it.
+static bool has_room(global const float* space, int c) {
+  return open_of(space, c) > LEAST_ROOM;
+}
+
+static bool holds_water(global const float* fill, global const float* space, int c) {
+  return fill[c] > MAC_FULL && has_room(space, c);
+}
+
 // Row by row the system A f = b: `link`, 1 / h^2 between a cell and the one below it along an axis
-// where both hold water; `open`, what its surface adds to the diagonal; `start`: f of the pressures
-// that were. `flags`: MAC_FLUID. `most`: the largest number of a cell with water. What the solve
-// works with begins at zero.
+// where both hold water, by the open part of the face; `open`, what its surface adds to the
+// diagonal; `start`: f of the pressures that were. `wet`: 1 where a cell holds water. `most`: the
+// largest number of a cell with water. Of a cell that a body cuts, what flows out of its open faces
+// and what the body takes of it is its flow relative to the body, out of the same faces. What the
+// solve works with begins at zero.
 kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
+                       global const BodyStep* bodies, int first_body, global const float* gap,
+                       global const float* space, global const int* owner,
                        global const float* fill, global const float* pushed,
                        global const float* pressure, int room, global float* link,
                        global float* open, global float* x, global float* right, global float* rest,
-                       global float* start, global float* way, global int* flags,
+                       global float* start, global float* way, global float* wet,
                        global int* most) {
   const int4 at = cell_of(g, get_global_id(0));
   if (at.w == 0) return;
   const MacLevel l = g->level[0];
   const int c = number_of(l, at);
   const bool inside = at.x < l.nx && at.y < l.ny && at.z < l.nz;
-  const bool fluid = inside && fill[c] > MAC_FULL;
+  const bool fluid = inside && holds_water(fill, space, c);
+  const bool cut = HAS_BODIES && fluid && owner[c] >= 0;
   const int step[3] = {1, l.row, l.layer};
-  const float edge[3] = {g->hx, g->hy, g->hz};
+  const float inverse[3] = {g->ix, g->iy, g->iz};
   const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
-  float b = 0.0f, surface = 0.0f;
+  float b = 0.0f, surface = 0.0f, links = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const int below = c - step[axis], above = c + step[axis];
-    const float each = 1.0f / (edge[axis] * edge[axis]);
+    const int below = c - step[axis], above = c + step[axis], face = axis * l.cells + c;
+    const float each = inverse[axis] * inverse[axis];
     float between = 0.0f;
     if (fluid) {
+      const float low = open_of(gap, face), high = open_of(gap, face + step[axis]);
       const bool closed_above = axis < 2 && here[axis] == count[axis] - 1;
       if (here[axis] > 0) {
-        if (fill[below] > MAC_FULL) {
-          between = each;
-        } else {
-          surface += each / way_to_surface(fill[c], fill[below]);
+        if (holds_water(fill, space, below)) {
+          between = each * low;
+        } else if (has_room(space, below)) {
+          surface += each * low / way_to_surface(fill[c], fill[below]);
         }
       }
-      if (!closed_above && !(fill[above] > MAC_FULL)) {
-        surface += each / way_to_surface(fill[c], fill[above]);
+      if (!closed_above) {
+        if (holds_water(fill, space, above)) {
+          links += each * high;
+        } else if (has_room(space, above)) {
+          surface += each * high / way_to_surface(fill[c], fill[above]);
+        }
       }
-      b -= (pushed[axis * l.cells + above] - pushed[axis * l.cells + c]) / edge[axis];
+      float in = pushed[face], out = pushed[face + step[axis]];
+      if (cut) {
+        const BodyStep body = bodies[first_body + owner[c]];
+        in -= body_at_face(g, body, at, axis);
+        out -= body_at_face(g, body, at + (int4)(axis == 0, axis == 1, axis == 2, 0), axis);
+      }
+      b -= (high * out - low * in) * inverse[axis];
+      links += between;
     }
     link[axis * room + c] = between;
   }
@@ -113,9 +153,9 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
     b -= REGAINED * clamp(1.0f - fill[c], 0.0f, MOST_LACK);
   }
   open[c] = surface;
-  right[c] = b;
+  right[c] = links + surface > 0.0f ? b : 0.0f;
   x[c] = rest[c] = way[c] = 0.0f;
   start[c] = fluid ? pressure[c] * dt / p->rest_density : 0.0f;
-  flags[c] = fluid ? MAC_FLUID : 0;
+  wet[c] = fluid ? 1.0f : 0.0f;
   if (fluid) atomic_max(most, c);
 }
