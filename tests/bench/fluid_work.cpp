@@ -38,9 +38,10 @@ class Search {
   static void each_turn(const Places& p, int lanes, const Turn& turn) {
     const int slices = SPLASH_SLICES * p.params.cells_x;
     const int rows = p.params.cells_y * p.params.cells_z;
+    const auto start = [&](int cell) { return p.cell_start[static_cast<std::size_t>(cell)]; };
     for (int row = 0; row < rows; ++row) {
-      const int end = p.cell_start[static_cast<std::size_t>(row * slices + slices)];
-      for (int first = p.cell_start[static_cast<std::size_t>(row * slices)]; first < end;) {
+      const int end = start((row + 1) * slices);
+      for (int first = start(row * slices); first < end;) {
         const int last = std::min((first / lanes + 1) * lanes, end);
         turn(row, first, last);
         first = last;
