@@ -232,6 +232,15 @@ quoted() {  # heading, log
   printf '```\n'
 }
 
+# Of the bundle itself: how large, and which libraries.
+contents() {
+  local top=${bin%/*} size file
+  size=$(du -sm -- "$top")
+  printf '\n## The bundle\n\n%s MB unpacked, of these packages:\n\n```\n' "${size%%[[:space:]]*}"
+  for file in "$top"/share/libraries*.txt; do [[ ! -e $file ]] || cat -- "$file"; done
+  printf '```\n'
+}
+
 processor() {
   local line
   while IFS= read -r line; do
@@ -255,6 +264,7 @@ $(nproc) cores, Linux $(uname -r)." '' '```' "$device_line" "${scalar:+kernels: 
     [[ ! -e $out/size/size.svg ]] || printf '\n![time of a step](size/size.svg)\n'
     quoted "Devices" "$out/devices.log"
     for name in scenes size stages yardstick validation; do quoted "$name" "$out/$name.log"; done
+    contents
     printf '\nEach part has its words in PART.log, tables are beside them as CSV.\n'
   } >"$out/report.md"
 }

@@ -49,8 +49,8 @@ class Bundle : public testing::Test {
     const fs::path tools = folder_ / "tools";
     fs::create_directories(tools);
     for (const char* name :
-         {"bash", "basename", "cat", "cksum", "date", "dirname", "ln", "mkdir", "mktemp", "mv",
-          "nproc", "readlink", "rm", "sleep", "tail", "timeout", "uname"}) {
+         {"bash", "basename", "cat", "cksum", "date", "dirname", "du", "ln", "mkdir", "mktemp",
+          "mv", "nproc", "readlink", "rm", "sleep", "tail", "timeout", "uname"}) {
       if (!fs::exists(tools / name)) fs::create_symlink(fs::path("/usr/bin") / name, tools / name);
     }
     return {"PATH", tools.string()};
@@ -284,6 +284,7 @@ class CheckOfADevice : public Bundle {
     }
   }
   Ended check(Arguments more = {}) const {
+    write(folder() / "share/libraries.txt", "libsome | 1.2 | libsome.so | Zlib\n");
     more.insert(more.begin(), {bin_ / "splash-device-check", "--out", out_});
     return run(more, {bare_path()});
   }
@@ -299,7 +300,8 @@ TEST_F(CheckOfADevice, ThatHoldsAllEndsWithZero) {
   EXPECT_THAT(checked.text, HasSubstr("Taken: 3: Some GPU"));
   EXPECT_THAT(report(), AllOf(HasSubstr("# Some GPU\n"), HasSubstr("| self-test | held |"),
                               ContainsRegex("kernels . held . 0:0. . 4 tests passed "),
-                              HasSubstr("\n3 --seconds ")));
+                              HasSubstr("\n3 --seconds "), ContainsRegex("\n[0-9]+ MB unpacked"),
+                              HasSubstr("\nlibsome | 1.2 | ")));
 }
 
 TEST_F(CheckOfADevice, GoesOnAfterAFailureAndSaysWhat) {
