@@ -116,7 +116,7 @@ Chromium::Json Chromium::next(double seconds) {
   for (;;) {
     const auto end = heard_.find('\0');
     if (end != std::string::npos) {
-      const Json message = Json::parse(heard_.substr(0, end));
+      Json message = Json::parse(heard_.substr(0, end));
       heard_.erase(0, end + 1);
       return message;
     }

@@ -272,8 +272,8 @@ constexpr const char* kHeadset = R"js((async () => {
   WebGL2RenderingContext.prototype.makeXRCompatible = async () => {};
   Object.defineProperty(navigator, 'xr', { configurable: true,
     value: { isSessionSupported: async () => true, requestSession: async () => window.session } });
-  window.pull = (kind) => window.session.dispatchEvent(
-    Object.assign(new Event(kind), { inputSource: window.hand.source, frame: window.session.frame }));
+  window.pull = (kind) => window.session.dispatchEvent(Object.assign(new Event(kind),
+    { inputSource: window.hand.source, frame: window.session.frame }));
   document.getElementById('headset').click();
 }))js";
 

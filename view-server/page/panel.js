@@ -29,7 +29,7 @@ export class Panel {
     const ofChannels = new Set(rig.channels.map((name) => `rig/${name}`));
     for (const row of rig.rows ?? []) {
       const group = row.name.slice(0, row.name.lastIndexOf('/'));
-      if (ofChannels.has(group)) continue;
+      if (ofChannels.has(group) && /\/(trim_db|mute|solo)$/.test(row.name)) continue;
       const own = group.startsWith('rig/');
       const slider = this.add(row, own ? row.name.slice(4) : row.name.slice(group.length + 1));
       if (own) this.at('outputs').append(slider.label);

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// What a viewer costs the simulator: scenes run as fast as they can, without one and with one who
+// asks for the next state as soon as the last has come, in turn. Prints how much of a simulated
+// second's processor time, and of the real-time factor, is left.
+#include <arpa/inet.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+
+namespace {
+
+using namespace splash;
+using namespace splash::tests;
+
+struct Settings {
+  std::vector<std::string> scenes = {"basin", "pool"};
+  int rounds = 5;
+  double seconds = 5.0;  ///< simulated, of a run [s]
+};
+
+double cpu_of_children() {
+  rusage use{};
+  getrusage(RUSAGE_CHILDREN, &use);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(use.ru_utime) + seconds(use.ru_stime);
+}
+
+/// Asks and reads until the simulator ends.
+void watch(const protocol::Endpoint& where) {
+  const int descriptor = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(where.address);
+  address.sin_port = htons(where.port);
+  if (connect(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
+    std::array<char, 1 << 16> bytes{};
+    do {
+      // Whatever has come: the next one is asked for, and at most one is given.
+      if (send(descriptor, ".", 1, MSG_NOSIGNAL) < 0) break;
+    } while (recv(descriptor, bytes.data(), bytes.size(), 0) > 0);
+  }
+  close(descriptor);
+}
+
+struct Run {
+  double cpu = 0.0;     ///< of a simulated second [s]
+  double factor = 0.0;  ///< real-time factor [1]
+  long frames = 0;      ///< shown
+};
+
+/// The number behind a key of a report; 0: there is none.
+double number_of(const std::string& report, const std::string& key) {
+  const auto at = report.find('"' + key + "\":");
+  return at == std::string::npos ? 0.0 : std::stod(report.substr(at + key.size() + 3));
+}
+
+std::string text_of(const std::string& path) {
+  std::string text;
+  if (FILE* file = std::fopen(path.c_str(), "r")) {
+    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
+    std::fclose(file);
+  }
+  return text;
+}
+
+Run run(const std::string& scene, double seconds, bool watched) {
+  const std::string report = temporary_path("viewer.json");
+  const double before = cpu_of_children();
+  {
+    ChildProcess process(
+        command("sim-server",
+                {"--scene", scene, "--faster-than-real-time", "--listen", "127.0.0.1:0", "--show",
+                 "127.0.0.1:0", "--duration", std::to_string(seconds), "--report", report}));
+    if (!process.wait_for_text("viewers: ")) throw std::runtime_error(process.output());
+    const std::string said = process.output();
+    const auto begin = said.find("viewers: ") + 9;
+    const auto where =
+        protocol::parse_endpoint(said.substr(begin, said.find('\n', begin) - begin), 0);
+    std::thread viewer;
+    if (watched) viewer = std::thread(watch, where);
+    process.wait_for_end(600.0);
+    if (viewer.joinable()) viewer.join();
+  }
+  const std::string text = text_of(report);
+  unlink(report.c_str());
+  return {(cpu_of_children() - before) / seconds, number_of(text, "real_time_factor"),
+          static_cast<long>(number_of(text, "shown_frames"))};
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+void compare(const std::string& scene, const Settings& settings) {
+  std::vector<double> cpu;
+  std::vector<double> factor;
+  std::vector<double> alone;
+  long frames = 0;
+  long unasked = 0;
+  for (int round = 0; round < settings.rounds; ++round) {
+    const Run without = run(scene, settings.seconds, false);
+    const Run with = run(scene, settings.seconds, true);
+    cpu.push_back(with.cpu / without.cpu);
+    factor.push_back(with.factor / without.factor);
+    alone.push_back(without.factor);
+    frames += with.frames;
+    unasked += without.frames;
+  }
+  std::printf("%-8s %8.2f %10.1f %10.1f %9.1f %9ld\n", scene.c_str(), median(alone),
+              100.0 * (median(factor) - 1.0), 100.0 * (median(cpu) - 1.0),
+              static_cast<double>(frames) / (settings.rounds * settings.seconds), unasked);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  CLI::App app("What a viewer costs the simulator.", "bench-viewer");
+  app.add_option("--scene", settings.scenes, "Scenes (repeatable)")->capture_default_str();
+  app.add_option("--rounds", settings.rounds, "Of a run without and one with a viewer")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--seconds", settings.seconds, "Simulated, of each run")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::printf("scene      factor  factor %%  processor %%  frames/s  unasked\n");
+    for (const std::string& scene : settings.scenes) compare(scene, settings);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "bench-viewer: " << error.what() << '\n';
+    return 1;
+  }
+}
