@@ -172,7 +172,15 @@ TEST(Pressure, OneSensorATileFeelsStepsThatLeaveATileBetween) {
   EXPECT_TRUE(tiles.felt[0].down && tiles.felt[1].down);
 }
 
-TEST(Pressure, TurnsWithItsRoomAndForgetsDrift) {
+TEST(Pressure, DriftBelowZeroMovesNoLoad) {
+  PressureFeet feet(floor_scene("{columns: 1, rows: 1, tile: 0.4, sensors: 4}"));
+  Vector3 place = {};
+  feet.take({"/tile/pressure", {0, 100.0F, 100.0F, -80.0F, 0.0F}},
+            [&](const FloorTouch& touch) { place = touch.place; });
+  EXPECT_LT(length(place - Vector3{0.2, 0.0, 0.0}), 1.0e-6);
+}
+
+TEST(Pressure, TurnsWithItsRoom) {
   Scene scene = floor_scene("{columns: 2, rows: 1, tile: 0.5, sensors: 1}", "[1, 2, 0]");
   scene.tracking.yaw = 90.0;
   PressureFeet feet(scene);

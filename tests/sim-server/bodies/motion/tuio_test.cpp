@@ -128,6 +128,15 @@ TEST(Tuio, ACursorIsAFootWhileItLives) {
   EXPECT_FALSE(surface.now[0].down);
 }
 
+TEST(Tuio, TheFootThatWaitsNearestComesDown) {
+  for (const auto& [y, body] : {std::pair{0.45F, 0U}, std::pair{0.55F, 1U}}) {
+    Surface surface;
+    surface.take(frame_of({{4, 0.1F, y}}, {4}, 1));
+    EXPECT_EQ(surface.told, 1);
+    EXPECT_TRUE(surface.now[body].down) << body;
+  }
+}
+
 TEST(Tuio, TheOrderInABundleDoesNotMatter) {
   Surface surface;
   std::vector<Message> messages = frame_of({{4, 0.1F, 0.6F}}, {4}, 1);
