@@ -123,8 +123,8 @@ void measure(const Options& options, const Rig& rig, const sigset_t& signals) {
                      static_cast<std::size_t>(format.channels), recorder.get(), format.sample_rate);
   opened.output->start(source);
   const timespec slice{0, 50'000'000};
-  while (!source.over() && sigtimedwait(&signals, nullptr, &slice) <= 0) {
-  }
+  bool ended = false;
+  while (!source.over() && !ended) ended = sigtimedwait(&signals, nullptr, &slice) > 0;
   source.stop();
   const timespec fading{0, 100'000'000};
   (void)sigtimedwait(&signals, nullptr, &fading);

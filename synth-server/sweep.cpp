@@ -2,6 +2,7 @@
 #include "synth-server/sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdint>
@@ -171,20 +172,20 @@ MeasuredResponse response_of(std::span<const float> heard, std::span<const float
 }
 
 std::string equaliser_text(const MeasuredResponse& response, const std::string& part) {
-  const auto list = [](const std::vector<double>& numbers, const char* format) {
+  const auto list = [](const std::vector<double>& numbers) {
     std::string text;
     for (const double number : numbers) {
-      char digits[32];
-      std::snprintf(digits, sizeof digits, format, number);  // NOLINT: the formats are below
-      text += (text.empty() ? "[" : ", ") + std::string(digits);
+      std::array<char, 32> digits{};
+      std::snprintf(digits.data(), digits.size(), "%.1f", number);
+      text += (text.empty() ? "[" : ", ") + std::string(digits.data());
     }
     return text + ']';
   };
   return "    equalisers:\n      - " +
          (part.empty() ? std::string("response:\n")
                        : "channels: [" + part + "]\n        response:\n") +
-         "          frequency: " + list(response.frequency, "%.1f") +
-         "\n          level_db: " + list(response.level_db, "%.1f") + '\n';
+         "          frequency: " + list(response.frequency) +
+         "\n          level_db: " + list(response.level_db) + '\n';
 }
 
 }  // namespace splash::synth

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -34,12 +33,13 @@ constexpr double kTolerance = -60.0;      ///< largest difference re the peak [d
 constexpr double kAdvance = 0.05;         ///< as the example has it [s]
 constexpr double kControlBlock = 64.0 / 48000.0;
 
-#define SPLASH_NEEDS_SCLANG()                                                            \
-  if (std::system("command -v sclang > /dev/null") != 0) { /* NOLINT(cert-env33-c) */    \
-    GTEST_SKIP() << "sclang is not installed (apt-get install supercollider-language): " \
-                    "examples/supercollider is not tried";                               \
-  }                                                                                      \
-  static_assert(true)
+constexpr const char* kMissing =
+    "sclang is not installed (apt-get install supercollider-language): examples/supercollider is "
+    "not tried";
+
+bool has_sclang() {
+  return tests::ChildProcess({"sh", "-c", "command -v sclang"}).wait(10.0) == 0;
+}
 
 std::string example() {
   return std::string(SPLASH_SOURCE_DIR) + "/examples/supercollider/splash.scd";
@@ -91,7 +91,7 @@ double loudest(const Channels& channels) {
 }
 
 TEST(Example, PlaysTheBubblesAndCavitiesOfALogAsTheSynthDoes) {
-  SPLASH_NEEDS_SCLANG();
+  if (!has_sclang()) GTEST_SKIP() << kMissing;
   const auto log = part_of("plunge", [](const protocol::Event& event) {
     return !std::holds_alternative<protocol::Impact>(event);
   });
@@ -106,7 +106,7 @@ TEST(Example, PlaysTheBubblesAndCavitiesOfALogAsTheSynthDoes) {
 }
 
 TEST(Example, StartsImpactsWithinAControlBlock) {
-  SPLASH_NEEDS_SCLANG();
+  if (!has_sclang()) GTEST_SKIP() << kMissing;
   const std::vector<std::int64_t> samples = {1000, 40063, 80064, 120001};
   std::vector<pd::EventAt> events;
   for (const std::int64_t sample : samples) {
@@ -166,7 +166,7 @@ double moment_of(const std::string& bundle) {
 }
 
 TEST(Example, OrdersLiveVoicesForTheirMomentOnce) {
-  SPLASH_NEEDS_SCLANG();
+  if (!has_sclang()) GTEST_SKIP() << kMissing;
   StandIn scsynth;
   const protocol::Endpoint port = protocol::UdpSocket({INADDR_LOOPBACK, 0}).local();
   auto environment = headless();
