@@ -25,7 +25,7 @@ std::size_t size_of(const Message& message) {
 
 TEST(ReplyBudget, AReplyMayBeAsLongAsItsQuestionAndNoLonger) {
   const Message reply = to_message(SynthStatus{});
-  ASSERT_EQ(size_of(reply), 112U);
+  ASSERT_EQ(size_of(reply), 116U);
   ReplyBudget enough(kAfar, 116);
   EXPECT_TRUE(enough.fits(reply));
   EXPECT_EQ(enough.take(reply), reply);

@@ -77,10 +77,13 @@ const Kernels kStep = {"place_bodies",    "gather_body_volumes",
 const Kernels kSolve = {
     "correct_pressure",       "push_by_pressure",    "measure_response", "recall_pressure",
     "begin_divergence_solve", "begin_density_solve", "end_solves",       "judge_solve"};
+const Kernels kGrid = {"cut_cells",      "fill_beside_bodies", "find_deviation", "gather_faces",
+                       "gather_again",   "move_particles",     "project_faces",  "sample_pressure",
+                       "solve_pressure", "find_spacing",       "push_faces",     "lay_system"};
 /// Of a scene with bodies that the water moves.
-const Kernels kFree = {"reach_bodies", "measure_rims",     "press_films",
-                       "sum_films",    "weigh_water",      "answer_bodies",
-                       "carry_water",  "keep_out_of_free", "move_bodies"};
+const Kernels kFree = {"reach_bodies", "measure_rims",  "press_films", "sum_films",
+                       "weigh_water",  "answer_bodies", "carry_water", "keep_out_of_free",
+                       "move_bodies",  "sum_pushes"};
 const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_density",
                          "integrate",     "compute_acceleration", "touch_water",
                          "spawn_bubbles", "carry_bubbles",        "seed_cavities",
@@ -92,6 +95,8 @@ const std::vector<Watched> kWatched = {
     {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles", join({kRuns, kStep})},
     {"divergence_free", "sim_fluid_two_steps 16 1 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kSolve})},
+    {"grid_projected", "sim_fluid_two_steps 16 2 0", "Oclgrind: 251 particles",
+     join({kRuns, kStep, kGrid})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
      join({kRuns, kStep, kFree})},
     {"scalar_free_bodies", "sim_fluid_two_steps 1 0 1", "Oclgrind: 251 particles",

@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Two steps, or more, of a small fluid with walls, slope, piston and bodies, a third of it in a
 // mould, and two in which it may sleep: every kernel once, small enough for an OpenCL interpreter.
-// Arguments: particles per vector (1, 8 or 16), whether the water is divergence-free (1), whether
-// it moves the bodies (1), and how many steps.
+// Arguments: particles per vector (1, 8 or 16), the solver (0: weakly compressible, 1: divergence
+// free, 2: grid projected, in a plain box), whether the water moves the bodies (1), and how many
+// steps.
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <vector>
 
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/bodies/skin.hpp"
+#include "sim-server/fluid/free_bodies/body_pushes.hpp"
 #include "sim-server/start/mould.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {
+
+using namespace splash::sim;
+
+constexpr std::array kSolvers = {PressureKind::weakly_compressible, PressureKind::divergence_free,
+                                 PressureKind::grid_projected};
 
 std::vector<bool> every_third(std::size_t count) {
   std::vector<bool> flags(count);
@@ -21,17 +30,19 @@ std::vector<bool> every_third(std::size_t count) {
   return flags;
 }
 
-int two_steps(int lanes, bool divergence_free, bool free, int steps) {
-  using namespace splash::sim;
+int two_steps(int lanes, PressureKind solver, bool free, int steps) {
   Device device(-1, false, lanes);
   Water water = two_bodies();
   water.particles = random_places(230, {0, 0, 0}, {0.4, 0.4, 0.14}, 51);
   for (int i = 0; i < 21; ++i) water.particles.push_back({0.2, 0.1 + 0.01 * i, 0.3});
-  if (divergence_free) water.scene.fluid.solver = PressureKind::divergence_free;
-  water.scene.slope = {true, 0.2, 0.3};
-  water.scene.wave_maker = {true, 0.1, 2.0};
-  water.piston = {0.01, 0.2};
+  water.scene.fluid.solver = solver;
+  if (solver != PressureKind::grid_projected) {
+    water.scene.slope = {true, 0.2, 0.3};
+    water.scene.wave_maker = {true, 0.1, 2.0};
+    water.piston = {0.01, 0.2};
+  }
   water.start(device);
+  std::optional<BodyPushes> pushes;
   if (free) {
     for (BodySettings& body : water.scene.bodies) {
       body.motion.kind = MotionKind::free;
@@ -39,11 +50,15 @@ int two_steps(int lanes, bool divergence_free, bool free, int steps) {
     }
     water.fluid->let_go(free_bodies(water.scene.bodies),
                         film_skins(water.scene.bodies, water.scene.fluid.spacing));
+    pushes.emplace(*water.fluid, free_bodies(water.scene.bodies));
+    pushes->begin(*water.fluid);
   }
   water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);
   Mould mould(*water.fluid, every_third(water.particles.size()));
   for (int k = 0; k < steps; ++k) {
-    water.step(1.0e-3);
+    water.step(1.0e-3, [&](Fluid& fluid) {
+      if (pushes) pushes->add(fluid, water.step_at(1.0e-3));
+    });
     mould.put_back();
   }
   water.fluid->let_sleep({.speed = 0.05, .frames = 1});
@@ -65,7 +80,9 @@ int two_steps(int lanes, bool divergence_free, bool free, int steps) {
 
 int main(int argc, char** argv) {
   try {
-    return two_steps(argc > 1 ? std::atoi(argv[1]) : 0, argc > 2 && std::atoi(argv[2]) == 1,
+    const int solver = argc > 2 ? std::atoi(argv[2]) : 0;
+    return two_steps(argc > 1 ? std::atoi(argv[1]) : 0,
+                     kSolvers.at(static_cast<std::size_t>(solver)),
                      argc > 3 && std::atoi(argv[3]) == 1, argc > 4 ? std::atoi(argv[4]) : 2);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

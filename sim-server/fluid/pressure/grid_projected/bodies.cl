@@ -11,7 +11,6 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define LEAST_ROOM 0.05f    // cells with less open volume hold no water [1]
 #define COUNTED_ROOM 0.15f // a cell's fill is of no less [1]
 
 // Where a body's face is beside a triangle: part of it where the distance is positive [1].
@@ -131,15 +130,4 @@ kernel void fill_beside_bodies(constant FluidParams* p, constant MacGrid* g,
   const float3 upper = lower + 3.0f * (float3)(g->hx, g->hy, g->hz);
   if (!bodies_near_box(bodies, first_body, body_count, lower, upper)) return;
   fill[number_of(l, at)] /= fmax(room_seen(l, room, at), COUNTED_ROOM);
-}
-
-// Velocity of a body at the lower face of a cell along an axis, or the one above it, along that.
-static float body_at_face(constant MacGrid* g, BodyStep b, int4 at, int axis) {
-  const float middle = 0.5f;
-  const float3 face = (float3)(g->x + (at.x + (axis == 0 ? 0.0f : middle)) * g->hx,
-                               g->y + (at.y + (axis == 1 ? 0.0f : middle)) * g->hy,
-                               g->z + (at.z + (axis == 2 ? 0.0f : middle)) * g->hz);
-  const float3 v = (float3)(b.vx, b.vy, b.vz) +
-                   cross((float3)(b.wx, b.wy, b.wz), face - (float3)(b.px, b.py, b.pz));
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }

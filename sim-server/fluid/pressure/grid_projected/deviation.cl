@@ -8,27 +8,6 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
-// Mean of the faces along an axis around particles, by the hat; nothing above the grid.
-static lanes from_faces(constant MacGrid* g, const Placed* at, int axis,
-                        global const float* mean) {
-  const Around a = around(g, at, axis);
-  lanes value[8];
-  load_around(&a, mean + axis * g->level[0].cells, value);
-  lanes sum = 0.0f;
-  for (int k = 0; k < 8; ++k) sum += a.weight[k] * value[k];
-  return sum;
-}
-
 kernel void find_deviation(constant FluidParams* p, constant MacGrid* g,
                            global const float* position, global const float* velocity,
                            global const float* mean, global float* deviation) {

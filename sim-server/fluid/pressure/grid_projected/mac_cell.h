@@ -8,14 +8,6 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
 #define MAC_LIGHT 1e-6f     // faces with less weight than this hold nothing [particles]
 #define MAC_FULL 0.5f       // cells that are fuller than this hold water [1]
 #define MAC_UNKNOWN 1e30f   // what stands where a step found no change of a face's velocity
@@ -156,4 +148,15 @@ static bool is_wall(const MacLevel l, int4 at, int axis) {
   if (axis == 0) return at.x == 0 || at.x == l.nx;
   if (axis == 1) return at.y == 0 || at.y == l.ny;
   return at.z == 0;
+}
+
+// Mean of the faces along an axis around particles, by the hat; nothing above the grid.
+static lanes from_faces(constant MacGrid* g, const Placed* at, int axis,
+                        global const float* mean) {
+  const Around a = around(g, at, axis);
+  lanes value[8];
+  load_around(&a, mean + axis * g->level[0].cells, value);
+  lanes sum = 0.0f;
+  for (int k = 0; k < 8; ++k) sum += a.weight[k] * value[k];
+  return sum;
 }

@@ -14,20 +14,6 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#include "sim-server/fluid/boundary/keep_in_tank.h"
-#include "sim-server/fluid/boundary/keep_out.h"
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
-#include "sim-server/fluid/boundary/keep_in_tank.h"
-#include "sim-server/fluid/boundary/keep_out.h"
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
 #define SEEN 1e-3f  // faces around a particle weigh this at least, or it falls freely [1]
 
 // Mean change of the known faces around particles along an axis; where there is none they fall.

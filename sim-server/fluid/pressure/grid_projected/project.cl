@@ -6,6 +6,8 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/room.h"
+#include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 // How fast f grows across the lower face of a cell along an axis [edges].
 static float growth(global const float* fill, global const float* wet, global const float* found,

@@ -7,16 +7,6 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
-#include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
 // `wet`: 1 where a cell holds water. `term`: p / rho^2.
 kernel void sample_pressure(constant FluidParams* p, constant MacGrid* g,
                             global const float* position, global const float* density,

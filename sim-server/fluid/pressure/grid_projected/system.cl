@@ -12,20 +12,11 @@
 #include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/params/parts.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-
-#include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/params/parts.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
-#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/room.h"
+#include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 #define REGAINED 1.0f     // [1/s]
 #define MOST_LACK 0.2f    // of a cell's fill, that counts [1]
-#define LEAST_WAY 0.1f    // to the surface, between two middles [1]
 
 // Velocities on the faces as gravity and viscosity leave them.
 kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
@@ -55,19 +46,6 @@ kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
   }
 }
 
-// How far above the middle of a cell of this fill the surface is, -1 to 1 [edges].
-static float surface_above(float fill) {
-  const float e = clamp(fill - MAC_FULL, -0.5f, 0.5f);
-  const float s = 1.0f - sqrt(fmax(1.0f - 2.0f * fabs(e), 0.0f));
-  return e < 0.0f ? -s : s;
-}
-
-// Part of the way from the middle of a cell with water to that of one without where the surface is.
-static float way_to_surface(float water, float air) {
-  const float under = surface_above(water), over = -surface_above(air);
-  return clamp(under / fmax(under + over, 1e-3f), LEAST_WAY, 1.0f);
-}
-
 // Whether all cells around one, but for those behind walls, hold water.
 static bool is_inner(const MacLevel l, global const float* fill, int4 at) {
   for (int z = max(at.z - 1, 0); z <= at.z + 1; ++z) {
@@ -78,14 +56,6 @@ static bool is_inner(const MacLevel l, global const float* fill, int4 at) {
     }
   }
   return true;
-}
-
-// What bodies leave open of a face or a cell, where there are any.
-static float open_of(global const float* part, int c) { return HAS_BODIES ? part[c] : 1.0f; }
-
-// Whether a cell has room for water or air: if not, nothing moves towards it.
-static bool has_room(global const float* space, int c) {
-  return open_of(space, c) > LEAST_ROOM;
 }
 
 static bool holds_water(global const float* fill, global const float* space, int c) {
