@@ -213,11 +213,24 @@ void Server::start_receiver(protocol::UdpSocket socket) {
     Command command;
     command.kind = Command::Kind::tone;
     command.channel = channel - 1;
+    command.share = ceiling_share(command.channel);
     return queue_.push(command) ? "" : "busy";
   };
   add_desk(actions);
   receiver_ = std::make_unique<Receiver>(std::move(socket), queue_,
                                          Control(std::move(actions), options_.allow), log);
+}
+
+double Server::ceiling_share(int channel) const {
+  for (const Output& output : rig_.outputs) {
+    const int count = channel_count(output);
+    if (channel < count) {
+      const auto now = desk_.get("rig/" + output.name + "/ceiling");
+      return channel < 0 ? 1.0 : now.value_or(output.ceiling) / output.ceiling;
+    }
+    channel -= count;
+  }
+  return 1.0;
 }
 
 void Server::add_desk(ControlActions& actions) {

@@ -81,6 +81,8 @@ class Server {
   /// In the recorder's thread.
   void record(const float* const* channels, int frames);
   void start_receiver(protocol::UdpSocket socket);
+  /// What is left of the rig's ceiling on a channel [1].
+  [[nodiscard]] double ceiling_share(int channel) const;
   void add_desk(ControlActions& actions);
   void introduce() const;
   void warn_of_latency(const AudioFormat& format) const;

@@ -25,6 +25,7 @@ struct Command {
   double offset = 0.0;       ///< of the event after its bundle's time [s]
   std::int32_t session = 0;  ///< of the event's sender, 0: not known
   int channel = -1;          ///< from 0, -1: none
+  double share = 1.0;        ///< of the tone\'s amplitude [1]
 };
 
 /// Ten blocks of 20 ms at the 40 000 events per second that fill a datagram per frame; one producer

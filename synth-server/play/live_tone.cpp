@@ -40,12 +40,13 @@ void LiveTone::process(float* const* channels, int frames) noexcept {
       const auto c = static_cast<std::size_t>(playing_);
       phase_ = std::fmod(phase_ + tones_[c].step, 2.0 * std::numbers::pi);
       const double water = static_cast<double>(channels[c][i]);
-      const double tone = tones_[c].amplitude * std::sin(phase_);
+      const double tone = share_ * tones_[c].amplitude * std::sin(phase_);
       channels[c][i] = static_cast<float>(water + gain * (tone - water));
     }
     if (playing_ != chosen_ && fade_.closed()) {
       playing_ = chosen_ < static_cast<int>(tones_.size()) ? chosen_ : kNone;
       chosen_ = playing_;
+      share_ = chosen_share_;
       left_ = second_;
       phase_ = 0.0;
     }

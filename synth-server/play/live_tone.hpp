@@ -26,7 +26,11 @@ class LiveTone {
   LiveTone(std::vector<Tone> tones, double sample_rate);
 
   /// The channel that sounds for a second from now on, from 0. The one before fades out first.
-  void choose(int channel) noexcept { chosen_ = channel; }
+  /// `share`: of the tone's amplitude, where a ceiling was lowered [1].
+  void choose(int channel, double share = 1.0) noexcept {
+    chosen_ = channel;
+    chosen_share_ = share;
+  }
   /// Blends from channels[c][i] to the tone and back: neither can exceed the channel's ceiling, so
   /// that nothing between them does.
   void process(float* const* channels, int frames) noexcept;
@@ -36,7 +40,9 @@ class LiveTone {
   int second_;  ///< [samples]
   Fade fade_;
   int chosen_ = kNone;
+  double chosen_share_ = 1.0;
   int playing_ = kNone;
+  double share_ = 1.0;  ///< of what plays
   int left_ = 0;        ///< of its second [samples]
   double phase_ = 0.0;  ///< [rad]
 };

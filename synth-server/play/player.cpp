@@ -85,7 +85,7 @@ void Player::obey(const Command& command) noexcept {
     case Command::Kind::unmute:
       return gate_.open(true);
     case Command::Kind::tone:
-      return tone_.choose(command.channel);
+      return tone_.choose(command.channel, command.share);
   }
 }
 

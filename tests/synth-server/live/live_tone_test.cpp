@@ -69,6 +69,15 @@ TEST(LiveTone, SoundsForASecondInPlaceOfTheWater) {
   }
 }
 
+TEST(LiveTone, StaysUnderACeilingThatWasLowered) {
+  LiveTone tone(tones(), kRate);
+  Played played(tone);
+  tone.choose(1, 0.2);
+  played.go(0.5);
+  const auto& heard = played.channel(1);
+  EXPECT_NEAR(*std::max_element(heard.begin() + 9600, heard.end()), 0.01F, 1e-3F);
+}
+
 TEST(LiveTone, AnotherChannelOrNoneEndsItSoftly) {
   LiveTone tone(tones(), kRate);
   Played played(tone);
