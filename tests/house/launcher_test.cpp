@@ -124,8 +124,8 @@ LOG
 TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
   const CommandResult command = launch("dmeo");
   EXPECT_EQ(command.exit_code, 64);
-  EXPECT_THAT(command.output,
-              AllOf(HasSubstr("dmeo"), HasSubstr("there are demo, run, play, listen, service, test")));
+  EXPECT_THAT(command.output, AllOf(HasSubstr("dmeo"),
+                                    HasSubstr("there are demo, run, play, listen, service, test")));
   EXPECT_EQ(launch("demo --no-instal").exit_code, 64);
   EXPECT_EQ(run_command(std::string(SPLASH_SOURCE_DIR) + "/splash test --filter").exit_code, 64);
   EXPECT_EQ(launch("run").exit_code, 64);

@@ -50,9 +50,7 @@ const std::vector<Room>& rooms() {
       {"sim-server/scene/mesh", {"program", "sim-server/scene"}, {}},
       {"sim-server/device", {}, {"CL/"}},
       // Trackers tell their poses in messages: as plain values, whatever brought them.
-      {"sim-server/bodies/motion",
-       {"program", "protocol/message.hpp", "sim-server/scene"},
-       {}},
+      {"sim-server/bodies/motion", {"program", "protocol/message.hpp", "sim-server/scene"}, {}},
       {"sim-server/bodies",
        {"sim-server/scene/", "sim-server/bodies/motion", "sim-server/fluid/params"},
        {}},

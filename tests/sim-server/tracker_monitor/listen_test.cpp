@@ -9,11 +9,11 @@
 #include <fstream>
 
 #include "sim-server/bodies/motion/tracker_map.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/tracker_monitor/heard.hpp"
 #include "sim-server/tracker_monitor/mapping_lines.hpp"
 #include "sim-server/tracker_monitor/obstacles.hpp"
-#include "sim-server/scene/rotation.hpp"
-#include "sim-server/scene/scene_reader.hpp"
 #include "tests/support/programs.hpp"
 
 namespace splash::sim {
