@@ -20,10 +20,10 @@
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/output_choice.hpp"
 #include "synth-server/play/player.hpp"
+#include "synth-server/play/track.hpp"
 #include "synth-server/receive/receiver.hpp"
 #include "synth-server/render/engine.hpp"
 #include "synth-server/replay/event_recorder.hpp"
-#include "synth-server/replay/track.hpp"
 #include "synth-server/server_text.hpp"
 #include "synth-server/sound/sound_reader.hpp"
 

@@ -19,9 +19,9 @@
 #include "synth-server/play/meter.hpp"
 #include "synth-server/play/sample_clock.hpp"
 #include "synth-server/play/schedule.hpp"
+#include "synth-server/play/track.hpp"
 #include "synth-server/render/counters.hpp"
 #include "synth-server/render/engine.hpp"
-#include "synth-server/replay/track.hpp"
 
 namespace splash::synth {
 

@@ -22,7 +22,8 @@ sim::Scene scene_of_all_presets() {
     bodies += "  - {name: " + preset + ", shape: {size: [0.1, 0.1, 0.1]}, motion: {kind: " +
               (preset == "tuio" ? "touch" : "osc") + "}, rest: {position: [0, 0, 1]}}\n";
     const std::string name = preset == "tuio" ? "" : "name: '1', ";
-    sources += "    - {" + name + "body: " + preset + ", preset: " + preset + "}\n";
+    const std::string floor = preset == "tuio" ? ", floor: [1, 1]" : "";
+    sources += "    - {" + name + "body: " + preset + ", preset: " + preset + floor + "}\n";
   }
   bodies +=
       "  - {name: foot, shape: {size: [0.1, 0.1, 0.1]}, motion: {kind: pressure}, rest: {position: "

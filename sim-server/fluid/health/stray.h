@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whether a particle is where its motion took it. A step moves it by dt v', v' its speed at the
-// step's end (pressure/integrate.cl) or what else the solver says carried it, to within the rounding
-// of its coordinates; what sleeps stays.
+// step's end (pressure/integrate.cl) or what else the solver says carried it, to within the
+// rounding of its coordinates; what sleeps stays.
 // Two more may be elsewhere, and are where that puts them: what a wall stopped touches the wall, no
 // farther off than dt times the speed that ended there, |v| + dt |a|; what a body pushed out of
 // itself is at the depth that it is put back to (boundary/keep_out.h).

@@ -119,7 +119,10 @@ class TemporaryCacheDeathTest : public Environment {
     }
   }
 
-  std::filesystem::path base_ = std::filesystem::path(::testing::TempDir()) / "splash-no-home-test";
+  // Of each test its own: they may run beside each other.
+  std::filesystem::path base_ = std::filesystem::path(::testing::TempDir()) /
+                                (std::string("splash-no-home-") +
+                                 ::testing::UnitTest::GetInstance()->current_test_info()->name());
   std::filesystem::path folder_ = base_ / ("splash-cache-" + std::to_string(geteuid()));
 };
 
