@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience = 60.0;  ///< for an answer [s]
+constexpr double kPatience = 120.0;  ///< for an answer [s]
 
 /// Draws a screenshot into a canvas of the page and reads what is asked for.
 constexpr const char* kRead = R"js((async (text, places) => {
