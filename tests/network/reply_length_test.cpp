@@ -144,7 +144,7 @@ TEST_F(OnTwoHosts, NoReplyOfTheSimulatorIsLongerThanItsRequest) {
   Talk home(hosts_.socket_on(kSimHost, "127.0.0.1:0"), {INADDR_LOOPBACK, 57300});
   Talk afar(hosts_.socket_on(kSynthHost, "10.77.0.2:0"),
             protocol::parse_endpoint("10.77.0.1:57300", 0));
-  try_commands(home, afar, {"/mute", "/set", "/get", "/preset"});
+  try_commands(home, afar, {"/mute", "/set", "/get", "/preset", "/tone"});
   EXPECT_TRUE(
       simulator->wait_for_text("asked /status in a datagram of 12 bytes; the reply has 108 bytes"));
 }
