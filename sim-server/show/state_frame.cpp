@@ -38,6 +38,8 @@ class Box {
   [[nodiscard]] std::uint64_t counts(std::size_t axis, double place) const {
     const double way = (place - static_cast<double>(corner_[axis])) * per_metre_;
     if (!(way > 0.0)) return 0;  // nor a number that is none
+    // Not std::lround, a call for each particle: the sum is positive and small.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
     return static_cast<std::uint64_t>(std::min(way, kCounts) + 0.5);
   }
   [[nodiscard]] const std::array<float, 3>& corner() const noexcept { return corner_; }
@@ -75,6 +77,7 @@ std::uint64_t packed(const Box& box, const Vector3& place) {
 std::uint64_t speed_code(float speed) {
   const float share = std::sqrt(speed / static_cast<float>(kShownSpeed));
   if (!(share > 0.0F)) return 0;
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return static_cast<std::uint64_t>(255.0F * std::min(share, 1.0F) + 0.5F);
 }
 

@@ -34,8 +34,9 @@ key_of() {  # options, source: the mark that the unit is clean
 }
 
 read_alone() {  # options, source: silent when clean
-  local output
-  if output=$(clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option -p "$build" "$2" 2>&1); then
+  local output words
+  read -ra words <<<"${1//\\\"/\"}"  # one of its commands: tests may compile it, too
+  if output=$(clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option "$2" -- "${words[@]}" 2>&1); then
     touch "$(key_of "$@")"
   else
     printf '%s\n' "$output" | grep -v 'warnings generated\|^Suppressed\|^Use -header-filter' || true

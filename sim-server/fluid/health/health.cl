@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Health of every particle after every step, in the survey's program. Numbers are judged by the bits
-// of their exponents: no compiler may fold that away, no clamp launders it. All sums are sums of
-// integers, so that atomics give them exactly, whatever their order.
+// Health of every particle after every step, in the survey's program. Numbers are judged by the
+// bits of their exponents: no compiler may fold that away, no clamp launders it. All sums are sums
+// of integers, so that atomics give them exactly, whatever their order.
 // A fault is counted once for each thing that is wrong; what is not finite is nothing else.
 
 #include "sim-server/fluid/boundary/bodies.h"

@@ -69,6 +69,8 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
     water.fluid->prepare(sleepy);
     water.fluid->advance(sleepy);
   }
+  if (solver == PressureKind::grid_projected)
+    water.fluid->prepare(water.step_at(0.0));  // as gauges
   const Survey survey = water.fluid->survey();
   std::printf("%s: %d particles, %d body points, fastest %.3f m/s, %d faulty\n",
               device.facts().platform.c_str(), water.params.count,
