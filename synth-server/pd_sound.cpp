@@ -52,9 +52,9 @@ std::string number(double value) {
 /// A patch that is being written: boxes get their numbers in the order in which they come.
 class Patch {
  public:
-  Patch(int width, int height) {
-    text_ = "#N canvas 60 40 " + std::to_string(width) + ' ' + std::to_string(height) + " 12;\n";
-  }
+  Patch(int width, int height)
+      : text_("#N canvas 60 40 " + std::to_string(width) + ' ' + std::to_string(height) +
+              " 12;\n") {}
   int add(const std::string& kind, int x, int y, const std::string& content) {
     text_ +=
         "#X " + kind + ' ' + std::to_string(x) + ' ' + std::to_string(y) + ' ' + content + ";\n";
