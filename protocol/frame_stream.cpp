@@ -22,7 +22,7 @@
 namespace splash::protocol {
 namespace {
 
-/// Until a viewer is let in who could not be for want of descriptors or memory [s].
+/// How long no viewer is accepted after accept() found no descriptor or memory left [s].
 constexpr double kPause = 0.2;
 
 /// What the kernel keeps of a frame that a viewer does not read [bytes].

@@ -71,8 +71,8 @@ class FrameStream {
   int listener_ = -1;
   int wake_ = -1;
   Endpoint local_;
-  double paused_until_ = 0.0;   ///< until then nobody is let in; monotonic [s]
-  bool told_of_pause_ = false;  ///< once is enough
+  double paused_until_ = 0.0;   ///< no viewer is accepted before; monotonic [s]
+  bool told_of_pause_ = false;  ///< the warning is printed once
   std::atomic<bool> ending_{false};
   std::atomic<bool> wanted_{false};
   std::atomic<std::uint64_t> offered_{0};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Feel splash's water with a force-feedback device: include this file, it needs C++17 and nothing
-// else. The device's own loop, at 1 kHz say, asks for a force; the simulator tells 160 of them a
-// second, each with how it changes with speed. Between them this extrapolates, and it keeps the
-// hand safe: see Safety.
+// else. The device's own loop, at 1 kHz say, asks for a force; the simulator sends one for each of
+// its frames (160 a second), each with its derivative by speed. Between them this extrapolates, and
+// it keeps the hand safe: see Safety.
 //
 //   splash_force::Client water("127.0.0.1", 57300, 0);  // the simulator, and the body's number
 //   // CHAI3D, in the haptic loop. Its x points to the user and its y to the right:
@@ -53,7 +53,7 @@ struct Wrench {
   Vector torque = {0.0, 0.0, 0.0};
 };
 
-/// What the simulator told of a body last.
+/// The latest message of the simulator about a body.
 struct Model {
   std::int32_t session = 0;           ///< another one: it was started anew
   Vector velocity = {0.0, 0.0, 0.0};  ///< of the body there [m/s]
@@ -69,9 +69,10 @@ struct Safety {
   double max_torque = 0.1;     ///< [N m]
   double max_damping = 5.0;    ///< of what is extrapolated by speed [N s/m]
   double max_turning = 0.005;  ///< the same of torques [N m s]
-  double slew = 200.0;         ///< no force changes faster [N/s], no torque than a fiftieth of it
+  double slew = 200.0;         ///< the water's force changes no faster [N/s], its torque no faster
+                               ///< than a fiftieth of it [N m/s]; damping for passivity may
   double ramp = 0.5;           ///< the first force, and that after a silence, grows so long [s]
-  double silence = 0.05;       ///< so long after the last word there is no force left [s]
+  double silence = 0.05;       ///< so long after the last message there is no force left [s]
   double fade = 0.02;          ///< of that, the last part, in which it fades [s]
   /// The water gives the hand no energy but what the hand gave it before (the passivity observer
   /// and controller of Hannaford & Ryu 2002), of which it owes the last `credit` at most [J].
@@ -86,7 +87,7 @@ class ForceModel {
  public:
   explicit ForceModel(const Safety& safety = {}) : safety_(safety) {}
 
-  /// The simulator told this at `now`. Numbers that are none are not taken.
+  /// Stores what the simulator sent, received at `now`. A message with NaN or infinity is ignored.
   void take(const Model& model, double now) {
     if (!is_sound(model)) return;
     if (!heard_ || model.session != model_.session || now - last_ > safety_.silence) start_ = now;
@@ -149,9 +150,9 @@ class ForceModel {
     limit(way, most);
     for (std::size_t i = 0; i < 3; ++i) v[i] += way[i];
   }
-  static Vector extrapolated(const Vector& told, const Vector& rate, const Vector& now,
+  static Vector extrapolated(const Vector& sent, const Vector& rate, const Vector& now,
                              const Vector& then, double most) {
-    Vector sum = told;
+    Vector sum = sent;
     for (std::size_t i = 0; i < 3; ++i) {
       sum[i] += std::clamp(rate[i], -most, 0.0) * (now[i] - then[i]);
     }
@@ -375,7 +376,7 @@ class Client {
   }
   void listen() {
     double ask = 0.0;
-    Model told;
+    Model latest;
     std::array<char, 2048> buffer = {};
     while (!ends_) {
       if (now() >= ask) {  // the simulator forgets who asked after a minute, or when it is started
@@ -391,9 +392,9 @@ class Client {
         continue;
       }
       if (from.sin_addr.s_addr != simulator_.sin_addr.s_addr) continue;
-      if (!osc::take_packet(buffer.data(), static_cast<std::size_t>(size), body_, told)) continue;
+      if (!osc::take_packet(buffer.data(), static_cast<std::size_t>(size), body_, latest)) continue;
       const std::lock_guard<std::mutex> lock(mutex_);
-      model_.take(told, now());
+      model_.take(latest, now());
     }
   }
 

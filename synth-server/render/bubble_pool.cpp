@@ -310,7 +310,7 @@ class Pool final : public BubblePool {
   PackKernels<Pack> kernels_;
   double sample_rate_;
   std::size_t max_voices_;
-  std::size_t most_;           ///< of them, for now
+  std::size_t most_;           ///< of them, that the load leaves room for
   std::int64_t fade_length_;   ///< samples
   std::int64_t break_length_;  ///< samples
   std::vector<Pack, Aligned<Pack>> packs_;

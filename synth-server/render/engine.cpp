@@ -53,7 +53,7 @@ struct Engine::State {
   std::array<double, kCell> fade_gains{};
   std::array<double, kCell> ceilings{};
   std::int64_t clock = 0;
-  int most_voices;  ///< for now
+  int most_voices;  ///< that the load leaves room for
   std::atomic<bool> silent{false};
   std::atomic<bool> silenced{false};
   std::atomic<std::int64_t> shown_clock{0};
