@@ -153,7 +153,7 @@ part_programs() {
 part_kernels() {
   local others='*8_lanes*'
   if [[ -z $scalar && $device_line == *'(CPU'* ]]; then others+=':*/1_lanes*'; else others+=':*16_lanes*'; fi
-  run_tests "$1" "$2" "sim_fluid_test:NeighbourGrids.*:*Density*:*Acceleration*:*Twin*:*SurveyOf*:*KeepOut*\
+  run_tests "$1" "$2" "sim_fluid_test:NeighbourGrids.*:*Density*:*Acceleration*:*Reference*:*FluidStatsOf*:*KeepOut*\
 :*HealthOf*:*Integrate*:*EitherSolver*:*Stretched*-$others" "sim_detect_test:*-$others" \
     "sim_free_bodies_test:*Films*:*Momentum*:*SpheresPart*:*DoTheSame*-$others" 'sim_gauge_test:*'
 }

@@ -45,7 +45,7 @@ std::atomic<bool> asked_to_end = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 volatile std::sig_atomic_t asked_to_reopen = 0;
 
-/// The first signal ends the run in peace, the second at once, by what it does by itself. (Two that
+/// The first signal ends the run cleanly, the second at once, by what it does by itself. (Two that
 /// come together both find this handler: the second is sent once more.)
 extern "C" void note_end(int number) {
   if (asked_to_end.exchange(true)) std::raise(number);
@@ -165,18 +165,18 @@ std::function<void(const KernelCount&)> telling_how_far_compiling_is() {
 /// Much water takes minutes to come to rest: nobody is to wonder what is going on, and no service
 /// manager to give up.
 Progress telling_how_it_settles(program::ServiceNotice& service) {
-  constexpr double kPeriod = 3.0;     // [s]
-  constexpr double kPatience = 60.0;  // between two words, some steps of four million particles [s]
+  constexpr double kPeriod = 3.0;    // [s]
+  constexpr double kTimeout = 60.0;  // between two words, some steps of four million particles [s]
   return [&service, start = 0.0, done = 0.0, last = 0.0](double share) mutable {
     const double now = protocol::monotonic_now();
     if (done == 0.0) {  // the first step says nothing of the others: kernels are compiled in it
       start = last = now;
       done = share;
-      service.starting(kPatience);
+      service.starting(kTimeout);
     }
     if (now - last < kPeriod) return;
     last = now;
-    service.starting(kPatience);
+    service.starting(kTimeout);
     std::printf(
         "the water comes to rest before it begins: %.0f %%, %.0f s to go (fewer "
         "fluid.particles or a faster --device would help)\n",

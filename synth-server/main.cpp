@@ -25,7 +25,7 @@ namespace {
 using namespace splash;
 using namespace splash::synth;
 
-/// The signals that end the program in peace; they are waited for, never handled.
+/// The signals that end the program cleanly; they are waited for, never handled.
 sigset_t ending_signals() {
   sigset_t signals;
   sigemptyset(&signals);

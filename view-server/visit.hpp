@@ -30,7 +30,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 inline constexpr std::size_t kHeaderMax = 8192;  ///< of a request [bytes]
-inline constexpr auto kPatience = std::chrono::seconds(10);
+inline constexpr auto kTimeout = std::chrono::seconds(10);
 /// All that the page needs comes from this server; pictures and films are saved from memory.
 inline constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
@@ -125,7 +125,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
   }
 
   void begin() {
-    stream_.expires_after(kPatience);
+    stream_.expires_after(kTimeout);
     http::async_read(stream_, buffer_, parser_,
                      [self = shared_from_this()](const error_code& error, std::size_t) {
                        if (!error) self->serve();
@@ -149,7 +149,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (!asks_for_tree(request)) return reply(file_for(request));
     stream_.expires_never();  // until the programs have told what they know
     host_.ask(target_of(request), [self = shared_from_this()](const Answer& answered) {
-      self->stream_.expires_after(kPatience);
+      self->stream_.expires_after(kTimeout);
       const auto status = static_cast<http::status>(answered.status);
       self->reply(answer(self->parser_.get(), status, answered.json, "application/json"));
     });

@@ -18,7 +18,7 @@ int remove_damaged_programs(const std::filesystem::path& folder);
 class CacheSeal {
  public:
   explicit CacheSeal(std::filesystem::path folder);
-  /// Ends the work in peace, unless it is in doubt. What was not sealed is trusted as well: this
+  /// Ends the work cleanly, unless it is in doubt. What was not sealed is trusted as well: this
   /// process has seen it whole.
   ~CacheSeal();
   CacheSeal(const CacheSeal&) = delete;

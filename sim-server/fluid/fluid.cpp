@@ -13,7 +13,7 @@ namespace splash::sim {
 namespace {
 
 static_assert(sizeof(FluidParams) == 39 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
-static_assert(sizeof(SurveyPart) == 56);
+static_assert(sizeof(FluidStatsPart) == 56);
 
 float as_float(double value) {
   return static_cast<float>(value);
@@ -50,12 +50,12 @@ void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodi
   sorted_.id.write(device_, ids);
   density_ = Buffer<float>(device_, stride + kReadAhead);
   water_density_ = Buffer<float>(device_, stride + kReadAhead);
-  knit_ = Buffer<float>(device_, stride + kReadAhead);
+  peak_density_ = Buffer<float>(device_, stride + kReadAhead);
   pressure_term_ = Buffer<float>(device_, stride + kReadAhead);
   acceleration_ = Buffer<float>(device_, 3 * stride);
   density_before_ = Buffer<float>(device_, stride + kReadAhead);
   water_density_before_ = Buffer<float>(device_, stride + kReadAhead);
-  knit_before_ = Buffer<float>(device_, stride + kReadAhead);
+  peak_density_before_ = Buffer<float>(device_, stride + kReadAhead);
   moving_ = Buffer<int>(device_, stride + kReadAhead);
   body_images_ = Buffer<float>(device_, near_bodies ? 5 * stride + kReadAhead : 1);
 }
@@ -63,7 +63,7 @@ void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodi
 void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines) {
   const std::vector<std::string> defines = kernel_defines(parts_);
   const cl::Program program = build_program(device_, fluid_sources(), defines);
-  const cl::Program guard = build_program(device_, survey_sources(), defines);
+  const cl::Program guard = build_program(device_, stats_sources(), defines);
   const auto particles = static_cast<std::size_t>(params_.count);
   const Profile& profile = device_.profile();
   grid_ = NeighbourGrid(device_, program, params_, particles, profile.sort_chunks);
@@ -72,10 +72,10 @@ void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outl
   compute_density_ = Kernel(program, "compute_density", profile.group);
   compute_acceleration_ = Kernel(program, "compute_acceleration", profile.group);
   integrate_ = Kernel(program, "integrate", profile.group);
-  survey_ = Kernel(guard, "survey", profile.team);
+  stats_ = Kernel(guard, "reduce_stats", profile.team);
   health_ = Health(device_, guard, params_);
-  survey_parts_ = Buffer<SurveyPart>(device_, profile.parts);
-  survey_read_.resize(profile.parts);
+  stats_parts_ = Buffer<FluidStatsPart>(device_, profile.parts);
+  stats_read_.resize(profile.parts);
 }
 
 void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
@@ -120,7 +120,7 @@ void Fluid::begin_watch(std::size_t steps) {
 
 std::vector<cl::Buffer> Fluid::state() const {
   std::vector<cl::Buffer> all = {sorted_.position.memory(), sorted_.velocity.memory(),
-                                 sorted_.id.memory(), knit_.memory()};
+                                 sorted_.id.memory(), peak_density_.memory()};
   const std::vector<cl::Buffer> kept = solver_->kept();
   all.insert(all.end(), kept.begin(), kept.end());
   if (free_) all.push_back(free_->films().kept());
@@ -136,7 +136,7 @@ void Fluid::sort_particles() {
   std::swap(sorted_, unsorted_);
   std::swap(density_, density_before_);
   std::swap(water_density_, water_density_before_);
-  std::swap(knit_, knit_before_);
+  std::swap(peak_density_, peak_density_before_);
   grid_.sort(device_.queue(), params_buffer_, params_.count, unsorted_, sorted_);
 }
 
@@ -158,19 +158,19 @@ std::size_t Fluid::groups() const {
 
 void Fluid::compute_density(const Step& step) {
   compute_density_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.stir(),
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.activity(),
       grid_.source(), density_before_.memory(), water_density_before_.memory(),
-      knit_before_.memory(), sorted_.position.memory(), boundary_.grid().cell_start(),
+      peak_density_before_.memory(), sorted_.position.memory(), boundary_.grid().cell_start(),
       boundary_.points().position.memory(), boundary_.volume().memory(), boundary_.points().stride,
       boundary_.shapes().memory(), boundary_.meshes().memory(), boundary_.steps().memory(),
       step.first_body, boundary_.body_count(), as_float(step.dt), as_float(step.piston),
-      body_images_.memory(), density_.memory(), water_density_.memory(), knit_.memory(),
+      body_images_.memory(), density_.memory(), water_density_.memory(), peak_density_.memory(),
       pressure_term_.memory(), acceleration_.memory(), moving_.memory(), sleep_.resting());
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
   compute_acceleration_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.stir(),
+      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.activity(),
       sleep_.resting(), sorted_.position.memory(), velocity.memory(), pressure_term_.memory(),
       body_images_.memory(), boundary_.grid().cell_start(), boundary_.points().position.memory(),
       boundary_.points().velocity.memory(), boundary_.volume().memory(), boundary_.points().stride,
@@ -203,29 +203,28 @@ void Fluid::give_weight() {
   params_buffer_.write(device_, std::span<const FluidParams>(&params_, 1));
 }
 
-void Fluid::enqueue_survey() {
-  survey_.run_teams(device_.queue(), survey_read_.size(), params_buffer_.memory(),
-                    sorted_.position.memory(), sorted_.velocity.memory(), acceleration_.memory(),
-                    density_.memory(), sorted_.id.memory(), moving_.memory(),
-                    survey_parts_.memory());
-  survey_parts_.enqueue_read(device_, survey_read_);
+void Fluid::enqueue_stats() {
+  stats_.run_teams(device_.queue(), stats_read_.size(), params_buffer_.memory(),
+                   sorted_.position.memory(), sorted_.velocity.memory(), acceleration_.memory(),
+                   density_.memory(), sorted_.id.memory(), moving_.memory(), stats_parts_.memory());
+  stats_parts_.enqueue_read(device_, stats_read_);
   if (watched_) health_.enqueue_read(device_);
   if (free_) free_->enqueue_read(*this);
   solver_->enqueue_work(device_);
 }
 
-Survey Fluid::survey() {
-  enqueue_survey();
+FluidStats Fluid::stats() {
+  enqueue_stats();
   device_.queue().finish();
-  return survey_result();
+  return stats_result();
 }
 
-Survey Fluid::survey_result() const {
-  Survey total;
+FluidStats Fluid::stats_result() const {
+  FluidStats total;
   total.lower.fill(std::numeric_limits<double>::infinity());
   total.upper.fill(-std::numeric_limits<double>::infinity());
   int first_bad = std::numeric_limits<int>::max();
-  for (const SurveyPart& part : survey_read_) {
+  for (const FluidStatsPart& part : stats_read_) {
     total.speed = std::max(total.speed, std::sqrt(static_cast<double>(part.speed2)));
     total.acceleration =
         std::max(total.acceleration, std::sqrt(static_cast<double>(part.acceleration2)));
@@ -249,14 +248,15 @@ Snapshot Fluid::snapshot() {
   const auto stride = static_cast<std::size_t>(sorted_.stride);
   return {sorted_.position.read(device_, 3 * stride), sorted_.velocity.read(device_, 3 * stride),
           sorted_.id.read(device_, static_cast<std::size_t>(params_.count)),
-          knit_.read(device_, static_cast<std::size_t>(params_.count)), solver_->pressure(device_)};
+          peak_density_.read(device_, static_cast<std::size_t>(params_.count)),
+          solver_->pressure(device_)};
 }
 
 void Fluid::restore(const Snapshot& snapshot) {
   sorted_.position.write(device_, snapshot.position);
   sorted_.velocity.write(device_, snapshot.velocity);
   sorted_.id.write(device_, snapshot.id);
-  knit_.write(device_, snapshot.knit);
+  peak_density_.write(device_, snapshot.peak_density);
   solver_->restore_pressure(device_, snapshot.pressure);
   if (free_) free_->films().forget(device_);
   health_.forget();

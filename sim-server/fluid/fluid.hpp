@@ -27,7 +27,7 @@ struct KernelBuild {
 };
 
 /// Health and limits of the whole fluid.
-struct Survey {
+struct FluidStats {
   double speed = 0.0;         ///< fastest particle [m/s]
   double acceleration = 0.0;  ///< largest [m/s2]
   double mean_excess = 0.0;   ///< mean of max(rho / rho0 - 1, 0) [1]
@@ -40,8 +40,8 @@ struct Survey {
   Vector3 upper = {0.0, 0.0, 0.0};
 };
 
-/// Partial results of the survey; host and kernel agree on the layout (health/survey.cl).
-struct SurveyPart {
+/// Partial results of the statistics; host and kernel agree on the layout (health/reduce_stats.cl).
+struct FluidStatsPart {
   float speed2 = 0.0F;
   float acceleration2 = 0.0F;
   float excess_sum = 0.0F;
@@ -59,11 +59,11 @@ struct Snapshot {
   std::vector<float> position;
   std::vector<float> velocity;
   std::vector<int> id;
-  std::vector<float> knit;      ///< densest since torn (pressure/stretch.h) [kg/m3]
+  std::vector<float> peak;      ///< densest since torn (pressure/state_equation.h) [kg/m3]
   std::vector<float> pressure;  ///< what the solver keeps from step to step
 };
 
-/// Everything is enqueued on the device's in-order queue; only survey, snapshot and restore wait
+/// Everything is enqueued on the device's in-order queue; only stats, snapshot and restore wait
 /// for it.
 class Fluid {
  public:
@@ -92,7 +92,7 @@ class Fluid {
   void let_sleep(const SleepRule& rule);
 
   /// A frame of so many steps begins: from now on the health of each is looked at
-  /// (Health::diagnosis, once the survey is there).
+  /// (Health::diagnosis, once the statistics is there).
   void begin_watch(std::size_t steps);
   void end_watch() noexcept { watched_ = false; }
   [[nodiscard]] Health& health() noexcept { return health_; }
@@ -108,11 +108,11 @@ class Fluid {
   void take_weight();
   void give_weight();
 
-  /// Enqueues the survey; its result is there once the queue is finished.
-  void enqueue_survey();
-  [[nodiscard]] Survey survey_result() const;
+  /// Enqueues the statistics; its result is there once the queue is finished.
+  void enqueue_stats();
+  [[nodiscard]] FluidStats stats_result() const;
   /// Both, and waits.
-  [[nodiscard]] Survey survey();
+  [[nodiscard]] FluidStats stats();
   [[nodiscard]] Snapshot snapshot();
   void restore(const Snapshot& snapshot);
 
@@ -124,7 +124,7 @@ class Fluid {
   [[nodiscard]] std::size_t groups() const;
   /// For tests.
   [[nodiscard]] const PressureSolver& solver() const noexcept { return *solver_; }
-  /// Work of the pressure solver until the last survey, without what was before forget_work.
+  /// Work of the pressure solver until the last statistics, without what was before forget_work.
   [[nodiscard]] SolverWork solver_work() const { return solver_->work(); }
   void forget_work() { solver_->forget_work(device_); }
 
@@ -138,13 +138,13 @@ class Fluid {
   [[nodiscard]] const PointArrays& particles_before() const noexcept { return unsorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
   /// What goes on in each cell (sleep/sleep.h).
-  [[nodiscard]] const cl::Buffer& stirred_cells() const noexcept { return sleep_.stir(); }
+  [[nodiscard]] const cl::Buffer& cell_activity() const noexcept { return sleep_.activity(); }
   [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
   [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
   /// What boundary/body_image.h keeps of each particle near a body: R, its gradient and the nearest
   /// body, part after part; others have what an earlier step left.
   [[nodiscard]] const Buffer<float>& body_images() const noexcept { return body_images_; }
-  [[nodiscard]] const Buffer<float>& knit() const noexcept { return knit_; }
+  [[nodiscard]] const Buffer<float>& peak_density() const noexcept { return peak_density_; }
   [[nodiscard]] const Buffer<float>& pressure_term() const noexcept { return pressure_term_; }
   [[nodiscard]] const Buffer<float>& acceleration() const noexcept { return acceleration_; }
   /// Of each particle: 0 if it slept through the last step.
@@ -167,13 +167,13 @@ class Fluid {
   PointArrays unsorted_;  ///< the state before the sort
   Buffer<float> density_;
   Buffer<float> water_density_;  ///< without the bodies' part
-  Buffer<float> knit_;           ///< densest since the water last came apart
+  Buffer<float> peak_density_;   ///< densest since the water last came apart
   Buffer<float> pressure_term_;
   Buffer<float> body_images_;
   Buffer<float> acceleration_;
   Buffer<float> density_before_;  ///< of the step before, in its order
   Buffer<float> water_density_before_;
-  Buffer<float> knit_before_;
+  Buffer<float> peak_density_before_;
   Buffer<int> moving_;  ///< 0: slept through the last step
   NeighbourGrid grid_;
   Sleep sleep_;
@@ -184,12 +184,12 @@ class Fluid {
   Kernel compute_density_;
   Kernel compute_acceleration_;
   Kernel integrate_;
-  Kernel survey_;
+  Kernel stats_;
   Health health_;
   bool watched_ = false;
   bool prepared_ = false;  ///< and not advanced since
-  Buffer<SurveyPart> survey_parts_;
-  std::vector<SurveyPart> survey_read_;
+  Buffer<FluidStatsPart> stats_parts_;
+  std::vector<FluidStatsPart> stats_read_;
 };
 
 }  // namespace splash::sim

@@ -7,7 +7,7 @@ std::vector<KernelSource> divergence_free();
 std::vector<KernelSource> fluid();
 std::vector<KernelSource> free_bodies();
 std::vector<KernelSource> grid_projected();
-std::vector<KernelSource> survey();
+std::vector<KernelSource> stats();
 }  // namespace kernels
 
 std::vector<KernelSource> fluid_sources() {
@@ -22,8 +22,8 @@ std::vector<KernelSource> grid_projected_sources() {
 std::vector<KernelSource> free_body_sources() {
   return kernels::free_bodies();
 }
-std::vector<KernelSource> survey_sources() {
-  return kernels::survey();
+std::vector<KernelSource> stats_sources() {
+  return kernels::stats();
 }
 
 }  // namespace splash::sim

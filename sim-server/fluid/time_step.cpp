@@ -11,7 +11,7 @@ namespace splash::sim {
 namespace {
 
 constexpr double kLongest = 10.0e-3;  ///< [s]
-constexpr double kPush = 0.25;
+constexpr double kForceCfl = 0.25;
 constexpr double kViscous = 0.125;
 /// However much longer a scene asks steps to be: beyond 0.160 nothing is stable
 /// (step_limit_test.cpp).
@@ -41,8 +41,8 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
     return std::min(factor * std::min(way, kLongest), kViscous * water);
   }
   const double sound = static_cast<double>(params.sound_speed);
-  const double acoustic = kAcousticShare * support / (sound + speed);
-  const double push = kPush * std::sqrt(h / std::max(acceleration, 1.0e-9));
+  const double acoustic = kAcousticCfl * support / (sound + speed);
+  const double push = kForceCfl * std::sqrt(h / std::max(acceleration, 1.0e-9));
   return std::min(factor * std::min(acoustic, std::max(push, kLeastShare * acoustic)), viscous);
 }
 

@@ -13,9 +13,9 @@ constexpr auto kStretchStiffness = static_cast<double>(SPLASH_STRETCH_STIFFNESS)
 
 }  // namespace
 
-double compression_energy(const WaterState& water, double density, double knit) {
+double compression_energy(const WaterState& water, double density, double peak) {
   const double sound2 = water.sound_speed * water.sound_speed;
-  const double stretch = std::max(knit - density, 0.0) / water.rest_density;
+  const double stretch = std::max(peak - density, 0.0) / water.rest_density;
   if (density <= water.rest_density) return 0.5 * kStretchStiffness * sound2 * stretch * stretch;
   const double push = water.rest_density / density - 1.0;
   // ln(rho/rho0) = -log1p(push): no difference of numbers close to one.
@@ -27,7 +27,8 @@ Energies energies(const WaterState& water) {
   for (std::size_t i = 0; i < water.position.size(); ++i) {
     sum.kinetic += 0.5 * water.mass * dot(water.velocity[i], water.velocity[i]);
     sum.potential += water.mass * water.potential_at(water.position[i]);
-    sum.compression += water.mass * compression_energy(water, water.density[i], water.knit[i]);
+    sum.compression +=
+        water.mass * compression_energy(water, water.density[i], water.peak_density[i]);
   }
   return sum;
 }

@@ -24,10 +24,10 @@ struct Spread {
   Vector3 deviation = {0.0, 0.0, 0.0};  ///< sqrt(mean (x - centre)^2) per axis [m]
 };
 
-/// Energy stored in water of this density and knit, per mass [J/kg]: the integral of p / rho^2 with
-/// the p of fluid/pressure/stretch.h, c0^2 (ln(rho/rho0) + rho0/rho - 1) of what is compressed and
-/// b c0^2 (knit - rho)^2 / (2 rho0^2) of what is stretched.
-[[nodiscard]] double compression_energy(const WaterState& water, double density, double knit);
+/// Energy stored in water of this density and peak density, per mass [J/kg]: the integral of p /
+/// rho^2 with the p of fluid/pressure/state_equation.h, c0^2 (ln(rho/rho0) + rho0/rho - 1) of what
+/// is compressed and b c0^2 (peak - rho)^2 / (2 rho0^2) of what is stretched.
+[[nodiscard]] double compression_energy(const WaterState& water, double density, double peak);
 
 /// `water` has densities.
 [[nodiscard]] Energies energies(const WaterState& water);

@@ -37,9 +37,9 @@ void read_pressures(Fluid& fluid, WaterState& water) {
   const std::size_t count = water.position.size();
   const std::vector<float> density = fluid.density().read(fluid.device(), count);
   const std::vector<float> term = fluid.pressure_term().read(fluid.device(), count);
-  const std::vector<float> knit = fluid.knit().read(fluid.device(), count);
+  const std::vector<float> peak = fluid.peak_density().read(fluid.device(), count);
   water.density.assign(density.begin(), density.end());
-  water.knit.assign(knit.begin(), knit.end());
+  water.peak.assign(peak.begin(), peak.end());
   water.pressure.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     water.pressure[i] = static_cast<double>(term[i]) * water.density[i] * water.density[i];

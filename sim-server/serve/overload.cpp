@@ -10,8 +10,8 @@
 namespace splash::sim {
 namespace {
 
-constexpr double kMemory = 1.0;         ///< of the mean load: one slow frame is no load [s]
-constexpr double kMostPatience = 16.0;  ///< times the usual wait
+constexpr double kMemory = 1.0;        ///< of the mean load: one slow frame is no load [s]
+constexpr double kLongestWait = 16.0;  ///< times the usual wait
 
 }  // namespace
 
@@ -61,13 +61,13 @@ bool Overload::note(double seconds, double spent) {
       if (level_ == Load::slow) since_ = 0.0;
       return false;
     }
-    if (fell_ < 2.0 * settings_.fall) patience_ = std::min(2.0 * patience_, kMostPatience);
+    if (fell_ < 2.0 * settings_.fall) wait_ = std::min(2.0 * wait_, kLongestWait);
     level_ = above();
     since_ = 0.0;
     return true;
   }
   if (load_ > settings_.under) since_ = std::min(since_, settings_.rise);
-  if (level_ == Load::easy || since_ < patience_ * settings_.fall) return false;
+  if (level_ == Load::easy || since_ < wait_ * settings_.fall) return false;
   level_ = below();
   since_ = 0.0;
   fell_ = 0.0;

@@ -57,9 +57,9 @@ class Overload {
   double cost_ = 0.0;  ///< of late [s]
   double time_ = 1.0;  ///< simulated for it; a run begins as after an idle second [s]
   double load_ = 0.0;
-  double since_ = 0.0;     ///< the last change of level, or high load [s]
-  double patience_ = 1.0;  ///< times `fall`; doubled when a step down was too early
-  double fell_ = 1.0e9;    ///< since the last step down [s]
+  double since_ = 0.0;   ///< the last change of level, or high load [s]
+  double wait_ = 1.0;    ///< times `fall`; doubled when a step down was too early
+  double fell_ = 1.0e9;  ///< since the last step down [s]
   std::array<double, kLoads> spent_ = {};
 };
 

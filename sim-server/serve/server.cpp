@@ -17,10 +17,10 @@
 namespace splash::sim {
 namespace {
 
-constexpr double kLinePeriod = 2.0;    ///< between two lines on the state [s]
-constexpr double kMishapPeriod = 1.0;  ///< between two lines on what went wrong [s]
-constexpr double kSlipLimit = 0.100;   ///< time slips when behind by more, while frames keep up [s]
-constexpr double kLeanGauges = 1.0;    ///< between two readings of the gauges under load [s]
+constexpr double kLinePeriod = 2.0;   ///< between two lines on the state [s]
+constexpr double kFaultPeriod = 1.0;  ///< between two lines on what went wrong [s]
+constexpr double kSlipLimit = 0.100;  ///< time slips when behind by more, while frames keep up [s]
+constexpr double kLeanGauges = 1.0;   ///< between two readings of the gauges under load [s]
 constexpr auto kStillTurn = std::chrono::milliseconds(20);
 constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this long are silent [s]
 
@@ -196,20 +196,20 @@ void Server::note_load(double seconds, double spent) {
   std::fprintf(stderr, "sim-server: %s\n", describe(overload_, stretch).c_str());
 }
 
-void Server::say(const Mishap& mishap) {
+void Server::say(const StepFault& step_fault) {
   const double now = protocol::monotonic_now();
-  if (now < next_mishap_) {
+  if (now < next_fault_) {
     ++unsaid_;
     return;
   }
-  next_mishap_ = now + kMishapPeriod;
-  std::fprintf(stderr, "sim-server: %s\n", describe(mishap).c_str());
+  next_fault_ = now + kFaultPeriod;
+  std::fprintf(stderr, "sim-server: %s\n", describe(step_fault).c_str());
   if (unsaid_ > 0) std::fprintf(stderr, "sim-server: and %d more before that\n", unsaid_);
   unsaid_ = 0;
 }
 
 void Server::send(const FrameResult& frame) {
-  if (frame.mishap) say(*frame.mishap);
+  if (frame.step_fault) say(*frame.step_fault);
   const FrameTime time = {simulation_.totals().steps, frame.seconds, pacer_.unix_origin()};
   const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
   auto events = number_events(frame.found, simulation_, latency, ids_);
@@ -316,7 +316,7 @@ void Server::note_status(const FrameResult& frame) {
   status_.skipped = skipped.idle + skipped.contacts + skipped.bubbles + skipped.cavities;
   status_.real_time_factor = static_cast<float>(pace_.real_time_factor());
   status_.steps_per_second = static_cast<float>(pace_.steps_per_second());
-  status_.density_error = static_cast<float>(frame.survey.mean_excess);
+  status_.density_error = static_cast<float>(frame.stats.mean_excess);
   status_.bubble_particles = totals.bubbles_alive;
   status_.thinned = totals.air.thinned;
 }

@@ -59,7 +59,7 @@ class Server {
 
  private:
   /// On stderr, not more often than once a second.
-  void say(const Mishap& mishap);
+  void say(const StepFault& step_fault);
   void send(const FrameResult& frame);
   void tell_forces(const FrameResult& frame);
   void show(const FrameResult& frame);
@@ -104,8 +104,8 @@ class Server {
   double started_ = 0.0;       ///< monotonic [s]
   double wall_seconds_ = 0.0;  ///< of run()
   double next_line_ = 0.0;     ///< monotonic [s]
-  double next_mishap_ = 0.0;   ///< monotonic [s]
-  int unsaid_ = 0;             ///< mishaps since the last line on one
+  double next_fault_ = 0.0;    ///< monotonic [s]
+  int unsaid_ = 0;             ///< faults since the last line on one
   ClockAnswers clock_answers_;
   ControlServer control_;  ///< last: its thread uses all of the above
 };

@@ -15,7 +15,7 @@ bool overlap(float a, float b, double lower, double upper) {
   return static_cast<double>(b) > lower && static_cast<double>(a) < upper;
 }
 
-bool meets(const BodyStep& b, const Survey& water, double margin) {
+bool meets(const BodyStep& b, const FluidStats& water, double margin) {
   const auto along = [&](float lower, float upper, std::size_t axis) {
     return overlap(lower, upper, water.lower[axis] - margin, water.upper[axis] + margin);
   };
@@ -25,19 +25,19 @@ bool meets(const BodyStep& b, const Survey& water, double margin) {
 
 }  // namespace
 
-bool near_water(const std::vector<BodyStep>& bodies, const Survey& water, double margin) {
+bool near_water(const std::vector<BodyStep>& bodies, const FluidStats& water, double margin) {
   return std::any_of(bodies.begin(), bodies.end(),
                      [&](const BodyStep& b) { return meets(b, water, margin); });
 }
 
-bool moving_near_water(const std::vector<BodyStep>& bodies, const Survey& water) {
+bool moving_near_water(const std::vector<BodyStep>& bodies, const FluidStats& water) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const BodyStep& b) {
     return b.speed > SPLASH_TREMBLE && meets(b, water, 0.0);
   });
 }
 
-FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const Survey& last, double frame,
-                           bool driven, std::size_t bubbles) {
+FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const FluidStats& last,
+                           double frame, bool driven, std::size_t bubbles) {
   FrameNeeds needs;
   if (!known_) {
     known_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame needs: looked up from the last frame's survey and from where the bodies go.
+// What a frame needs: looked up from the last frame's statistics and from where the bodies go.
 #pragma once
 
 #include <cstdint>
@@ -30,20 +30,20 @@ struct SkipTotals {
 
 /// Whether any of the bodies comes within the support of the box around the water; the box may have
 /// grown by `margin` [m] since.
-[[nodiscard]] bool near_water(const std::vector<BodyStep>& bodies, const Survey& water,
+[[nodiscard]] bool near_water(const std::vector<BodyStep>& bodies, const FluidStats& water,
                               double margin);
 /// Same, of bodies that move.
-[[nodiscard]] bool moving_near_water(const std::vector<BodyStep>& bodies, const Survey& water);
+[[nodiscard]] bool moving_near_water(const std::vector<BodyStep>& bodies, const FluidStats& water);
 
 class Needs {
  public:
   Needs(const SkipSettings& skip, double bubble_speed, int particles)
       : skip_(skip), bubble_speed_(bubble_speed), particles_(particles) {}
 
-  /// `bodies`: those of all steps of the coming frame; `last`: the survey of the last one, of
+  /// `bodies`: those of all steps of the coming frame; `last`: the statistics of the last one, of
   /// `frame` seconds; `driven`: the wave maker moves, or a free body did not long ago; `bubbles`:
   /// how many live.
-  [[nodiscard]] FrameNeeds of_frame(const std::vector<BodyStep>& bodies, const Survey& last,
+  [[nodiscard]] FrameNeeds of_frame(const std::vector<BodyStep>& bodies, const FluidStats& last,
                                     double frame, bool driven, std::size_t bubbles);
   /// After a failure nothing is taken for granted.
   void forget() noexcept { known_ = false; }
@@ -52,7 +52,7 @@ class Needs {
   SkipSettings skip_;
   double bubble_speed_ = 0.0;
   int particles_ = 0;
-  bool known_ = false;        ///< there has been a survey
+  bool known_ = false;        ///< there has been the statistics
   bool calm_before_ = false;  ///< the last frame looked for bubbles and all water was slow
 };
 

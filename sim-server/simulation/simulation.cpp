@@ -104,7 +104,7 @@ void Simulation::rehearse() {
     if (&step == &plan.back() && pushes_) pushes_->add(fluid_, step);
     fluid_.advance(step);
   }
-  static_cast<void>(fluid_.survey());
+  static_cast<void>(fluid_.stats());
   sound_.recall(fluid_.device(), state());
   fluid_.note_recalled();
   fluid_.forget_work();
@@ -137,28 +137,28 @@ FrameResult Simulation::advance() {
     live_[b]->begin({seconds_, origin_ + seconds_, 1.0 / scene_.serve.frame_rate});
     bodies_.note_jump(b, before, seconds_);
   }
-  std::optional<Mishap> mishap;
+  std::optional<StepFault> step_fault;
   while (true) {
     const FrameSteps steps =
         steps_of_frame(1.0 / scene_.serve.frame_rate, recovery_.step_share() * largest_step_);
     std::vector<BodyStep> poses;
     const std::vector<Step> plan = plan_frame(steps, poses);
     const FrameNeeds needs = needs_.of_frame(
-        poses, survey_, steps.count * steps.dt,
+        poses, stats_, steps.count * steps.dt,
         plan.front().piston_speed != 0.0 || bodies_.restless(seconds_), detector_.bubbles_alive());
-    if (!mishap) count(needs);
+    if (!step_fault) count(needs);
     if (!needs.steps) return hold_still(steps.count * steps.dt);
     fluid_.set_bodies(poses);
     if (auto result = attempt(plan, needs)) {
-      result->mishap = mishap;
-      totals_.retried += mishap.has_value();
+      result->step_fault = step_fault;
+      totals_.retried += step_fault.has_value();
       return *result;
     }
-    Mishap now = examine(*wrong_, steps.dt);
-    if (!mishap) mishap = now;
-    mishap->tries = recovery_.failed_tries() + 1;
-    mishap->remedy = recovery_.failed();
-    if (mishap->remedy != Remedy::retry) return give_up(*mishap, steps.count * steps.dt);
+    StepFault now = examine(*wrong_, steps.dt);
+    if (!step_fault) step_fault = now;
+    step_fault->tries = recovery_.failed_tries() + 1;
+    step_fault->remedy = recovery_.failed();
+    if (step_fault->remedy != Remedy::retry) return give_up(*step_fault, steps.count * steps.dt);
   }
 }
 
@@ -168,9 +168,9 @@ FrameResult Simulation::hold_still(double frame) {
   bodies_.hold(seconds_, true);
   detected_at_ = seconds_;
   still.seconds = seconds_;
-  still.survey = survey_;
+  still.stats = stats_;
   if (feels_) still.pushes = felt_;  // as nothing has changed
-  totals_.mean_excess_sum += survey_.mean_excess;
+  totals_.mean_excess_sum += stats_.mean_excess;
   return still;
 }
 
@@ -187,7 +187,7 @@ void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs,
     fluid_.advance(step);
     fluid_.device().queue().flush();  // else a driver may begin with nothing before the end
   }
-  fluid_.enqueue_survey();
+  fluid_.enqueue_stats();
   detector_.enqueue_read();
   if (feels_) pushes_->enqueue_read(fluid_);
   fluid_.device().queue().finish();
@@ -220,7 +220,7 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   FrameResult result;
   result.seconds = seconds_;
   result.found = collect(detect_time, since);
-  result.survey = fluid_.survey_result();
+  result.stats = fluid_.stats_result();
   if (feels_) {
     result.pushes = felt_ = pushes_->pushes(steps * dt);
     ++totals_.felt;
@@ -248,24 +248,24 @@ void Simulation::count(const FrameNeeds& needs) {
   skipped.bubbles += !needs.steps || !needs.bubbles;
   skipped.cavities = static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches() -
                      cavity_watch_.looks();
-  skipped.asleep_sum += static_cast<double>(survey_.asleep) / fluid_.params().count;
+  skipped.asleep_sum += static_cast<double>(stats_.asleep) / fluid_.params().count;
 }
 
 void Simulation::keep(const FrameResult& result) {
   fluid_.health().accept();
   sound_.keep(fluid_.device(), state());
   recovery_.succeeded();
-  survey_ = result.survey;
+  stats_ = result.stats;
   totals_.bubbles_dropped = detector_.bubbles_dropped();
   totals_.bubbles_alive = detector_.bubbles_alive();
   totals_.bubbles_alive_most = std::max(totals_.bubbles_alive_most, totals_.bubbles_alive);
   totals_.bubbles_alive_sum += static_cast<double>(totals_.bubbles_alive);
   totals_.air = detector_.air();
   totals_.no_cavity = cavity_watch_.none();
-  totals_.mean_excess_sum += survey_.mean_excess;
-  totals_.max_excess = std::max(totals_.max_excess, survey_.max_excess);
-  const double fastest = std::max(survey_.speed, fastest_mover(seconds_));
-  set_largest_step(fastest, survey_.acceleration);
+  totals_.mean_excess_sum += stats_.mean_excess;
+  totals_.max_excess = std::max(totals_.max_excess, stats_.max_excess);
+  const double fastest = std::max(stats_.speed, fastest_mover(seconds_));
+  set_largest_step(fastest, stats_.acceleration);
 }
 
 double Simulation::fastest_mover(double seconds) const {
@@ -279,16 +279,16 @@ void Simulation::set_largest_step(double fastest, double acceleration) {
       std::min(largest_time_step(fluid_.params(), fastest, acceleration, factor), contact_step_);
 }
 
-Mishap Simulation::examine(const Diagnosis& what, double dt) {
+StepFault Simulation::examine(const Diagnosis& what, double dt) {
   sound_.recall(fluid_.device(), state());
   fluid_.note_recalled();
   needs_.forget();
-  Mishap mishap;
-  mishap.what = what;
-  mishap.step = totals_.steps + what.step;
-  mishap.seconds = seconds_ + what.step * dt;
-  locate(mishap, fluid_, bodies_, scene_, seconds_);
-  return mishap;
+  StepFault step_fault;
+  step_fault.what = what;
+  step_fault.step = totals_.steps + what.step;
+  step_fault.seconds = seconds_ + what.step * dt;
+  locate(step_fault, fluid_, bodies_, scene_, seconds_);
+  return step_fault;
 }
 
 void Simulation::put_back(double seconds) {
@@ -308,12 +308,12 @@ void Simulation::begin_anew() {
   sound_.keep(fluid_.device(), state());
 }
 
-FrameResult Simulation::give_up(Mishap& mishap, double frame) {
-  if (mishap.remedy == Remedy::reset) {
+FrameResult Simulation::give_up(StepFault& step_fault, double frame) {
+  if (step_fault.remedy == Remedy::reset) {
     put_back(seconds_ + frame);
     ++totals_.resets;
   } else {
-    calm(mishap, fluid_, bodies_, recovery_.given_up(), seconds_);
+    calm(step_fault, fluid_, bodies_, recovery_.given_up(), seconds_);
     ++totals_.calmed;
   }
   sound_.keep(fluid_.device(), state());
@@ -321,8 +321,8 @@ FrameResult Simulation::give_up(Mishap& mishap, double frame) {
   bodies_.hold(seconds_, false);
   FrameResult result;
   result.seconds = seconds_;
-  result.survey = survey_;
-  result.mishap = mishap;
+  result.stats = stats_;
+  result.step_fault = step_fault;
   return result;
 }
 

@@ -19,8 +19,8 @@
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/holding.hpp"
 #include "sim-server/simulation/needs.hpp"
-#include "sim-server/simulation/recovery/mishap.hpp"
 #include "sim-server/simulation/recovery/recovery.hpp"
+#include "sim-server/simulation/recovery/step_fault.hpp"
 #include "sim-server/start/settle.hpp"
 
 namespace splash::sim {
@@ -29,9 +29,9 @@ namespace splash::sim {
 struct FrameResult {
   double seconds = 0.0;  ///< simulated time at its end [s]
   Detections found;
-  Survey survey;
+  FluidStats stats;
   std::vector<BodyPush> pushes;  ///< on bodies that poses move, while somebody wants to feel them
-  std::optional<Mishap> mishap;  ///< something went wrong; found is of a sound try, or empty
+  std::optional<StepFault> step_fault;  ///< something went wrong; found is of a sound try, or empty
 };
 
 /// Sums over a run.
@@ -136,11 +136,11 @@ class Simulation {
   /// Computes a frame with all that a splash needs, and takes it back.
   void rehearse();
   /// Takes the state back to the last sound one, and notes what was wrong.
-  [[nodiscard]] Mishap examine(const Diagnosis& what, double dt);
+  [[nodiscard]] StepFault examine(const Diagnosis& what, double dt);
   /// Ends a frame that no try made sound.
   /// Water and free bodies as they were when time began; `seconds`: now [s].
   void put_back(double seconds);
-  [[nodiscard]] FrameResult give_up(Mishap& mishap, double frame);
+  [[nodiscard]] FrameResult give_up(StepFault& step_fault, double frame);
 
   Scene scene_;
   std::vector<PosedMotion*> live_;
@@ -150,7 +150,7 @@ class Simulation {
   Detector detector_;
   CavityWatch cavity_watch_;
   Needs needs_;
-  Survey survey_;                       ///< the last one
+  FluidStats stats_;                    ///< the last one
   std::unique_ptr<BodyPushes> pushes_;  ///< null where nobody can feel any
   bool feels_ = false;
   std::vector<BodyPush> felt_;  ///< of the last frame that was computed

@@ -10,8 +10,8 @@
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/resolution.hpp"
-#include "sim-server/simulation/recovery/mishap.hpp"
 #include "sim-server/simulation/recovery/rescue.hpp"
+#include "sim-server/simulation/recovery/step_fault.hpp"
 #include "sim-server/start/pack.hpp"
 
 namespace splash::sim {
@@ -32,14 +32,14 @@ std::vector<bool> flagged(const std::vector<Holding>& holding, bool flows, bool 
 
 [[noreturn]] void give_up(Fluid& fluid, const Scene& scene, const Bodies& bodies,
                           const Diagnosis& wrong) {
-  Mishap mishap;
-  mishap.what = wrong;
-  locate(mishap, fluid, bodies, scene, 0.0);
+  StepFault step_fault;
+  step_fault.what = wrong;
+  locate(step_fault, fluid, bodies, scene, 0.0);
   throw program::Failure(
       program::kExitConfig,
       "the water of scene '" + scene.name +
           "' does not come to rest before it begins, not even with steps an eighth as long: " +
-          describe_fault(mishap) +
+          describe_fault(step_fault) +
           "; weaker forces (fluid.gravity, fluid.pull), bodies that leave it more room, or "
           "fluid.settle: never, would let the scene begin");
 }
@@ -54,18 +54,18 @@ void bring_to_rest(Fluid& fluid, const Scene& scene, const Bodies& moved,
   pack(fluid, bodies, piston.offset, dt, flagged(holding, false, true),
        static_cast<std::uint32_t>(scene.seed));
   const Snapshot packed = fluid.snapshot();
-  Mould mould(fluid, flagged(holding, true, true));
+  PinnedParticles pinned(fluid, flagged(holding, true, true));
   std::optional<Diagnosis> wrong;
   for (int k = 0; k <= Recovery::kTries; ++k) {
-    settle(fluid, bodies, piston.offset, kSettleSeconds, dt, tell, &mould);
+    settle(fluid, bodies, piston.offset, kSettleSeconds, dt, tell, &pinned);
     const Step step = {dt, piston.offset, 0.0, 0};
     fluid.begin_watch(1);
     fluid.prepare(step);
     fluid.advance(step);
-    static_cast<void>(fluid.survey());
+    static_cast<void>(fluid.stats());
     fluid.end_watch();
     wrong = fluid.health().diagnosis();
-    mould.put_back();
+    pinned.restore();
     fluid.still();
     if (!wrong) return;
     fluid.restore(packed);
@@ -119,7 +119,7 @@ void put_back(Fluid& part, const std::vector<int>& ids, std::size_t stride, Snap
       all.position[axis * stride + i] = now.position[axis * own + k];
       all.velocity[axis * stride + i] = now.velocity[axis * own + k];
     }
-    all.knit[i] = now.knit[k];
+    all.peak_density[i] = now.peak_density[k];
     for (std::size_t s = 0; s < solvers; ++s) {
       all.pressure[s * all.id.size() + i] = now.pressure[s * count + local];
     }

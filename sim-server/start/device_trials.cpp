@@ -95,15 +95,15 @@ bool hear(const Process& process, std::chrono::steady_clock::time_point last, En
   return true;
 }
 
-Ended run(const std::filesystem::path& program, int device, const Patience& patience) {
+Ended run(const std::filesystem::path& program, int device, const TrialLimits& limits) {
   const Process process = start(program, device);
   Ended ended;
   if (process.id < 0) return ended;
-  auto last = std::chrono::steady_clock::now() + patience.build;
+  auto last = std::chrono::steady_clock::now() + limits.build;
   while (hear(process, last, ended)) {
     if (ended.built) continue;
     ended.built = ended.output.find("built\n") != std::string::npos;
-    last = std::chrono::steady_clock::now() + (ended.built ? patience.steps : patience.build);
+    last = std::chrono::steady_clock::now() + (ended.built ? limits.steps : limits.build);
   }
   if (ended.hung) kill(process.id, SIGKILL);
   close(process.words);
@@ -126,10 +126,10 @@ std::string complaint(const std::string& output) {
   return output.substr(text, output.find('\n', text) - text);
 }
 
-Trial judge(const Ended& ended, const Patience& patience) {
+Trial judge(const Ended& ended, const TrialLimits& limits) {
   if (ended.hung) {
-    const auto waited = std::chrono::duration_cast<std::chrono::seconds>(
-        ended.built ? patience.steps : patience.build);
+    const auto waited =
+        std::chrono::duration_cast<std::chrono::seconds>(ended.built ? limits.steps : limits.build);
     return {0.0, std::string("it hangs: ") + (ended.built ? "a small test" : "building a kernel") +
                      " did not end in " + std::to_string(waited.count()) + " s"};
   }
@@ -148,13 +148,13 @@ Trial judge(const Ended& ended, const Patience& patience) {
 }  // namespace
 
 DeviceTrials::DeviceTrials(const std::filesystem::path& cache, std::filesystem::path program,
-                           const Patience& patience)
-    : remembered_(cache / "splash-devices"), program_(std::move(program)), patience_(patience) {}
+                           const TrialLimits& limits)
+    : remembered_(cache / "splash-devices"), program_(std::move(program)), wait_(limits) {}
 
 Trial DeviceTrials::operator()(const DeviceFacts& device) const {
   const std::string key = key_of(device);
   if (const auto seconds = seconds_in(remembered_, key)) return {*seconds, {}};
-  Trial trial = judge(run(program_, device.index, patience_), patience_);
+  Trial trial = judge(run(program_, device.index, wait_), wait_);
   // A folder that refuses the line is no error: the next start tests again.
   if (trial.failure.empty())
     std::ofstream(remembered_, std::ios::app) << trial.step << ' ' << key << '\n';

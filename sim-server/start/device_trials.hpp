@@ -11,7 +11,7 @@
 namespace splash::sim {
 
 /// How long a device may take to build one kernel, and for the steps of the test itself.
-struct Patience {
+struct TrialLimits {
   std::chrono::milliseconds build{60'000};
   std::chrono::milliseconds steps{30'000};
 };
@@ -22,7 +22,7 @@ class DeviceTrials {
   /// that prints a line for each kernel it builds and "built" after the last, then "sound SECONDS"
   /// for a step, when its arguments are --check-device and the device's number: sim-server itself.
   DeviceTrials(const std::filesystem::path& cache, std::filesystem::path program,
-               const Patience& patience = {});
+               const TrialLimits& limits = {});
 
   /// Tests the device, unless it stood the test with this driver and these kernels before.
   [[nodiscard]] Trial operator()(const DeviceFacts& device) const;
@@ -30,7 +30,7 @@ class DeviceTrials {
  private:
   std::filesystem::path remembered_;
   std::filesystem::path program_;
-  Patience patience_;
+  TrialLimits wait_;
 };
 
 }  // namespace splash::sim

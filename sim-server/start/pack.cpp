@@ -5,7 +5,7 @@
 
 #include "sim-server/fluid/random_draw.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "sim-server/start/mould.hpp"
+#include "sim-server/start/pinned_particles.hpp"
 
 namespace splash::sim {
 namespace {
@@ -45,7 +45,7 @@ void pack(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, doub
   if (std::find(loose.begin(), loose.end(), true) == loose.end()) return;
   std::vector<bool> others = loose;
   others.flip();
-  Mould rest(fluid, others);
+  PinnedParticles rest(fluid, others);
   scatter(fluid, loose, seed);
   fluid.set_bodies(bodies);
   fluid.take_weight();

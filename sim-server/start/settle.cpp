@@ -27,8 +27,8 @@ constexpr int kTold = 8;  ///< steps between two words on how far it is
 /// A step after the other, of a fluid that is to come to rest.
 class Settling {
  public:
-  Settling(Fluid& fluid, const Step& step, int most, const Progress& tell, Mould* mould)
-      : fluid_(fluid), step_(step), most_(most), tell_(tell), mould_(mould) {}
+  Settling(Fluid& fluid, const Step& step, int most, const Progress& tell, PinnedParticles* pinned)
+      : fluid_(fluid), step_(step), most_(most), tell_(tell), pinned_(pinned) {}
 
   void advance() {
     if (tell_ && done_ % kTold == 0) {
@@ -37,7 +37,7 @@ class Settling {
     }
     fluid_.prepare(step_);
     fluid_.advance(step_);
-    if (mould_ != nullptr) mould_->put_back();
+    if (pinned_ != nullptr) pinned_->restore();
     ++done_;
   }
 
@@ -47,7 +47,7 @@ class Settling {
     for (int k = 0; k < steps; ++k) {
       advance();
       if (k % kTold == kTold - 1 || k + 1 == steps) {
-        fastest = std::max(fastest, fluid_.survey().speed);
+        fastest = std::max(fastest, fluid_.stats().speed);
       }
     }
     return fastest;
@@ -59,7 +59,7 @@ class Settling {
   Step step_;
   int most_;
   const Progress& tell_;
-  Mould* mould_;
+  PinnedParticles* pinned_;
   int done_ = 0;
 };
 
@@ -74,14 +74,14 @@ std::vector<BodyStep> at_rest(std::vector<BodyStep> bodies) {
 }
 
 void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
-            double dt, const Progress& tell, Mould* mould) {
+            double dt, const Progress& tell, PinnedParticles* pinned) {
   fluid.set_bodies(bodies);
-  if (mould != nullptr && mould->has_all()) return;
+  if (pinned != nullptr && pinned->has_all()) return;
   const int steps = static_cast<int>(seconds / dt);
   const int most = static_cast<int>(kMost * seconds / dt);
   const int between = std::max(1, static_cast<int>(kBetweenStops / dt));
   const int watched = std::max(1, static_cast<int>(kWatch / dt));
-  Settling water(fluid, {dt, piston, 0.0, 0}, most, tell, mould);
+  Settling water(fluid, {dt, piston, 0.0, 0}, most, tell, pinned);
   for (int k = 0; k < steps; ++k) {
     water.advance();
     if (k > kLoose * steps && k % between == 0) fluid.still();

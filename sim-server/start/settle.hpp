@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/start/mould.hpp"
+#include "sim-server/start/pinned_particles.hpp"
 
 namespace splash::sim {
 
@@ -20,9 +20,9 @@ using Progress = std::function<void(double share)>;
 /// first freely, so that the lattice finds a better packing, then stopping all motion again and
 /// again, so that the column ceases to breathe. Then it is left alone, and stopped once more, until
 /// nothing gets faster than a twentieth of its longest wave within half a second; four times
-/// `seconds` in all at most. `piston`: offset of the wave maker [m]. What is in the `mould` stays
-/// as it is; if that is all, nothing is done.
+/// `seconds` in all at most. `piston`: offset of the wave maker [m]. The `pinned` particles
+/// stay where they are; if those are all, nothing is done.
 void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, double seconds,
-            double dt, const Progress& tell = {}, Mould* mould = nullptr);
+            double dt, const Progress& tell = {}, PinnedParticles* pinned = nullptr);
 
 }  // namespace splash::sim

@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 constexpr double kRacing = 4.0;
 constexpr milliseconds kRacingSpan{1000};
 /// A device with long blocks is given at least so many of them.
-constexpr int kBlocksOfPatience = 8;
+constexpr int kBlocksToWait = 8;
 
 std::string title(const AudioFormat& format) {
   return format.api + " device '" + format.device + "'";
@@ -80,9 +80,9 @@ std::string DeviceWatch::fault(Clock::time_point now) {
     progress_.frames = frames;
     progress_.moved = now;
   }
-  const duration<double> blocks(static_cast<double>(kBlocksOfPatience * format.block) /
+  const duration<double> blocks(static_cast<double>(kBlocksToWait * format.block) /
                                 format.sample_rate);
-  if (now - progress_.moved > settings_.patience && now - progress_.moved > blocks) {
+  if (now - progress_.moved > settings_.limits && now - progress_.moved > blocks) {
     return "has stopped asking for sound" +
            std::string(format.api == "jack"    ? " (has the JACK server ended?)"
                        : format.api == "pulse" ? " (has its server ended?)"

@@ -17,9 +17,9 @@
 namespace splash::synth {
 
 struct WatchSettings {
-  std::chrono::milliseconds look{50};       ///< between two looks at the output
-  std::chrono::milliseconds patience{400};  ///< without a callback: the device is gone
-  std::chrono::milliseconds retry{100};     ///< between two attempts to open it
+  std::chrono::milliseconds look{50};     ///< between two looks at the output
+  std::chrono::milliseconds limits{400};  ///< without a callback: the device is gone
+  std::chrono::milliseconds retry{100};   ///< between two attempts to open it
 };
 
 class DeviceWatch {

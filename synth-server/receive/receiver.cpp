@@ -53,7 +53,7 @@ void Receiver::run() {
   int since_tick = 0;
   while (!stopping_) {
     ++turns_;
-    const auto received = socket_.receive(buffer_.data(), buffer_.size(), patience());
+    const auto received = socket_.receive(buffer_.data(), buffer_.size(), limits());
     if (received) take(*received, replies);
     if (!received || ++since_tick >= kMostBetweenTicks) {
       since_tick = 0;
@@ -67,7 +67,7 @@ void Receiver::run() {
 }
 
 // Only this thread changes intake_, so it reads without the lock.
-double Receiver::patience() const noexcept {
+double Receiver::limits() const noexcept {
   return std::clamp(intake_.next_expiry() - protocol::monotonic_now(), 0.0, kTick);
 }
 

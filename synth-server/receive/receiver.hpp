@@ -37,7 +37,7 @@ class Receiver {
  private:
   void run();
   /// How long to wait for a datagram [s].
-  [[nodiscard]] double patience() const noexcept;
+  [[nodiscard]] double limits() const noexcept;
   void take(const protocol::UdpSocket::Received& received, std::vector<Reply>& replies);
   void send(std::vector<Reply>& replies);
   void dump(protocol::Bytes bytes, const protocol::Endpoint& from);

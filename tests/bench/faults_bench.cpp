@@ -35,7 +35,7 @@ struct Settings {
   std::string csv;
 };
 
-constexpr double kPatience = 30.0;  ///< [s]
+constexpr double kTimeout = 30.0;  ///< [s]
 
 Progress counter(const char* what, int rounds) {
   return [what, rounds](int round) {
@@ -47,7 +47,7 @@ Progress counter(const char* what, int rounds) {
 /// Seconds until `words` have been said `times` times; throws when they are not.
 double wait_for(ChildProcess& process, const std::string& words, int times) {
   const double start = protocol::monotonic_now();
-  while (protocol::monotonic_now() - start < kPatience) {
+  while (protocol::monotonic_now() - start < kTimeout) {
     const std::string text = process.output();
     int found = 0;
     for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {

@@ -36,9 +36,9 @@ constexpr double kStormRate = 4000.0;   ///< [bundles/s], of kPerBundle events
 constexpr int kPerBundle = 25;
 /// 4096 bubbles and cavities and 256 impacts, and as many that fade out.
 constexpr std::uint64_t kMostVoices = 2 * (4096 + 256) + 32;
-constexpr double kPatience = 1.0;  ///< after a storm [s]
-constexpr double kWanted = 0.1;    ///< after it, until all is as before [s]
-constexpr double kHeard = 0.02;    ///< an event has been given its place after so long [s]
+constexpr double kTimeout = 1.0;  ///< after a storm [s]
+constexpr double kWanted = 0.1;   ///< after it, until all is as before [s]
+constexpr double kHeard = 0.02;   ///< an event has been given its place after so long [s]
 /// 127.1.0.0 and up: each host is answered as often as if it were the only one.
 constexpr std::uint32_t kRestedHosts = INADDR_LOOPBACK + 0xFFFFU;
 constexpr double kBetweenAnswers = 0.12;  ///< there are ten a second at most [s]
@@ -161,7 +161,7 @@ class Bench {
 
   [[nodiscard]] bool right() {
     synth_.process().signal(SIGTERM);
-    check(synth_.process().wait_for_end() == 0, "it did not end in peace");
+    check(synth_.process().wait_for_end() == 0, "it did not end cleanly");
     const std::string said = synth_.process().output();
     std::printf("%s", said.substr(std::min(said.rfind("ran "), said.size())).c_str());
     return right_;
@@ -200,7 +200,7 @@ class Bench {
     double sent = 0.0;
     std::uint32_t host = kRestedHosts;
     protocol::SynthStatus before = status_from(host);
-    for (bool normal = false; !normal && sent < kPatience; ++host) {
+    for (bool normal = false; !normal && sent < kTimeout; ++host) {
       sent = protocol::monotonic_now() - start;
       say({bubble(1, 0.02F)});
       sleep(kHeard);
@@ -211,7 +211,7 @@ class Bench {
     }
     std::printf("  after it: an event sent %.3f s later was played as ever; %.1f s are wanted\n",
                 sent, kWanted);
-    check(sent < kPatience, "after the storm no event is played as before");
+    check(sent < kTimeout, "after the storm no event is played as before");
   }
 
   /// Answered at once, for it is asked from a host that has not asked before.
@@ -219,7 +219,7 @@ class Bench {
     protocol::UdpSocket socket({host, 0});
     socket.send_to(synth_.endpoint(), protocol::encode({"/status", {}}));
     std::vector<std::byte> buffer(protocol::kMaxDatagram);
-    const auto received = socket.receive(buffer.data(), buffer.size(), kPatience);
+    const auto received = socket.receive(buffer.data(), buffer.size(), kTimeout);
     if (received) {
       const auto decoded = protocol::decode({buffer.data(), received->size});
       for (const auto& message : decoded.packet.messages) {

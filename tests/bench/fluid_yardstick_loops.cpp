@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiled once for each instruction set. Sixteen particles that follow each other in a row of
-// cells share one list of neighbours, weeded against the box around them (neighbours/near.h has the
+// cells share one list of neighbours, culled against the box around them (neighbours/near.h has the
 // same idea); AVX-512 compresses the list, elsewhere a branch-free scalar loop does.
 #include "tests/bench/fluid_yardstick_loops.hpp"
 
@@ -76,7 +76,7 @@ Box box_around(const Particles& p, int first, int last) {
 }
 
 /// Appends the points from `from` to `to` that lie within the support of the box.
-void weed(const Particles& p, const Box& box, int from, int to, Group& group) {
+void cull(const Particles& p, const Box& box, int from, int to, Group& group) {
   const float* x = p.position.data();
   const float* y = x + p.stride;
   const float* z = y + p.stride;
@@ -128,7 +128,7 @@ void gather(const Particles& p, int first, Group& group) {
   const int to = slice_of(s, x[group.last - 1]) + SPLASH_SLICES + 1;
   for (int k = 0; k < 9; ++k) {
     const int base = (row + (k / 3 - 1) * s.cells_y + k % 3 - 1) * slices;
-    weed(p, box, p.cell_start[static_cast<std::size_t>(base + from)],
+    cull(p, box, p.cell_start[static_cast<std::size_t>(base + from)],
          p.cell_start[static_cast<std::size_t>(base + to)], group);
   }
 }

@@ -12,11 +12,11 @@ namespace {
 
 using namespace splash::sim;
 
-/// Per particle: places, speeds, id, knit, and what spawning remembers [B].
+/// Per particle: places, speeds, id, peak, and what spawning remembers [B].
 constexpr double kState = 36.0;
 
 // Operations of a pair that a detector looks at: where it is and the kernel (colour.h), what else
-// it sums (body_touch.cl, bubble_state.cl). Of a particle in the survey.
+// it sums (body_touch.cl, bubble_state.cl). Of a particle in the statistics.
 constexpr double kOfPair = 18.0, kOfTouch = 22.0, kOfCarried = 8.0, kOfSurvey = 60.0;
 // Scalar instructions of the nine runs around a place, of a particle that is slow, of a cell that
 // wakes others.
@@ -68,7 +68,7 @@ FrameSeen see_frame(Simulation& simulation) {
   simulation.set_hook({});
   const RunTotals& after = simulation.totals();
   seen.steps = static_cast<int>(after.steps - before.steps);
-  if (seen.steps == 0 || frame.mishap) throw std::runtime_error("the frame is no usual one");
+  if (seen.steps == 0 || frame.step_fault) throw std::runtime_error("the frame is no usual one");
   seen.places.watched = true;
   seen.sleeps = scene.skip.sleep && scene.fluid.solver == PressureKind::weakly_compressible;
   seen.looks = after.skipped.bubbles == before.skipped.bubbles;
@@ -85,7 +85,7 @@ std::map<std::string, Work> frame_work(const FrameSeen& seen, const Profile& pro
   const double n = p.params.count;
   std::map<std::string, Work> all;
   for (const auto& [name, work] : work_of(p, profile)) all[name] = work.times(seen.steps);
-  all["survey"] = {
+  all["reduce_stats"] = {
       .groups = static_cast<double>(profile.parts), .bytes = 44.0 * n, .operations = kOfSurvey * n};
   if (seen.sleeps) {
     const double rows = static_cast<double>(p.params.cells_y) * p.params.cells_z;
@@ -128,7 +128,7 @@ Commands frame_commands(const FrameSeen& seen) {
   commands.writes = 1 + (seen.bubbles > 0.0 ? 3 : 0);  // the bodies' steps; the bubbles
   commands.fills = 1 + (seen.looks ? 1 : 0);           // records of health; the count of spawns
   commands.copies = 5;                                 // of the state (kState)
-  commands.reads = 2 + (seen.skin > 0.0 ? 1 : 0) +     // survey and health; contacts
+  commands.reads = 2 + (seen.skin > 0.0 ? 1 : 0) +     // stats and health; contacts
                    (seen.looks ? 2 : 0) + (seen.bubbles > 0.0 ? 1 : 0);
   return commands;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a frame of a scene asks of a device: its steps, and what is done once besides: sleep,
-// survey, detectors, the copy of the state.
+// stats, detectors, the copy of the state.
 #pragma once
 
 #include <cstdint>

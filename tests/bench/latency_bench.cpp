@@ -38,7 +38,7 @@ constexpr int kRate = 48000;
 constexpr int kEvents = 200;
 constexpr double kSeconds = 14.0;  ///< recorded
 constexpr double kOpening = 4.0;   ///< the gate opens slowly, the clock settles [s]
-constexpr double kPatience = 20.0;
+constexpr double kTimeout = 20.0;
 constexpr double kMargin = 0.0002;   ///< over one block, for events with a time tag [s]
 constexpr double kLongest = 0.030;   ///< an onset later than this belongs to no event [s]
 constexpr double kDistance = 0.031;  ///< between events, at least [s]
@@ -114,7 +114,7 @@ std::unique_ptr<ChildProcess> start_jack(const std::string& name, int period, bo
   auto jackd = std::make_unique<ChildProcess>(std::vector<std::string>{
       "jackd", realtime ? "--realtime" : "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C",
       "0", "-P", "2", "-r", std::to_string(kRate), "-p", std::to_string(period)});
-  for (double waited = 0.0; waited < kPatience && jackd->running(); waited += 0.1) {
+  for (double waited = 0.0; waited < kTimeout && jackd->running(); waited += 0.1) {
     if (auto* probe = jack_client_open("probe", JackNoStartServer, nullptr)) {
       jack_client_close(probe);
       return jackd;
@@ -142,7 +142,7 @@ struct Result {
 
 protocol::Endpoint listening(ChildProcess& synth) {
   const std::string label = "listening: ";
-  if (!synth.wait_for_text(label, kPatience)) throw std::runtime_error(synth.output());
+  if (!synth.wait_for_text(label, kTimeout)) throw std::runtime_error(synth.output());
   sleep(0.1);
   const std::string text = synth.output();
   const auto from = text.find(label) + label.size();

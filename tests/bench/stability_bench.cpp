@@ -78,7 +78,7 @@ int run_trials(sim::Device& device, const Options& options) {
                       done, trial.group, trial.name.c_str(), name_of(solver), spacing, factor,
                       v.fastest, 100.0 * v.mean_excess, static_cast<unsigned long long>(v.retried),
                       v.passes() ? "passed" : join(v.broken).c_str());
-          if (!v.passes() && !v.mishap.empty()) std::printf("      %s\n", v.mishap.c_str());
+          if (!v.passes() && !v.step_fault.empty()) std::printf("      %s\n", v.step_fault.c_str());
           std::fflush(stdout);
         }
       }

@@ -78,7 +78,7 @@ struct Half {
     int ran = 0;
     const double until = simulation.seconds() + kTurn / 8.0;
     while (simulation.seconds() < until) {
-      sum_asleep += static_cast<double>(simulation.advance().survey.asleep);
+      sum_asleep += static_cast<double>(simulation.advance().stats.asleep);
       ++ran;
     }
     return ran;

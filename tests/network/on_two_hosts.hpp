@@ -41,10 +41,10 @@ class OnTwoHosts : public testing::Test {
     return synth;
   }
   static protocol::Message answer_to(const protocol::Message& question, protocol::UdpSocket& socket,
-                                     const std::string& to, double patience) {
+                                     const std::string& to, double limits) {
     socket.send_to(protocol::parse_endpoint(to, 0), protocol::encode(question));
     std::array<std::byte, 2048> buffer{};
-    const auto received = socket.receive(buffer.data(), buffer.size(), patience);
+    const auto received = socket.receive(buffer.data(), buffer.size(), limits);
     if (!received) return {"no answer", {}};
     return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);
   }

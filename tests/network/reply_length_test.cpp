@@ -28,7 +28,7 @@ using protocol::Message;
 using testing::HasSubstr;
 
 constexpr std::size_t kHeaders = 28;  // of IPv4 and UDP [bytes]
-constexpr double kPatience = 0.15;    // for one reply more than expected [s]
+constexpr double kTimeout = 0.15;     // for one reply more than expected [s]
 constexpr double kLong = 20.0;        // for those expected; a pass waits no longer than they take
 
 /// A command with 1 where it is allowed; /notify 0, since the events of /notify 1 are no replies.
@@ -81,7 +81,7 @@ class Talk {
     Drawn drawn;
     std::array<std::byte, 2048> buffer{};
     while (const auto received = socket_.receive(buffer.data(), buffer.size(),
-                                                 drawn.datagrams < expected ? kLong : kPatience)) {
+                                                 drawn.datagrams < expected ? kLong : kTimeout)) {
       drawn.bytes += received->size;
       ++drawn.datagrams;
     }

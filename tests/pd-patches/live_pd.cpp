@@ -11,7 +11,7 @@
 namespace splash::pd {
 namespace {
 
-constexpr double kPatience = 60.0;   ///< to come up on a busy machine [s]
+constexpr double kTimeout = 60.0;    ///< to come up on a busy machine [s]
 constexpr double kRecording = 30.0;  ///< longest [s]
 
 void pause(double seconds) {
@@ -41,7 +41,7 @@ void LivePd::start_jack() {
                                std::to_string(static_cast<int>(kRate)), "-p",
                                std::to_string(kPeriod)},
       tests::ChildProcess::Environment{{"JACK_NO_AUDIO_RESERVATION", "1"}});
-  const double deadline = protocol::monotonic_now() + kPatience;
+  const double deadline = protocol::monotonic_now() + kTimeout;
   while (recorder_ == nullptr) {
     try {
       recorder_ = std::make_unique<JackRecorder>(server_, kTiles36, kRecording);
@@ -69,7 +69,7 @@ void LivePd::start_pd() {
                                "-send",        "splash-gain 1"},
       tests::ChildProcess::Environment{{"JACK_NO_AUDIO_RESERVATION", "1"},
                                        {"JACK_DEFAULT_SERVER", server_}});
-  const double deadline = protocol::monotonic_now() + kPatience;
+  const double deadline = protocol::monotonic_now() + kTimeout;
   while (!recorder_->connect("splash-pd:output_") || !status(0.2)) {
     if (pd_->wait(0.05) || protocol::monotonic_now() > deadline) {
       throw std::runtime_error("pd does not come up: " + pd_->output() + jackd_->output());

@@ -17,7 +17,7 @@
 namespace splash::pd {
 namespace {
 
-constexpr double kPatience = 120.0;  ///< for one rendering on a busy machine [s]
+constexpr double kTimeout = 120.0;  ///< for one rendering on a busy machine [s]
 
 std::filesystem::path source(const std::string& folder, const std::string& file) {
   return std::filesystem::path(SPLASH_SOURCE_DIR) / folder / file;
@@ -63,7 +63,7 @@ Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPai
   command.insert(command.end(), {"-send", "splash-render " + list.string() + " " + wav.string() +
                                               " " + std::to_string(frames)});
   tests::ChildProcess pd(command);
-  const std::optional<int> status = pd.wait(kPatience);
+  const std::optional<int> status = pd.wait(kTimeout);
   if (status != 0 || pd.output().find("error") != std::string::npos) {
     throw std::runtime_error("pd ended with " + std::to_string(status.value_or(-1)) + ": " +
                              pd.output());

@@ -21,10 +21,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::FrameViewer;
 
-constexpr double kPatience = 5.0;  // [s]
+constexpr double kTimeout = 5.0;  // [s]
 
 bool eventually(const std::function<bool()>& condition) {
-  const double end = monotonic_now() + kPatience;
+  const double end = monotonic_now() + kTimeout;
   while (!condition()) {
     if (monotonic_now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -20,7 +20,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr double kPatience = 5.0;  // [s]: loopback needs microseconds, a loaded machine more
+constexpr double kTimeout = 5.0;  // [s]: loopback needs microseconds, a loaded machine more
 
 TEST(UdpSocket, SendsAndReceivesOverLoopback) {
   UdpSocket left(Endpoint{});
@@ -29,7 +29,7 @@ TEST(UdpSocket, SendsAndReceivesOverLoopback) {
   const Raw packet = message("/ping", ",i", word(5));
   ASSERT_TRUE(left.send_to(right.local(), packet));
   std::array<std::byte, kMaxDatagram> buffer{};
-  const auto received = right.receive(buffer.data(), buffer.size(), kPatience);
+  const auto received = right.receive(buffer.data(), buffer.size(), kTimeout);
   ASSERT_TRUE(received);
   EXPECT_EQ(received->from, left.local());
   EXPECT_EQ(Raw(buffer.begin(), buffer.begin() + static_cast<long>(received->size)), packet);
@@ -42,10 +42,10 @@ TEST(UdpSocket, TellsTheRealSizeOfWhatDoesNotFit) {
   ASSERT_TRUE(left.send_to(right.local(), Raw(5000)));
   ASSERT_TRUE(left.send_to(right.local(), Raw{}));
   std::array<std::byte, kMaxDatagram> buffer{};
-  auto received = right.receive(buffer.data(), buffer.size(), kPatience);
+  auto received = right.receive(buffer.data(), buffer.size(), kTimeout);
   ASSERT_TRUE(received);
   EXPECT_EQ(received->size, 5000U);
-  received = right.receive(buffer.data(), buffer.size(), kPatience);
+  received = right.receive(buffer.data(), buffer.size(), kTimeout);
   ASSERT_TRUE(received);  // an empty datagram is a datagram
   EXPECT_EQ(received->size, 0U);
 }
@@ -107,7 +107,7 @@ TEST(UdpSocket, CountsWhatTheKernelDropped) {
   ASSERT_LT(received, sent);
   // The count comes with the next datagram.
   ASSERT_TRUE(sender.send_to(slow.local(), packet));
-  ASSERT_TRUE(slow.receive(buffer.data(), buffer.size(), kPatience));
+  ASSERT_TRUE(slow.receive(buffer.data(), buffer.size(), kTimeout));
   EXPECT_EQ(slow.dropped_by_kernel(), sent - received);
 }
 

@@ -37,9 +37,9 @@ bodies:
       static_cast<void>(simulation.live_body(0)->push(middle, {0, 0, 0, 1}, {now, {}}));
     }
     const FrameResult frame = simulation.advance();
-    ASSERT_FALSE(frame.mishap) << describe(*frame.mishap);
-    densest = std::max(densest, frame.survey.max_excess);
-    fastest = std::max(fastest, frame.survey.speed);
+    ASSERT_FALSE(frame.step_fault) << describe(*frame.step_fault);
+    densest = std::max(densest, frame.stats.max_excess);
+    fastest = std::max(fastest, frame.stats.speed);
   }
   std::printf("density at most %.0f %% too high, water at most %.2f m/s fast\n", 100.0 * densest,
               fastest);

@@ -21,12 +21,12 @@ class DeviceTrial : public testing::Test {
   ~DeviceTrial() override { fs::remove_all(folder_); }
 
   /// By a program that does this. Each run of it leaves a dot in `runs`.
-  [[nodiscard]] Trial test(const std::string& script, const Patience& patience = {}) const {
+  [[nodiscard]] Trial test(const std::string& script, const TrialLimits& limits = {}) const {
     const fs::path program = folder_ / "program";
     std::ofstream(program) << "#!/bin/sh\nprintf . >>" << (folder_ / "runs").string() << '\n'
                            << script << '\n';
     fs::permissions(program, fs::perms::owner_all);
-    return DeviceTrials(folder_, program, patience)(device_);
+    return DeviceTrials(folder_, program, limits)(device_);
   }
   [[nodiscard]] std::size_t runs() const {
     std::error_code none;
@@ -71,15 +71,15 @@ TEST_F(DeviceTrial, OfABrokenOneSaysHowAndIsDoneAgain) {
 // `exec`, or the script's own child holds the pipe open.
 TEST_F(DeviceTrial, OfOneThatHangsEnds) {
   using std::chrono::milliseconds;
-  const Patience build = {.build = milliseconds(100)};
+  const TrialLimits build = {.build = milliseconds(100)};
   EXPECT_THAT(test("exec sleep 1000", build).failure, HasSubstr("building a kernel did not end"));
-  const Patience steps = {.steps = milliseconds(100)};
+  const TrialLimits steps = {.steps = milliseconds(100)};
   EXPECT_THAT(test("echo built; exec sleep 1000", steps).failure,
               HasSubstr("a small test did not end"));
 }
 
 TEST_F(DeviceTrial, WaitsAsLongAsKernelsGetReady) {
-  const Patience each = {.build = std::chrono::milliseconds(2000)};
+  const TrialLimits each = {.build = std::chrono::milliseconds(2000)};
   EXPECT_THAT(
       test("for k in 1 2 3 4; do sleep 0.7; echo $k; done; echo built; echo sound 1", each).failure,
       IsEmpty());

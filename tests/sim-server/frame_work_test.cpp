@@ -82,7 +82,7 @@ TEST_P(FrameOfThePool, ReadsNothingBeforeTheLastKernel) {
   device_.queue().finish();
   const Commands ran = noted_commands();
   static_cast<void>(end_ledger());
-  EXPECT_GE(ran.reads, 5) << "survey, health, contacts, spawns and bubbles";
+  EXPECT_GE(ran.reads, 5) << "stats, health, contacts, spawns and bubbles";
   EXPECT_EQ(ran.late_kernels, 0);
 }
 

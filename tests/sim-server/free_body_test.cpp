@@ -42,7 +42,7 @@ TEST(FreeBody, MakesOneImpactWithItsSpeed) {
   while (simulation.seconds() < 1.0) {
     const FrameResult frame = simulation.advance();
     impacts.insert(impacts.end(), frame.found.impacts.begin(), frame.found.impacts.end());
-    ASSERT_FALSE(frame.mishap) << describe(*frame.mishap);
+    ASSERT_FALSE(frame.step_fault) << describe(*frame.step_fault);
   }
   ASSERT_EQ(impacts.size(), 1U);
   const double fall = 0.6 - 0.075 - 0.2;
@@ -98,8 +98,8 @@ TEST(FreeBody, IsTakenBackWithTheWater) {
     buffer.write(fluid.device(), density);
   });
   const FrameResult frame = harmed.advance();
-  ASSERT_TRUE(frame.mishap);
-  EXPECT_EQ(frame.mishap->remedy, Remedy::retry);
+  ASSERT_TRUE(frame.step_fault);
+  EXPECT_EQ(frame.step_fault->remedy, Remedy::retry);
   const BodyState after = harmed.bodies().state(0, harmed.seconds());
   EXPECT_TRUE(std::isfinite(after.position[2]));
   EXPECT_LT(after.position[2], before.position[2]) << "the frame was done again";
@@ -121,9 +121,10 @@ TEST(FreeBody, ThatIsNowhereIsAFault) {
     buffer.write(fluid.device(), steps, static_cast<std::size_t>(step.first_body));
   });
   const FrameResult frame = simulation.advance();
-  ASSERT_TRUE(frame.mishap);
-  EXPECT_EQ(frame.mishap->what.fault, Fault::body);
-  EXPECT_NE(describe(*frame.mishap).find("'ball'"), std::string::npos) << describe(*frame.mishap);
+  ASSERT_TRUE(frame.step_fault);
+  EXPECT_EQ(frame.step_fault->what.fault, Fault::body);
+  EXPECT_NE(describe(*frame.step_fault).find("'ball'"), std::string::npos)
+      << describe(*frame.step_fault);
   EXPECT_NEAR(simulation.bodies().state(0, simulation.seconds()).position[0], 0.25, 1.0e-3);
 }
 

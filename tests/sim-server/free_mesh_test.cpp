@@ -47,7 +47,7 @@ double excess_draught(const Shape& shape, const Quaternion& turn) {
   int count = 0;
   while (simulation.seconds() < 4.0) {
     const FrameResult frame = simulation.advance();
-    EXPECT_FALSE(frame.mishap) << describe(*frame.mishap);
+    EXPECT_FALSE(frame.step_fault) << describe(*frame.step_fault);
     if (simulation.seconds() < 3.0) continue;
     height += simulation.bodies().state(0, simulation.seconds()).position[2];
     ++count;

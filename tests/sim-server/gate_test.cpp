@@ -94,7 +94,7 @@ TEST_P(WetBed, IsHeldUntilTimeBeginsAndThenRunAcross) {
     EXPECT_EQ(v, (Vector3{0.0, 0.0, 0.0}));
   }
   for (const Holding how : simulation.holding()) EXPECT_EQ(how, Holding::held);
-  while (simulation.seconds() < 0.35) ASSERT_FALSE(simulation.advance().mishap);
+  while (simulation.seconds() < 0.35) ASSERT_FALSE(simulation.advance().step_fault);
   const Stoker wave = stoker();
   const auto now = places_of(simulation, &Snapshot::position);
   const double t = simulation.seconds();

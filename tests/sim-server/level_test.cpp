@@ -110,7 +110,7 @@ TEST_P(Level, IsThatOfTheFile) {
   if (tub.bodies.empty()) return;
   EXPECT_NEAR(level(simulation) / plain, 1.0, 0.002);
   if (!is_free(tub.bodies[0])) return;
-  while (simulation.seconds() < 1.0) ASSERT_FALSE(simulation.advance().mishap);
+  while (simulation.seconds() < 1.0) ASSERT_FALSE(simulation.advance().step_fault);
   EXPECT_NEAR(level(simulation) / plain, 1.0, 0.0025) << "they lie a little deeper";
 }
 

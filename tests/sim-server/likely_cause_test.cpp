@@ -19,7 +19,7 @@ std::string alarms(const std::string& text, double seconds) {
   std::string all;
   while (simulation.seconds() < seconds) {
     const FrameResult frame = simulation.advance();
-    if (frame.mishap) all += describe(*frame.mishap) + "\n";
+    if (frame.step_fault) all += describe(*frame.step_fault) + "\n";
   }
   return all;
 }

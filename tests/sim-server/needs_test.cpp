@@ -12,13 +12,13 @@ constexpr double kBubbleSpeed = 1.0;
 constexpr double kFrame = 0.00625;
 
 /// Water in the unit cube.
-Survey water(double speed, int asleep) {
-  Survey survey;
-  survey.speed = speed;
-  survey.asleep = asleep;
-  survey.lower = {0.0, 0.0, 0.0};
-  survey.upper = {1.0, 1.0, 1.0};
-  return survey;
+FluidStats water(double speed, int asleep) {
+  FluidStats stats;
+  stats.speed = speed;
+  stats.asleep = asleep;
+  stats.lower = {0.0, 0.0, 0.0};
+  stats.upper = {1.0, 1.0, 1.0};
+  return stats;
 }
 
 BodyStep body(float height, float speed) {
@@ -40,7 +40,7 @@ Needs ready(const SkipSettings& skip = {}) {
   return needs;
 }
 
-FrameNeeds look(Needs& needs, const std::vector<BodyStep>& bodies, const Survey& last,
+FrameNeeds look(Needs& needs, const std::vector<BodyStep>& bodies, const FluidStats& last,
                 bool piston = false, std::size_t bubbles = 0) {
   return needs.of_frame(bodies, last, kFrame, piston, bubbles);
 }
@@ -55,7 +55,7 @@ TEST(Needs, NothingWhileAllSleeps) {
 
 TEST(Needs, ABodyCountsWhenItMovesNearTheWater) {
   Needs needs = ready();
-  const Survey asleep = water(0.0, kParticles);
+  const FluidStats asleep = water(0.0, kParticles);
   EXPECT_FALSE(look(needs, {body(0.9F, 0.0F)}, asleep).steps) << "it stands in the water";
   EXPECT_TRUE(look(needs, {body(0.9F, 0.01F)}, asleep).steps);
   EXPECT_FALSE(look(needs, {body(1.1F, 5.0F)}, asleep).steps) << "far above";

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-#include "sim-server/simulation/recovery/mishap.hpp"
+#include "sim-server/simulation/recovery/step_fault.hpp"
 
 namespace splash::sim {
 namespace {
@@ -53,29 +53,29 @@ TEST(Recovery, StepsGrowBackToWhatTheyWere) {
   EXPECT_LE(frames, 20);
 }
 
-TEST(Mishaps, AreToldWithParticlePlaceStepAndCause) {
-  Mishap mishap;
-  mishap.what = {Fault::not_finite, 1, 3, 4711};
-  mishap.step = 815;
-  mishap.seconds = 2.5;
-  mishap.place = {0.1, -0.2, 0.3};
-  mishap.body = "hand";
-  mishap.distance = 0.07;
-  mishap.tries = 1;
-  const std::string text = describe(mishap);
+TEST(StepFaults, AreToldWithParticlePlaceStepAndCause) {
+  StepFault step_fault;
+  step_fault.what = {Fault::not_finite, 1, 3, 4711};
+  step_fault.step = 815;
+  step_fault.seconds = 2.5;
+  step_fault.place = {0.1, -0.2, 0.3};
+  step_fault.body = "hand";
+  step_fault.distance = 0.07;
+  step_fault.tries = 1;
+  const std::string text = describe(step_fault);
   for (const char* part : {"2.500 s", "step 815", "particle 4711", "(0.100, -0.200, 0.300)",
                            "'hand'", "0.07 m", "no number", "3 particles", "Likely cause"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
-  mishap.remedy = Remedy::calm;
-  mishap.calmed = 0.28;
-  EXPECT_THAT(describe(mishap), HasSubstr("within 0.28 m"));
-  mishap.calmed = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(describe(mishap), HasSubstr("all water was stopped"));
-  mishap.remedy = Remedy::reset;
-  EXPECT_THAT(describe(mishap), HasSubstr("begins anew"));
-  mishap.what = {Fault::step, 0, 0, -1};
-  EXPECT_THAT(describe(mishap), Not(HasSubstr("particle -1")));
+  step_fault.remedy = Remedy::calm;
+  step_fault.calmed = 0.28;
+  EXPECT_THAT(describe(step_fault), HasSubstr("within 0.28 m"));
+  step_fault.calmed = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(describe(step_fault), HasSubstr("all water was stopped"));
+  step_fault.remedy = Remedy::reset;
+  EXPECT_THAT(describe(step_fault), HasSubstr("begins anew"));
+  step_fault.what = {Fault::step, 0, 0, -1};
+  EXPECT_THAT(describe(step_fault), Not(HasSubstr("particle -1")));
 }
 
 }  // namespace

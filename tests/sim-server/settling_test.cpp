@@ -74,7 +74,7 @@ TEST_P(Settling, LeavesADropWhereItHangs) {
   for (const Particle& particle : start) EXPECT_EQ(particle.velocity, Vector3({0.0, 0.0, 0.0}));
   for (std::size_t i = 0; i < pool; ++i) EXPECT_LT(start[i].place[2], 0.17);
   // Then it falls as one, and nothing in it presses.
-  while (simulation.seconds() < 0.1) ASSERT_FALSE(simulation.advance().mishap);
+  while (simulation.seconds() < 0.1) ASSERT_FALSE(simulation.advance().step_fault);
   const double speed = 9.81 * simulation.seconds();
   const std::vector<Particle> later = particles_of(simulation);
   for (std::size_t i = pool; i < later.size(); ++i) {
@@ -98,7 +98,7 @@ TEST_P(Settling, LeavesADamWhereItStands) {
     return x;
   };
   EXPECT_LT(front(), 0.2);
-  while (simulation.seconds() < 0.3) ASSERT_FALSE(simulation.advance().mishap);
+  while (simulation.seconds() < 0.3) ASSERT_FALSE(simulation.advance().step_fault);
   EXPECT_GT(front(), 0.45);
 }
 

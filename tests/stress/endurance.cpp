@@ -81,7 +81,7 @@ class Run {
         memory_ = resident();
         files_ = descriptors();
       }
-      if (frame.mishap) std::printf("\n%s\n", describe(*frame.mishap).c_str());
+      if (frame.step_fault) std::printf("\n%s\n", describe(*frame.step_fault).c_str());
       if (now > line_) tell(now);
       if (now > kept_) keep(now);
       if (end > 0.0 && now > end) break;

@@ -52,10 +52,10 @@ Outcome observe(sim::Simulation& simulation, const Injection& injection, int ste
   for (int k = 0; k <= kFramesBetween; ++k) {
     const sim::FrameResult frame = simulation.advance();
     outcome.told += events_of(frame);
-    if (!frame.mishap) continue;
-    outcome.seen = outcome.seen || (k == 0 && frame.mishap->step == before + step);
-    outcome.sentence = describe(*frame.mishap);
-    if (frame.mishap->remedy != sim::Remedy::retry) {
+    if (!frame.step_fault) continue;
+    outcome.seen = outcome.seen || (k == 0 && frame.step_fault->step == before + step);
+    outcome.sentence = describe(*frame.step_fault);
+    if (frame.step_fault->remedy != sim::Remedy::retry) {
       outcome.ill_for = simulation.seconds() - start;
       k = 0;  // until it is well again
     }

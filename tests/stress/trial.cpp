@@ -116,14 +116,15 @@ void watch(Simulation& simulation, const Drive& drive, double seconds, Verdict& 
     verdict.events += events;
     note(verdict, events < kFlood, "event count");
     note(verdict, sound_events(frame.found), "events finite");
-    note(verdict, frame.survey.not_finite == 0, "no NaN");
-    verdict.fastest = std::max(verdict.fastest, frame.survey.speed);
-    verdict.mean_excess = std::max(verdict.mean_excess, frame.survey.mean_excess);
-    verdict.max_excess = std::max(verdict.max_excess, frame.survey.max_excess);
-    if (simulation.seconds() > seconds - kWatched) at_the_end.push_back(frame.survey.speed);
+    note(verdict, frame.stats.not_finite == 0, "no NaN");
+    verdict.fastest = std::max(verdict.fastest, frame.stats.speed);
+    verdict.mean_excess = std::max(verdict.mean_excess, frame.stats.mean_excess);
+    verdict.max_excess = std::max(verdict.max_excess, frame.stats.max_excess);
+    if (simulation.seconds() > seconds - kWatched) at_the_end.push_back(frame.stats.speed);
     verdict.fastest_body = std::max(verdict.fastest_body, fastest_free_body(simulation));
     verdict.least_step = std::min(verdict.least_step, simulation.time_step() / first);
-    if (frame.mishap && verdict.mishap.empty()) verdict.mishap = describe(*frame.mishap);
+    if (frame.step_fault && verdict.step_fault.empty())
+      verdict.step_fault = describe(*frame.step_fault);
   }
   verdict.calm = median(std::move(at_the_end));
   verdict.drift = mean_height(simulation) - height;

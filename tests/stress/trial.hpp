@@ -54,7 +54,7 @@ struct Verdict {
   std::uint64_t calmed = 0;
   std::uint64_t resets = 0;
   double least_step = 0.0;  ///< shortest step in the first one's [1]
-  std::string mishap;       ///< the first, in words
+  std::string step_fault;   ///< the first, in words
   [[nodiscard]] bool passes() const { return broken.empty(); }
 };
 

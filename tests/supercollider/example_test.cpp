@@ -28,7 +28,7 @@ namespace {
 using pd::Channels;
 
 constexpr std::int64_t kFrames = 216000;  ///< of a log [samples at 48 kHz]
-constexpr double kPatience = 120.0;       ///< on a busy machine [s]
+constexpr double kTimeout = 120.0;        ///< on a busy machine [s]
 constexpr double kTolerance = -60.0;      ///< largest difference re the peak [dB]
 constexpr double kAdvance = 0.05;         ///< as the example has it [s]
 constexpr double kControlBlock = 64.0 / 48000.0;
@@ -59,7 +59,7 @@ Channels render_with_sclang(const std::vector<protocol::LogEntry>& log) {
   file.close();
   tests::ChildProcess sclang(
       {"sclang", example(), list.string(), wav.string(), std::to_string(kFrames)}, headless());
-  const auto status = sclang.wait(kPatience);
+  const auto status = sclang.wait(kTimeout);
   if (status != 0) throw std::runtime_error("sclang: " + sclang.output());
   Channels channels = tests::read_recording(wav.string()).channels;
   for (auto& channel : channels) channel.resize(kFrames);
@@ -173,7 +173,7 @@ TEST(Example, OrdersLiveVoicesForTheirMomentOnce) {
   environment.push_back({"SPLASH_SCSYNTH", scsynth.address()});
   environment.push_back({"SPLASH_PORT", std::to_string(port.port)});
   tests::ChildProcess sclang({"sclang", example()}, environment);
-  ASSERT_FALSE(scsynth.await("/s_new", kPatience).empty()) << sclang.output();
+  ASSERT_FALSE(scsynth.await("/s_new", kTimeout).empty()) << sclang.output();
   const double moment = protocol::unix_now() + 2.0;
   const auto bundle = protocol::encode(
       protocol::to_time_tag(moment),

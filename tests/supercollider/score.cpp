@@ -19,9 +19,9 @@
 namespace splash::supercollider {
 namespace {
 
-constexpr double kPatience = 120.0;  ///< for one rendering on a busy machine [s]
-constexpr double kNever = 1e6;       ///< [s]
-constexpr double kFaintest = 1e-8;   ///< a voice ends at this [full scale]
+constexpr double kTimeout = 120.0;  ///< for one rendering on a busy machine [s]
+constexpr double kNever = 1e6;      ///< [s]
+constexpr double kFaintest = 1e-8;  ///< a voice ends at this [full scale]
 /// Of a sample: scsynth rounds to the nearest, but what lies on a block's edge it puts into the
 /// last sample of the block before.
 constexpr double kWithin = 0.25;
@@ -155,7 +155,7 @@ std::vector<float> render_with_scsynth(const std::vector<protocol::LogEntry>& lo
   tests::ChildProcess scsynth({"scsynth", "-V", "-1", "-N", score.string(), "_", wav.string(),
                                std::to_string(std::llround(settings.sample_rate)), "WAV", "float",
                                "-o", "1", "-i", "0", "-n", "65536", "-m", "262144"});
-  const auto status = scsynth.wait(kPatience);
+  const auto status = scsynth.wait(kTimeout);
   if (status != 0) {
     throw std::runtime_error("scsynth ended with " + std::to_string(status.value_or(-1)) +
                              (status == 127 ? " (apt-get install supercollider-server)" : "") +

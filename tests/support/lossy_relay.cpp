@@ -10,7 +10,7 @@ namespace splash::tests {
 namespace {
 
 constexpr std::size_t kMostLines = 32;  ///< the oldest goes: programs that were killed
-constexpr int kPatience = 100;          ///< until the thread looks whether it shall end [ms]
+constexpr int kTimeout = 100;           ///< until the thread looks whether it shall end [ms]
 
 using Datagram = std::array<std::byte, 2048>;  ///< ours have 1472 bytes at most
 
@@ -27,7 +27,7 @@ void LossyRelay::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::vector<pollfd> waiting = {{front_.descriptor(), POLLIN, 0}};
     for (const Line& line : lines_) waiting.push_back({line.socket.descriptor(), POLLIN, 0});
-    if (poll(waiting.data(), waiting.size(), kPatience) <= 0) continue;
+    if (poll(waiting.data(), waiting.size(), kTimeout) <= 0) continue;
     for (std::size_t k = 1; k < waiting.size(); ++k) {
       if (waiting[k].revents != 0) pass_back(lines_[k - 1]);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SIGTERM, SIGINT and /quit end both programs in peace: exit status 0, files whole, closing words.
+// SIGTERM, SIGINT and /quit end both programs cleanly: exit status 0, files whole, closing words.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

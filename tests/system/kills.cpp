@@ -20,7 +20,7 @@ namespace splash::tests {
 namespace {
 
 constexpr double kLongestLife = 1.2;  ///< of a program that is to be killed [s]
-constexpr double kPatience = 30.0;    ///< [s]
+constexpr double kTimeout = 30.0;     ///< [s]
 constexpr double kTop = 750.0;        ///< of the handheld rig's band [Hz]
 constexpr double kRate = 48000.0;     ///< [Hz]
 
@@ -49,7 +49,7 @@ std::optional<std::uint64_t> events_of(Daemon& synth) {
 
 /// Until the synth has taken more than `before`: how long after `start` that was [s].
 std::optional<double> await_event(Daemon& synth, std::uint64_t before, double start) {
-  while (protocol::monotonic_now() - start < kPatience) {
+  while (protocol::monotonic_now() - start < kTimeout) {
     if (events_of(synth).value_or(0) > before) return protocol::monotonic_now() - start;
     sleep(0.11);  // it answers ten times a second at most
   }
@@ -71,7 +71,7 @@ void judge(Daemon& other, const std::optional<double>& recovery, Kills& kills) {
 void end_in_peace(Daemon& daemon, Kills& kills) {
   daemon.process().signal(SIGTERM);
   if (daemon.process().wait_for_end() == 0) return;
-  kills.complaints.push_back("it did not end in peace:\n" + daemon.process().output());
+  kills.complaints.push_back("it did not end cleanly:\n" + daemon.process().output());
 }
 
 double largest_step(const std::string& wav) {

@@ -25,7 +25,7 @@ using Progress = std::function<void(int)>;
 [[nodiscard]] Kills kill_simulators(int rounds, std::mt19937& random, const Progress& progress);
 /// `rounds` synths, each killed soon after its start, under one simulator.
 [[nodiscard]] Kills kill_synths(int rounds, std::mt19937& random, const Progress& progress);
-/// Both, by turns the one or the other first, ended in peace.
+/// Both, by turns the one or the other first, ended cleanly.
 [[nodiscard]] Kills start_in_any_order(int rounds, std::mt19937& random, const Progress& progress);
 
 }  // namespace splash::tests

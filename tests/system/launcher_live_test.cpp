@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The launcher with both real programs: what the demo leaves, and Ctrl-C in a terminal, which
-// reaches the launcher alone and ends both programs in peace.
+// reaches the launcher alone and ends both programs cleanly.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>

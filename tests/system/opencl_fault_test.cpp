@@ -132,21 +132,21 @@ fs::path last_of(std::vector<fs::path> files) {
 TEST_F(OpenClFault, DamagedCacheIsCompiledAgain) {
   ASSERT_EQ(simulate_with_cache().code, 0);
   EXPECT_THAT(simulate_with_cache().text, Not(HasSubstr("damaged"))) << "the seal is right";
-  const fs::path survey = last_of(cached("survey.so"));
-  ASSERT_FALSE(survey.empty());
+  const fs::path stats = last_of(cached("reduce_stats.so"));
+  ASSERT_FALSE(stats.empty());
   const auto expect_mended = [&] {
     const auto [code, text] = simulate_with_cache();
     EXPECT_EQ(code, 0) << text;
     EXPECT_THAT(text, HasSubstr("1 compiled programs in " + cache().string() +
                                 " were damaged or left unfinished; they are compiled again"));
   };
-  std::ofstream(survey) << "garbage";
+  std::ofstream(stats) << "garbage";
   expect_mended();
-  fs::resize_file(survey, 5000);
+  fs::resize_file(stats, 5000);
   expect_mended();
-  const fs::path program = survey.parent_path().parent_path().parent_path() / "program.bc";
+  const fs::path program = stats.parent_path().parent_path().parent_path() / "program.bc";
   fs::resize_file(program, 100);
-  fs::remove(survey);
+  fs::remove(stats);
   expect_mended();
   // Of a simulator that died before it sealed what it built.
   std::string sealed;
@@ -156,7 +156,7 @@ TEST_F(OpenClFault, DamagedCacheIsCompiledAgain) {
   }
   std::ofstream(cache() / "splash-sums") << sealed;
   std::ofstream{cache() / "splash-at-work-1"};
-  fs::resize_file(survey, 0);
+  fs::resize_file(stats, 0);
   expect_mended();
   // What a power cut leaves: a seal that says nothing, and a program as empty.
   fs::resize_file(cache() / "splash-sums", 0);

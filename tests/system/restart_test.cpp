@@ -16,7 +16,7 @@
 namespace splash::tests {
 namespace {
 
-constexpr double kPatience = 30.0;  // [s]
+constexpr double kTimeout = 30.0;  // [s]
 
 Arguments synth_on(const std::string& listen) {
   return {"--rig", rig_path("stereo.yaml"), "--device", "null", "--listen", listen};
@@ -26,10 +26,10 @@ Arguments simulator_to(const SmallScene& scene, const protocol::Endpoint& target
   return {"--scene", scene.path(), "--target", protocol::to_string(target)};
 }
 
-/// The synth's status when it has taken `events` more than `before`, or when patience ends.
+/// The synth's status when it has taken `events` more than `before`, or when limits ends.
 protocol::SynthStatus status_after(Synth& synth, std::uint64_t before, std::uint64_t events) {
   protocol::SynthStatus status;
-  const double limit = protocol::monotonic_now() + kPatience;
+  const double limit = protocol::monotonic_now() + kTimeout;
   do {
     status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"))
                  .value_or(protocol::SynthStatus{});

@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr double kPatience = 60.0;  ///< [s]
+constexpr double kTimeout = 60.0;  ///< [s]
 constexpr const char* kPeriod = "400000";
 /// A busy machine may keep a thread from its turn, but not for so long [s].
 constexpr double kSilence = 1.0;
@@ -93,9 +93,9 @@ TEST_P(Service, IsReadyWhenItCanBeSpokenTo) {
                                                "--listen", "127.0.0.1:0"}),
       {{"NOTIFY_SOCKET", manager.address()}});
   if (GetParam().simulates) {
-    EXPECT_NE(manager.wait_for("EXTEND_TIMEOUT_USEC=", kPatience), "") << "while the water settles";
+    EXPECT_NE(manager.wait_for("EXTEND_TIMEOUT_USEC=", kTimeout), "") << "while the water settles";
   }
-  const std::string ready = manager.wait_for("READY=1\n", kPatience);
+  const std::string ready = manager.wait_for("READY=1\n", kTimeout);
   const std::string said = process.output();  // before it could say more
   ASSERT_THAT(ready, HasSubstr("\nSTATUS=")) << said;
   const std::string endpoint = ready.substr(ready.rfind(' ') + 1);
@@ -103,7 +103,7 @@ TEST_P(Service, IsReadyWhenItCanBeSpokenTo) {
   protocol::UdpSocket socket({INADDR_LOOPBACK, 0});
   socket.send_to(protocol::parse_endpoint(endpoint, 0), protocol::encode({"/sync", {7}}));
   std::vector<std::byte> answer(2048);
-  EXPECT_TRUE(socket.receive(answer.data(), answer.size(), kPatience));
+  EXPECT_TRUE(socket.receive(answer.data(), answer.size(), kTimeout));
   if (GetParam().simulates) {
     EXPECT_THAT(said, HasSubstr("kernels ready"));
   }
@@ -113,7 +113,7 @@ TEST_P(Service, StopsWithAWord) {
   NotifySocket manager(true);
   const auto daemon = start(manager);
   daemon->process().signal(SIGTERM);
-  EXPECT_EQ(manager.wait_for("STOPPING=1", kPatience), "STOPPING=1");
+  EXPECT_EQ(manager.wait_for("STOPPING=1", kTimeout), "STOPPING=1");
   EXPECT_EQ(daemon->process().wait_for_end(), 0) << daemon->process().output();
   EXPECT_EQ(manager.wait_for("WATCHDOG=1", 0.1), "") << "nothing after the end";
 }
@@ -121,7 +121,7 @@ TEST_P(Service, StopsWithAWord) {
 TEST_P(Service, GivesSignsOfLifeUntilAnyOfItsThreadsHangs) {
   NotifySocket manager;
   const auto daemon = start(manager);
-  for (int k = 0; k < 3; ++k) ASSERT_EQ(manager.wait_for("WATCHDOG=1", kPatience), "WATCHDOG=1");
+  for (int k = 0; k < 3; ++k) ASSERT_EQ(manager.wait_for("WATCHDOG=1", kTimeout), "WATCHDOG=1");
   const pid_t process = daemon->process().id();
   int hung = 0;
   int immune = 0;
@@ -143,13 +143,13 @@ TEST_P(Service, GivesSignsOfLifeUntilAnyOfItsThreadsHangs) {
   if (GetParam().simulates) {
     EXPECT_GE(hung, 1) << "the thread that listens";
   }
-  EXPECT_EQ(manager.wait_for("WATCHDOG=1", kPatience), "WATCHDOG=1") << "it recovers";
+  EXPECT_EQ(manager.wait_for("WATCHDOG=1", kTimeout), "WATCHDOG=1") << "it recovers";
 }
 
 TEST_P(Service, WithoutAWatchdogGivesNone) {
   NotifySocket manager;
   const auto daemon = start(manager, "0");
-  EXPECT_THAT(manager.wait_for("READY=1", kPatience), StartsWith("READY=1"));
+  EXPECT_THAT(manager.wait_for("READY=1", kTimeout), StartsWith("READY=1"));
   EXPECT_EQ(manager.wait_for("WATCHDOG=1", 0.5), "");
 }
 
@@ -157,8 +157,8 @@ TEST(ViewService, IsReadyAndGivesSignsOfLife) {
   NotifySocket manager;
   const Daemon daemon("view-server", {},
                       {{"NOTIFY_SOCKET", manager.address()}, {"WATCHDOG_USEC", kPeriod}});
-  EXPECT_THAT(manager.wait_for("READY=1", kPatience), HasSubstr("STATUS=http://127.0.0.1:"));
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(manager.wait_for("WATCHDOG=1", kPatience), "WATCHDOG=1");
+  EXPECT_THAT(manager.wait_for("READY=1", kTimeout), HasSubstr("STATUS=http://127.0.0.1:"));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(manager.wait_for("WATCHDOG=1", kTimeout), "WATCHDOG=1");
 }
 
 std::string name_of(const testing::TestParamInfo<Program>& program) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Signals as daemons take them: a second one ends at once, SIGHUP begins files anew that were moved
-// away, a terminal that closes ends its programs in peace, a reader that goes away ends nothing.
+// away, a terminal that closes ends its programs cleanly, a reader that goes away ends nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr double kPatience = 60.0;  ///< [s]
+constexpr double kTimeout = 60.0;  ///< [s]
 
 class Signals : public testing::Test {
  protected:
@@ -72,12 +72,12 @@ TEST_F(Signals, TheSecondEndsAtOnce) {
 TEST_F(Signals, HangupBeginsTheLogAnewThatWasMovedAway) {
   const std::string log = file("a.osc");
   Simulator daemon(simulator({"--record", log}));
-  ASSERT_TRUE(daemon.process().wait_for_text("real time x", kPatience));
+  ASSERT_TRUE(daemon.process().wait_for_text("real time x", kTimeout));
   daemon.process().signal(SIGHUP);
-  ASSERT_TRUE(daemon.process().wait_for_text("a.osc is still there: move it away", kPatience));
+  ASSERT_TRUE(daemon.process().wait_for_text("a.osc is still there: move it away", kTimeout));
   fs::rename(log, file("first.osc"));
   daemon.process().signal(SIGHUP);
-  ASSERT_TRUE(daemon.process().wait_for_text("began " + log + " anew", kPatience));
+  ASSERT_TRUE(daemon.process().wait_for_text("began " + log + " anew", kTimeout));
   sleep(1.5);
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
@@ -94,10 +94,10 @@ TEST_F(Signals, HangupBeginsTheRecordingAnewThatWasMovedAway) {
   Synth daemon(synth({"--record-audio", wav}));
   sleep(0.5);
   daemon.process().signal(SIGHUP);
-  ASSERT_TRUE(daemon.process().wait_for_text("a.wav is still there: move it away", kPatience));
+  ASSERT_TRUE(daemon.process().wait_for_text("a.wav is still there: move it away", kTimeout));
   fs::rename(wav, file("first.wav"));
   daemon.process().signal(SIGHUP);
-  ASSERT_TRUE(daemon.process().wait_for_text("began " + wav + " anew", kPatience));
+  ASSERT_TRUE(daemon.process().wait_for_text("began " + wav + " anew", kTimeout));
   sleep(0.3);
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
@@ -112,14 +112,14 @@ void close_terminal(const Arguments& program) {
   std::string line;
   for (const std::string& word : program) line += "'" + word + "' ";
   ChildProcess terminal({"/usr/bin/script", "-qec", line, "/dev/null"});
-  ASSERT_TRUE(terminal.wait_for_text("listening: ", kPatience)) << terminal.output();
+  ASSERT_TRUE(terminal.wait_for_text("listening: ", kTimeout)) << terminal.output();
   sleep(0.3);
   terminal.signal(SIGKILL);
   terminal.wait_for_end();
 }
 
 bool appears(const std::string& path) {
-  for (double waited = 0.0; waited < kPatience && !fs::exists(path); waited += 0.05) sleep(0.05);
+  for (double waited = 0.0; waited < kTimeout && !fs::exists(path); waited += 0.05) sleep(0.05);
   return fs::exists(path);
 }
 

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience = 120.0;  ///< for an answer [s]
+constexpr double kTimeout = 120.0;  ///< for an answer [s]
 
 /// Draws a screenshot into a canvas of the page and reads what is asked for.
 constexpr const char* kRead = R"js((async (text, places) => {
@@ -154,7 +154,7 @@ void Chromium::begin(const std::string& method, const Json& parameters) {
 Chromium::Json Chromium::call(const std::string& method, const Json& parameters) {
   begin(method, parameters);
   for (;;) {
-    const Json answer = next(kPatience);
+    const Json answer = next(kTimeout);
     if (answer.is_null()) throw std::runtime_error(method + ": no answer\n" + process_->output());
     if (answer.value("id", 0) != calls_) {
       note(answer);

@@ -26,7 +26,7 @@ using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kPatience = 60.0;  ///< [s]
+constexpr double kTimeout = 60.0;  ///< [s]
 constexpr std::uint32_t kGrabbed = 4;
 
 /// Still, high above the water.
@@ -61,7 +61,7 @@ class Stage {
     start_simulator("127.0.0.1:0", "127.0.0.1:0");
     start_view("127.0.0.1:0");
     browser_ = std::make_unique<Chromium>("http://" + at(*view_) + "/" + query);
-    EXPECT_TRUE(browser_->wait_for("window.splash && splash.pictures() > 2", kPatience)) << words();
+    EXPECT_TRUE(browser_->wait_for("window.splash && splash.pictures() > 2", kTimeout)) << words();
     // Only the picture is to be seen in pictures.
     browser_->evaluate(
         "for (const one of document.querySelectorAll('header, #hint, nav, #panel, footer')) "
@@ -148,7 +148,7 @@ TEST_F(Page, TheWaterIsWhereItIsAndMoves) {
   for (int i = 0; i < 400; ++i) grid.push_back({20 + 34 * (i % 20), 10 + 18 * (i / 20)});
   const Json first = browser.colours(grid);
   EXPECT_TRUE(browser.wait_for(
-      "splash.pictures() > " + browser.evaluate("splash.pictures() + 4").dump(), kPatience));
+      "splash.pictures() > " + browser.evaluate("splash.pictures() + 4").dump(), kTimeout));
   const Json second = browser.colours(grid);
   int different = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -161,7 +161,7 @@ TEST_F(Page, TheWaterIsWhereItIsAndMoves) {
 TEST_F(Page, ATapSoundsATileWhichIsLit) {
   Stage stage(kWaits);
   Chromium& browser = stage.browser();
-  EXPECT_TRUE(browser.wait_for("splash.peaks() && splash.peaks().length === 4", kPatience));
+  EXPECT_TRUE(browser.wait_for("splash.peaks() && splash.peaks().length === 4", kTimeout));
   sleep(2.5);  // the synth opens within two seconds
   const Json tiles = stage.seen({{0.1, -0.1, 0.0}, {-0.1, 0.1, 0.0}});
   const Json before = browser.colours(tiles);
@@ -306,8 +306,8 @@ TEST_F(Page, IsHeard) {
   Stage stage(plunging(), "?points");
   Chromium& browser = stage.browser();
   browser.evaluate("document.getElementById('sound').click()");
-  EXPECT_TRUE(browser.wait_for("splash.sound.isOn && splash.sound.lag !== null", kPatience));
-  EXPECT_TRUE(browser.wait_for("Math.max(...splash.sound.last(4000, 0)) > 1e-4", kPatience));
+  EXPECT_TRUE(browser.wait_for("splash.sound.isOn && splash.sound.lag !== null", kTimeout));
+  EXPECT_TRUE(browser.wait_for("Math.max(...splash.sound.last(4000, 0)) > 1e-4", kTimeout));
   RecordProperty("lag_ms", browser.evaluate("Math.round(1000 * splash.sound.lag)").dump());
   EXPECT_LT(browser.evaluate("splash.sound.lag"), 0.5);
   EXPECT_THAT(browser.errors(), IsEmpty());
@@ -339,7 +339,7 @@ TEST_F(Page, SaysInWordsWhatHasEndedAndComesBack) {
     return browser.wait_for(
         "splash.link.isOpen && splash.alive().sim && "
         "splash.alive().synth && splash.playout.states.length > 1",
-        kPatience);
+        kTimeout);
   };
   ASSERT_TRUE(is_well()) << stage.words();
   const std::string sim = Stage::at(stage.simulator());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Health of every particle after every step, in the survey's program. Numbers are judged by the
+// Health of every particle after every step, in the statistics' program. Numbers are judged by the
 // bits of their exponents: no compiler may fold that away, no clamp launders it. All sums are sums
 // of integers, so that atomics give them exactly, whatever their order.
 // A fault is counted once for each thing that is wrong; what is not finite is nothing else.
@@ -39,34 +39,34 @@ typedef struct {
 typedef struct {
   lanes x[3], v[3], density;
   Way way;
-  lane_flags here;   // lanes that hold a particle
-} Patients;
+  lane_flags here;  // lanes that hold a particle
+} CheckInputs;
 
 static lane_flags no_number(lanes a) {
   return (AS_BITS(a) & 0x7F800000u) == (lane_bits)(0x7F800000u);
 }
 
-static lane_flags not_finite(const Patients* s) {
+static lane_flags not_finite(const CheckInputs* s) {
   lane_flags bad = no_number(s->density);
   for (int axis = 0; axis < 3; ++axis) bad |= no_number(s->x[axis]) | no_number(s->v[axis]);
   return bad;
 }
 
-static lane_flags outside(const Patients* s, constant HealthLimits* limits) {
+static lane_flags outside(const CheckInputs* s, constant HealthLimits* limits) {
   lane_flags bad = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    bad |= (s->x[axis] < (lanes)(limits->lower[axis])) |
-           (s->x[axis] > (lanes)(limits->upper[axis]));
+    bad |=
+        (s->x[axis] < (lanes)(limits->lower[axis])) | (s->x[axis] > (lanes)(limits->upper[axis]));
   }
   return bad;
 }
 
-static lane_flags too_fast(const Patients* s, constant HealthLimits* limits) {
+static lane_flags too_fast(const CheckInputs* s, constant HealthLimits* limits) {
   const lanes speed2 = s->v[0] * s->v[0] + s->v[1] * s->v[1] + s->v[2] * s->v[2];
   return speed2 >= (lanes)(limits->speed * limits->speed);
 }
 
-static lane_flags wrong_density(const Patients* s, constant HealthLimits* limits) {
+static lane_flags wrong_density(const CheckInputs* s, constant HealthLimits* limits) {
   return (s->density < (lanes)(limits->thinnest)) | (s->density > (lanes)(limits->densest));
 }
 
@@ -84,12 +84,12 @@ static lanes place_before(global const float* before, global const int* source, 
   return LOAD(part, 0);
 }
 
-static Patients load(constant FluidParams* p, float dt, global const float* position,
-                     global const float* velocity, global const float* carried,
-                     global const float* density, global const float* position_before,
-                     global const int* source, int i) {
+static CheckInputs load(constant FluidParams* p, float dt, global const float* position,
+                        global const float* velocity, global const float* carried,
+                        global const float* density, global const float* position_before,
+                        global const int* source, int i) {
   const int n = p->capacity;
-  Patients s;
+  CheckInputs s;
   const bool together = were_together(source, i, p->count);
   s.here = LANE_NUMBERS < (lane_flags)(p->count - i);
   s.density = LOAD(density, i);
@@ -128,8 +128,8 @@ static lane_flags but_for_bodies(lane_flags far, global const BodyStep* bodies, 
   STORE(far, flag, 0);
   for (int lane = 0; lane < LANES; ++lane) {
     const int j = i + lane;
-    if (flag[lane] != 0 && near_bodies(bodies, first_body, body_count, position[j],
-                                       position[n + j], position[2 * n + j])) {
+    if (flag[lane] != 0 && near_bodies(bodies, first_body, body_count, position[j], position[n + j],
+                                       position[2 * n + j])) {
       flag[lane] = 0;
     }
   }
@@ -149,8 +149,8 @@ static lane_flags but_for_solids(lane_flags stray, constant FluidParams* p, floa
   STORE(stray, flag, 0);
   for (int lane = 0; lane < LANES; ++lane) {
     if (flag[lane] == 0) continue;
-    const Leap l = leap_of(p, position_before, velocity_before, source[i + lane], position,
-                           velocity, acceleration, i + lane);
+    const Displacement l = displacement_of(p, position_before, velocity_before, source[i + lane],
+                                           position, velocity, acceleration, i + lane);
     if (stopped_by_wall(p, &l, dt, piston) ||
         put_by_body(p, shapes, meshes, bodies, first_body, body_count, &l, piston)) {
       flag[lane] = 0;
@@ -188,12 +188,11 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
                          global const float* velocity, global const float* carried,
                          global const float* acceleration, global const float* density,
                          global const int* id, global const float* position_before,
-                         global const float* velocity_before,
-                         global const int* id_before, global const int* source,
-                         global const int* resting, int look, global Rested* rested,
-                         constant BodyShape* shapes, global const float* meshes,
-                         global const BodyStep* bodies, int first_body, int body_count, int slot,
-                         global HealthRecord* records) {
+                         global const float* velocity_before, global const int* id_before,
+                         global const int* source, global const int* resting, int look,
+                         global Rested* rested, constant BodyShape* shapes,
+                         global const float* meshes, global const BodyStep* bodies, int first_body,
+                         int body_count, int slot, global HealthRecord* records) {
   local uint of_team[4 * TEAM];
   const int n = p->capacity;
   global HealthRecord* record = records + slot;
@@ -206,7 +205,7 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
       sums.known.ids += rested[i / LANES].ids;
       continue;
     }
-    const Patients s =
+    const CheckInputs s =
         load(p, dt, position, velocity, carried, density, position_before, source, i);
     add_bits(&sums, n, i, ALL_BITS(s.here), rests, look, position, velocity, id, position_before,
              velocity_before, id_before, rested + i / LANES);
@@ -220,10 +219,9 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
     lane_flags any = 0;
     for (int check = 0; check < HEALTH_CHECKS; ++check) any |= bad[check];
     if (!any_lane(any)) continue;
-    bad[HEALTH_STRAY] =
-        but_for_solids(bad[HEALTH_STRAY], p, dt, piston, shapes, meshes, bodies, first_body,
-                       body_count, position_before, velocity_before, source, position, velocity,
-                       acceleration, i);
+    bad[HEALTH_STRAY] = but_for_solids(bad[HEALTH_STRAY], p, dt, piston, shapes, meshes, bodies,
+                                       first_body, body_count, position_before, velocity_before,
+                                       source, position, velocity, acceleration, i);
     for (int check = HEALTH_SPEED; check < HEALTH_CHECKS; ++check) {
       bad[check] = but_for_bodies(bad[check], bodies, first_body, body_count, position, n, i);
     }

@@ -116,7 +116,7 @@ void Health::begin(Device& device, std::size_t steps) {
   records_.enqueue_clear(device);
 }
 
-void Health::look(Device& device, const Patient& patient, const Step& step) {
+void Health::look(Device& device, const CheckInputs& inputs, const Step& step) {
   if (steps_.size() >= records_.size()) {
     throw std::logic_error("more steps are looked at than the frame was said to have");
   }
@@ -126,13 +126,13 @@ void Health::look(Device& device, const Patient& patient, const Step& step) {
   missed_ = false;
   const Look resting = anew ? Look::anew : steps_.size() >= frame_ ? Look::seen : Look::unseen;
   check_.run_teams(
-      device.queue(), parts_, patient.params.memory(), limits_.memory(), static_cast<int>(checks_),
-      as_float(step.dt), as_float(step.piston), patient.now.position.memory(),
-      patient.now.velocity.memory(), patient.carried.memory(), patient.acceleration.memory(),
-      patient.density.memory(), patient.now.id.memory(), patient.before.position.memory(),
-      patient.before.velocity.memory(), patient.before.id.memory(), patient.source, patient.resting,
-      static_cast<int>(resting), rested_.memory(), patient.shapes.memory(), patient.meshes.memory(),
-      patient.bodies.memory(), step.first_body, patient.body_count, slot, records_.memory());
+      device.queue(), parts_, inputs.params.memory(), limits_.memory(), static_cast<int>(checks_),
+      as_float(step.dt), as_float(step.piston), inputs.now.position.memory(),
+      inputs.now.velocity.memory(), inputs.carried.memory(), inputs.acceleration.memory(),
+      inputs.density.memory(), inputs.now.id.memory(), inputs.before.position.memory(),
+      inputs.before.velocity.memory(), inputs.before.id.memory(), inputs.source, inputs.resting,
+      static_cast<int>(resting), rested_.memory(), inputs.shapes.memory(), inputs.meshes.memory(),
+      inputs.bodies.memory(), step.first_body, inputs.body_count, slot, records_.memory());
 }
 
 void Health::enqueue_read(Device& device) {

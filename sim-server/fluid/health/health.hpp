@@ -78,7 +78,7 @@ struct Diagnosis {
 };
 
 /// What the checks of a step read, after it.
-struct Patient {
+struct CheckInputs {
   const Buffer<FluidParams>& params;
   const PointArrays& now;        ///< at the step's end
   const Buffer<float>& carried;  ///< velocities that took them there
@@ -96,14 +96,14 @@ struct Patient {
 class Health {
  public:
   Health() = default;
-  /// `program`: the survey's.
+  /// `program`: the statistics'.
   Health(Device& device, const cl::Program& program, const FluidParams& params);
 
   /// A frame of so many steps begins.
   void begin(Device& device, std::size_t steps);
   /// Enqueues the look at a step that has just been enqueued: at all that is at work, in the last
   /// one of the frame at what rests, too.
-  void look(Device& device, const Patient& patient, const Step& step);
+  void look(Device& device, const CheckInputs& inputs, const Step& step);
   void enqueue_read(Device& device);
   /// Once the queue is finished: what was wrong first, if anything.
   [[nodiscard]] std::optional<Diagnosis> diagnosis() const;

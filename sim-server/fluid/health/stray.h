@@ -32,13 +32,14 @@ typedef struct {
   float3 speed_from, speed;  // [m/s]
   float3 push;               // acceleration [m/s2]
   float rounding;            // of its coordinates [m]
-} Leap;
+} Displacement;
 
-static Leap leap_of(constant FluidParams* p, global const float* position_before,
-                    global const float* velocity_before, int before, global const float* position,
-                    global const float* velocity, global const float* acceleration, int i) {
+static Displacement displacement_of(constant FluidParams* p, global const float* position_before,
+                                    global const float* velocity_before, int before,
+                                    global const float* position, global const float* velocity,
+                                    global const float* acceleration, int i) {
   const int n = p->capacity;
-  Leap l;
+  Displacement l;
   l.from = (float3)(position_before[before], position_before[n + before],
                     position_before[2 * n + before]);
   l.to = (float3)(position[i], position[n + i], position[2 * n + i]);
@@ -51,7 +52,7 @@ static Leap leap_of(constant FluidParams* p, global const float* position_before
   return l;
 }
 
-static bool touches_wall(constant FluidParams* p, const Leap* l, float piston) {
+static bool touches_wall(constant FluidParams* p, const Displacement* l, float piston) {
   for (int k = 0; k < p->wall_count; ++k) {
     const float3 normal = (float3)(p->walls[k].nx, p->walls[k].ny, p->walls[k].nz);
     const float offset = p->walls[k].offset + (k == p->piston ? piston : 0.0f);
@@ -61,7 +62,8 @@ static bool touches_wall(constant FluidParams* p, const Leap* l, float piston) {
   return false;
 }
 
-static bool stopped_by_wall(constant FluidParams* p, const Leap* l, float dt, float piston) {
+static bool stopped_by_wall(constant FluidParams* p, const Displacement* l, float dt,
+                            float piston) {
   const float miss = length(l->to - l->from - dt * l->speed);
   const float stopped = dt * (length(l->speed_from) + dt * length(l->push));
   return miss <= stopped + l->rounding && touches_wall(p, l, piston);
@@ -71,15 +73,14 @@ static bool stopped_by_wall(constant FluidParams* p, const Leap* l, float dt, fl
 // however far that is, or against a wall behind that.
 static bool put_by_body(constant FluidParams* p, constant BodyShape* shapes,
                         global const float* meshes, global const BodyStep* bodies, int first_body,
-                        int body_count, const Leap* l, float piston) {
+                        int body_count, const Displacement* l, float piston) {
   for (int k = 0; k < body_count; ++k) {
     const BodyStep b = bodies[first_body + k];
     const float3 arm = l->to - (float3)(b.px, b.py, b.pz);
     float3 out;
     const float size = size_of(b);
-    const float depth =
-        size *
-        depth_inside(shapes[k], meshes, rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw) / size, &out);
+    const float depth = size * depth_inside(shapes[k], meshes,
+                                            rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw) / size, &out);
     if (fabs(depth - KEPT_DEPTH * p->spacing) <= 1.0e-3f * p->spacing + l->rounding) return true;
   }
   return near_bodies(bodies, first_body, body_count, l->to.x, l->to.y, l->to.z) &&

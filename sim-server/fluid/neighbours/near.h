@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The points near a group: those of the nine runs around it that lie within the support of the box
 // around its particles. On CPUs they are gathered first, some hundreds at a time, and then visited
-// by all lanes together: half of the points in the runs are out of every lane's reach, and to weed
+// by all lanes together: half of the points in the runs are out of every lane's reach, and to cull
 // them out once costs less than to visit them. On GPUs a run is visited as it is.
 
 #include "sim-server/fluid/lanes/lanes.h"
@@ -12,8 +12,8 @@
 #if LANES > 1
 #define NEAR_ROOM 512
 typedef struct {
-  int run;     // 0..8: the one being searched
-  int place;   // in that run; -1: at its beginning
+  int run;    // 0..8: the one being searched
+  int place;  // in that run; -1: at its beginning
   int count;
   int index[NEAR_ROOM];
 } Near;
@@ -40,15 +40,21 @@ static lanes apart(const Group* g, lanes x, lanes y, lanes z) {
 }
 
 // Appends those of the LANES points from `j` on, and before `end`, that are near.
-static int weed(const Group* g, float reach2, global const float* position, int stride, int j,
+static int cull(const Group* g, float reach2, global const float* position, int stride, int j,
                 int end, int* index, int count) {
   const lanes r2 = apart(g, load_x(position, j, end), LOAD(position + stride, j),
                          LOAD(position + 2 * stride, j));
 #if LANES == 16 && defined(__AVX512F__)
   typedef float native __attribute__((__vector_size__(64)));
   typedef int native_int __attribute__((__vector_size__(64)));
-  union { lanes f; native n; } distance, reach;
-  union { lane_flags f; native_int n; } numbers;
+  union {
+    lanes f;
+    native n;
+  } distance, reach;
+  union {
+    lane_flags f;
+    native_int n;
+  } numbers;
   distance.f = r2;
   reach.f = reach2;
   numbers.f = LANE_NUMBERS + j;
@@ -80,7 +86,7 @@ static bool search(constant FluidParams* p, const Group* g, global const int* ce
     const int2 run = neighbour_run(p, cell_start, g->row, g->from, g->to, near->run);
     int j = near->place < 0 ? run.x : near->place;
     for (; j < run.y && count <= NEAR_ROOM - LANES; j += LANES) {
-      count = weed(g, reach2, position, stride, j, run.y, near->index, count);
+      count = cull(g, reach2, position, stride, j, run.y, near->index, count);
     }
     near->place = j;
     if (j < run.y) break;

@@ -5,7 +5,7 @@
 #define SPLASH_FLUID_PARAMS_H
 
 #define SPLASH_MAX_WALLS 8
-#define SPLASH_SLICES 4   // of each cell along x, by which points are sorted (neighbours/grid.h)
+#define SPLASH_SLICES 4  // of each cell along x, by which points are sorted (neighbours/grid.h)
 
 // Where pressure comes from.
 #define SPLASH_WEAKLY_COMPRESSIBLE 0
@@ -23,31 +23,31 @@ typedef struct {
 } WallPlane;
 
 typedef struct {
-  int count;       // fluid particles
-  int capacity;    // stride between the x, y and z parts of a vector array
-  int cells_x;     // grid cells per axis, an empty margin on each side included
+  int count;     // fluid particles
+  int capacity;  // stride between the x, y and z parts of a vector array
+  int cells_x;   // grid cells per axis, an empty margin on each side included
   int cells_y;
   int cells_z;
   float origin_x;  // lower corner of the grid [m]
   float origin_y;
   float origin_z;
-  float inverse_cell;   // 1 / edge of a cell, the support radius [1/m]
-  float support;        // H [m]
+  float inverse_cell;  // 1 / edge of a cell, the support radius [1/m]
+  float support;       // H [m]
   float inverse_support;
-  float length;         // smoothing length h [m]
-  float kernel_norm;    // sigma of params/smoothing.h [1/m3]
-  float mass;           // of a fluid particle [kg]
-  float rest_density;   // [kg/m3]
-  float sound_speed;    // [m/s]
-  float viscous;        // 10 nu: factor of the physical viscosity, Monaghan 2005 [m2/s]
-  float artificial;     // alpha c0 h: factor of the artificial one, pairs that approach [m2/s]
-  float gravity_x;      // [m/s2]
+  float length;        // smoothing length h [m]
+  float kernel_norm;   // sigma of params/smoothing.h [1/m3]
+  float mass;          // of a fluid particle [kg]
+  float rest_density;  // [kg/m3]
+  float sound_speed;   // [m/s]
+  float viscous;       // 10 nu: factor of the physical viscosity, Monaghan 2005 [m2/s]
+  float artificial;    // alpha c0 h: factor of the artificial one, pairs that approach [m2/s]
+  float gravity_x;     // [m/s2]
   float gravity_y;
   float gravity_z;
-  float pull_x;         // squared rates of the central field [1/s2]
+  float pull_x;  // squared rates of the central field [1/s2]
   float pull_y;
   float pull_z;
-  float centre_x;       // where it draws to [m]
+  float centre_x;  // where it draws to [m]
   float centre_y;
   float centre_z;
   float spacing;        // [m]
@@ -56,18 +56,18 @@ typedef struct {
   float torn_density;   // water that is less dense has air in it, and pulls nothing [kg/m3]
   float speed_limit;    // no particle moves faster [m/s]
   int wall_count;
-  int piston;           // index of the wall that moves along its normal, -1: none
-  int slope;            // index of the sloped floor, which replaces the floor (wall 0) where it
-                        // is the nearer, -1: none
-  int solver;           // SPLASH_WEAKLY_COMPRESSIBLE, _DIVERGENCE_FREE or _GRID_PROJECTED
-  float wave_speed;     // of the longest wave, sqrt(g H) of the deepest water [m/s]
-  float tolerance;      // divergence-free: mean density error at which a solve is done [1]
-  float way;            // as far as anything goes in a step, but with the state equation [spacings]
+  int piston;        // index of the wall that moves along its normal, -1: none
+  int slope;         // index of the sloped floor, which replaces the floor (wall 0) where it
+                     // is the nearer, -1: none
+  int solver;        // SPLASH_WEAKLY_COMPRESSIBLE, _DIVERGENCE_FREE or _GRID_PROJECTED
+  float wave_speed;  // of the longest wave, sqrt(g H) of the deepest water [m/s]
+  float tolerance;   // divergence-free: mean density error at which a solve is done [1]
+  float way;         // as far as anything goes in a step, but with the state equation [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
 
-// Water that is stretched (pressure/stretch.h): its stiffness over that of compressed water [1],
-// and how fast it forgets that it is [1/s]. A slap's relief takes R / c0, some 10 ms, a hollow
+// Water that is stretched (pressure/state_equation.h): its stiffness over that of compressed water
+// [1], and how fast it forgets that it is [1/s]. A slap's relief takes R / c0, some 10 ms, a hollow
 // behind a body some tenths of a second, a few thousandths stretched at most: forgetting lets that
 // grow by as much again. A pool that settles is rid of what its surface was left with.
 #define SPLASH_STRETCH_STIFFNESS 0.5f
@@ -75,15 +75,15 @@ typedef struct {
 
 // Where a body is during one step.
 typedef struct {
-  float px, py, pz;              // centre [m]
-  float qx, qy, qz, qw;          // body to world
-  float vx, vy, vz;              // [m/s]
-  float wx, wy, wz;              // angular velocity in the world [rad/s]
+  float px, py, pz;                 // centre [m]
+  float qx, qy, qz, qw;             // body to world
+  float vx, vy, vz;                 // [m/s]
+  float wx, wy, wz;                 // angular velocity in the world [rad/s]
   float lower_x, lower_y, lower_z;  // box around its points, grown by the support radius [m]
   float upper_x, upper_y, upper_z;
-  float speed;                   // of its fastest point, at most [m/s]
-  float lacks;                   // of its size, while it appears (boundary/bodies.h) [1]
-  float grows;                   // by so much of its size [1/s]
+  float speed;  // of its fastest point, at most [m/s]
+  float lacks;  // of its size, while it appears (boundary/bodies.h) [1]
+  float grows;  // by so much of its size [1/s]
 } BodyStep;
 
 // A body slower than this is at rest: trackers tremble [m/s].
@@ -105,22 +105,22 @@ typedef struct {
   float flat;                    // share of its length, in the middle, that does not curve [1]
   int free;                      // 1: the water moves it (free_bodies/), 0: it goes its way
   // Of a mesh only: its distance on a grid and its vertices, among the numbers of all meshes.
-  int field;                     // where its distances begin, x fastest [m]
+  int field;  // where its distances begin, x fastest [m]
   int nodes_x, nodes_y, nodes_z;
   float lower_x, lower_y, lower_z;  // first node [m]
-  float cell;                    // between nodes [m]
-  int vertices;                  // where they begin, x y z of each [m]
+  float cell;                       // between nodes [m]
+  int vertices;                     // where they begin, x y z of each [m]
   int vertex_count;
 } BodyShape;
 
 // A body that the water moves. Its centre is that of its mass.
 typedef struct {
-  int body;           // number among all bodies
-  float mass;         // [kg]
-  float ix, iy, iz;   // moments of inertia [kg m2]
-  float size;         // lever by which spins are made speeds: all unknowns of one unit [m]
-  float restitution;  // of its speed, after a knock against a wall or another body [1]
-  float friction;     // on those, Coulomb [1]
+  int body;              // number among all bodies
+  float mass;            // [kg]
+  float ix, iy, iz;      // moments of inertia [kg m2]
+  float size;            // lever by which spins are made speeds: all unknowns of one unit [m]
+  float restitution;     // of its speed, after a knock against a wall or another body [1]
+  float friction;        // on those, Coulomb [1]
   float ax, ay, az, aw;  // its own axes to the principal ones, of which the moments are
 } FreeBody;
 

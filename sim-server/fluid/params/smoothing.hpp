@@ -15,7 +15,7 @@ constexpr double kLengthOfSupport = 0.4;
 constexpr double kSurfaceLoss = 0.22;
 /// Largest time step, in H / (c0 + v): three layers of water on a floor stay calm up to 0.61 and
 /// simmer from 0.63 on, deeper water from 0.81 [1].
-constexpr double kAcousticShare = 0.6;
+constexpr double kAcousticCfl = 0.6;
 /// Least density of a particle in a body of water: on the lattice a lone particle has 0.23, a film
 /// of one layer 0.63, the top layer of a flat surface 0.81 [rho0].
 constexpr double kLeastDensity = 0.72;

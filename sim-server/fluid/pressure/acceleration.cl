@@ -38,8 +38,7 @@ static lanes friction(constant FluidParams* p, const Movers* m, const Pair* pair
   const float eta2 = 0.01f * p->length * p->length;
   const float viscous = p->viscous / p->rest_density;
   const float artificial = p->artificial / p->rest_density;
-  const lanes closing = (m->u - velocity[j]) * pair->dx +
-                        (m->v - velocity[stride + j]) * pair->dy +
+  const lanes closing = (m->u - velocity[j]) * pair->dx + (m->v - velocity[stride + j]) * pair->dy +
                         (m->w - velocity[2 * stride + j]) * pair->dz;
   return (viscous * closing + artificial * fmin(closing, 0.0f)) * inverse(pair->r2 + eta2);
 }
@@ -47,8 +46,8 @@ static lanes friction(constant FluidParams* p, const Movers* m, const Pair* pair
 // Adds what one neighbour does to the movers, divided by the factor of -grad W; `mass`: the
 // neighbour's, `theirs`: its p / rho^2.
 static void push(constant FluidParams* p, const Group* g, const Movers* m,
-                 global const float* position, global const float* velocity, int stride,
-                 int j, float mass, float theirs, Push* sum) {
+                 global const float* position, global const float* velocity, int stride, int j,
+                 float mass, float theirs, Push* sum) {
   const Pair pair = pair_with(p, g, position, stride, j);
   lanes push = m->own + theirs;
   if (HAS_FRICTION) push -= friction(p, m, &pair, velocity, stride, j);
@@ -76,8 +75,8 @@ static Push push_by_fluid(constant FluidParams* p, const Group* g, const Movers*
 // The share of the bodies, and how they rub on the movers.
 static BodyShare rub_by_bodies(constant FluidParams* p, const Group* g, const Movers* movers,
                                global const int* body_start, global const float* body_position,
-                               global const float* body_velocity,
-                               global const float* body_volume, int stride, Push* rub) {
+                               global const float* body_velocity, global const float* body_volume,
+                               int stride, Push* rub) {
   BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
   Near near;
   begin_search(&near);
@@ -106,15 +105,13 @@ static Push field_at(constant FluidParams* p, const Group* g) {
 }
 
 kernel void compute_acceleration(constant FluidParams* p, global const int* cell_start,
-                                 global const int* stir, global const int* resting,
+                                 global const int* activity, global const int* resting,
                                  global const float* position, global const float* velocity,
-                                 global const float* pressure_term,
-                                 global const float* images,
+                                 global const float* pressure_term, global const float* images,
                                  global const int* body_start, global const float* body_position,
-                                 global const float* body_velocity,
-                                 global const float* body_volume, int body_stride,
-                                 global const BodyStep* bodies, int first_body, int body_count,
-                                 float piston, global float* acceleration,
+                                 global const float* body_velocity, global const float* body_volume,
+                                 int body_stride, global const BodyStep* bodies, int first_body,
+                                 int body_count, float piston, global float* acceleration,
                                  global int* moving) {
   const int n = p->capacity;
   const int group = get_global_id(0);
@@ -126,13 +123,13 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
   lane_flags move = 0;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (stir_of(p, stir, &g) < STIR_MOTION) {
+    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }
     move |= g.mine;
     const Movers movers = {LOAD(velocity, first), LOAD(velocity + n, first),
-                     LOAD(velocity + 2 * n, first), LOAD(pressure_term, first)};
+                           LOAD(velocity + 2 * n, first), LOAD(pressure_term, first)};
     Push by = push_by_fluid(p, &g, &movers, cell_start, position, velocity, pressure_term);
     lanes gx = 0.0f, gy = 0.0f, gz = 0.0f;
     if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {

@@ -3,10 +3,10 @@
 // and walls:
 //   rho_i = sum_j m W_ij + rho0 f_i + rho0 (share of the kernel inside walls)
 //   f_i   = R_i sum_b V_b W_ib                                                   body_image.h
-// and pressure from it by the weakly compressible state equation (stretch.h). The force needs
-// p / rho^2 only, so that is what is stored.
-// The part without bodies is kept, too: it tells water from the film that a body carries along.
-// Where the water sleeps all of them are what they were before the sort.
+// and pressure from it by the weakly compressible state equation (state_equation.h). The force
+// needs p / rho^2 only, so that is what is stored. The part without bodies is kept, too: it tells
+// water from the film that a body carries along. Where the water sleeps all of them are what they
+// were before the sort.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_face.h"
@@ -17,7 +17,7 @@
 #include "sim-server/fluid/neighbours/near.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/smoothing.h"
-#include "sim-server/fluid/pressure/stretch.h"
+#include "sim-server/fluid/pressure/state_equation.h"
 #include "sim-server/fluid/sleep/rest.h"
 #include "sim-server/fluid/sleep/sleep.h"
 
@@ -62,46 +62,42 @@ static lanes sum_bodies(constant FluidParams* p, const Group* g, global const in
 // A group that rests has what it had, wherever the sort put it, and nothing moves it.
 static void keep_resting(constant FluidParams* p, global const int* source, int first, int last,
                          global const float* density_before,
-                         global const float* water_density_before,
-                         global const float* knit_before, global float* density,
-                         global float* water_density, global float* knit,
+                         global const float* water_density_before, global const float* peak_before,
+                         global float* density, global float* water_density, global float* peak,
                          global float* pressure_term, global float* acceleration,
                          global int* moving) {
   const lanes rho = kept(density_before, source, first, last);
-  const lanes k = kept(knit_before, source, first, last);
+  const lanes k = kept(peak_before, source, first, last);
   const lanes none = 0.0f;
   const lane_flags still = 0;
   STORE(rho, density, first);
   STORE(kept(water_density_before, source, first, last), water_density, first);
-  STORE(k, knit, first);
+  STORE(k, peak, first);
   STORE(state_equation(p, rho, k), pressure_term, first);
   STORE(still, moving, first);
   for (int axis = 0; axis < 3; ++axis) STORE(none, acceleration + axis * p->capacity, first);
 }
 
-kernel void compute_density(constant FluidParams* p, global const int* cell_start,
-                            global const int* stir, global const int* source,
-                            global const float* density_before,
-                            global const float* water_density_before,
-                            global const float* knit_before, global const float* position,
-                            global const int* body_start, global const float* body_position,
-                            global const float* body_volume, int body_stride,
-                            constant BodyShape* shapes, global const float* meshes,
-                            global const BodyStep* bodies, int first_body, int body_count,
-                            float dt, float piston, global float* images, global float* density,
-                            global float* water_density, global float* knit,
-                            global float* pressure_term, global float* acceleration,
-                            global int* moving, global int* resting) {
+kernel void compute_density(
+    constant FluidParams* p, global const int* cell_start, global const int* activity,
+    global const int* source, global const float* density_before,
+    global const float* water_density_before, global const float* peak_before,
+    global const float* position, global const int* body_start, global const float* body_position,
+    global const float* body_volume, int body_stride, constant BodyShape* shapes,
+    global const float* meshes, global const BodyStep* bodies, int first_body, int body_count,
+    float dt, float piston, global float* images, global float* density,
+    global float* water_density, global float* peak, global float* pressure_term,
+    global float* acceleration, global int* moving, global int* resting) {
   const int group = get_global_id(0);
   const int first = group * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last) return;
-  resting[group] = rested(p, cell_start, stir, source, position, bodies, first_body, body_count,
+  resting[group] = rested(p, cell_start, activity, source, position, bodies, first_body, body_count,
                           resting[group], first, last);
   if (resting[group] > 0) {
     if (resting[group] == RESTED) return;
-    keep_resting(p, source, first, last, density_before, water_density_before, knit_before, density,
-                 water_density, knit, pressure_term, acceleration, moving);
+    keep_resting(p, source, first, last, density_before, water_density_before, peak_before, density,
+                 water_density, peak, pressure_term, acceleration, moving);
     return;
   }
   lanes water = p->rest_density, rho = p->rest_density;
@@ -118,19 +114,19 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
       choose_image(&images_here, &image, g.mine);
       any_near = true;
     }
-    if (stir_of(p, stir, &g) < STIR_DENSITY) {
+    if (activity_of(p, activity, &g) < ACTIVITY_DENSITY) {
       water = select(water, kept(water_density_before, source, first, last), g.mine);
       rho = select(rho, kept(density_before, source, first, last), g.mine);
       turn = g.next;
       continue;
     }
     const lanes share = wall_field(p, g.x, g.y, g.z, piston).share;
-    const lanes fluid = p->kernel_norm * p->mass * sum_fluid(p, &g, cell_start, position) +
-                        p->rest_density * share;
+    const lanes fluid =
+        p->kernel_norm * p->mass * sum_fluid(p, &g, cell_start, position) + p->rest_density * share;
     lanes all = fluid;
     if (near) {
-      const lanes share = p->kernel_norm * sum_bodies(p, &g, body_start, body_position,
-                                                      body_volume, body_stride);
+      const lanes share =
+          p->kernel_norm * sum_bodies(p, &g, body_start, body_position, body_volume, body_stride);
       all += p->rest_density * image.factor * share;
     }
     water = select(water, fluid, g.mine);
@@ -140,7 +136,7 @@ kernel void compute_density(constant FluidParams* p, global const int* cell_star
   if (any_near) store_image(p, &images_here, first, images);
   STORE(rho, density, first);
   STORE(water, water_density, first);
-  const lanes k = knit_now(p, dt, rho, kept(knit_before, source, first, last));
-  STORE(k, knit, first);
+  const lanes k = peak_density_now(p, dt, rho, kept(peak_before, source, first, last));
+  STORE(k, peak, first);
   STORE(state_equation(p, rho, k), pressure_term, first);
 }

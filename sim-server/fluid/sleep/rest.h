@@ -35,7 +35,7 @@ static bool bodies_near_cells(constant FluidParams* p, global const BodyStep* bo
 
 // Whether any of the particles `first` to `last` moves, has its density kept up or is near a body.
 static bool has_work(constant FluidParams* p, global const int* cell_start,
-                     global const int* stir, global const float* position,
+                     global const int* activity, global const float* position,
                      global const BodyStep* bodies, int first_body, int body_count, int first,
                      int last) {
   const int n = p->capacity;
@@ -44,7 +44,7 @@ static bool has_work(constant FluidParams* p, global const int* cell_start,
     const int next = max(turn + 1, min(last, cell_start[(row + 1) * p->cells_x * SLICES]));
     const int from = slice_x(p, position[turn]) / SLICES;
     const int to = slice_x(p, position[next - 1]) / SLICES;
-    if (stir_in(p, stir, row, from, to) > 0 ||
+    if (activity_in(p, activity, row, from, to) > 0 ||
         bodies_near_cells(p, bodies, first_body, body_count, row, from, to)) {
       return true;
     }
@@ -60,11 +60,11 @@ static bool in_their_places(global const int* source, int first, int last) {
 }
 
 // For how many steps the group of the particles `first` to `last` has rested now.
-static int rested(constant FluidParams* p, global const int* cell_start, global const int* stir,
+static int rested(constant FluidParams* p, global const int* cell_start, global const int* activity,
                   global const int* source, global const float* position,
                   global const BodyStep* bodies, int first_body, int body_count, int before,
                   int first, int last) {
-  if (has_work(p, cell_start, stir, position, bodies, first_body, body_count, first, last)) {
+  if (has_work(p, cell_start, activity, position, bodies, first_body, body_count, first, last)) {
     return 0;
   }
   return in_their_places(source, first, last) ? min(before + 1, RESTED) : 1;

@@ -46,19 +46,19 @@ static bool any_fast(int n, global const float* velocity, float speed, int first
 }
 
 // Behind what goes on in all cells: what would, were their own row all that is awake.
-static global int* own_stir(constant FluidParams* p, global int* stir) {
-  return stir + p->cells_x * p->cells_y * p->cells_z;
+static global int* own_activity(constant FluidParams* p, global int* activity) {
+  return activity + p->cells_x * p->cells_y * p->cells_z;
 }
 
 // What awake cells of a row mean for cell `x` of it.
-static int stir_along(constant FluidParams* p, global const int* awake, int x) {
+static int activity_along(constant FluidParams* p, global const int* awake, int x) {
   const int last = min(x + WAKES_DENSITY, p->cells_x - 1);
-  int stir = 0;
+  int activity = 0;
   for (int k = max(x - WAKES_DENSITY, 0); k <= last; ++k) {
     if (awake[k] == 0) continue;
-    stir = max(stir, abs(k - x) <= WAKES_MOTION ? STIR_MOTION : STIR_DENSITY);
+    activity = max(activity, abs(k - x) <= WAKES_MOTION ? ACTIVITY_MOTION : ACTIVITY_DENSITY);
   }
-  return stir;
+  return activity;
 }
 
 // `bodies`: those of all steps of the frame; `piston_reach`: cells at the moving wall's side that
@@ -66,7 +66,7 @@ static int stir_along(constant FluidParams* p, global const int* awake, int x) {
 kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
                        global const float* velocity, global const BodyStep* bodies, int body_count,
                        int piston_reach, float speed, int hold, global int* awake,
-                       global int* stir) {
+                       global int* activity) {
   const RowShare share = row_share();
   const int row = share.row;
   if (row >= p->cells_y * p->cells_z) return;
@@ -76,22 +76,21 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
   cell_start += row * p->cells_x * SLICES;
   for (int x = share.item; x < p->cells_x; x += share.items) {
     const int first = cell_start[x * SLICES], last = cell_start[(x + 1) * SLICES];
-    const int frames =
-        any_fast(n, velocity, speed, first, last) ? hold : max(awake[x] - 1, 0);
+    const int frames = any_fast(n, velocity, speed, first, last) ? hold : max(awake[x] - 1, 0);
     awake[x] = x < piston_reach ? hold : frames;
   }
   const int y = row % p->cells_y, z = row / p->cells_y;
   for (int b = 0; b < body_count; ++b) {
     const BodyStep body = bodies[b];
-    const int2 ys = cells_within(body.lower_y, body.upper_y, p->origin_y, p->inverse_cell,
-                                 p->cells_y);
-    const int2 zs = cells_within(body.lower_z, body.upper_z, p->origin_z, p->inverse_cell,
-                                 p->cells_z);
+    const int2 ys =
+        cells_within(body.lower_y, body.upper_y, p->origin_y, p->inverse_cell, p->cells_y);
+    const int2 zs =
+        cells_within(body.lower_z, body.upper_z, p->origin_z, p->inverse_cell, p->cells_z);
     if (y < ys.x || y > ys.y || z < zs.x || z > zs.y || body.speed <= SPLASH_TREMBLE) {
       continue;
     }
-    const int2 xs = cells_within(body.lower_x, body.upper_x, p->origin_x, p->inverse_cell,
-                                 p->cells_x);
+    const int2 xs =
+        cells_within(body.lower_x, body.upper_x, p->origin_x, p->inverse_cell, p->cells_x);
     // Of these its own: the first whose number leaves what its item's does.
     const int own = xs.x + (share.item + share.items - xs.x % share.items) % share.items;
     for (int x = own; x <= xs.y; x += share.items) awake[x] = hold;
@@ -101,18 +100,19 @@ kernel void keep_awake(constant FluidParams* p, global const int* cell_start,
   if (share.item == 0) *most = 0;
   wait_for_team();
   if (mine > 0) atomic_max(most, mine);
-  global int* along = own_stir(p, stir) + row * p->cells_x;
-  for (int x = share.item; x < p->cells_x; x += share.items) along[x] = stir_along(p, awake, x);
+  global int* along = own_activity(p, activity) + row * p->cells_x;
+  for (int x = share.item; x < p->cells_x; x += share.items) along[x] = activity_along(p, awake, x);
 }
 
-kernel void stir_cells(constant FluidParams* p, global const int* awake, global int* stir) {
+kernel void spread_activity(constant FluidParams* p, global const int* awake,
+                            global int* activity) {
   const RowShare share = row_share();
   const int row = share.row;
   if (row >= p->cells_y * p->cells_z) return;
   global const int* most = awake + p->cells_x * p->cells_y * p->cells_z;
-  global const int* own = own_stir(p, stir);
-  stir += row * p->cells_x;
-  for (int x = share.item; x < p->cells_x; x += share.items) stir[x] = 0;
+  global const int* own = own_activity(p, activity);
+  activity += row * p->cells_x;
+  for (int x = share.item; x < p->cells_x; x += share.items) activity[x] = 0;
   const int at_y = row % p->cells_y, at_z = row / p->cells_y;
   const int last_y = min(at_y + WAKES_DENSITY, p->cells_y - 1);
   const int last_z = min(at_z + WAKES_DENSITY, p->cells_z - 1);
@@ -121,9 +121,9 @@ kernel void stir_cells(constant FluidParams* p, global const int* awake, global 
       const int other = z * p->cells_y + y;
       if (most[other] == 0) continue;
       const int off = max(abs(z - at_z), abs(y - at_y));
-      const int reach = off <= WAKES_MOTION ? STIR_MOTION : STIR_DENSITY;
+      const int reach = off <= WAKES_MOTION ? ACTIVITY_MOTION : ACTIVITY_DENSITY;
       for (int x = share.item; x < p->cells_x; x += share.items) {
-        stir[x] = max(stir[x], min(own[other * p->cells_x + x], reach));
+        activity[x] = max(activity[x], min(own[other * p->cells_x + x], reach));
       }
     }
   }

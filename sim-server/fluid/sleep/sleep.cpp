@@ -17,18 +17,18 @@ std::size_t group_of(const Profile& profile) {
 Sleep::Sleep(Device& device, const cl::Program& program, const FluidParams& params)
     : rows_(static_cast<std::size_t>(params.cells_y) * static_cast<std::size_t>(params.cells_z)),
       awake_(device, rows_ * (static_cast<std::size_t>(params.cells_x) + 1)),
-      stir_(device, 2 * rows_ * static_cast<std::size_t>(params.cells_x)),
+      activity_(device, 2 * rows_ * static_cast<std::size_t>(params.cells_x)),
       resting_(device, device.vectors_of(params.count)),
       by_teams_(device.profile().team > 1),
       keep_awake_(program, "keep_awake", group_of(device.profile())),
-      stir_cells_(program, "stir_cells", group_of(device.profile())) {
+      spread_activity_(program, "spread_activity", group_of(device.profile())) {
   wake(device);
 }
 
 void Sleep::wake(Device& device) {
-  constexpr int kMoves = 2;  // STIR_MOTION
+  constexpr int kMoves = 2;  // ACTIVITY_MOTION
   awake_.write(device, std::vector<int>(awake_.size(), std::max(rule_.frames, 1) + 1));
-  stir_.write(device, std::vector<int>(stir_.size(), kMoves));
+  activity_.write(device, std::vector<int>(activity_.size(), kMoves));
   resting_.write(device, std::vector<int>(resting_.size(), 0));
 }
 
@@ -42,8 +42,8 @@ void Sleep::update(cl::CommandQueue& queue, const FluidParams& params,
   const int piston_reach = piston_moves ? static_cast<int>(cell) + 2 : 0;
   over_rows(keep_awake_, queue, params_buffer.memory(), grid.cell_start(), velocity.memory(),
             bodies.memory(), body_count, piston_reach, static_cast<float>(rule_.speed),
-            rule_.frames, awake_.memory(), stir_.memory());
-  over_rows(stir_cells_, queue, params_buffer.memory(), awake_.memory(), stir_.memory());
+            rule_.frames, awake_.memory(), activity_.memory());
+  over_rows(spread_activity_, queue, params_buffer.memory(), awake_.memory(), activity_.memory());
 }
 
 }  // namespace splash::sim

@@ -4,28 +4,29 @@
 // one move, within two their density is kept up, so that whatever moves finds its neighbours'
 // pressures right. All others stay as they are: still neighbours, like a wall.
 // `awake` holds a number for each cell and, behind them, one for each row of cells: the largest of
-// the row, by which rows that sleep are passed over. `stir` says of each cell what follows.
+// the row, by which rows that sleep are passed over. `activity` says of each cell what follows.
 
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/neighbours/group.h"
 #include "sim-server/fluid/params/fluid_params.h"
 
-#define WAKES_MOTION 1   // [cells]
+#define WAKES_MOTION 1  // [cells]
 #define WAKES_DENSITY 2
 
-#define STIR_DENSITY 1  // the particles' density is kept up
-#define STIR_MOTION 2   // they move
+#define ACTIVITY_DENSITY 1  // the particles' density is kept up
+#define ACTIVITY_MOTION 2   // they move
 
 // The most that goes on in cells `from` to `to` of a row.
-static int stir_in(constant FluidParams* p, global const int* stir, int row, int from, int to) {
+static int activity_in(constant FluidParams* p, global const int* activity, int row, int from,
+                       int to) {
   int most = 0;
-  for (int x = from; x <= to; ++x) most = max(most, stir[row * p->cells_x + x]);
+  for (int x = from; x <= to; ++x) most = max(most, activity[row * p->cells_x + x]);
   return most;
 }
 
-static int stir_of(constant FluidParams* p, global const int* stir, const Group* g) {
-  return stir_in(p, stir, g->row, g->from / SLICES, g->to / SLICES);
+static int activity_of(constant FluidParams* p, global const int* activity, const Group* g) {
+  return activity_in(p, activity, g->row, g->from / SLICES, g->to / SLICES);
 }
 
 // What sleeping particles `first` to `last` had, before the sort.

@@ -34,8 +34,8 @@ class Sleep {
   /// Wakes everything.
   void wake(Device& device);
 
-  /// Of each cell, what goes on in it (STIR_ in sleep/sleep.h).
-  [[nodiscard]] const cl::Buffer& stir() const noexcept { return stir_.memory(); }
+  /// Of each cell, what goes on in it (ACTIVITY_ in sleep/sleep.h).
+  [[nodiscard]] const cl::Buffer& activity() const noexcept { return activity_.memory(); }
   /// Of each group of particles, for how many steps it has rested (sleep/rest.h).
   [[nodiscard]] const cl::Buffer& resting() const noexcept { return resting_.memory(); }
 
@@ -52,11 +52,11 @@ class Sleep {
   SleepRule rule_;
   std::size_t rows_ = 0;
   Buffer<int> awake_;  ///< frames that each cell stays awake, 0: asleep
-  Buffer<int> stir_;
+  Buffer<int> activity_;
   Buffer<int> resting_;
   bool by_teams_ = false;  ///< that share a row of cells
   Kernel keep_awake_;
-  Kernel stir_cells_;
+  Kernel spread_activity_;
 };
 
 }  // namespace splash::sim

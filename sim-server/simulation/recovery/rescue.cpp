@@ -30,34 +30,35 @@ Vector3 place_of(const Snapshot& state, int id, const FluidParams& params) {
 
 }  // namespace
 
-void locate(Mishap& mishap, Fluid& fluid, const Bodies& bodies, const Scene& scene,
+void locate(StepFault& step_fault, Fluid& fluid, const Bodies& bodies, const Scene& scene,
             double sound_at) {
-  const Diagnosis& what = mishap.what;
+  const Diagnosis& what = step_fault.what;
   if (what.particle < 0 && what.body < 0) return;
-  mishap.place = what.body >= 0
-                     ? bodies.state(static_cast<std::size_t>(what.body), sound_at).position
-                     : place_of(fluid.snapshot(), what.particle, fluid.params());
-  const int body = what.body >= 0 ? what.body : bodies.nearest(mishap.place, sound_at);
+  step_fault.place = what.body >= 0
+                         ? bodies.state(static_cast<std::size_t>(what.body), sound_at).position
+                         : place_of(fluid.snapshot(), what.particle, fluid.params());
+  const int body = what.body >= 0 ? what.body : bodies.nearest(step_fault.place, sound_at);
   if (body < 0) return;
   const auto b = static_cast<std::size_t>(body);
-  mishap.body = scene.bodies[b].name;
-  mishap.distance = length(mishap.place - bodies.state(b, mishap.seconds).position);
+  step_fault.body = scene.bodies[b].name;
+  step_fault.distance = length(step_fault.place - bodies.state(b, step_fault.seconds).position);
 }
 
-void calm(Mishap& mishap, Fluid& fluid, Bodies& bodies, int times, double sound_at) {
+void calm(StepFault& step_fault, Fluid& fluid, Bodies& bodies, int times, double sound_at) {
   const FluidParams& p = fluid.params();
-  const bool many = mishap.what.particles == 0 || mishap.what.particles > kMany * p.count;
-  mishap.calmed = many ? std::numeric_limits<double>::infinity()
-                       : kCalmed * times * static_cast<double>(p.support);
+  const bool many = step_fault.what.particles == 0 || step_fault.what.particles > kMany * p.count;
+  step_fault.calmed = many ? std::numeric_limits<double>::infinity()
+                           : kCalmed * times * static_cast<double>(p.support);
   Snapshot state = fluid.snapshot();
   const auto stride = static_cast<std::size_t>(p.capacity);
   for (std::size_t i = 0; i < state.id.size(); ++i) {
-    if (length(place_at(state, i, p) - mishap.place) > mishap.calmed) continue;
+    if (length(place_at(state, i, p) - step_fault.place) > step_fault.calmed) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) state.velocity[axis * stride + i] = 0.0F;
   }
   fluid.restore(state);
   for (std::size_t b = 0; b < bodies.count(); ++b) {
-    const bool near = length(bodies.state(b, sound_at).position - mishap.place) <= mishap.calmed;
+    const bool near =
+        length(bodies.state(b, sound_at).position - step_fault.place) <= step_fault.calmed;
     if (bodies.is_free(b) && near) bodies.still(b);
   }
 }

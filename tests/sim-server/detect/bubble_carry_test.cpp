@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Bubbles among water, bodies, walls and each other, against the brute-force double twin.
+// Bubbles among water, bodies, walls and each other, against the brute-force double-precision
+// reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/detect/detect_reference.hpp"
 #include "tests/sim-server/detect/detect_rig.hpp"
-#include "tests/sim-server/detect/detect_twin.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace splash::sim {
@@ -31,18 +32,18 @@ class CarryBubbles : public ::testing::TestWithParam<int> {
   static void compare(const FluidState& state, const std::vector<Vector3>& places,
                       const BubbleState& bubble, Worst& worst) {
     const auto i = static_cast<std::size_t>(bubble.id);
-    const double colour = twin_bubble_colour(state.params, places, i);
+    const double colour = reference_bubble_colour(state.params, places, i);
     const double colour_error = std::abs(static_cast<double>(bubble.colour) - colour);
     ASSERT_LE(colour_error, kBound * colour + kRim);
     worst.colour = std::max(worst.colour, colour_error);
     if (colour == 0.0) ++worst.lonely;
 
-    const TwinSum upward = twin_upward(state, places, places[i]);
+    const ReferenceSum upward = reference_upward(state, places, places[i]);
     const double upward_error = std::abs(static_cast<double>(bubble.upward) - upward.value);
     ASSERT_LE(upward_error, kBound * upward.scale + kRim);
     worst.upward = std::max(worst.upward, upward_error);
 
-    const Vector3 moved = places[i] + kFrame * twin_water_velocity(state, places[i]);
+    const Vector3 moved = places[i] + kFrame * reference_water_velocity(state, places[i]);
     const Vector3 place = {static_cast<double>(bubble.x), static_cast<double>(bubble.y),
                            static_cast<double>(bubble.z)};
     const double place_error = length(place - moved);

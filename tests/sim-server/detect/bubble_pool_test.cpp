@@ -9,8 +9,8 @@
 
 #include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/detect/bubbles.hpp"
+#include "tests/sim-server/detect/detect_reference.hpp"
 #include "tests/sim-server/detect/detect_rig.hpp"
-#include "tests/sim-server/detect/detect_twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -80,7 +80,7 @@ TEST_F(Pool, DropsThoseThatBarelyHaveCompany) {
     Bubbles& bubbles = make(16);
     const double support = static_cast<double>(water_.params.support);
     fill_pool(bubbles, {{0.5, 0.5, kBelow}, {0.5, 0.5 + share * support, kBelow}});
-    const double colour = twin_bubble_colour(
+    const double colour = reference_bubble_colour(
         water_.params, {{0.5, 0.5, kBelow}, {0.5, 0.5 + share * support, kBelow}}, 0);
     static_cast<void>(live_until(0.1));
     EXPECT_EQ(bubbles.pool().size(), colour > 1.0e-6 ? 2U : 0U) << "c_b " << colour;

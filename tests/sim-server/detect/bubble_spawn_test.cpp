@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which particles entrap air, against the brute-force double twin, and how they remember it.
+// Which particles entrap air, against the brute-force double-precision reference, and how they
+// remember it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 
 #include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/detect/detect_reference.hpp"
 #include "tests/sim-server/detect/detect_rig.hpp"
-#include "tests/sim-server/detect/detect_twin.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace splash::sim {
@@ -55,7 +56,7 @@ TEST_P(SpawnBubbles, FromFastParticlesWithMostMatterAbove) {
     }
     for (std::size_t i = 0; i < state.id.size(); ++i) {
       const double speed = length(state.velocity[i]) / settings().bubble_speed;
-      const TwinSum upward = twin_upward(state, places, state.position[i]);
+      const ReferenceSum upward = reference_upward(state, places, state.position[i]);
       const double margin = kMargin * (1.0 + upward.scale);
       if (std::abs(upward.value - settings().bubble_gradient) < margin ||
           std::abs(speed - 1.0) < kMargin) {
@@ -98,11 +99,11 @@ TEST_P(SpawnBubbles, AtTheMomentTheGradientCrossesTheThreshold) {
 
     std::map<int, double> last;
     for (std::size_t i = 0; i < before.id.size(); ++i) {
-      last[before.id[i]] = twin_upward(before, {}, before.position[i]).value;
+      last[before.id[i]] = reference_upward(before, {}, before.position[i]).value;
     }
     std::map<int, double> now;
     for (std::size_t i = 0; i < after.id.size(); ++i) {
-      now[after.id[i]] = twin_upward(after, {}, after.position[i]).value;
+      now[after.id[i]] = reference_upward(after, {}, after.position[i]).value;
     }
     for (const DetectedBubble& bubble : bubbles.collect(1.004, kFrame, 2)) {
       const double part = (always.bubble_gradient - last[bubble.particle]) /
@@ -151,7 +152,7 @@ class Memory : public ::testing::Test {
     const FluidState state = read_state(*water_.fluid);
     const auto found = std::find(state.id.begin(), state.id.end(), tracer_);
     const auto i = static_cast<std::size_t>(found - state.id.begin());
-    return twin_upward(state, {}, state.position[i]).value;
+    return reference_upward(state, {}, state.position[i]).value;
   }
 
   Device device_;

@@ -9,8 +9,8 @@
 
 #include "sim-server/detect/cavities.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/detect/detect_reference.hpp"
 #include "tests/sim-server/detect/detect_rig.hpp"
-#include "tests/sim-server/detect/detect_twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -55,9 +55,10 @@ class Grow : public ::testing::TestWithParam<int> {
     const std::vector<Vector3> places = as_floats(given);
     std::vector<bool> seed;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      seed.push_back(twin_bubble_colour(water_.params, places, i) > all_groups().cavity_colour);
+      seed.push_back(reference_bubble_colour(water_.params, places, i) >
+                     all_groups().cavity_colour);
     }
-    return twin_groups(places, static_cast<double>(water_.params.support), seed);
+    return reference_groups(places, static_cast<double>(water_.params.support), seed);
   }
 
   double reach() const { return static_cast<double>(water_.params.support); }

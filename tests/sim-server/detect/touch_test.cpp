@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What body points see of the water against the brute-force double twin.
+// What body points see of the water against the brute-force double-precision reference.
 #include <gtest/gtest.h>
 
 #include "sim-server/detect/impacts.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/detect/detect_reference.hpp"
 #include "tests/sim-server/detect/detect_rig.hpp"
-#include "tests/sim-server/detect/detect_twin.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace splash::sim {
@@ -79,27 +79,29 @@ struct Seen {
 };
 
 /// From the place that the kernel says it looked from.
-void expect_twins(const FluidState& state, const std::vector<float>& density, const Touch& touch,
-                  Seen& seen) {
-  const TwinTouch twin = twin_touch(state, density, vector(touch.x, touch.y, touch.z));
-  ASSERT_NEAR(static_cast<double>(touch.colour), twin.colour, kBound * twin.colour + kRim);
+void expect_references(const FluidState& state, const std::vector<float>& density,
+                       const Touch& touch, Seen& seen) {
+  const ReferenceTouch reference =
+      reference_touch(state, density, vector(touch.x, touch.y, touch.z));
+  ASSERT_NEAR(static_cast<double>(touch.colour), reference.colour,
+              kBound * reference.colour + kRim);
   const Vector3 gradient = vector(touch.gx, touch.gy, touch.gz);
   const double rim = 100.0 * kRim / static_cast<double>(state.params.support);
-  ASSERT_LT(length(gradient - twin.gradient), kBound * twin.gradient_scale + rim);
+  ASSERT_LT(length(gradient - reference.gradient), kBound * reference.gradient_scale + rim);
   // Where the colour is faint, the mean is that of hardly any water.
-  if (twin.colour > 1.0e-3) {
+  if (reference.colour > 1.0e-3) {
     const Vector3 water = vector(touch.water_u, touch.water_v, touch.water_w);
-    ASSERT_LT(length(water - twin.water), 3.0e-5);  // of up to 2.6 m/s
+    ASSERT_LT(length(water - reference.water), 3.0e-5);  // of up to 2.6 m/s
   }
   const Vector3 far =
       vector(touch.x, touch.y, touch.z) + kFar * vector(touch.nx, touch.ny, touch.nz);
-  const double ahead = twin_matter(state, far);
+  const double ahead = reference_matter(state, far);
   ASSERT_NEAR(static_cast<double>(touch.ahead), ahead, 1.0e-3);
   seen.full += ahead == 1.0;
   seen.partly += ahead > 0.1 && ahead < 0.9;
   seen.none += ahead == 0.0;
-  seen.water += twin.seen;
-  seen.spray += twin.passed_over;
+  seen.water += reference.seen;
+  seen.spray += reference.passed_over;
 }
 
 /// That place, and its velocity.
@@ -142,7 +144,7 @@ TEST_P(TouchWater, IsTheTwins) {
     const auto density = water.fluid->water_density().read(device, state.position.size());
     for (std::size_t i = 0; i < touches.size(); ++i) {
       expect_rigid(skins, i, touches[i]);
-      expect_twins(state, density, touches[i], seen);
+      expect_references(state, density, touches[i], seen);
     }
   }
   EXPECT_GT(seen.water, 1000);
@@ -158,9 +160,9 @@ TEST_P(TouchWater, GoesByTheDensityWithoutBodies) {
   prepare(water);
   FluidState state = read_state(*water.fluid);
   const auto density = water.fluid->water_density().read(device, state.position.size());
-  const std::vector<double> with_bodies = twin_density(state);
+  const std::vector<double> with_bodies = reference_density(state);
   state.body_position.clear();
-  const std::vector<double> without = twin_density(state);
+  const std::vector<double> without = reference_density(state);
   int differ = 0;
   for (std::size_t i = 0; i < density.size(); ++i) {
     ASSERT_NEAR(static_cast<double>(density[i]), without[i], 1.0e-5 * without[i]);

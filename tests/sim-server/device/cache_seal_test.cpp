@@ -30,7 +30,7 @@ class Seal : public ::testing::Test {
       write(std::string(program) + "/density/1-1-1/density.so", "machine code");
     }
     CacheSeal(folder_).renew();
-    write("AB/EF/survey/1-1-1/survey.so", "machine code");
+    write("AB/EF/reduce_stats/1-1-1/reduce_stats.so", "machine code");
     write("GH/IJ/program.bc", "code");
   }
   [[nodiscard]] bool has(const std::string& name) const { return fs::exists(folder_ / name); }

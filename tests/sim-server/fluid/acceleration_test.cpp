@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Accelerations against the double twin.
+// Accelerations against the double-precision reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/lane_settings.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -28,9 +28,9 @@ TEST_P(Acceleration, IsTheTwins) {
     FluidState state;
     water.step(1.0e-4, [&](Fluid& fluid) { state = read_state(fluid, water.piston.offset); });
     const std::vector<Vector3> device_says = read_acceleration(*water.fluid);
-    const std::vector<TwinAcceleration> twin = twin_acceleration(state);
-    for (std::size_t i = 0; i < twin.size(); ++i) {
-      const double error = length(device_says[i] - twin[i].value) / twin[i].scale;
+    const std::vector<ReferenceAcceleration> reference = reference_acceleration(state);
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      const double error = length(device_says[i] - reference[i].value) / reference[i].scale;
       ASSERT_LT(error, kBound) << "particle " << state.id[i];
       worst = std::max(worst, error);
     }
@@ -38,7 +38,8 @@ TEST_P(Acceleration, IsTheTwins) {
   std::printf("worst error of acceleration to its scale: %.2e\n", worst);
 }
 
-// The twin alone could share a mistake with the kernel; that pair forces cancel is beyond both.
+// The reference alone could share a mistake with the kernel; that pair forces cancel is beyond
+// both.
 TEST_P(Acceleration, OfAllTogetherIsGravity) {
   Device device(-1, false, GetParam().lanes);
   std::vector<Water> all = situations();

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {

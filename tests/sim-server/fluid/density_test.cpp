@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Density and pressure against the double twin.
+// Density and pressure against the double-precision reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "tests/sim-server/fluid/lane_settings.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -27,14 +27,16 @@ TEST_P(Density, IsTheTwins) {
     water.fluid->set_bodies(water.bodies->at(0.0));
     water.fluid->prepare(water.step_at(0.0));
     const FluidState state = read_state(*water.fluid, water.piston.offset);
-    const std::vector<double> twin = twin_density(state);
+    const std::vector<double> reference = reference_density(state);
     const double sound = static_cast<double>(state.params.sound_speed);
-    for (std::size_t i = 0; i < twin.size(); ++i) {
-      ASSERT_NEAR(state.density[i], twin[i], kBound * twin[i]) << "particle " << state.id[i];
-      worst = std::max(worst, std::abs(state.density[i] / twin[i] - 1.0));
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      ASSERT_NEAR(state.density[i], reference[i], kBound * reference[i])
+          << "particle " << state.id[i];
+      worst = std::max(worst, std::abs(state.density[i] / reference[i] - 1.0));
       // The pressure is a small difference of densities: it inherits their absolute error.
-      ASSERT_NEAR(state.pressure_term[i], twin_pressure_term(state.params, twin[i], twin[i]),
-                  2.0 * kBound * sound * sound / twin[i])
+      ASSERT_NEAR(state.pressure_term[i],
+                  reference_pressure_term(state.params, reference[i], reference[i]),
+                  2.0 * kBound * sound * sound / reference[i])
           << "particle " << state.id[i];
     }
   }

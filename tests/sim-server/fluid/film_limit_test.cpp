@@ -3,7 +3,7 @@
 // changes its density by what the image behind the wall or body grows, g . u, and by what it moves
 // along with its neighbours in the film, i s . u (lattice_waves.hpp): two parts of one wave, so
 //   a = -c0^2 (g g^T + s s^T) u,   omega^2 <= c0^2 (|g|^2 + |s|^2),
-// g and the place at which the film has the density at rest by the twin.
+// g and the place at which the film has the density at rest by the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +16,8 @@
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/lattice_waves.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -76,7 +76,7 @@ double density(const Ground& ground, double stretch, double height, const Vector
     }
   }
   film.position[kMiddle] = film.position[kMiddle] + way;
-  return twin_density(film)[kMiddle] / static_cast<double>(film.params.rest_density);
+  return reference_density(film)[kMiddle] / static_cast<double>(film.params.rest_density);
 }
 
 /// Where the film has the density at rest [m].
@@ -120,7 +120,7 @@ double limit(const Ground& ground, double stretch) {
   const double swing =
       std::hypot(growth(ground, stretch, height), growth_within(ground, stretch)) * kSupport;
   std::printf("stretched by %.2f: %.3f spacings high, %.2f c0/H, steps of %.3f H/c0; used: %.3f\n",
-              stretch, height / kSpacing, swing, 2.0 / swing, kAcousticShare);
+              stretch, height / kSpacing, swing, 2.0 / swing, kAcousticCfl);
   return 2.0 / swing;
 }
 
@@ -128,7 +128,7 @@ double limit(const Ground& ground, double stretch) {
 // 0.54 to 0.57.
 TEST(FilmLimit, OnAWallIsAboveTheDefault) {
   for (const double stretch : {1.05, 1.0, 0.95}) {
-    EXPECT_GT(limit(floor_of_tank(), stretch), kAcousticShare);
+    EXPECT_GT(limit(floor_of_tank(), stretch), kAcousticCfl);
   }
 }
 
@@ -136,7 +136,7 @@ TEST(FilmLimit, OnABodyIsAboveTheDefault) {
   for (const double part : {0.0, 0.25, 0.5}) {
     const Ground ground = plate({part * kSpacing, part * kSpacing, 0.0});
     for (const double stretch : {1.05, 1.0, 0.95}) {
-      EXPECT_GT(limit(ground, stretch), kAcousticShare) << part << " spacings aside";
+      EXPECT_GT(limit(ground, stretch), kAcousticCfl) << part << " spacings aside";
     }
   }
 }

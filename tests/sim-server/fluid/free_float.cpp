@@ -67,7 +67,7 @@ void FreeFloat::run(double seconds) {
     fluid->set_bodies(steps);
     fluid->prepare(step);
     fluid->advance(step);
-    static_cast<void>(fluid->survey());
+    static_cast<void>(fluid->stats());
     const std::vector<FreeBodyEnd> ends = fluid->free_bodies()->ends();
     for (std::size_t k = 0; k < ends.size(); ++k) steps[k] = ends[k].step;
     for (std::size_t k = ends.size(); k < steps.size(); ++k) {

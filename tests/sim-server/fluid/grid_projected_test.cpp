@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The grid-projected solver: each stage of a step against its twin, the same bits twice, still
-// water that stays still, and waves that last.
+// The grid-projected solver: each stage of a step against its reference implementation, the same
+// bits twice, still water that stays still, and waves that last.
 #include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/start/settle.hpp"
-#include "tests/sim-server/fluid/grid_projected_twin.hpp"
+#include "tests/sim-server/fluid/grid_projected_reference.hpp"
 #include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kStep = 4.0e-3;  ///< [s]
 
-class GridProjectedTwin : public ::testing::TestWithParam<Build> {};
+class GridProjectedReference : public ::testing::TestWithParam<Build> {};
 
 const GridProjected& solver_of(const Water& water) {
   return dynamic_cast<const GridProjected&>(water.fluid->solver());
@@ -77,7 +77,7 @@ double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
   return most;
 }
 
-TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
+TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
   Device device(-1, false, GetParam().lanes);
   Water water = odd_tank();
   water.start(device, {});
@@ -89,9 +89,9 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   const FluidParams& p = before.params;
   const std::size_t count = before.id.size();
   const auto stride = static_cast<std::size_t>(p.capacity);
-  const MacTwin twin(solver.grid());
+  const MacReference reference(solver.grid());
 
-  TwinGathered gathered = twin.gather(before.position, before.velocity);
+  ReferenceGathered gathered = reference.gather(before.position, before.velocity);
   const auto cells = static_cast<std::size_t>(solver.grid().level[0].cells);
   EXPECT_LT(apart(read_faces(device, solver, solver.mean()), gathered.mean), 1.0e-5);
   EXPECT_LT(apart(read_faces(device, solver, solver.weight()), gathered.weight), 2.0e-4);
@@ -104,20 +104,20 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   const auto unseen = [&](const std::vector<Vector3>& values, const MacFaces& mean) {
     std::vector<Vector3> left = values;
     for (std::size_t i = 0; i < count; ++i) {
-      left[i] = left[i] - twin.at(before.position[i], mean, everywhere, {0.0, 0.0, 0.0});
+      left[i] = left[i] - reference.at(before.position[i], mean, everywhere, {0.0, 0.0, 0.0});
     }
     return left;
   };
   deviation = unseen(before.velocity, gathered.mean);
   EXPECT_LT(apart(read_vectors(device, solver.deviation(), stride, count), deviation), 1.0e-5);
-  const TwinGathered seen = twin.gather(before.position, deviation);
+  const ReferenceGathered seen = reference.gather(before.position, deviation);
   EXPECT_LT(apart(read_faces(device, solver, solver.seen()), seen.mean), 1.0e-5);
   const std::vector<Vector3> twice = unseen(deviation, seen.mean);
 
   const std::vector<double> pressure = read(device, solver.pressures(), 0, cells);
-  const MacFaces change = twin.change(gathered, p, pressure, kStep);
+  const MacFaces change = reference.change(gathered, p, pressure, kStep);
   const MacFaces changed = read_faces(device, solver, solver.change());
-  const MacFaces known = twin.known(gathered);
+  const MacFaces known = reference.known(gathered);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t c = 0; c < cells; ++c) {
       if (known[axis][c] > 0.0) {
@@ -128,7 +128,7 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
     }
   }
   MacFaces still = gathered.mean;
-  MacFaces pushed = twin.change(gathered, p, MacField(cells, 0.0), kStep);
+  MacFaces pushed = reference.change(gathered, p, MacField(cells, 0.0), kStep);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t c = 0; c < cells; ++c) {
       still[axis][c] += change[axis][c];
@@ -137,8 +137,8 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   }
   double left = 0.0;
   double asked = 0.0;
-  for (const double rate : twin.left(gathered, still)) left += rate * rate;
-  for (const double rate : twin.left(gathered, pushed)) asked += rate * rate;
+  for (const double rate : reference.left(gathered, still)) left += rate * rate;
+  for (const double rate : reference.left(gathered, pushed)) asked += rate * rate;
   EXPECT_GT(asked, 1.0);
   EXPECT_LT(std::sqrt(left / asked), 2.0e-4);
 
@@ -150,16 +150,16 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   spacing.params.sound_speed = static_cast<float>(slow);
   for (std::size_t i = 0; i < count; ++i) {
     spacing.pressure_term[i] =
-        twin_pressure_term(spacing.params, before.density[i], before.knit[i]);
+        reference_pressure_term(spacing.params, before.density[i], before.peak_density[i]);
   }
-  const std::vector<TwinAcceleration> push = twin_acceleration(spacing);
+  const std::vector<ReferenceAcceleration> push = reference_acceleration(spacing);
   const double filtered = 1.0 - std::exp(-filter_rate(0.02) * kStep);
   const Snapshot after = water.fluid->snapshot();
   double worst_speed = 0.0;
   double worst_place = 0.0;
   int walls = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vector3 gain = twin.at(before.position[i], change, known, {0.0, 0.0, -9.81 * kStep});
+    const Vector3 gain = reference.at(before.position[i], change, known, {0.0, 0.0, -9.81 * kStep});
     const Vector3 v = before.velocity[i] + gain;
     const Vector3 way = kStep * (v - deviation[i]) + (kStep * kStep) * push[i].value;
     const Vector3 place = before.position[i] + way;
@@ -177,7 +177,7 @@ TEST_P(GridProjectedTwin, StepsAsTheTwinDoes) {
   EXPECT_LT(worst_place, 1.0e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedTwin, ::testing::Values(Build{1}, Build{16}),
+INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedReference, ::testing::Values(Build{1}, Build{16}),
                          build_name);
 
 TEST(GridProjected, GivesTheSameBitsTwice) {
@@ -205,7 +205,7 @@ TEST(GridProjected, StepsOnADeviceOfManyWorkItemsAsOnACpu) {
     water.stir(0.3, 3);
     for (int k = 0; k < 3; ++k) water.step(kStep);
     ends.push_back(water.fluid->snapshot());
-    EXPECT_EQ(water.fluid->survey().not_finite, 0);
+    EXPECT_EQ(water.fluid->stats().not_finite, 0);
   }
   ASSERT_EQ(ends[0].id, ends[1].id);
   double worst = 0.0;
@@ -224,16 +224,16 @@ TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
   let_settle(water);
   for (int k = 0; k < 200; ++k) water.step(1.0e-2);
   const double wave = std::sqrt(9.81 * depth);
-  EXPECT_LT(water.fluid->survey().speed, 0.002 * wave);
+  EXPECT_LT(water.fluid->stats().speed, 0.002 * wave);
   // From below, as pressure gauges read it: the grid's lowest cells, carried to the floor.
   const MacGrid& grid = solver_of(water).grid();
   const auto cells = static_cast<std::size_t>(grid.level[0].cells);
   const std::vector<double> pressure = read(device, solver_of(water).pressures(), 0, cells);
-  const MacTwin twin(grid);
+  const MacReference reference(grid);
   double sum = 0.0;
   for (int j = 0; j < grid.level[0].ny; ++j) {
     for (int i = 0; i < grid.level[0].nx; ++i) {
-      sum += pressure[static_cast<std::size_t>(twin.number(i, j, 0))] +
+      sum += pressure[static_cast<std::size_t>(reference.number(i, j, 0))] +
              998.0 * 9.81 * 0.5 * static_cast<double>(grid.hz);
     }
   }
@@ -256,7 +256,7 @@ TEST(GridProjected, GoesOnFromASoundStateAsIfNothingHadBeen) {
     water.fluid->prepare(water.step_at(kStep));
     meanwhile();
     water.fluid->advance(water.step_at(kStep));
-    static_cast<void>(water.fluid->survey());
+    static_cast<void>(water.fluid->stats());
     return water.fluid->health().diagnosis();
   };
   const auto sound = [&] {
@@ -315,7 +315,7 @@ TEST(GridProjected, ABallUnderWaterIsBorneByWhatItDisplaces) {
   water.start(device);
   settle(*water.fluid, water.bodies->at(0.0), 0.0, 0.5, 1.0e-2);
   for (int k = 0; k < 100; ++k) water.step(1.0e-2);
-  EXPECT_LT(water.fluid->survey().speed, 0.03 * std::sqrt(9.81 * kDepth));
+  EXPECT_LT(water.fluid->stats().speed, 0.03 * std::sqrt(9.81 * kDepth));
   const GridProjected& solver = solver_of(water);
   const MacGrid& grid = solver.grid();
   const MacLevel& level = grid.level[0];
@@ -325,13 +325,13 @@ TEST(GridProjected, ABallUnderWaterIsBorneByWhatItDisplaces) {
   const MacFaces gap = read_faces(device, solver, solver.gap());
   const double area = static_cast<double>(grid.hx) * static_cast<double>(grid.hy);
   const double volume = area * static_cast<double>(grid.hz);
-  const MacTwin twin(grid);
+  const MacReference reference(grid);
   double displaced = 0.0;
   double force = 0.0;
   for (int k = 0; k < level.nz; ++k) {
     for (int j = 0; j < level.ny; ++j) {
       for (int i = 0; i < level.nx; ++i) {
-        const auto c = static_cast<std::size_t>(twin.number(i, j, k));
+        const auto c = static_cast<std::size_t>(reference.number(i, j, k));
         displaced += volume * (1.0 - space[c]);
         // What the cell presses on the body with, and not on the water beside it.
         force += area * pressure[c] *

@@ -34,7 +34,7 @@ class HealthOf : public ::testing::TestWithParam<Build> {
         if (k == 1) harm(f);
       });
     }
-    static_cast<void>(fluid.survey());
+    static_cast<void>(fluid.stats());
     return fluid.health().diagnosis();
   }
 
@@ -95,7 +95,7 @@ TEST_P(HealthOf, AStepTooLongIsSeenWhateverCameOfIt) {
     const Snapshot sound = fluid.snapshot();
     fluid.begin_watch(1);
     water_.step(dt);
-    static_cast<void>(fluid.survey());
+    static_cast<void>(fluid.stats());
     ASSERT_TRUE(fluid.health().diagnosis());
     EXPECT_EQ(fluid.health().diagnosis()->fault, Fault::step);
     fluid.restore(sound);

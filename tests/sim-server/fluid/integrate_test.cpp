@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -18,8 +18,8 @@ struct Moved {
   bool on_edge = false;  ///< of a wall's decision: rounding may take either side
 };
 
-Moved twin_integrate(const FluidParams& p, const Vector3& x0, const Vector3& v0, const Vector3& a,
-                     double dt, const PistonState& piston) {
+Moved reference_integrate(const FluidParams& p, const Vector3& x0, const Vector3& v0,
+                          const Vector3& a, double dt, const PistonState& piston) {
   Moved m;
   m.v = v0 + dt * a;
   const double limit = static_cast<double>(p.speed_limit);
@@ -42,25 +42,27 @@ Moved twin_integrate(const FluidParams& p, const Vector3& x0, const Vector3& v0,
 class Integrate : public ::testing::Test {
  protected:
   /// Steps once and compares every particle; returns how many met a wall or the speed limit.
-  void compare(Water& water, double stir, double dt) {
+  void compare(Water& water, double activity, double dt) {
     water.start(device_);
-    water.stir(stir, 21);
+    water.stir(activity, 21);
     FluidState state;
     water.step(dt, [&](Fluid& fluid) { state = read_state(fluid); });
     const std::vector<Vector3> a = read_acceleration(*water.fluid);
     const Snapshot after = water.fluid->snapshot();
     for (std::size_t i = 0; i < a.size(); ++i) {
-      const Moved twin = twin_integrate(state.params, state.position[i], state.velocity[i], a[i],
-                                        dt, water.piston);
+      const Moved reference = reference_integrate(state.params, state.position[i],
+                                                  state.velocity[i], a[i], dt, water.piston);
       const Vector3 free = state.velocity[i] + dt * a[i];
       limited_ += length(free) > static_cast<double>(state.params.speed_limit);
-      stopped_ += length(twin.v - free) > 1.0e-3;
-      if (twin.on_edge) continue;
+      stopped_ += length(reference.v - free) > 1.0e-3;
+      if (reference.on_edge) continue;
       const Vector3 x = vector_of(*water.fluid, after.position, i);
       const Vector3 v = vector_of(*water.fluid, after.velocity, i);
-      ASSERT_LT(length(x - twin.x), 1.0e-6 * (1.0 + length(twin.x))) << "particle " << state.id[i];
+      ASSERT_LT(length(x - reference.x), 1.0e-6 * (1.0 + length(reference.x)))
+          << "particle " << state.id[i];
       // Far from rest an acceleration is large; its part of v rounds with it.
-      ASSERT_LT(length(v - twin.v), 1.0e-6 * (1.0 + length(free))) << "particle " << state.id[i];
+      ASSERT_LT(length(v - reference.v), 1.0e-6 * (1.0 + length(free)))
+          << "particle " << state.id[i];
     }
   }
 

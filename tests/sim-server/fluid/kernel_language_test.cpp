@@ -18,7 +18,7 @@ namespace splash::sim {
 namespace kernels {
 std::vector<KernelSource> detect();
 std::vector<KernelSource> gauge();
-std::vector<KernelSource> mould();
+std::vector<KernelSource> pin();
 }  // namespace kernels
 
 namespace {
@@ -35,10 +35,14 @@ struct NamedProgram {
 };
 
 std::vector<NamedProgram> programs() {
-  return {{"fluid", fluid_sources()},           {"divergence_free", divergence_free_sources()},
-          {"free_bodies", free_body_sources()}, {"survey", survey_sources()},
-          {"mould", kernels::mould()},          {"grid_projected", grid_projected_sources()},
-          {"detect", kernels::detect()},        {"gauge", kernels::gauge()}};
+  return {{"fluid", fluid_sources()},
+          {"divergence_free", divergence_free_sources()},
+          {"free_bodies", free_body_sources()},
+          {"reduce_stats", stats_sources()},
+          {"pin", kernels::pin()},
+          {"grid_projected", grid_projected_sources()},
+          {"detect", kernels::detect()},
+          {"gauge", kernels::gauge()}};
 }
 
 std::string output_of(const std::string& command, int& status) {

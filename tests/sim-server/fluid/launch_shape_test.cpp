@@ -105,12 +105,12 @@ TEST_F(LaunchShape, OfAStepWithFreeBodiesIsWide) {
   EXPECT_LE(launches_per_step(kernels, 2), 16.0 + 9.0 + 3.0);
 }
 
-// A survey is taken once a frame.
-TEST_F(LaunchShape, OfASurveyIsWide) {
+// The statistics is taken once a frame.
+TEST_F(LaunchShape, OfTheStatisticsIsWide) {
   Water water = pool(PressureKind::weakly_compressible);
   water.start(device_);
   bench::begin_ledger();
-  static_cast<void>(water.fluid->survey());
+  static_cast<void>(water.fluid->stats());
   const auto kernels = bench::end_ledger();
   EXPECT_EQ(kernels.size(), 1U);
   expect_many_items(kernels, water.params.count);
@@ -129,7 +129,7 @@ TEST_F(LaunchShape, OfALookAtWhatMaySleepIsWide) {
   device_.queue().finish();
   const auto kernels = bench::end_ledger();
   const auto rows = static_cast<std::size_t>(water.params.cells_y * water.params.cells_z);
-  for (const char* name : {"keep_awake", "stir_cells"}) {
+  for (const char* name : {"keep_awake", "spread_activity"}) {
     ASSERT_TRUE(kernels.contains(name)) << name;
     EXPECT_GE(kernels.at(name).least, device_.profile().team * rows) << name;
   }

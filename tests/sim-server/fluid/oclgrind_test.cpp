@@ -70,7 +70,7 @@ Kernels join(std::initializer_list<Kernels> parts) {
 const Kernels kRuns = {"count_cells", "sum_blocks", "place_cells", "sort_points"};
 const Kernels kRanks = {"count_points", "sum_cells", "start_cells", "gather_cells", "rank_points"};
 const Kernels kStep = {"place_bodies", "gather_body_volumes", "compute_density", "keep_awake",
-                       "survey",       "check_health",        "stir_cells",      "put_back"};
+                       "reduce_stats", "check_health",        "spread_activity", "put_back"};
 /// Of solvers whose pressure pushes pairs of particles.
 const Kernels kPairs = {"compute_acceleration", "integrate"};
 const Kernels kSolve = {

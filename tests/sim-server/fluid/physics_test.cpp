@@ -17,9 +17,9 @@ namespace {
 
 void expect_in_tank(Water& water) {
   const Snapshot snapshot = water.fluid->snapshot();
-  const Survey survey = water.fluid->survey();
-  EXPECT_EQ(survey.not_finite, 0);
-  EXPECT_EQ(survey.runaway, 0);
+  const FluidStats stats = water.fluid->stats();
+  EXPECT_EQ(stats.not_finite, 0);
+  EXPECT_EQ(stats.runaway, 0);
   for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
     const Vector3 x = vector_of(*water.fluid, snapshot.position, i);
     for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -46,10 +46,10 @@ class Resting : public Sleeping {
   /// What goes on in each cell; nothing beyond the grid.
   struct Cells {
     int x, y, z;
-    std::vector<int> stir;
+    std::vector<int> activity;
     int operator()(int at_x, int at_y, int at_z) const {
       const bool within = at_x >= 0 && at_x < x && at_y >= 0 && at_y < y && at_z >= 0 && at_z < z;
-      return within ? stir[static_cast<std::size_t>((at_z * y + at_y) * x + at_x)] : 0;
+      return within ? activity[static_cast<std::size_t>((at_z * y + at_y) * x + at_x)] : 0;
     }
     [[nodiscard]] std::array<int, 3> of(const FluidParams& p,
                                         const std::array<float, 11>& state) const {
@@ -64,30 +64,30 @@ class Resting : public Sleeping {
   Cells read_cells() {
     const FluidParams& p = water_.params;
     Cells cells = {p.cells_x, p.cells_y, p.cells_z, {}};
-    cells.stir.resize(static_cast<std::size_t>(p.cells_x * p.cells_y * p.cells_z));
-    device_.queue().enqueueReadBuffer(water_.fluid->stirred_cells(), CL_TRUE, 0,
-                                      cells.stir.size() * sizeof(int), cells.stir.data());
+    cells.activity.resize(static_cast<std::size_t>(p.cells_x * p.cells_y * p.cells_z));
+    device_.queue().enqueueReadBuffer(water_.fluid->cell_activity(), CL_TRUE, 0,
+                                      cells.activity.size() * sizeof(int), cells.activity.data());
     return cells;
   }
 
   /// The most that goes on in the cells of all that are handled with particle `id`: those of its
   /// vector that are in the same row. Vectors are as they are `now`, cells as they were sorted by,
   /// of where all had been `before` the step: whoever wakes may leave its cell at once.
-  int most_around(const Cells& stir, const Numbers& before, const Numbers& now,
+  int most_around(const Cells& activity, const Numbers& before, const Numbers& now,
                   std::size_t id) const {
     const auto lanes = static_cast<std::size_t>(GetParam().lanes);
     const std::size_t first = now.place[id] / lanes * lanes;
-    const std::array<int, 3> here = stir.of(water_.params, before.state[id]);
+    const std::array<int, 3> here = activity.of(water_.params, before.state[id]);
     int from = here[0];
     int to = here[0];
     for (std::size_t i = first; i < std::min(first + lanes, now.id.size()); ++i) {
-      const std::array<int, 3> cell = stir.of(water_.params, before.state[now.id[i]]);
+      const std::array<int, 3> cell = activity.of(water_.params, before.state[now.id[i]]);
       if (cell[1] != here[1] || cell[2] != here[2]) continue;
       from = std::min(from, cell[0]);
       to = std::max(to, cell[0]);
     }
     int most = 0;
-    for (int x = from; x <= to; ++x) most = std::max(most, stir(x, here[1], here[2]));
+    for (int x = from; x <= to; ++x) most = std::max(most, activity(x, here[1], here[2]));
     return most;
   }
 
@@ -101,7 +101,7 @@ class Resting : public Sleeping {
       if (k == 0) harm();
       fluid.advance(step);
     }
-    static_cast<void>(fluid.survey());
+    static_cast<void>(fluid.stats());
     fluid.end_watch();
     const auto found = fluid.health().diagnosis();
     if (!found) fluid.health().accept();
@@ -121,9 +121,9 @@ TEST_P(Resting, WhoeverSleepsKeepsItsNumbersThroughAllSorts) {
   while (height_ > 0.1) {
     frame();
     const Numbers now = numbers();
-    const Cells stir = read_cells();
+    const Cells activity = read_cells();
     for (std::size_t id = 0; id < sleeps.size(); ++id) {
-      sleeps[id] = sleeps[id] && most_around(stir, before, now, id) == 0;
+      sleeps[id] = sleeps[id] && most_around(activity, before, now, id) == 0;
       if (!sleeps[id]) continue;
       ASSERT_EQ(now.state[id], first.state[id]) << "at a height of " << height_;
       moved += now.place[id] != first.place[id];
@@ -137,21 +137,21 @@ TEST_P(Resting, WhoeverSleepsKeepsItsNumbersThroughAllSorts) {
 TEST_P(Resting, DensityIsKeptUpOneCellFartherThanWaterMoves) {
   put_to_sleep();
   drop_ = 1.0;
-  while (water_.fluid->survey().asleep == water_.params.count) frame();
+  while (water_.fluid->stats().asleep == water_.params.count) frame();
   for (int k = 0; k < 20; ++k) frame();
-  const Cells stir = read_cells();
+  const Cells activity = read_cells();
   const auto most_around = [&](int x, int y, int z) {
     int most = 0;
     for (int k = 0; k < 27; ++k)
-      most = std::max(most, stir(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
+      most = std::max(most, activity(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
     return most;
   };
   int cells[3] = {0, 0, 0};
-  for (int z = 0; z < stir.z; ++z) {
-    for (int y = 0; y < stir.y; ++y) {
-      for (int x = 0; x < stir.x; ++x) {
-        ++cells[stir(x, y, z)];
-        EXPECT_EQ(stir(x, y, z) > 0, most_around(x, y, z) == 2) << x << ' ' << y << ' ' << z;
+  for (int z = 0; z < activity.z; ++z) {
+    for (int y = 0; y < activity.y; ++y) {
+      for (int x = 0; x < activity.x; ++x) {
+        ++cells[activity(x, y, z)];
+        EXPECT_EQ(activity(x, y, z) > 0, most_around(x, y, z) == 2) << x << ' ' << y << ' ' << z;
       }
     }
   }
@@ -198,8 +198,8 @@ TEST_P(Resting, IsNoHarmThatGaugesSortBetweenFrames) {
   while (height_ > 0.1) {
     fluid.begin_watch(1);
     frame();
-    static_cast<void>(fluid.survey());
-    asleep += fluid.survey().asleep;
+    static_cast<void>(fluid.stats());
+    asleep += fluid.stats().asleep;
     const auto found = fluid.health().diagnosis();
     ASSERT_FALSE(found) << describe(found->fault) << " at a height of " << height_;
     fluid.health().accept();

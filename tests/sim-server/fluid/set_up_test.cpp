@@ -9,8 +9,8 @@
 
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -108,7 +108,7 @@ TEST(SetUp, LatticeHasTheDensityAtRest) {
   FluidState state;
   state.position = initial_particles(scene);
   state.params = make_params(scene, state.position);
-  const std::vector<double> density = twin_density(state);
+  const std::vector<double> density = reference_density(state);
   for (std::size_t i = 0; i < density.size(); ++i) {
     const Vector3& x = state.position[i];
     if (x[2] > 0.2 - 0.05) continue;  // the surface has air above

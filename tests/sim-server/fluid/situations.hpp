@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The states of water that kernels are compared with their twins on, each with what it is hard for.
+// The states of water that kernels are compared with their reference implementations on, each with
+// what it is hard for.
 #pragma once
 
 #include <vector>

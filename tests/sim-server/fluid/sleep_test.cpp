@@ -32,7 +32,7 @@ TEST_P(Sleeping, ABodyThatMovesWakesWhatItReachesAndNoMore) {
   int frames = 0;
   while (woken_at < 0.0 && ++frames < 2000) {
     frame();
-    if (water_.fluid->survey().asleep < water_.params.count) woken_at = height_;
+    if (water_.fluid->stats().asleep < water_.params.count) woken_at = height_;
   }
   // Its underside is as far from the water as the support and two cells reach, and not nearer
   // than the support: what it pushes is awake in time.

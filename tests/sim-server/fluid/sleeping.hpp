@@ -53,7 +53,7 @@ class Sleeping : public ::testing::TestWithParam<Build> {
       water_.fluid->still();
       frame();
     }
-    ASSERT_EQ(water_.fluid->survey().asleep, water_.params.count);
+    ASSERT_EQ(water_.fluid->stats().asleep, water_.params.count);
   }
 
   std::vector<int> moving() const {

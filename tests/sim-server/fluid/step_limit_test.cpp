@@ -61,9 +61,9 @@ TEST(StepLimit, OfTheoryIsAboveTheLongestStepAndFarBelowTwiceTheDefault) {
   for (const auto& basis : kLattices) {
     const Limits limits = limits_of(basis);
     std::printf("%zu per cell: %.3f H/c0 without friction, %.3f with it; used: %.3f\n",
-                basis.size(), limits.frictionless, limits.rubbing, kAcousticShare);
-    EXPECT_LE(most * kAcousticShare, limits.rubbing);
-    EXPECT_GT(2.0 * kAcousticShare, 1.4 * limits.frictionless);
+                basis.size(), limits.frictionless, limits.rubbing, kAcousticCfl);
+    EXPECT_LE(most * kAcousticCfl, limits.rubbing);
+    EXPECT_GT(2.0 * kAcousticCfl, 1.4 * limits.frictionless);
   }
 }
 

@@ -56,7 +56,7 @@ TEST(StepWork, CountsThePairsThatKernelsVisit) {
   }
   EXPECT_EQ(meet_all(p, 1).visited, around);
   EXPECT_EQ(meet_all(p, 1).tested, 0.0);
-  // Vectors weed out what is near none of their particles, and nothing else.
+  // Vectors cull out what is near none of their particles, and nothing else.
   const Met wide = meet_all(p, 16);
   EXPECT_GT(wide.visited, neighbours);
   EXPECT_LT(wide.visited, 2.0 * around);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Water that pulls: the rule against its twin, and what it is for.
+// Water that pulls: the rule against its reference implementation, and what it is for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {
@@ -65,7 +65,7 @@ TEST_P(Stretch, IsTheTwins) {
   Device device(-1, false, GetParam());
   Water water = ball();
   water.start(device);
-  std::vector<double> knit(water.particles.size(), 0.0);  // by id
+  std::vector<double> peak(water.particles.size(), 0.0);  // by id
   constexpr double kDt = 5.0e-4;
   int pulling = 0;
   int torn = 0;
@@ -77,13 +77,13 @@ TEST_P(Stretch, IsTheTwins) {
     const double bound = 1.0e-5 * static_cast<double>(state.params.rest_density);
     const double sound2 = std::pow(static_cast<double>(state.params.sound_speed), 2);
     for (std::size_t i = 0; i < state.id.size(); ++i) {
-      double& before = knit[static_cast<std::size_t>(state.id[i])];
-      const double now = twin_knit(state.params, kDt, state.density[i], before);
-      ASSERT_NEAR(state.knit[i], now, bound) << "particle " << state.id[i];
-      before = state.knit[i];
+      double& before = peak[static_cast<std::size_t>(state.id[i])];
+      const double now = reference_peak_density(state.params, kDt, state.density[i], before);
+      ASSERT_NEAR(state.peak_density[i], now, bound) << "particle " << state.id[i];
+      before = state.peak_density[i];
       const double rest = static_cast<double>(state.params.rest_density);
       ASSERT_NEAR(state.pressure_term[i],
-                  twin_pressure_term(state.params, state.density[i], state.knit[i]),
+                  reference_pressure_term(state.params, state.density[i], state.peak_density[i]),
                   1.0e-6 * sound2 / rest)
           << "particle " << state.id[i];
       pulling += state.pressure_term[i] < 0.0 ? 1 : 0;
@@ -124,7 +124,8 @@ TEST(Stretched, TheDivergenceFreeSolverDoesNotPull) {
   stretch(*water.fluid, 1.02);
   water.fluid->prepare(water.step_at(1.0e-3));
   const FluidState state = read_state(*water.fluid);
-  for (std::size_t i = 0; i < state.id.size(); ++i) ASSERT_EQ(state.knit[i], state.density[i]);
+  for (std::size_t i = 0; i < state.id.size(); ++i)
+    ASSERT_EQ(state.peak_density[i], state.density[i]);
 }
 
 // What is torn does not grow together by itself, and what flies apart fast enough tears.
@@ -164,13 +165,13 @@ TEST(Stretched, ASnapshotRemembersIt) {
   water.start(device);
   stretch(*water.fluid, 0.99);
   water.fluid->prepare(water.step_at(0.0));
-  const Snapshot knit = water.fluid->snapshot();
+  const Snapshot peak = water.fluid->snapshot();
   stretch(*water.fluid, 1.02);
   water.fluid->prepare(water.step_at(0.0));
   const std::vector<double> first = read_state(*water.fluid).pressure_term;
   Water other = ball();
   other.start(device);
-  other.fluid->restore(knit);
+  other.fluid->restore(peak);
   stretch(*other.fluid, 1.02);
   other.fluid->prepare(other.step_at(0.0));
   EXPECT_EQ(read_state(*other.fluid).pressure_term, first);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Two steps, or more, of a small fluid with walls, slope, piston and bodies, a third of it in a
-// mould, and two in which it may sleep: every kernel once, small enough for an OpenCL interpreter.
-// Arguments: particles per vector (1, 8 or 16), the solver (0: weakly compressible, 1: divergence
-// free, 2: grid projected, in a plain box), whether the water moves the bodies (1), and how many
-// steps.
+// pinned particles, and two in which it may sleep: every kernel once, small enough for an OpenCL
+// interpreter. Arguments: particles per vector (1, 8 or 16), the solver (0: weakly compressible, 1:
+// divergence free, 2: grid projected, in a plain box), whether the water moves the bodies (1), and
+// how many steps.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -14,7 +14,7 @@
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/bodies/skin.hpp"
 #include "sim-server/fluid/free_bodies/body_pushes.hpp"
-#include "sim-server/start/mould.hpp"
+#include "sim-server/start/pinned_particles.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {
@@ -54,12 +54,12 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
     pushes->begin(*water.fluid);
   }
   water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);
-  Mould mould(*water.fluid, every_third(water.particles.size()));
+  PinnedParticles pinned(*water.fluid, every_third(water.particles.size()));
   for (int k = 0; k < steps; ++k) {
     water.step(1.0e-3, [&](Fluid& fluid) {
       if (pushes) pushes->add(fluid, water.step_at(1.0e-3));
     });
-    mould.put_back();
+    pinned.restore();
   }
   water.fluid->let_sleep({.speed = 0.05, .frames = 1});
   Step sleepy = water.step_at(1.0e-3);
@@ -71,11 +71,11 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
   }
   if (solver == PressureKind::grid_projected)
     water.fluid->prepare(water.step_at(0.0));  // as gauges
-  const Survey survey = water.fluid->survey();
+  const FluidStats stats = water.fluid->stats();
   std::printf("%s: %d particles, %d body points, fastest %.3f m/s, %d faulty\n",
               device.facts().platform.c_str(), water.params.count,
-              water.fluid->boundary().point_count(), survey.speed, survey.not_finite);
-  return survey.not_finite == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+              water.fluid->boundary().point_count(), stats.speed, stats.not_finite);
+  return stats.not_finite == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace

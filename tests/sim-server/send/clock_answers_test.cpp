@@ -28,7 +28,7 @@ class ClockAnswersTest : public testing::Test {
 
   /// The pongs counted once their thread, which counts after it has sent, got round to it.
   std::uint64_t answered() {
-    const double given_up = protocol::monotonic_now() + test::kPatience;
+    const double given_up = protocol::monotonic_now() + test::kTimeout;
     while (answers.answered() == 0 && protocol::monotonic_now() < given_up)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return answers.answered();
@@ -89,13 +89,13 @@ TEST(ClockAnswers, APingOfAnotherHostMustBeAsLongAsItsPong) {
   ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode(ping)));
   ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode(filled)));
   std::vector<std::byte> buffer(2048);
-  const auto received = receiver.receive(buffer.data(), buffer.size(), test::kPatience);
+  const auto received = receiver.receive(buffer.data(), buffer.size(), test::kTimeout);
   ASSERT_TRUE(received && received->size == 40U);
   const auto pong = protocol::decode(protocol::Bytes(buffer).first(40)).packet.messages.at(0);
   EXPECT_EQ(std::get<protocol::TimeTag>(pong.arguments.at(0)).value, 8U) << "the first got none";
   EXPECT_EQ(answers.withheld(), 1U);
   auto line = told.get_future();
-  ASSERT_EQ(line.wait_for(std::chrono::duration<double>(test::kPatience)),
+  ASSERT_EQ(line.wait_for(std::chrono::duration<double>(test::kTimeout)),
             std::future_status::ready);
   EXPECT_THAT(line.get(), testing::HasSubstr("asked /ping in a datagram of 20 bytes; "
                                              "the reply has 40 bytes"));
@@ -112,7 +112,7 @@ TEST(ClockAnswers, PingsOfABundleCountTogether) {
   const auto ping = protocol::ping(protocol::TimeTag{7});
   ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode({1}, {ping, ping})));
   std::vector<std::byte> buffer(2048);
-  EXPECT_TRUE(receiver.receive(buffer.data(), buffer.size(), test::kPatience));
+  EXPECT_TRUE(receiver.receive(buffer.data(), buffer.size(), test::kTimeout));
   EXPECT_FALSE(receiver.receive(buffer.data(), buffer.size(), 0.3));
   EXPECT_EQ(answers.withheld(), 1U);
 }

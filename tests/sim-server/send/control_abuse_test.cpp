@@ -105,7 +105,7 @@ TEST_F(ControlStranger, WhoIsAllowedIsHeardButMayNotQuit) {
   const auto ask_friendly = [&](const protocol::Message& message) {
     const auto question = protocol::filled_up(message, protocol::kFilledQuestion);
     EXPECT_TRUE(friendly.send_to(server_->local(), protocol::encode(question)));
-    const auto received = friendly.receive(buffer.data(), buffer.size(), test::kPatience);
+    const auto received = friendly.receive(buffer.data(), buffer.size(), test::kTimeout);
     if (!received) return protocol::Message{};
     return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);
   };

@@ -68,7 +68,7 @@ class ControlFixture : public testing::Test {
   void settle() { ASSERT_EQ(ask({"/sync", {12345}}), (protocol::Message{"/synced", {12345}})); }
   /// For peers that get no replies: waits until the server has taken `packets` datagrams.
   void wait_for_packets(std::uint64_t packets) {
-    const double end = protocol::monotonic_now() + kPatience;
+    const double end = protocol::monotonic_now() + kTimeout;
     while (server_->counts().packets < packets && protocol::monotonic_now() < end) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -15,7 +15,7 @@
 
 namespace splash::test {
 
-inline constexpr double kPatience = 5.0;  ///< for what must come; a pass never waits as long [s]
+inline constexpr double kTimeout = 5.0;  ///< for what must come; a pass never waits as long [s]
 
 class Peer {
  public:
@@ -29,7 +29,7 @@ class Peer {
     EXPECT_TRUE(socket_.send_to(to, bytes));
   }
 
-  [[nodiscard]] std::optional<std::vector<std::byte>> bytes(double timeout = kPatience) {
+  [[nodiscard]] std::optional<std::vector<std::byte>> bytes(double timeout = kTimeout) {
     std::array<std::byte, 2048> buffer{};
     const auto received = socket_.receive(buffer.data(), buffer.size(), timeout);
     if (!received) return std::nullopt;
@@ -38,7 +38,7 @@ class Peer {
                                   buffer.begin() + static_cast<std::ptrdiff_t>(received->size));
   }
   /// The next datagram, which must pass the gate.
-  [[nodiscard]] std::optional<protocol::Packet> packet(double timeout = kPatience) {
+  [[nodiscard]] std::optional<protocol::Packet> packet(double timeout = kTimeout) {
     const auto raw = bytes(timeout);
     if (!raw) return std::nullopt;
     auto decoded = protocol::decode(*raw);
@@ -46,7 +46,7 @@ class Peer {
     return decoded.packet;
   }
   /// The next datagram's first message; an empty one when none came.
-  [[nodiscard]] protocol::Message message(double timeout = kPatience) {
+  [[nodiscard]] protocol::Message message(double timeout = kTimeout) {
     const auto next = packet(timeout);
     if (!next || next->messages.empty()) return {};
     return next->messages.front();

@@ -34,14 +34,14 @@ class ReplyLength : public test::ControlFixture {
     wait_for_packets(++said_);
   }
   /// The next datagram that came back; empty: none.
-  std::vector<std::byte> heard(double patience) {
+  std::vector<std::byte> heard(double limits) {
     std::vector<std::byte> buffer(2048);
-    const auto received = friendly_->receive(buffer.data(), buffer.size(), patience);
+    const auto received = friendly_->receive(buffer.data(), buffer.size(), limits);
     buffer.resize(received ? received->size : 0);
     return buffer;
   }
   Message answer() {
-    const auto decoded = protocol::decode(heard(test::kPatience));
+    const auto decoded = protocol::decode(heard(test::kTimeout));
     return decoded.packet.messages.empty() ? Message{} : decoded.packet.messages.front();
   }
 
@@ -103,7 +103,7 @@ TEST_F(ReplyLength, AllRepliesToABundleTogetherAreNoLonger) {
   say(bundle);
   std::size_t bytes = 0;
   std::size_t replies = 0;
-  for (auto reply = heard(test::kPatience); !reply.empty(); reply = heard(0.2)) {
+  for (auto reply = heard(test::kTimeout); !reply.empty(); reply = heard(0.2)) {
     bytes += reply.size() + kHeaders;
     ++replies;
   }

@@ -87,8 +87,8 @@ TEST_F(TargetStatusTest, WhatWasCountedBeforeTheRunIsNotTheRuns) {
     answer(synth, {.late = 100, .lost = 50});
     answer(synth, {.late = 103, .lost = 50});
   });
-  status.begin(test::kPatience);
-  status.finish(test::kPatience);
+  status.begin(test::kTimeout);
+  status.finish(test::kTimeout);
   synth_thread.join();
   EXPECT_EQ(status.late(), 3U);
   EXPECT_EQ(status.lost(), 0U);
@@ -113,7 +113,7 @@ TEST(TargetStatusAfar, AsksInAsManyBytesAsAnyReplyHas) {
   TargetStatus status({synth.local()});
   status.poll();
   std::vector<std::byte> buffer(2048);
-  const auto received = synth.receive(buffer.data(), buffer.size(), test::kPatience);
+  const auto received = synth.receive(buffer.data(), buffer.size(), test::kTimeout);
   ASSERT_TRUE(received);
   EXPECT_GE(received->size, protocol::encode(protocol::to_message(SynthStatus{})).size());
   const auto question = protocol::decode(protocol::Bytes(buffer).first(received->size));

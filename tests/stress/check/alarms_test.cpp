@@ -24,7 +24,7 @@ TEST_P(Alarms, AreNotRaisedByAnyBuiltInScene) {
     sim::Simulation simulation(device, built_in_scene(name, coarse), {});
     while (simulation.seconds() < 2.0) {
       const sim::FrameResult frame = simulation.advance();
-      ASSERT_FALSE(frame.mishap) << name << ": " << describe(*frame.mishap);
+      ASSERT_FALSE(frame.step_fault) << name << ": " << describe(*frame.step_fault);
     }
   }
 }

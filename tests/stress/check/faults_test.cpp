@@ -63,15 +63,15 @@ TEST_P(Faults, WaterThatLeavesTheTankIsSeenByNothingElse) {
   for (const bool looked_for : {true, false}) {
     if (!looked_for) simulation_.fluid().health().set_checks(sim::without(Fault::outside));
     put(broken);
-    std::optional<sim::Mishap> mishap;
-    for (int k = 0; k < 16 && !mishap; ++k) mishap = simulation_.advance().mishap;
-    EXPECT_EQ(mishap.has_value(), looked_for);
+    std::optional<sim::StepFault> step_fault;
+    for (int k = 0; k < 16 && !step_fault; ++k) step_fault = simulation_.advance().step_fault;
+    EXPECT_EQ(step_fault.has_value(), looked_for);
     put(whole);
-    if (!mishap) continue;
-    EXPECT_EQ(mishap->what.fault, Fault::outside);
-    EXPECT_THAT(describe(*mishap), HasSubstr("beyond the tank"));
+    if (!step_fault) continue;
+    EXPECT_EQ(step_fault->what.fault, Fault::outside);
+    EXPECT_THAT(describe(*step_fault), HasSubstr("beyond the tank"));
     for (int k = 0; k < 3; ++k) static_cast<void>(simulation_.advance());
-    EXPECT_FALSE(simulation_.advance().mishap) << "well again";
+    EXPECT_FALSE(simulation_.advance().step_fault) << "well again";
   }
 }
 
@@ -83,16 +83,16 @@ TEST_P(Faults, ThatStayAreGivenUpOnAndEndWithAReset) {
   std::vector<sim::Remedy> remedies;
   for (int k = 0; k < 6; ++k) {
     const sim::FrameResult frame = simulation_.advance();
-    ASSERT_TRUE(frame.mishap);
+    ASSERT_TRUE(frame.step_fault);
     EXPECT_TRUE(frame.found.impacts.empty() && frame.found.bubbles.empty());
-    remedies.push_back(frame.mishap->remedy);
-    EXPECT_EQ(frame.mishap->tries, 4);
+    remedies.push_back(frame.step_fault->remedy);
+    EXPECT_EQ(frame.step_fault->tries, 4);
   }
   using sim::Remedy;
   EXPECT_THAT(remedies, testing::ElementsAre(Remedy::calm, Remedy::calm, Remedy::reset,
                                              Remedy::calm, Remedy::calm, Remedy::reset));
   simulation_.set_hook({});
-  EXPECT_FALSE(simulation_.advance().mishap);
+  EXPECT_FALSE(simulation_.advance().step_fault);
   EXPECT_EQ(simulation_.totals().resets, 2U);
   EXPECT_EQ(simulation_.totals().calmed, 4U);
 }
@@ -136,9 +136,9 @@ TEST_P(Faults, ThatStayStopTheWaterAroundThemAndAtLastTakeItToItsBeginning) {
     if (moment == harm.moment) harm.harm(fluid, step, 123);
   });
   const sim::FrameResult frame = channel.advance();
-  ASSERT_TRUE(frame.mishap);
+  ASSERT_TRUE(frame.step_fault);
   const Speeds speeds = speeds_around(channel.fluid(), channel.fluid().snapshot(),
-                                      frame.mishap->place, frame.mishap->calmed);
+                                      frame.step_fault->place, frame.step_fault->calmed);
   EXPECT_THAT(speeds.near, testing::ElementsAre(0.0F));
   EXPECT_THAT(speeds.far, testing::ElementsAre(0.25F)) << "what is far away goes on";
   for (int k = 0; k < 2; ++k) static_cast<void>(channel.advance());

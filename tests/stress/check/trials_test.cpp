@@ -37,7 +37,7 @@ TEST_P(Trials, Passes) {
   const auto& [name, solver] = GetParam();
   sim::Device device;
   const Verdict verdict = run_trial(device, named(name), {solver, kCoarse, 1.0});
-  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.mishap;
+  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.step_fault;
 }
 
 std::string words(const testing::TestParamInfo<Trials::ParamType>& info) {
@@ -89,7 +89,7 @@ TEST_P(Longer, StepsPass) {
   const auto& [name, solver] = GetParam();
   sim::Device device;
   const Verdict verdict = run_trial(device, named(name), {solver, kCoarse, 2.0});
-  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.mishap;
+  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.step_fault;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -108,7 +108,7 @@ TEST(Trials, PinchedWaterIsNotShotOut) {
   for (const char* name : {"let go under water, density 1000", "dropped from 10 m, density 10"}) {
     const Verdict verdict =
         run_trial(device, named(name), {PressureKind::divergence_free, 0.035, 2.0});
-    EXPECT_THAT(verdict.broken, IsEmpty()) << name << ' ' << verdict.mishap;
+    EXPECT_THAT(verdict.broken, IsEmpty()) << name << ' ' << verdict.step_fault;
   }
 }
 
@@ -122,7 +122,7 @@ TEST_P(Stretched, StepsAreStable) {
   const double stretch = sim::stable_stretch(fluid);
   for (const char* name : {"rest", "dam break", "plunge at 1.00 m/s"}) {
     const Verdict verdict = run_trial(device, named(name), {GetParam(), kCoarse, stretch});
-    EXPECT_THAT(verdict.broken, IsEmpty()) << name << ' ' << verdict.mishap;
+    EXPECT_THAT(verdict.broken, IsEmpty()) << name << ' ' << verdict.step_fault;
   }
 }
 
@@ -153,7 +153,7 @@ TEST_P(Piles, OfTenStand) {
   const auto& [solver, spacing, factor] = GetParam();
   const Verdict verdict =
       run_trial(device, named("ten on each other, density 10"), {solver, spacing, factor}, 1.0);
-  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.mishap;
+  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.step_fault;
 }
 
 // Those of nine for each solver, at 0.05, 0.035 and 0.025 m with steps of 1, 1.5 and 2, that fell
@@ -206,7 +206,7 @@ TEST(Trials, WaterInABodyIsPutOutWithinAFrame) {
   trial.drive = [] { return intruding({0.21, 0.2, 0.09}); };
   const Verdict verdict =
       run_trial(device, trial, {PressureKind::weakly_compressible, kCoarse, 1.0}, 0.1);
-  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.mishap << ' ' << verdict.inside;
+  EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.step_fault << ' ' << verdict.inside;
   EXPECT_GT(verdict.inside, 0.0);
 }
 

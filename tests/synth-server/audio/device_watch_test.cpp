@@ -63,7 +63,7 @@ struct Source final : BlockSource {
 class DeviceWatchTest : public testing::Test {
  protected:
   std::unique_ptr<DeviceWatch> watch(std::unique_ptr<AudioOutput> first, std::string missing,
-                                     milliseconds patience = milliseconds(60)) {
+                                     milliseconds limits = milliseconds(60)) {
     return std::make_unique<DeviceWatch>(
         source_, std::move(first), std::move(missing),
         [this]() -> std::unique_ptr<AudioOutput> {
@@ -75,7 +75,7 @@ class DeviceWatchTest : public testing::Test {
           const std::lock_guard lock(mutex_);
           lines_.push_back(line);
         },
-        adapt_, WatchSettings{milliseconds(5), patience, milliseconds(20)});
+        adapt_, WatchSettings{milliseconds(5), limits, milliseconds(20)});
   }
   static bool wait_for(const std::function<bool()>& condition) {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);

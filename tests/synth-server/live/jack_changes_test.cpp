@@ -25,7 +25,7 @@ namespace {
 using tests::rig_path;
 
 constexpr int kPeriod = 512;
-constexpr double kPatience = 30.0;  ///< [s]
+constexpr double kTimeout = 30.0;  ///< [s]
 
 void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -47,7 +47,7 @@ void expect_both_shoes(tests::Synth& synth) {
     synth.send(protocol::encode(protocol::to_message(bubble)));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  ASSERT_TRUE(capture.wait(kPatience)) << synth.process().output();
+  ASSERT_TRUE(capture.wait(kTimeout)) << synth.process().output();
   const auto& channels = capture.channels();
   for (const auto& channel : channels) EXPECT_GT(tests::peak(channel), 0.01F);
   EXPECT_EQ(channels[0], channels[1]) << "heel and toe";
@@ -62,7 +62,7 @@ TEST(JackChanges, OfThePeriodAreFollowed) {
   for (const int period : {1024, 256}) {
     JackServer::set_period(period);
     ASSERT_TRUE(synth.process().wait_for_text(
-        "plays, blocks of " + std::to_string(period) + " at 48000 Hz", kPatience))
+        "plays, blocks of " + std::to_string(period) + " at 48000 Hz", kTimeout))
         << synth.process().output();
     ASSERT_TRUE(synth.process().running());
   }
@@ -79,7 +79,7 @@ TEST(JackChanges, OfTheRateAreFollowed) {
   tests::Synth synth(arguments());
   server->kill();
   server = std::make_unique<JackServer>(name, 4, kPeriod, 44100);
-  ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of 512 at 44100 Hz", kPatience))
+  ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of 512 at 44100 Hz", kTimeout))
       << synth.process().output();
   const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
   ASSERT_TRUE(status);
@@ -94,7 +94,7 @@ struct Slow final : BlockSource {
   void render(const AudioBlock& block) noexcept override {
     for (int c = 0; c < 2; ++c) std::fill_n(block.channels[c], block.frames, 0.0F);
     if (entered.exchange(true)) return;
-    const double limit = protocol::monotonic_now() + kPatience;
+    const double limit = protocol::monotonic_now() + kTimeout;
     while (!go && protocol::monotonic_now() < limit) {
     }
     left = true;
@@ -105,7 +105,7 @@ struct Slow final : BlockSource {
 };
 
 bool comes_true(const std::atomic<bool>& flag) {
-  const double limit = protocol::monotonic_now() + kPatience;
+  const double limit = protocol::monotonic_now() + kTimeout;
   while (!flag && protocol::monotonic_now() < limit) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -140,7 +140,7 @@ TEST(JackPorts, AreNamedInTheChannelMap) {
   EXPECT_THAT(synth.process().output(),
               testing::HasSubstr("4 right shoe/toe -> system:playback_4\n"));
   JackCapture client("synth-server", 4, 0.1);  // what is said is what is connected
-  EXPECT_TRUE(client.wait(kPatience));
+  EXPECT_TRUE(client.wait(kTimeout));
   for (int c = 0; c < 4; ++c) {
     EXPECT_TRUE(client.connected("synth-server:outport " + std::to_string(c),
                                  "system:playback_" + std::to_string(c + 1)));

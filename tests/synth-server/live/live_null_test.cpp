@@ -304,9 +304,9 @@ TEST_F(LiveNull, CountsWhatComesTooLateAndTooEarly) {
 }
 
 TEST_F(LiveNull, CountsWhatIsStillToComeAtTheEnd) {
-  auto patient = arguments();
-  patient.insert(patient.end(), {"--horizon-ms", "60000"});
-  Synth synth(patient);
+  auto inputs = arguments();
+  inputs.insert(inputs.end(), {"--horizon-ms", "60000"});
+  Synth synth(inputs);
   const double now = protocol::unix_now();
   synth.send(protocol::encode(TimeTag{1}, {bubble(1)}));
   synth.send(protocol::encode(protocol::to_time_tag(now + 50.0), {bubble(2), bubble(3)}));

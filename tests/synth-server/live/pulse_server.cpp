@@ -15,7 +15,7 @@
 namespace splash::synth {
 namespace {
 
-constexpr int kPatience = 200;  ///< tenths of a second
+constexpr int kTimeout = 200;  ///< tenths of a second
 
 void pause() {
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -50,7 +50,7 @@ void PulseServer::start() {
       "--use-pid-file=no", "--realtime=no", "--high-priority=no", "-L",
       "module-native-protocol-unix auth-anonymous=1 socket=" + folder_ + "/native", "-L",
       "module-null-sink sink_name=tiles rate=48000 channels=" + std::to_string(channels_)});
-  for (int tenths = 0; tenths < kPatience && server_->running(); ++tenths) {
+  for (int tenths = 0; tenths < kTimeout && server_->running(); ++tenths) {
     tests::ChildProcess asked({"pactl", "info"});
     if (asked.wait_for_end(5.0) == 0) return;
     pause();
@@ -73,7 +73,7 @@ std::vector<std::vector<float>> PulseServer::listen(std::size_t frames) const {
                                 "--rate=48000", "--latency-msec=20",
                                 "--channels=" + std::to_string(channels_)});
   std::string bytes;
-  for (int tenths = 0; tenths < kPatience && bytes.size() < size; ++tenths) {
+  for (int tenths = 0; tenths < kTimeout && bytes.size() < size; ++tenths) {
     pause();
     bytes = listener.output();
   }

@@ -17,7 +17,7 @@ using tests::peak;
 using tests::rig_path;
 
 constexpr std::size_t kHeard = 9600;  ///< 0.2 s
-constexpr double kPatience = 40.0;    ///< [s]
+constexpr double kTimeout = 40.0;     ///< [s]
 constexpr int kTries = 40;
 constexpr float kTone = 0.09F;     ///< the tone's amplitude [full scale]
 constexpr float kAround = 0.005F;  ///< what is heard of it may differ by so much
@@ -40,7 +40,7 @@ std::vector<std::vector<float>> heard(const PulseServer& pulse, const tests::Arg
       loudest = 0.0F;
       for (const auto& channel : channels) loudest = std::max(loudest, peak(channel));
     }
-    EXPECT_EQ(program.wait_for_end(kPatience), 0) << program.output();
+    EXPECT_EQ(program.wait_for_end(kTimeout), 0) << program.output();
     output = program.output();
   }
   return channels;
@@ -78,11 +78,11 @@ TEST_P(Lost, ServersAreSurvivedAndTakenBack) {
   ASSERT_THAT(synth.process().output(),
               testing::HasSubstr(std::string("output: ") + GetParam() + " device"));
   pulse.kill();
-  ASSERT_TRUE(synth.process().wait_for_text("going on without it", kPatience))
+  ASSERT_TRUE(synth.process().wait_for_text("going on without it", kTimeout))
       << synth.process().output();
   EXPECT_EQ(synth.ask({"/sync", {7}}, "/synced").address, "/synced") << "it still answers";
   pulse.start();
-  ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of", kPatience))
+  ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of", kTimeout))
       << synth.process().output();
   synth.process().signal(SIGTERM);
   EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();

@@ -93,7 +93,7 @@ void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
 void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
   measure_response_.run(
       fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
-      fluid.grid().cell_start(), fluid.stirred_cells(), fluid.particles().position.memory(),
+      fluid.grid().cell_start(), fluid.cell_activity(), fluid.particles().position.memory(),
       fluid.body_images().memory(), fluid.boundary().grid().cell_start(),
       fluid.boundary().points().position.memory(), fluid.boundary().points().velocity.memory(),
       fluid.boundary().volume().memory(), fluid.boundary().points().stride,
@@ -117,7 +117,7 @@ void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
   const cl::Buffer& cells = fluid.grid().cell_start();
-  const cl::Buffer& stir = fluid.stirred_cells();
+  const cl::Buffer& activity = fluid.cell_activity();
   const cl::Buffer& places = fluid.particles().position.memory();
   const cl::Buffer& state = state_[number].memory();
   const std::size_t items = fluid.groups();
@@ -128,13 +128,13 @@ void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
     const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     const auto beta = static_cast<float>((t - 1.0) / next);
     t = next;
-    correct_pressure_.run(queue, items, params, k, state, beta, dt, cells, stir, places,
+    correct_pressure_.run(queue, items, params, k, state, beta, dt, cells, activity, places,
                           guess_.memory(), gradient_.memory(), response_.memory(),
                           boundary_rate_.memory(), offset_.memory(), pressure.memory(),
                           jacobi_.memory(), change_.memory(), error_part_.memory());
     judge_solve_.run_teams(queue, 1, params, static_cast<int>(error_parts_), k, least, most,
                            error_part_.memory(), state);
-    push_by_pressure_.run(queue, items, params, k, state, dt, cells, stir, places,
+    push_by_pressure_.run(queue, items, params, k, state, dt, cells, activity, places,
                           gradient_.memory(), change_.memory(), pressure.memory(), guess_.memory());
     if (fluid.free_bodies() == nullptr) continue;
     fluid.free_bodies()->answer(fluid, step,

@@ -29,9 +29,8 @@
 #define RELAXATION 0.3f
 
 // Sum of m v_j . grad W_ij, divided by -gradient_norm.
-static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
-                              global const int* cell_start, global const float* position,
-                              global const float* velocity) {
+static lanes carried_by_fluid(constant FluidParams* p, const Group* g, global const int* cell_start,
+                              global const float* position, global const float* velocity) {
   const int n = p->capacity;
   lanes sum = 0.0f;
   Near near;
@@ -40,8 +39,8 @@ static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
       const Pair pair = pair_with(p, g, position, n, j);
-      sum += pair.slope * (velocity[j] * pair.dx + velocity[n + j] * pair.dy +
-                           velocity[2 * n + j] * pair.dz);
+      sum += pair.slope *
+             (velocity[j] * pair.dx + velocity[n + j] * pair.dy + velocity[2 * n + j] * pair.dz);
     }
   }
   return p->mass * sum;
@@ -51,7 +50,7 @@ static lanes carried_by_fluid(constant FluidParams* p, const Group* g,
 // answers to, which is errors but not those below zero of particles without pressure [kg/m3]; and
 // their number.
 static float2 correct(constant FluidParams* p, int k, float beta, float dt,
-                      global const int* cell_start, global const int* stir,
+                      global const int* cell_start, global const int* activity,
                       global const float* position, global const float* velocity,
                       global const float* gradient, global const float* response,
                       global const float* boundary_rate, global const float* offset,
@@ -63,7 +62,7 @@ static float2 correct(constant FluidParams* p, int k, float beta, float dt,
   lane_flags moves = 0;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (stir_of(p, stir, &g) < STIR_MOTION) {
+    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }
@@ -96,12 +95,11 @@ static float2 correct(constant FluidParams* p, int k, float beta, float dt,
 // `jacobi`: Q. `error_part`: what was found, of each work-item, or of each work-group of a team.
 kernel void correct_pressure(constant FluidParams* p, int k, global const SolveState* state,
                              float beta, float dt, global const int* cell_start,
-                             global const int* stir, global const float* position,
+                             global const int* activity, global const float* position,
                              global const float* velocity, global const float* gradient,
                              global const float* response, global const float* boundary_rate,
                              global const float* offset, global const float* pressure,
-                             global float* jacobi, global float* change,
-                             global float* error_part) {
+                             global float* jacobi, global float* change, global float* error_part) {
   if (is_done(state, k)) return;
   const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
@@ -109,7 +107,7 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   local float2 of_team[TEAM];
   float2 found = (float2)(0.0f, 0.0f);
   if (first < last) {
-    found = correct(p, k, beta, dt, cell_start, stir, position, velocity, gradient, response,
+    found = correct(p, k, beta, dt, cell_start, activity, position, velocity, gradient, response,
                     boundary_rate, offset, pressure, jacobi, change, first, last);
   }
   of_team[get_local_id(0)] = found;
@@ -119,7 +117,7 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   vstore2(found, get_group_id(0), error_part);
 #else
   if (first >= last) return;
-  vstore2(correct(p, k, beta, dt, cell_start, stir, position, velocity, gradient, response,
+  vstore2(correct(p, k, beta, dt, cell_start, activity, position, velocity, gradient, response,
                   boundary_rate, offset, pressure, jacobi, change, first, last),
           get_global_id(0), error_part);
 #endif

@@ -37,10 +37,10 @@ static Shove shove_by_fluid(constant FluidParams* p, const Group* g, global cons
 }
 
 kernel void push_by_pressure(constant FluidParams* p, int k, global const SolveState* state,
-                             float dt, global const int* cell_start, global const int* stir,
-                             global const float* position,
-                             global const float* gradient, global const float* change,
-                             global float* pressure, global float* velocity) {
+                             float dt, global const int* cell_start, global const int* activity,
+                             global const float* position, global const float* gradient,
+                             global const float* change, global float* pressure,
+                             global float* velocity) {
   if (is_done(state, k)) return;
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
@@ -50,7 +50,7 @@ kernel void push_by_pressure(constant FluidParams* p, int k, global const SolveS
   Shove shove = {0.0f, 0.0f, 0.0f};
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (stir_of(p, stir, &g) < STIR_MOTION) {
+    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }
@@ -66,7 +66,7 @@ kernel void push_by_pressure(constant FluidParams* p, int k, global const SolveS
         first);
   STORE(LOAD(velocity + n, first) - dt * (own * LOAD(gradient + n, first) + scale * shove.y),
         velocity + n, first);
-  STORE(LOAD(velocity + 2 * n, first) -
-            dt * (own * LOAD(gradient + 2 * n, first) + scale * shove.z),
-        velocity + 2 * n, first);
+  STORE(
+      LOAD(velocity + 2 * n, first) - dt * (own * LOAD(gradient + 2 * n, first) + scale * shove.z),
+      velocity + 2 * n, first);
 }

@@ -98,15 +98,13 @@ static BodyResponse response_of_bodies(constant FluidParams* p, const Group* g,
 }
 
 kernel void measure_response(constant FluidParams* p, global const int* cell_start,
-                             global const int* stir, global const float* position,
-                             global const float* images,
-                             global const int* body_start,
-                             global const float* body_position,
-                             global const float* body_velocity, global const float* body_volume,
-                             int body_stride, global const BodyStep* bodies, int first_body,
-                             int body_count, float piston, float piston_speed,
-                             global float* gradient, global float* response,
-                             global float* boundary_rate) {
+                             global const int* activity, global const float* position,
+                             global const float* images, global const int* body_start,
+                             global const float* body_position, global const float* body_velocity,
+                             global const float* body_volume, int body_stride,
+                             global const BodyStep* bodies, int first_body, int body_count,
+                             float piston, float piston_speed, global float* gradient,
+                             global float* response, global float* boundary_rate) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
@@ -114,7 +112,7 @@ kernel void measure_response(constant FluidParams* p, global const int* cell_sta
   lanes gx = 0.0f, gy = 0.0f, gz = 0.0f, d = 0.0f, rate = 0.0f;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (stir_of(p, stir, &g) < STIR_MOTION) {
+    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }

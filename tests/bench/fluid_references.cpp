@@ -67,7 +67,7 @@ struct MainKernels {
       : program(build_program(device, fluid_sources(), {})),
         density(program, "compute_density"),
         acceleration(program, "compute_acceleration"),
-        stir(device, std::vector<int>(cells_of(block.params), 2)),
+        activity(device, std::vector<int>(cells_of(block.params), 2)),
         resting(device, static_cast<std::size_t>(block.params.count)),
         none(device, 1),
         nobody(device, 1) {
@@ -75,18 +75,18 @@ struct MainKernels {
     const auto points = static_cast<std::size_t>(f.particles().stride) + kReadAhead;
     rho = Buffer<float>(device, points);
     water = Buffer<float>(device, points);
-    knit = Buffer<float>(device, points);
+    peak = Buffer<float>(device, points);
     term = Buffer<float>(device, points);
     push = Buffer<float>(device, 3 * points);
     moving = Buffer<int>(device, points);
-    set(density, f.params_buffer().memory(), f.grid().cell_start(), stir.memory(),
-        f.grid().source(), rho.memory(), water.memory(), knit.memory(),
+    set(density, f.params_buffer().memory(), f.grid().cell_start(), activity.memory(),
+        f.grid().source(), rho.memory(), water.memory(), peak.memory(),
         f.particles().position.memory(), f.boundary().grid().cell_start(),
         f.boundary().points().position.memory(), none.memory(), 0, f.boundary().shapes().memory(),
         f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F, 0.0F, f.body_images().memory(),
-        rho.memory(), water.memory(), knit.memory(), term.memory(), push.memory(), moving.memory(),
+        rho.memory(), water.memory(), peak.memory(), term.memory(), push.memory(), moving.memory(),
         resting.memory());
-    set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), stir.memory(),
+    set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), activity.memory(),
         resting.memory(), f.particles().position.memory(), f.particles().velocity.memory(),
         f.pressure_term().memory(), f.body_images().memory(), f.boundary().grid().cell_start(),
         f.boundary().points().position.memory(), f.boundary().points().velocity.memory(),
@@ -108,11 +108,11 @@ struct MainKernels {
   cl::Program program;
   cl::Kernel density;
   cl::Kernel acceleration;
-  Buffer<int> stir;
+  Buffer<int> activity;
   Buffer<int> resting;
   Buffer<float> none;
   Buffer<BodyStep> nobody;
-  Buffer<float> rho, water, knit, term, push;
+  Buffer<float> rho, water, peak, term, push;
   Buffer<int> moving;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/sim-server/fluid/body_image_twin.hpp"
+#include "tests/sim-server/fluid/body_image_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,8 +72,8 @@ double factor_at(const FluidParams& params, double distance) {
 
 }  // namespace
 
-TwinImage twin_image(const FluidState& s, const Vector3& place) {
-  TwinImage image;
+ReferenceImage reference_image(const FluidState& s, const Vector3& place) {
+  ReferenceImage image;
   if (s.shapes.empty()) return image;
   const Nearest here = nearest(s, place);
   image.owner = here.owner;

@@ -10,7 +10,7 @@
 
 namespace splash::sim {
 
-struct Mishap {
+struct StepFault {
   Diagnosis what;
   std::int64_t step = 0;            ///< of the run
   double seconds = 0.0;             ///< simulated, at the beginning of that step [s]
@@ -23,8 +23,8 @@ struct Mishap {
 };
 
 /// What was wrong with what, and where.
-[[nodiscard]] std::string describe_fault(const Mishap& mishap);
+[[nodiscard]] std::string describe_fault(const StepFault& step_fault);
 /// A sentence: when and where, what was wrong, what may have caused it and what was done.
-[[nodiscard]] std::string describe(const Mishap& mishap);
+[[nodiscard]] std::string describe(const StepFault& step_fault);
 
 }  // namespace splash::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Puts particles in a mould back to their places there, at rest; all others go on.
+// Puts pinned particles back to their places, at rest; all others move freely.
 
 #include "sim-server/fluid/params/fluid_params.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keeps water that nothing holds in its place while the rest comes to rest, as a mould that is
-// opened when time begins.
+// Pins water that nothing supports to its place while the rest comes to rest, until time begins.
 #pragma once
 
 #include <vector>
@@ -10,16 +9,16 @@
 
 namespace splash::sim {
 
-class Mould {
+class PinnedParticles {
  public:
-  /// `kept`: for each particle by its id whether it is in the mould. It stays where it is now.
+  /// `kept`: for each particle by its id whether it is pinned. It stays where it is now.
   /// Waits.
-  Mould(Fluid& fluid, const std::vector<bool>& kept);
+  PinnedParticles(Fluid& fluid, const std::vector<bool>& kept);
 
   [[nodiscard]] bool is_empty() const noexcept { return kept_count_ == 0; }
   [[nodiscard]] bool has_all() const noexcept { return kept_count_ == particles_; }
   /// After each step: enqueues what brings all that it keeps to its place, at rest.
-  void put_back();
+  void restore();
 
  private:
   Fluid& fluid_;

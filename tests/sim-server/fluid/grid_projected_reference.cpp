@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/sim-server/fluid/grid_projected_twin.hpp"
+#include "tests/sim-server/fluid/grid_projected_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ double way_to_surface(double water, double air) {
 
 }  // namespace
 
-MacTwin::MacTwin(const MacGrid& grid)
+MacReference::MacReference(const MacGrid& grid)
     : cells_{grid.level[0].nx, grid.level[0].ny, grid.level[0].nz},
       step_{1, grid.level[0].row, grid.level[0].layer},
       lower_{static_cast<double>(grid.x), static_cast<double>(grid.y), static_cast<double>(grid.z)},
@@ -33,12 +33,12 @@ MacTwin::MacTwin(const MacGrid& grid)
             static_cast<double>(grid.hz)},
       share_(static_cast<double>(grid.share)) {}
 
-int MacTwin::number(int i, int j, int k) const {
+int MacReference::number(int i, int j, int k) const {
   return (k + 1) * step_[2] + (j + 1) * step_[1] + i + 1;
 }
 
 template <class Visit>
-void MacTwin::each(const Visit& visit) const {
+void MacReference::each(const Visit& visit) const {
   for (int k = 0; k <= cells_[2]; ++k) {
     for (int j = 0; j <= cells_[1]; ++j) {
       for (int i = 0; i <= cells_[0]; ++i) visit(std::array<int, 3>{i, j, k});
@@ -46,7 +46,8 @@ void MacTwin::each(const Visit& visit) const {
   }
 }
 
-double MacTwin::hat(const Vector3& place, const std::array<int, 3>& cell, std::size_t axis) const {
+double MacReference::hat(const Vector3& place, const std::array<int, 3>& cell,
+                         std::size_t axis) const {
   double weight = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
     double d = (place[a] - lower_[a]) / edge_[a] - cell[a];
@@ -61,14 +62,14 @@ double MacTwin::hat(const Vector3& place, const std::array<int, 3>& cell, std::s
   return weight;
 }
 
-bool MacTwin::is_wall(const std::array<int, 3>& cell, std::size_t axis) const {
+bool MacReference::is_wall(const std::array<int, 3>& cell, std::size_t axis) const {
   return cell[axis] == 0 || (axis < 2 && cell[axis] == cells_[axis]);
 }
 
-TwinGathered MacTwin::gather(const std::vector<Vector3>& position,
-                             const std::vector<Vector3>& value) const {
+ReferenceGathered MacReference::gather(const std::vector<Vector3>& position,
+                                       const std::vector<Vector3>& value) const {
   const auto all = static_cast<std::size_t>(step_[2]) * static_cast<std::size_t>(cells_[2] + 2);
-  TwinGathered g;
+  ReferenceGathered g;
   g.fill.assign(all, 0.0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     g.mean[axis].assign(all, 0.0);
@@ -92,8 +93,8 @@ TwinGathered MacTwin::gather(const std::vector<Vector3>& position,
   return g;
 }
 
-Vector3 MacTwin::at(const Vector3& place, const MacFaces& faces, const MacFaces& known,
-                    const Vector3& otherwise) const {
+Vector3 MacReference::at(const Vector3& place, const MacFaces& faces, const MacFaces& known,
+                         const Vector3& otherwise) const {
   Vector3 sum = {0.0, 0.0, 0.0};
   Vector3 weight = {0.0, 0.0, 0.0};
   each([&](const std::array<int, 3>& cell) {
@@ -110,7 +111,7 @@ Vector3 MacTwin::at(const Vector3& place, const MacFaces& faces, const MacFaces&
   return sum;
 }
 
-MacFaces MacTwin::known(const TwinGathered& water) const {
+MacFaces MacReference::known(const ReferenceGathered& water) const {
   MacFaces known = water.weight;
   for (MacField& field : known) std::fill(field.begin(), field.end(), 0.0);
   each([&](const std::array<int, 3>& cell) {
@@ -125,8 +126,8 @@ MacFaces MacTwin::known(const TwinGathered& water) const {
   return known;
 }
 
-MacFaces MacTwin::change(const TwinGathered& water, const FluidParams& params,
-                         const MacField& pressure, double dt) const {
+MacFaces MacReference::change(const ReferenceGathered& water, const FluidParams& params,
+                              const MacField& pressure, double dt) const {
   const Vector3 gravity = {static_cast<double>(params.gravity_x),
                            static_cast<double>(params.gravity_y),
                            static_cast<double>(params.gravity_z)};
@@ -164,7 +165,7 @@ MacFaces MacTwin::change(const TwinGathered& water, const FluidParams& params,
   return change;
 }
 
-MacField MacTwin::left(const TwinGathered& water, const MacFaces& velocity) const {
+MacField MacReference::left(const ReferenceGathered& water, const MacFaces& velocity) const {
   MacField left(water.fill.size(), 0.0);
   each([&](const std::array<int, 3>& cell) {
     const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));

@@ -7,17 +7,17 @@
 #include "sim-server/fluid/params/fluid_params.h"
 
 typedef struct {
-  float speed2;        // largest [m2/s2]
-  float acceleration2; // largest [m2/s4]
-  float excess_sum;    // of max(rho / rho0 - 1, 0)
+  float speed2;         // largest [m2/s2]
+  float acceleration2;  // largest [m2/s4]
+  float excess_sum;     // of max(rho / rho0 - 1, 0)
   float excess_max;
-  int not_finite;      // particles with a coordinate, speed or density that is no number
-  int first_bad;       // the smallest id of such a particle, 2^31 - 1: none
-  int runaway;         // particles at the speed limit
-  int asleep;          // particles that did not take part in the last step
-  float lower[3];      // box around all particles [m]
+  int not_finite;  // particles with a coordinate, speed or density that is no number
+  int first_bad;   // the smallest id of such a particle, 2^31 - 1: none
+  int runaway;     // particles at the speed limit
+  int asleep;      // particles that did not take part in the last step
+  float lower[3];  // box around all particles [m]
   float upper[3];
-} SurveyPart;
+} FluidStatsPart;
 
 // The sums of one part of the fluid, lane by lane.
 typedef struct {
@@ -26,10 +26,10 @@ typedef struct {
 } Tally;
 
 // Adds the particles of the lanes that are `here`; returns those that are no numbers.
-static lane_flags tally(constant FluidParams* p, global const float* position,
-                        global const float* velocity, global const float* acceleration,
-                        global const float* density, global const int* moving, int i,
-                        lane_flags here, Tally* t) {
+static lane_flags accumulate(constant FluidParams* p, global const float* position,
+                             global const float* velocity, global const float* acceleration,
+                             global const float* density, global const int* moving, int i,
+                             lane_flags here, Tally* t) {
   const int n = p->capacity;
   lanes speed2 = 0.0f, acceleration2 = 0.0f;
   lanes doubt = LOAD(density, i) - LOAD(density, i);
@@ -48,19 +48,18 @@ static lane_flags tally(constant FluidParams* p, global const float* position,
     t->lower[axis] = fmin(t->lower[axis], select((lanes)(FAR_AWAY), x, fine));
     t->upper[axis] = fmax(t->upper[axis], select((lanes)(-FAR_AWAY), x, fine));
   }
-  const lanes excess =
-      select(none, fmax(LOAD(density, i) / p->rest_density - 1.0f, 0.0f), fine);
+  const lanes excess = select(none, fmax(LOAD(density, i) / p->rest_density - 1.0f, 0.0f), fine);
   t->speed2 = fmax(t->speed2, select(none, speed2, fine));
   t->acceleration2 = fmax(t->acceleration2, select(none, acceleration2, fine));
   t->excess_sum += excess;
   t->excess_max = fmax(t->excess_max, excess);
-  t->runaway += select(
-      none, one, fine & (speed2 >= (lanes)(0.98f * p->speed_limit * p->speed_limit)));
+  t->runaway +=
+      select(none, one, fine & (speed2 >= (lanes)(0.98f * p->speed_limit * p->speed_limit)));
   t->asleep += select(none, one, fine & (LOAD(moving, i) == 0));
   return here & (doubt != none);
 }
 
-static void join(SurveyPart* sum, SurveyPart other) {
+static void join(FluidStatsPart* sum, FluidStatsPart other) {
   sum->speed2 = fmax(sum->speed2, other.speed2);
   sum->acceleration2 = fmax(sum->acceleration2, other.acceleration2);
   sum->excess_sum += other.excess_sum;
@@ -76,20 +75,26 @@ static void join(SurveyPart* sum, SurveyPart other) {
 }
 
 // One work-group for each part.
-kernel void survey(constant FluidParams* p, global const float* position,
-                   global const float* velocity, global const float* acceleration,
-                   global const float* density, global const int* id, global const int* moving,
-                   global SurveyPart* out) {
-  local SurveyPart of_team[TEAM];
+kernel void reduce_stats(constant FluidParams* p, global const float* position,
+                         global const float* velocity, global const float* acceleration,
+                         global const float* density, global const int* id,
+                         global const int* moving, global FluidStatsPart* out) {
+  local FluidStatsPart of_team[TEAM];
   const int part = get_group_id(0), item = get_local_id(0);
-  Tally t = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
-             {FAR_AWAY, FAR_AWAY, FAR_AWAY}, {-FAR_AWAY, -FAR_AWAY, -FAR_AWAY}};
+  Tally t = {0.0f,
+             0.0f,
+             0.0f,
+             0.0f,
+             0.0f,
+             0.0f,
+             {FAR_AWAY, FAR_AWAY, FAR_AWAY},
+             {-FAR_AWAY, -FAR_AWAY, -FAR_AWAY}};
   int bad = 0, first_bad = 0x7FFFFFFF;
   const Share share = share_of(p->count, part, get_num_groups(0), 1, LANES);
   for (int i = share.first; i < share.last; i += share.step) {
     const lane_flags here = LANE_NUMBERS < (lane_flags)(share.last - i);
     const lane_flags wrong =
-        tally(p, position, velocity, acceleration, density, moving, i, here, &t);
+        accumulate(p, position, velocity, acceleration, density, moving, i, here, &t);
     if (!any_lane(wrong)) continue;
     int flag[LANES];
     STORE(wrong, flag, 0);
@@ -99,11 +104,16 @@ kernel void survey(constant FluidParams* p, global const float* position,
       first_bad = min(first_bad, id[i + lane]);
     }
   }
-  SurveyPart s = {most(t.speed2), most(t.acceleration2), total(t.excess_sum),
-                  most(t.excess_max), bad, first_bad, (int)total(t.runaway),
-                  (int)total(t.asleep),
-                  {least(t.lower[0]), least(t.lower[1]), least(t.lower[2])},
-                  {most(t.upper[0]), most(t.upper[1]), most(t.upper[2])}};
+  FluidStatsPart s = {most(t.speed2),
+                      most(t.acceleration2),
+                      total(t.excess_sum),
+                      most(t.excess_max),
+                      bad,
+                      first_bad,
+                      (int)total(t.runaway),
+                      (int)total(t.asleep),
+                      {least(t.lower[0]), least(t.lower[1]), least(t.lower[2])},
+                      {most(t.upper[0]), most(t.upper[1]), most(t.upper[2])}};
   of_team[item] = s;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item > 0) return;

@@ -5,13 +5,13 @@
 
 #include <vector>
 
-#include "tests/sim-server/fluid/twin.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 
 namespace splash::sim {
 
 /// What a point sees of the water (paper, section 5.1.2). The scales are sums of the magnitudes of
 /// all terms: rounding is relative to these.
-struct TwinTouch {
+struct ReferenceTouch {
   double colour = 0.0;                 ///< c_f [1]
   Vector3 gradient = {0.0, 0.0, 0.0};  ///< [1/m]
   Vector3 water = {0.0, 0.0, 0.0};     ///< mean velocity [m/s]
@@ -20,35 +20,37 @@ struct TwinTouch {
   int passed_over = 0;                 ///< particles within reach that are spray
 };
 /// `water_density`: of each particle without the bodies' part [kg/m3].
-[[nodiscard]] TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_density,
-                                   const Vector3& place);
+[[nodiscard]] ReferenceTouch reference_touch(const FluidState& state,
+                                             const std::vector<float>& water_density,
+                                             const Vector3& place);
 
 /// Matter at a place: colour of all water and of the walls' solid, at most 1; 1 inside a wall [1].
-[[nodiscard]] double twin_matter(const FluidState& state, const Vector3& place);
+[[nodiscard]] double reference_matter(const FluidState& state, const Vector3& place);
 
 /// A number, and the sum of the magnitudes of all terms it is the sum of.
-struct TwinSum {
+struct ReferenceSum {
   double value = 0.0;
   double scale = 0.0;
 };
 /// Vertical colour gradient of fluid, bodies, bubbles and walls, in that of a flat surface,
 /// 3 / (2 H) (paper, eq. 2) [1].
-[[nodiscard]] TwinSum twin_upward(const FluidState& state, const std::vector<Vector3>& bubbles,
-                                  const Vector3& place);
+[[nodiscard]] ReferenceSum reference_upward(const FluidState& state,
+                                            const std::vector<Vector3>& bubbles,
+                                            const Vector3& place);
 
 /// Mean velocity of all water within reach, none: zero [m/s].
-[[nodiscard]] Vector3 twin_water_velocity(const FluidState& state, const Vector3& place);
+[[nodiscard]] Vector3 reference_water_velocity(const FluidState& state, const Vector3& place);
 
 /// Colour of the other bubbles at bubble `i` [1].
-[[nodiscard]] double twin_bubble_colour(const FluidParams& params,
-                                        const std::vector<Vector3>& bubbles, std::size_t i);
+[[nodiscard]] double reference_bubble_colour(const FluidParams& params,
+                                             const std::vector<Vector3>& bubbles, std::size_t i);
 
 /// Places as the device holds them.
 [[nodiscard]] std::vector<Vector3> as_floats(std::vector<Vector3> places);
 
 /// The group of each point by union-find: the smallest index among all points that a chain of
 /// steps shorter than `reach` leads to; -1: the group has no seed.
-[[nodiscard]] std::vector<int> twin_groups(const std::vector<Vector3>& places, double reach,
-                                           const std::vector<bool>& seed);
+[[nodiscard]] std::vector<int> reference_groups(const std::vector<Vector3>& places, double reach,
+                                                const std::vector<bool>& seed);
 
 }  // namespace splash::sim

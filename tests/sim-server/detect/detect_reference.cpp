@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/sim-server/detect/detect_twin.hpp"
+#include "tests/sim-server/detect/detect_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,11 @@ int root_of(std::vector<int>& parent, int i) {
 
 }  // namespace
 
-TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_density,
-                     const Vector3& place) {
+ReferenceTouch reference_touch(const FluidState& state, const std::vector<float>& water_density,
+                               const Vector3& place) {
   const double support = static_cast<double>(state.params.support);
   const double volume = volume_of_particle(state.params);
-  TwinTouch touch;
+  ReferenceTouch touch;
   for (std::size_t j = 0; j < state.position.size(); ++j) {
     const Vector3 away = place - state.position[j];
     if (dot(away, away) >= support * support) continue;
@@ -46,12 +46,12 @@ TwinTouch twin_touch(const FluidState& state, const std::vector<float>& water_de
   return touch;
 }
 
-double twin_matter(const FluidState& state, const Vector3& place) {
+double reference_matter(const FluidState& state, const Vector3& place) {
   for (int k = 0; k < state.params.wall_count; ++k) {
     if (wall_distance(state.params, k, place, state.piston) <= 0.0) return 1.0;
   }
   const double support = static_cast<double>(state.params.support);
-  double colour = twin_walls(state.params, place, state.piston).share;
+  double colour = reference_walls(state.params, place, state.piston).share;
   for (const Vector3& other : state.position) {
     const double apart = length(place - other);
     if (apart < support) colour += volume_of_particle(state.params) * kernel_value(apart, support);
@@ -59,12 +59,12 @@ double twin_matter(const FluidState& state, const Vector3& place) {
   return std::min(colour, 1.0);
 }
 
-TwinSum twin_upward(const FluidState& state, const std::vector<Vector3>& bubbles,
-                    const Vector3& place) {
+ReferenceSum reference_upward(const FluidState& state, const std::vector<Vector3>& bubbles,
+                              const Vector3& place) {
   const double support = static_cast<double>(state.params.support);
   const double volume = volume_of_particle(state.params);
   const double peak = plane_marginal(0.0, support);
-  TwinSum sum;
+  ReferenceSum sum;
   const auto add = [&](double term) {
     sum.value += term / peak;
     sum.scale += std::abs(term) / peak;
@@ -78,11 +78,11 @@ TwinSum twin_upward(const FluidState& state, const std::vector<Vector3>& bubbles
   for (std::size_t b = 0; b < state.body_position.size(); ++b) {
     add_point(state.body_position[b], state.body_volume[b]);
   }
-  add(twin_walls(state.params, place, state.piston).gradient[2]);
+  add(reference_walls(state.params, place, state.piston).gradient[2]);
   return sum;
 }
 
-Vector3 twin_water_velocity(const FluidState& state, const Vector3& place) {
+Vector3 reference_water_velocity(const FluidState& state, const Vector3& place) {
   const double support = static_cast<double>(state.params.support);
   Vector3 sum = {0.0, 0.0, 0.0};
   double weights = 0.0;
@@ -94,8 +94,8 @@ Vector3 twin_water_velocity(const FluidState& state, const Vector3& place) {
   return weights > 0.0 ? (1.0 / weights) * sum : sum;
 }
 
-double twin_bubble_colour(const FluidParams& params, const std::vector<Vector3>& bubbles,
-                          std::size_t i) {
+double reference_bubble_colour(const FluidParams& params, const std::vector<Vector3>& bubbles,
+                               std::size_t i) {
   const double support = static_cast<double>(params.support);
   double colour = 0.0;
   for (std::size_t j = 0; j < bubbles.size(); ++j) {
@@ -112,8 +112,8 @@ std::vector<Vector3> as_floats(std::vector<Vector3> places) {
   return places;
 }
 
-std::vector<int> twin_groups(const std::vector<Vector3>& places, double reach,
-                             const std::vector<bool>& seed) {
+std::vector<int> reference_groups(const std::vector<Vector3>& places, double reach,
+                                  const std::vector<bool>& seed) {
   std::vector<int> parent(places.size());
   std::iota(parent.begin(), parent.end(), 0);
   for (std::size_t i = 0; i < places.size(); ++i) {

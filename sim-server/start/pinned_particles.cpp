@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/start/mould.hpp"
+#include "sim-server/start/pinned_particles.hpp"
 
 #include <algorithm>
 
 namespace splash::sim {
 namespace kernels {
-std::vector<KernelSource> mould();
+std::vector<KernelSource> pin();
 }  // namespace kernels
 
-Mould::Mould(Fluid& fluid, const std::vector<bool>& kept)
+PinnedParticles::PinnedParticles(Fluid& fluid, const std::vector<bool>& kept)
     : fluid_(fluid),
       particles_(kept.size()),
       kept_count_(static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true))) {
@@ -23,10 +23,10 @@ Mould::Mould(Fluid& fluid, const std::vector<bool>& kept)
   }
   kept_ = Buffer<int>(fluid.device(), std::vector<int>(kept.begin(), kept.end()));
   place_ = Buffer<float>(fluid.device(), place);
-  put_back_ = Kernel(build_program(fluid.device(), kernels::mould(), {}), "put_back");
+  put_back_ = Kernel(build_program(fluid.device(), kernels::pin(), {}), "put_back");
 }
 
-void Mould::put_back() {
+void PinnedParticles::restore() {
   if (is_empty()) return;
   const PointArrays& water = fluid_.particles();
   put_back_.run(fluid_.device().queue(), particles_, fluid_.params_buffer().memory(),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
-#include "tests/sim-server/fluid/twin.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 
 namespace splash::sim {
 
@@ -15,28 +15,28 @@ namespace splash::sim {
 using MacField = std::vector<double>;
 using MacFaces = std::array<MacField, 3>;  ///< of each cell's lower face along x, y, z
 
-struct TwinGathered {
+struct ReferenceGathered {
   MacFaces mean;
   MacFaces weight;  ///< [particles]
   MacField fill;    ///< [1]
 };
 
-class MacTwin {
+class MacReference {
  public:
-  explicit MacTwin(const MacGrid& grid);
+  explicit MacReference(const MacGrid& grid);
 
-  [[nodiscard]] TwinGathered gather(const std::vector<Vector3>& position,
-                                    const std::vector<Vector3>& value) const;
+  [[nodiscard]] ReferenceGathered gather(const std::vector<Vector3>& position,
+                                         const std::vector<Vector3>& value) const;
   /// Of the faces around a place, by the hat; those alone that `known` says.
   [[nodiscard]] Vector3 at(const Vector3& place, const MacFaces& faces, const MacFaces& known,
                            const Vector3& otherwise) const;
   /// Which faces a solve finds: walls, and those beside a cell with water.
-  [[nodiscard]] MacFaces known(const TwinGathered& water) const;
+  [[nodiscard]] MacFaces known(const ReferenceGathered& water) const;
   /// What the step changes at faces: gravity, viscosity `nu`, and pressures in Pa.
-  [[nodiscard]] MacFaces change(const TwinGathered& water, const FluidParams& params,
+  [[nodiscard]] MacFaces change(const ReferenceGathered& water, const FluidParams& params,
                                 const MacField& pressure, double dt) const;
   /// In cells with water what is left to demand of these velocities, 0 in others [1/s].
-  [[nodiscard]] MacField left(const TwinGathered& water, const MacFaces& velocity) const;
+  [[nodiscard]] MacField left(const ReferenceGathered& water, const MacFaces& velocity) const;
 
   [[nodiscard]] int number(int i, int j, int k) const;
   [[nodiscard]] const std::array<int, 3>& cells() const noexcept { return cells_; }

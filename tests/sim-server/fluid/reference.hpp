@@ -18,7 +18,7 @@ struct FluidState {
   std::vector<Vector3> position;      ///< [m]
   std::vector<Vector3> velocity;      ///< [m/s]
   std::vector<double> density;        ///< [kg/m3]
-  std::vector<double> knit;           ///< [kg/m3]
+  std::vector<double> peak;           ///< [kg/m3]
   std::vector<double> pressure_term;  ///< p / rho^2
   std::vector<Vector3> body_position;
   std::vector<Vector3> body_velocity;
@@ -34,28 +34,31 @@ struct FluidState {
 [[nodiscard]] std::vector<Vector3> read_acceleration(Fluid& fluid);
 
 /// Part of the kernel's weight inside walls, and its gradient [1], [1/m].
-struct TwinWalls {
+struct ReferenceWalls {
   double share = 0.0;
   Vector3 gradient = {0.0, 0.0, 0.0};
   double swept = 0.0;  ///< growth of the piston's part per its way [1/m]
 };
 [[nodiscard]] double wall_distance(const FluidParams& params, int wall, const Vector3& place,
                                    double piston);
-[[nodiscard]] TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double piston);
+[[nodiscard]] ReferenceWalls reference_walls(const FluidParams& params, const Vector3& place,
+                                             double piston);
 
-[[nodiscard]] std::vector<double> twin_density(const FluidState& state);
-/// The knit of water of this density that had the knit `before`, `dt` ago [kg/m3].
-[[nodiscard]] double twin_knit(const FluidParams& params, double dt, double density, double before);
-/// p / rho^2 from a density and a knit.
-[[nodiscard]] double twin_pressure_term(const FluidParams& params, double density, double knit);
+[[nodiscard]] std::vector<double> reference_density(const FluidState& state);
+/// The peak density of water of this density that had the peak density `before`, `dt` ago [kg/m3].
+[[nodiscard]] double reference_peak_density(const FluidParams& params, double dt, double density,
+                                            double before);
+/// p / rho^2 from a density and a peak density.
+[[nodiscard]] double reference_pressure_term(const FluidParams& params, double density,
+                                             double peak);
 
 /// An acceleration, and the sum of the magnitudes of all terms it is the sum of: rounding is
 /// relative to these, which nearly cancel in water at rest [m/s2].
-struct TwinAcceleration {
+struct ReferenceAcceleration {
   Vector3 value = {0.0, 0.0, 0.0};
   double scale = 0.0;
 };
 /// From the pressure terms of the state.
-[[nodiscard]] std::vector<TwinAcceleration> twin_acceleration(const FluidState& state);
+[[nodiscard]] std::vector<ReferenceAcceleration> reference_acceleration(const FluidState& state);
 
 }  // namespace splash::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/sim-server/fluid/divergence_free_twin.hpp"
+#include "tests/sim-server/fluid/divergence_free_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "tests/sim-server/fluid/body_image_twin.hpp"
+#include "tests/sim-server/fluid/body_image_reference.hpp"
 
 namespace splash::sim {
 namespace {
@@ -36,15 +36,15 @@ Neighbours find_neighbours(const FluidState& s) {
 }
 
 /// Rate of density that velocities cause [kg/m3 s].
-double density_rate(const TwinResponse& r, const std::vector<Neighbour>& around,
+double density_rate(const ReferenceResponse& r, const std::vector<Neighbour>& around,
                     const std::vector<Vector3>& velocity, std::size_t i) {
   double rate = dot(velocity[i], r.gradient[i]) + r.boundary_rate[i];
   for (const Neighbour& n : around) rate -= dot(velocity[n.j], n.gradient);
   return rate;
 }
 
-void push(const TwinResponse& r, const Neighbours& neighbours, const std::vector<double>& change,
-          double dt, std::vector<Vector3>& velocity) {
+void push(const ReferenceResponse& r, const Neighbours& neighbours,
+          const std::vector<double>& change, double dt, std::vector<Vector3>& velocity) {
   for (std::size_t i = 0; i < velocity.size(); ++i) {
     Vector3 a = change[i] * r.gradient[i];
     for (const Neighbour& n : neighbours[i]) a = a + change[n.j] * n.gradient;
@@ -67,21 +67,21 @@ Vector3 body_velocity_at(const FluidState& s, std::size_t body, const Vector3& p
 
 }  // namespace
 
-TwinResponse twin_response(const FluidState& s, double piston_speed) {
+ReferenceResponse reference_response(const FluidState& s, double piston_speed) {
   const double support = static_cast<double>(s.params.support);
   const double rest = static_cast<double>(s.params.rest_density);
   const Neighbours neighbours = find_neighbours(s);
   const std::size_t count = s.position.size();
-  TwinResponse r = {std::vector<Vector3>(count), std::vector<double>(count),
-                    std::vector<double>(count)};
+  ReferenceResponse r = {std::vector<Vector3>(count), std::vector<double>(count),
+                         std::vector<double>(count)};
   for (std::size_t i = 0; i < count; ++i) {
-    const TwinWalls walls = twin_walls(s.params, s.position[i], s.piston);
+    const ReferenceWalls walls = reference_walls(s.params, s.position[i], s.piston);
     Vector3 g = rest * walls.gradient;
     for (const Neighbour& n : neighbours[i]) {
       g = g + n.gradient;
       r.response[i] += dot(n.gradient, n.gradient);
     }
-    const TwinImage image = twin_image(s, s.position[i]);
+    const ReferenceImage image = reference_image(s, s.position[i]);
     const Vector3 skin = body_velocity_at(s, image.owner, s.position[i]);
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
       const Vector3 x = s.position[i] - s.body_position[b];
@@ -98,15 +98,16 @@ TwinResponse twin_response(const FluidState& s, double piston_speed) {
   return r;
 }
 
-TwinSolve twin_solve(const FluidState& s, const TwinResponse& r, const std::vector<double>& offset,
-                     double dt, int iterations, TwinSolve from) {
+ReferenceSolve reference_solve(const FluidState& s, const ReferenceResponse& r,
+                               const std::vector<double>& offset, double dt, int iterations,
+                               ReferenceSolve from) {
   const Neighbours neighbours = find_neighbours(s);
   const std::size_t count = s.position.size();
   const double support = static_cast<double>(s.params.support);
   const double strongest =
       2.0 * kernel_norm(support) / support * static_cast<double>(s.params.mass);
   const double least = 1.0e-4 * strongest * strongest;
-  TwinSolve solve = std::move(from);
+  ReferenceSolve solve = std::move(from);
   const double speed = static_cast<double>(s.params.spacing) / dt;
   const double most = static_cast<double>(s.params.way) * speed * speed /
                       static_cast<double>(s.params.rest_density);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/sim-server/fluid/twin.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "tests/sim-server/fluid/body_image_twin.hpp"
+#include "tests/sim-server/fluid/body_image_reference.hpp"
 
 namespace splash::sim {
 namespace {
@@ -113,7 +113,7 @@ FluidState read_state(Fluid& fluid, double piston) {
   s.position = read_vectors(device, points.position, points.stride, count);
   s.velocity = read_vectors(device, points.velocity, points.stride, count);
   s.density = read_numbers(device, fluid.density(), count);
-  s.knit = read_numbers(device, fluid.knit(), count);
+  s.peak_density = read_numbers(device, fluid.peak_density(), count);
   s.pressure_term = read_numbers(device, fluid.pressure_term(), count);
   const auto body_points = static_cast<std::size_t>(fluid.boundary().point_count());
   const PointArrays& boundary = fluid.boundary().points();
@@ -141,8 +141,8 @@ double wall_distance(const FluidParams& params, int wall, const Vector3& place, 
          moved;
 }
 
-TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double piston) {
-  TwinWalls result;
+ReferenceWalls reference_walls(const FluidParams& params, const Vector3& place, double piston) {
+  ReferenceWalls result;
   const std::vector<int> walls = open_walls(params, place, piston);
   double open = 1.0;
   for (const int k : walls) {
@@ -160,7 +160,7 @@ TwinWalls twin_walls(const FluidParams& params, const Vector3& place, double pis
   return result;
 }
 
-std::vector<double> twin_density(const FluidState& s) {
+std::vector<double> reference_density(const FluidState& s) {
   const double support = static_cast<double>(s.params.support);
   const double mass = static_cast<double>(s.params.mass);
   const double rest = static_cast<double>(s.params.rest_density);
@@ -174,33 +174,33 @@ std::vector<double> twin_density(const FluidState& s) {
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
       share += s.body_volume[b] * kernel_value(length(s.position[i] - s.body_position[b]), support);
     }
-    density[i] += rest * share * twin_image(s, s.position[i]).factor;
-    density[i] += rest * twin_walls(s.params, s.position[i], s.piston).share;
+    density[i] += rest * share * reference_image(s, s.position[i]).factor;
+    density[i] += rest * reference_walls(s.params, s.position[i], s.piston).share;
   }
   return density;
 }
 
-double twin_knit(const FluidParams& params, double dt, double density, double before) {
+double reference_peak_density(const FluidParams& params, double dt, double density, double before) {
   if (density < static_cast<double>(params.torn_density)) return density;
   if (density >= before) return std::min(density, static_cast<double>(params.rest_density));
   return before - static_cast<double>(SPLASH_STRETCH_FADES) * dt * (before - density);
 }
 
-double twin_pressure_term(const FluidParams& params, double density, double knit) {
+double reference_pressure_term(const FluidParams& params, double density, double peak) {
   const double sound = static_cast<double>(params.sound_speed);
   const double rest = static_cast<double>(params.rest_density);
   if (density > rest) return sound * sound * (density - rest) / (density * density);
-  if (density > knit) return 0.0;
-  return static_cast<double>(SPLASH_STRETCH_STIFFNESS) * sound * sound * (density - knit) /
+  if (density > peak) return 0.0;
+  return static_cast<double>(SPLASH_STRETCH_STIFFNESS) * sound * sound * (density - peak) /
          (rest * rest);
 }
 
-std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
+std::vector<ReferenceAcceleration> reference_acceleration(const FluidState& s) {
   const FluidParams& p = s.params;
   const double mass = static_cast<double>(p.mass);
   const double rest = static_cast<double>(p.rest_density);
   const double support = static_cast<double>(p.support);
-  std::vector<TwinAcceleration> result(s.position.size());
+  std::vector<ReferenceAcceleration> result(s.position.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto add = [&](const Vector3& term) {
       result[i].value = result[i].value + term;
@@ -210,7 +210,7 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
     for (std::size_t j = 0; j < s.position.size(); ++j) {
       add(pair_push(s, i, s.position[j], s.velocity[j], mass, own, s.pressure_term[j]));
     }
-    const TwinImage image = twin_image(s, s.position[i]);
+    const ReferenceImage image = reference_image(s, s.position[i]);
     for (std::size_t b = 0; b < s.body_position.size(); ++b) {
       const Vector3& from = s.body_position[b];
       add(pair_push(s, i, from, s.body_velocity[b], rest * s.body_volume[b], image.factor * own,
@@ -218,7 +218,7 @@ std::vector<TwinAcceleration> twin_acceleration(const FluidState& s) {
       add(-own * rest * s.body_volume[b] * kernel_value(length(s.position[i] - from), support) *
           image.gradient);
     }
-    const TwinWalls walls = twin_walls(p, s.position[i], s.piston);
+    const ReferenceWalls walls = reference_walls(p, s.position[i], s.piston);
     add(-s.pressure_term[i] * rest * walls.gradient);
     add({static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
          static_cast<double>(p.gravity_z)});

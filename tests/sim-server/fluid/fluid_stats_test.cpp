@@ -9,22 +9,22 @@
 #include "sim-server/fluid/kernel_sources.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/lane_settings.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
-#include "tests/sim-server/fluid/twin.hpp"
 
 namespace splash::sim {
 namespace {
 
-class SurveyOf : public ::testing::TestWithParam<Build> {
+class FluidStatsOf : public ::testing::TestWithParam<Build> {
  protected:
-  SurveyOf() {
+  FluidStatsOf() {
     water_.start(device_);
     water_.stir(1.0, 31);
     water_.step(1.0e-4);
   }
 
   /// Writes `value` as one number of the particle `id`, and looks.
-  Survey with(int id, std::size_t axis, float value, bool as_velocity) {
+  FluidStats with(int id, std::size_t axis, float value, bool as_velocity) {
     const Snapshot clean = water_.fluid->snapshot();
     Snapshot planted = clean;
     const auto i = static_cast<std::size_t>(std::find(clean.id.begin(), clean.id.end(), id) -
@@ -32,9 +32,9 @@ class SurveyOf : public ::testing::TestWithParam<Build> {
     auto& parts = as_velocity ? planted.velocity : planted.position;
     parts[part(*water_.fluid, axis, i)] = value;
     water_.fluid->restore(planted);
-    const Survey survey = water_.fluid->survey();
+    const FluidStats stats = water_.fluid->stats();
     water_.fluid->restore(clean);
-    return survey;
+    return stats;
   }
 
   Device device_{-1, false, GetParam().lanes};
@@ -42,40 +42,40 @@ class SurveyOf : public ::testing::TestWithParam<Build> {
   Water& water_ = all_.at(1);
 };
 
-TEST_P(SurveyOf, ACleanStateFindsNothing) {
-  const Survey survey = water_.fluid->survey();
-  EXPECT_EQ(survey.not_finite, 0);
-  EXPECT_EQ(survey.first_bad, -1);
-  EXPECT_EQ(survey.runaway, 0);
+TEST_P(FluidStatsOf, ACleanStateFindsNothing) {
+  const FluidStats stats = water_.fluid->stats();
+  EXPECT_EQ(stats.not_finite, 0);
+  EXPECT_EQ(stats.first_bad, -1);
+  EXPECT_EQ(stats.runaway, 0);
 }
 
-TEST_P(SurveyOf, AFaultNamesTheParticle) {
+TEST_P(FluidStatsOf, AFaultNamesTheParticle) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (const float bad : {kNaN, -kNaN, kInfinity, -kInfinity}) {
     for (const bool as_velocity : {false, true}) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const int id = 1500 - static_cast<int>(axis);  // the last are easily left out
-        const Survey survey = with(id, axis, bad, as_velocity);
-        EXPECT_EQ(survey.not_finite, 1) << bad;
-        EXPECT_EQ(survey.first_bad, id) << bad;
-        EXPECT_TRUE(std::isfinite(survey.speed) && std::isfinite(survey.mean_excess));
+        const FluidStats stats = with(id, axis, bad, as_velocity);
+        EXPECT_EQ(stats.not_finite, 1) << bad;
+        EXPECT_EQ(stats.first_bad, id) << bad;
+        EXPECT_TRUE(std::isfinite(stats.speed) && std::isfinite(stats.mean_excess));
       }
     }
   }
 }
 
-TEST_P(SurveyOf, ARunawayCountsIt) {
+TEST_P(FluidStatsOf, ARunawayCountsIt) {
   EXPECT_EQ(with(5, 1, 14.9F, true).runaway, 1);
   EXPECT_EQ(with(5, 1, 13.0F, true).runaway, 0);
 }
 
-TEST_P(SurveyOf, SpeedsAndExcessAreTheTwins) {
+TEST_P(FluidStatsOf, SpeedsAndExcessAreTheTwins) {
   FluidState state;
   water_.step(1.0e-4, [&](Fluid& fluid) { state = read_state(fluid); });
   const std::vector<Vector3> accelerations = read_acceleration(*water_.fluid);
   const Snapshot after = water_.fluid->snapshot();
-  const Survey survey = water_.fluid->survey();
+  const FluidStats stats = water_.fluid->stats();
   double speed = 0.0;
   double acceleration = 0.0;
   double sum = 0.0;
@@ -88,14 +88,14 @@ TEST_P(SurveyOf, SpeedsAndExcessAreTheTwins) {
     sum += excess;
     most = std::max(most, excess);
   }
-  EXPECT_NEAR(survey.speed, speed, 1.0e-6 * speed);
-  EXPECT_NEAR(survey.acceleration, acceleration, 1.0e-6 * acceleration);
+  EXPECT_NEAR(stats.speed, speed, 1.0e-6 * speed);
+  EXPECT_NEAR(stats.acceleration, acceleration, 1.0e-6 * acceleration);
   EXPECT_GT(most, 0.1);
-  EXPECT_NEAR(survey.max_excess, most, 1.0e-6);
-  EXPECT_NEAR(survey.mean_excess, sum / static_cast<double>(state.id.size()), 1.0e-6);
+  EXPECT_NEAR(stats.max_excess, most, 1.0e-6);
+  EXPECT_NEAR(stats.mean_excess, sum / static_cast<double>(state.id.size()), 1.0e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, SurveyOf, kScalarAndVector, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, FluidStatsOf, kScalarAndVector, build_name);
 
 }  // namespace
 }  // namespace splash::sim
