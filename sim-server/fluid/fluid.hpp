@@ -59,8 +59,8 @@ struct Snapshot {
   std::vector<float> position;
   std::vector<float> velocity;
   std::vector<int> id;
-  std::vector<float> peak;      ///< densest since torn (pressure/state_equation.h) [kg/m3]
-  std::vector<float> pressure;  ///< what the solver keeps from step to step
+  std::vector<float> peak_density;  ///< densest since torn (pressure/state_equation.h) [kg/m3]
+  std::vector<float> pressure;      ///< what the solver keeps from step to step
 };
 
 /// Everything is enqueued on the device's in-order queue; only stats, snapshot and restore wait

@@ -39,7 +39,7 @@ void read_pressures(Fluid& fluid, WaterState& water) {
   const std::vector<float> term = fluid.pressure_term().read(fluid.device(), count);
   const std::vector<float> peak = fluid.peak_density().read(fluid.device(), count);
   water.density.assign(density.begin(), density.end());
-  water.peak.assign(peak.begin(), peak.end());
+  water.peak_density.assign(peak.begin(), peak.end());
   water.pressure.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     water.pressure[i] = static_cast<double>(term[i]) * water.density[i] * water.density[i];

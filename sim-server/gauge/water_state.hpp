@@ -11,15 +11,14 @@ namespace splash::sim {
 /// Particles that all have the same mass. Density, peak density, pressure and image are empty
 /// unless they were asked for.
 struct WaterState {
-  std::vector<Vector3> position;  ///< [m]
-  std::vector<Vector3> velocity;  ///< [m/s]
-  std::vector<double> density;    ///< [kg/m3]
-  std::vector<double>
-      peak;  ///< from which on water pulls (fluid/pressure/state_equation.h) [kg/m3]
-  std::vector<double> pressure;    ///< [Pa]
-  std::vector<double> image;       ///< R of fluid/boundary/body_image.h; near bodies [1]
-  std::vector<Vector3> slope;      ///< grad R; near bodies [1/m]
-  std::vector<Vector3> wall_push;  ///< what the walls do to each (wall_push.hpp) [m/s2]
+  std::vector<Vector3> position;     ///< [m]
+  std::vector<Vector3> velocity;     ///< [m/s]
+  std::vector<double> density;       ///< [kg/m3]
+  std::vector<double> peak_density;  ///< below it water pulls (pressure/state_equation.h) [kg/m3]
+  std::vector<double> pressure;      ///< [Pa]
+  std::vector<double> image;         ///< R of fluid/boundary/body_image.h; near bodies [1]
+  std::vector<Vector3> slope;        ///< grad R; near bodies [1/m]
+  std::vector<Vector3> wall_push;    ///< what the walls do to each (wall_push.hpp) [m/s2]
 
   double mass = 0.0;          ///< of one particle [kg]
   double spacing = 0.0;       ///< dp [m]

@@ -54,7 +54,7 @@ void pack(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, doub
     fluid.prepare(step);
     fluid.advance(step);
     fluid.still();
-    rest.put_back();
+    rest.restore();
   }
   fluid.give_weight();
 }

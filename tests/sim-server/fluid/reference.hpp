@@ -18,7 +18,7 @@ struct FluidState {
   std::vector<Vector3> position;      ///< [m]
   std::vector<Vector3> velocity;      ///< [m/s]
   std::vector<double> density;        ///< [kg/m3]
-  std::vector<double> peak;           ///< [kg/m3]
+  std::vector<double> peak_density;   ///< [kg/m3]
   std::vector<double> pressure_term;  ///< p / rho^2
   std::vector<Vector3> body_position;
   std::vector<Vector3> body_velocity;

@@ -43,7 +43,7 @@ TEST(Balance, AStretchTakesWorkFromTheKnitOn) {
 TEST(Balance, EnergiesOfABlockThatMovesAsOne) {
   WaterState water = lattice_water({0.0, 0.0, 1.0}, {0.1, 0.2, 1.4}, 0.01);
   water.density.assign(water.position.size(), 1010.0);
-  water.peak.assign(water.position.size(), 1000.0);
+  water.peak_density.assign(water.position.size(), 1000.0);
   for (Vector3& v : water.velocity) v = {0.3, 0.0, -0.4};
   const double mass = 1000.0 * 0.1 * 0.2 * 0.4;
   const Energies e = energies(water);
