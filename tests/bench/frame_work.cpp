@@ -92,8 +92,8 @@ std::map<std::string, Work> frame_work(const FrameSeen& seen, const Profile& pro
     const double cells = rows * p.params.cells_x;
     const double groups = profile.team > 1 ? rows : rows / static_cast<double>(profile.group);
     all["keep_awake"] = {.groups = groups, .bytes = 12.0 * n + 16.0 * cells, .operations = 6.0 * n};
-    all["stir_cells"] = {.groups = groups, .bytes = 12.0 * cells};
-    for (const char* name : {"keep_awake", "stir_cells"}) {
+    all["spread_activity"] = {.groups = groups, .bytes = 12.0 * cells};
+    for (const char* name : {"keep_awake", "spread_activity"}) {
       Work& work = all[name];
       (profile.lanes > 1 ? work.scalar : work.operations) += kOfAwake * cells;
     }
