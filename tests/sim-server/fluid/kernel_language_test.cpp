@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
-// All kernels in the eyes of clang's front end, for the targets of GPUs' compilers: OpenCL C 1.2
-// without a single extension, no double, no half, nothing that only PoCL knows.
+// All kernels in the eyes of clang, for the targets of GPUs' compilers: OpenCL C 1.2 without a
+// single extension, no double, no half, nothing that only PoCL knows; and what they take of a GPU
+// stays within its documented limits.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <regex>
 #include <string>
 #include <vector>
 
+#include "sim-server/device/profile.hpp"
 #include "sim-server/fluid/kernel_sources.hpp"
 
 namespace splash::sim {
@@ -22,6 +28,10 @@ std::vector<KernelSource> pin();
 }  // namespace kernels
 
 namespace {
+
+using testing::Each;
+using testing::Eq;
+using testing::Le;
 
 struct Target {
   const char* name;
@@ -57,32 +67,99 @@ std::string output_of(const std::string& command, int& status) {
   return output;
 }
 
-class KernelLanguage : public ::testing::TestWithParam<Target> {
+class Compiled : public ::testing::Test {
  protected:
-  ~KernelLanguage() override { std::filesystem::remove(file_); }
+  void SetUp() override {
+    int status = 0;
+    static_cast<void>(output_of("clang --version", status));
+    if (status != 0) GTEST_SKIP() << "clang is not installed";
+  }
+  ~Compiled() override { std::filesystem::remove(file_); }
 
-  std::filesystem::path file_ =
-      std::filesystem::path(::testing::TempDir()) / ("kernels-" + std::to_string(getpid()) + ".cl");
-};
-
-TEST_P(KernelLanguage, IsUnderstood) {
-  int status = 0;
-  static_cast<void>(output_of("clang --version", status));
-  if (status != 0) GTEST_SKIP() << "clang is not installed";
-  for (const NamedProgram& program : programs()) {
+  /// What clang prints for `program`; `how`: what it makes, and for which target.
+  std::string compile(const NamedProgram& program, const std::string& how) const {
     std::ofstream file(file_);
     for (const KernelSource& source : program.sources) {
       file << "#line 1 \"" << source.name << "\"\n" << source.text << '\n';
     }
     file.close();
-    const std::string output = output_of(
-        std::string("clang -x cl -cl-std=CL1.2 -Xclang -cl-ext=-all -Xclang "
-                    "-finclude-default-header -fsyntax-only -nogpulib -Wno-unused-command-line-"
-                    "argument -Werror=implicit-function-declaration -Werror=double-promotion "
-                    "-target ") +
-            GetParam().triple + ' ' + GetParam().defines + ' ' + file_.string(),
+    int status = 0;
+    std::string output = output_of(
+        "clang -x cl -cl-std=CL1.2 -Xclang -cl-ext=-all -Xclang -finclude-default-header "
+        "-nogpulib -Wno-unused-command-line-argument -Werror=implicit-function-declaration "
+        "-Werror=double-promotion " +
+            how + ' ' + file_.string(),
         status);
     EXPECT_EQ(status, 0) << program.name << ":\n" << output;
+    return output;
+  }
+
+ private:
+  std::filesystem::path file_ =
+      std::filesystem::path(::testing::TempDir()) / ("kernels-" + std::to_string(getpid()) + ".cl");
+};
+
+class KernelLanguage : public Compiled, public ::testing::WithParamInterface<Target> {};
+
+TEST_P(KernelLanguage, IsUnderstood) {
+  for (const NamedProgram& program : programs()) {
+    compile(program,
+            std::string("-fsyntax-only -target ") + GetParam().triple + ' ' + GetParam().defines);
+  }
+}
+
+/// All numbers that follow `key` in a text.
+std::vector<int> numbers_after(const std::string& text, const std::string& key) {
+  std::vector<int> found;
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+    found.push_back(std::atoi(text.c_str() + at + key.size()));
+  }
+  return found;
+}
+
+/// How many kernels stand in the sources of `program`.
+std::size_t kernels_of(const NamedProgram& program) {
+  std::size_t count = 0;
+  for (const KernelSource& source : program.sources) {
+    for (std::size_t at = source.text.find("kernel void "); at != std::string::npos;
+         at = source.text.find("kernel void ", at + 1)) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+// AMD's: 64 KiB of local memory for a work-group, 256 work-items where a kernel does not ask for
+// more, 4 KiB of arguments; no kernel needs more registers than the 512 there are (ROCm's
+// documentation of the AMDGPU target, and of OpenCL's limits).
+TEST_F(Compiled, FitsAmdsLimits) {
+  const Profile gpu = gpu_profile();
+  EXPECT_LE(std::max({gpu.group, gpu.team, gpu.judges}), 256U);
+  for (const NamedProgram& program : programs()) {
+    const std::string code = compile(program,
+                                     "-O1 -S -o - -target amdgcn-amd-amdhsa -mcpu=gfx90a "
+                                     "-DLANES=1 -DTEAM=64 -DJUDGES=256");
+    const std::vector<int> local = numbers_after(code, ".group_segment_fixed_size: ");
+    EXPECT_EQ(local.size(), kernels_of(program)) << program.name;
+    EXPECT_THAT(local, Each(Le(64 * 1024))) << program.name;
+    EXPECT_THAT(numbers_after(code, ".kernarg_segment_size: "), Each(Le(4096))) << program.name;
+    EXPECT_THAT(numbers_after(code, ".vgpr_spill_count: "), Each(Eq(0))) << program.name;
+  }
+}
+
+// NVIDIA's: 48 KiB of shared memory that a kernel declares (CUDA C++ Programming Guide, technical
+// specifications for each compute capability).
+TEST_F(Compiled, FitsNvidiasLimits) {
+  for (const NamedProgram& program : programs()) {
+    const std::string code = compile(
+        program, "-O1 -S -o - -target nvptx64-unknown-nvcl -DLANES=1 -DTEAM=64 -DJUDGES=256");
+    std::map<std::string, int> shared;
+    const std::regex declared(R"(\.shared \.align \d+ \.b8 (\w+)_\$_\w+\[(\d+)\])");
+    for (std::sregex_iterator at(code.begin(), code.end(), declared), end; at != end; ++at) {
+      shared[(*at)[1]] += std::stoi((*at)[2]);
+    }
+    EXPECT_EQ(code.find(".shared") != std::string::npos, !shared.empty()) << program.name;
+    for (const auto& [kernel, bytes] : shared) EXPECT_LE(bytes, 48 * 1024) << kernel;
   }
 }
 
