@@ -69,17 +69,21 @@ struct Safety {
   double max_torque = 0.1;     ///< [N m]
   double max_damping = 5.0;    ///< of what is extrapolated by speed [N s/m]
   double max_turning = 0.005;  ///< the same of torques [N m s]
-  double slew = 200.0;         ///< the water's force changes no faster [N/s], its torque no faster
-                               ///< than a fiftieth of it [N m/s]; damping for passivity may
-  double ramp = 0.5;           ///< the first force, and that after a silence, grows so long [s]
-  double silence = 0.05;       ///< so long after the last message there is no force left [s]
-  double fade = 0.02;          ///< of that, the last part, in which it fades [s]
-  /// The water gives the hand no energy but what the hand gave it before (the passivity observer
-  /// and controller of Hannaford & Ryu 2002), of which it owes the last `credit` at most [J].
+  double slew = 200.0;    ///< the force changes no faster, whatever it is for [N/s], its torque
+                          ///< no faster than a fiftieth of it [N m/s]
+  double ramp = 0.5;      ///< the first force, and that after a silence, grows so long [s]
+  double silence = 0.05;  ///< so long after the last message there is no force left [s]
+  double fade = 0.02;     ///< of that, the last part, in which it fades [s]
+  /// The water gives the hand no energy but what the hand gave it before, of which it owes the last
+  /// `credit` at most, and `advance` (the passivity observer of Hannaford & Ryu 2002). As the force
+  /// cannot end at once, it is never larger than what can be taken back by `slew` before that
+  /// energy is used up, while the hand speeds up by `hand` meanwhile.
   bool passive = true;
-  double credit = 2.0;
-  double horizon = 0.02;       ///< [s]
-  double most_passive = 60.0;  ///< damping that this may take [N s/m]
+  double credit = 2.0;         ///< [J]
+  double advance = 0.8e-3;     ///< [J]
+  double hand = 50.0;          ///< [m/s2]
+  double horizon = 0.02;       ///< what was taken too much is given back by damping, so soon [s]
+  double most_passive = 60.0;  ///< such damping, at most [N s/m]
 };
 
 /// The arithmetic alone: no socket, no thread, no clock of its own. Times in seconds of any clock.
@@ -109,19 +113,21 @@ class ForceModel {
       wanted.torque = scaled(share, extrapolated(model_.wrench.torque, model_.by_spin, spin,
                                                  model_.spin, safety_.max_turning));
     }
+    note_work(place, sound);
     limit(wanted.force, safety_.max_force);
     limit(wanted.torque, safety_.max_torque);
+    if (safety_.passive && sound) make_passive(wanted.force, velocity, dt);
+    // What the slew limit can take back until the silence is over.
+    const double left = std::max(safety_.silence - (now - last_) - dt, 0.0);
+    limit(wanted.force, safety_.slew * left);
+    limit(wanted.torque, safety_.slew / 50.0 * left);
     approach(given_.force, wanted.force, safety_.slew * dt);
     approach(given_.torque, wanted.torque, safety_.slew / 50.0 * dt);
-    if (heard_ && now - last_ >= safety_.silence) given_ = {};
-    Wrench out = given_;
-    if (safety_.passive && sound) out.force = passive(place, velocity);
-    if (!sound) out = {};
-    out_ = out;
+    if (!sound || (heard_ && now - last_ >= safety_.silence)) given_ = {};
     place_ = sound ? place : place_;
     asked_at_ = now;
     asked_ = true;
-    return out;
+    return given_;
   }
 
   /// What the hand has given the water and not got back, as far as it counts [J].
@@ -168,25 +174,46 @@ class ForceModel {
   }
 
   /// The force that was given last has done its work since: the hand's energy in the water is
-  /// known to the sample. Where it would be less than none, enough damping is added.
-  Vector passive(const Vector& place, const Vector& velocity) {
-    if (asked_) {
-      const Vector way = {place[0] - place_[0], place[1] - place_[1], place[2] - place_[2]};
-      energy_ = std::min(energy_ - dot(out_.force, way), safety_.credit);
+  /// known to the sample, whatever the limits made of that force.
+  void note_work(const Vector& place, bool sound) {
+    if (!asked_ || !sound) return;
+    const Vector way = {place[0] - place_[0], place[1] - place_[1], place[2] - place_[2]};
+    energy_ = std::min(energy_ - dot(given_.force, way), safety_.credit);
+  }
+
+  /// What the hand gets from a force along its motion at `speed` while the slew limit takes it
+  /// back:
+  ///   integral of (F - slew t) (speed + hand t) dt  until F = slew t.
+  double cost(double force, double speed) const {
+    const double time = force / safety_.slew;
+    return force * time * (speed / 2.0 + safety_.hand * time / 6.0);
+  }
+
+  /// The largest force that costs no more than `energy`. Below it there is none that does: the cost
+  /// falls at first where the force holds the hand up, then grows.
+  double affordable(double speed, double energy) const {
+    double low = 0.0, high = safety_.max_force;
+    if (cost(high, speed) <= energy) return high;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = (low + high) / 2.0;
+      (cost(middle, speed) <= energy ? low : high) = middle;
     }
-    Vector out = given_.force;
-    // The hand gets back what there is no faster than it runs out within `horizon`: so the force
-    // fades as it does. What was taken too much is given back by damping.
+    return low;
+  }
+
+  void make_passive(Vector& force, const Vector& velocity, double dt) const {
+    const double energy = energy_ + safety_.advance;
     const double square = dot(velocity, velocity);
-    const double power = dot(out, velocity);
-    const double most = energy_ / safety_.horizon;
-    if (power > most && square > 1.0e-8) {
-      const double along =
-          std::min((power - most) / square, std::max(power, 0.0) / square + safety_.most_passive);
-      for (std::size_t i = 0; i < 3; ++i) out[i] -= along * velocity[i];
+    if (energy < 0.0 && square > 1.0e-8) {
+      const double damping = std::min(-energy / (safety_.horizon * square), safety_.most_passive);
+      for (std::size_t i = 0; i < 3; ++i) force[i] -= damping * velocity[i];
     }
-    limit(out, safety_.max_force);
-    return out;
+    const double size = std::sqrt(dot(force, force));
+    if (size <= 0.0) return;
+    // A turn passes before the force can change.
+    const double speed = dot(force, velocity) / size + safety_.hand * dt;
+    const double most = affordable(speed, std::max(energy, 0.0)) - safety_.slew * dt;
+    limit(force, std::max(most, 0.0));
   }
 
   Safety safety_;
@@ -197,8 +224,7 @@ class ForceModel {
   bool asked_ = false;
   double asked_at_ = 0.0;
   Vector place_ = {0.0, 0.0, 0.0};
-  Wrench given_;  ///< before passivity
-  Wrench out_;    ///< what the hand got
+  Wrench given_;  ///< what the hand gets
   double energy_ = 0.0;
 };
 

@@ -72,6 +72,29 @@ TEST(ForceModel, IsZeroAfterFiftyMillisecondsOfSilenceAndFadesBefore) {
   EXPECT_LT(model.force({}, {}, {}, now + kTurn).force[2], 0.05) << "and begins softly";
 }
 
+// The largest force fades to nothing within the silence, and no faster than the slew limit, be the
+// last part of the silence ever so short.
+TEST(ForceModel, FadesTheLargestForceWithoutAStep) {
+  for (const double fade : {0.02, 0.001}) {
+    Safety safety = plain();
+    safety.fade = fade;
+    ForceModel model(safety);
+    double now = 0.0;
+    for (; now < 1.0; now += kTurn) {
+      model.take(pushing(50.0), now);
+      model.force({}, {}, {}, now);
+    }
+    const double last = now - kTurn;
+    double before = safety.max_force;
+    for (; now < last + 0.06; now += kTurn) {
+      const double force = model.force({}, {}, {}, now).force[2];
+      EXPECT_LE(before - force, 200.0 * 1.01 * kTurn) << fade << " " << now - last;
+      EXPECT_TRUE(now < last + 0.05 || force == 0.0) << now - last;
+      before = force;
+    }
+  }
+}
+
 TEST(ForceModel, NeverExceedsItsLimitsNorBelievesWhatIsNoNumber) {
   Safety safety = plain();
   safety.ramp = 0.0;
@@ -226,8 +249,58 @@ TEST(ForceModel, GivesADeviceNoEnergy) {
       std::printf("x %.1f, %.2f Hz: gained %.3f mJ of %.2f J, roughest %.2f N\n", factor, hertz,
                   1e3 * run.gained, run.work, run.roughest);
       EXPECT_LT(run.gained, 1.0e-3) << factor << " " << hertz;
+      EXPECT_LE(run.roughest, 200.0 * 1.01 * kTurn) << "what leaves keeps the slew limit";
       EXPECT_GT(run.work, 0.5);
     }
+  }
+}
+
+// In circles, down into the water and out of it askew: a force across the motion, and one that
+// turns.
+TEST(ForceModel, GivesADeviceNoEnergyInCircles) {
+  for (const double hertz : {0.3, 1.0, 2.5}) {
+    ForceModel model;
+    Vector x = {0.0, 0.0, 0.0}, v = {0.0, 0.0, 0.0}, f = {0.0, 0.0, 0.0};
+    double energy = 0.0, gained = 0.0, work = 0.0;
+    std::deque<std::pair<double, Model>> under_way;
+    double next = 0.0;
+    for (double now = 0.0; now < 30.0; now += kTurn) {
+      if (now >= next) {  // a late spring to the middle, and a stream that turns about it
+        Model told;
+        told.session = 1;
+        told.wrench.force = {-60.0 * x[0] - 20.0 * x[1], 20.0 * x[0] - 60.0 * x[1],
+                             4.0 - 60.0 * x[2]};
+        told.velocity = v;
+        told.by_speed = {-2.0, -2.0, -2.0};
+        next += 1.0 / 160.0;
+        under_way.emplace_back(now + 0.02, told);
+      }
+      while (!under_way.empty() && under_way.front().first <= now) {
+        model.take(under_way.front().second, now);
+        under_way.pop_front();
+      }
+      const Vector before = f;
+      f = model.force(x, v, {}, now).force;
+      const Vector step = {f[0] - before[0], f[1] - before[1], f[2] - before[2]};
+      EXPECT_LE(std::hypot(step[0], step[1], step[2]), 200.0 * 1.01 * kTurn);
+      const double phase = 2.0 * 3.14159265358979 * hertz * now;
+      const Vector wanted = {0.05 * std::sin(phase), 0.05 * std::cos(phase),
+                             0.05 * std::sin(0.7 * phase)};
+      for (int part = 0; part < 10; ++part) {
+        const double dt = kTurn / 10.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          v[i] += dt * (f[i] + 500.0 * (wanted[i] - x[i]) - 3.0 * v[i]) / 0.3;
+          const double way = dt * v[i];
+          x[i] += way;
+          energy -= f[i] * way;
+          work += std::abs(f[i] * way);
+        }
+        gained = std::max(gained, -energy);
+      }
+    }
+    std::printf("circles, %.1f Hz: gained %.3f mJ of %.2f J\n", hertz, 1e3 * gained, work);
+    EXPECT_LT(gained, 1.0e-3) << hertz;
+    EXPECT_GT(work, 0.5);
   }
 }
 
