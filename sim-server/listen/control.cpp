@@ -8,6 +8,7 @@
 #include <exception>
 #include <utility>
 
+#include "protocol/arrays.hpp"
 #include "protocol/time_tag.hpp"
 
 namespace splash::sim {
@@ -66,10 +67,12 @@ void ControlServer::take(protocol::Bytes packet, const protocol::UdpSocket::Rece
   const double unix_time = protocol::unix_now() - received.waited;
   if (!is_allowed(from)) {
     count(&ControlCounts::not_allowed);
-    complain(from, "not heard: this host is not among the allowed ones");
+    complain(from,
+             "not heard: this host is not among the allowed ones; --allow with its address lets it "
+             "in");
     return;
   }
-  const auto decoded = protocol::decode(packet);
+  const auto decoded = protocol::decode_with_arrays(packet);
   if (decoded.refusal != protocol::Refusal::none) {
     refuse(decoded.refusal, from);
     return;

@@ -244,6 +244,7 @@ struct TrackerSource {
   std::vector<std::string> rotation_match;          ///< what their first arguments are
   std::vector<std::size_t> rotation;  ///< which arguments; 4: x y z w, 3: angles about x y z
   std::array<std::size_t, 3> order = {2, 0, 1};  ///< angles: axes in the order of the turns, fixed
+  bool divided = false;                          ///< angles: that about y is triad_openvr's
   double angle = 1.0;                            ///< of the sender's unit of angle [rad]
   std::array<std::size_t, 3> axes = {0, 1, 2};   ///< the sender's axes that are the scene's x y z
   Vector3 signs = {1.0, 1.0, 1.0};               ///< their senses [1]

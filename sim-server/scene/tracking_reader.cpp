@@ -100,9 +100,9 @@ void read_rotation(const ConfigMap& map, const TrackerEntry& entry, TrackerSourc
   for (const char* key : {"euler", "angles"}) {
     if (count != 3 && map.has(key)) throw map.error(key, "has no meaning but for three angles");
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    source.order[i] = static_cast<std::size_t>(entry.euler[i] - 'x');
-  }
+  source.divided = entry.euler == "triad";
+  const std::string order = source.divided ? "xyz" : entry.euler;
+  for (std::size_t i = 0; i < 3; ++i) source.order[i] = static_cast<std::size_t>(order[i] - 'x');
   source.angle = entry.angles == "degrees" ? std::numbers::pi / 180.0 : 1.0;
   source.rotation_address =
       entry.rotation_address.empty()

@@ -35,6 +35,13 @@ const std::map<std::string, TrackerEntry>& tracker_presets() {
         .rotation_match = {"{name}", "quat"},
         .rotation = {2, 3, 4, 5},
         .axes = kUpIsY}},
+      // https://github.com/BarakChamo/OpenVR-OSC: an array of a place, yaw, pitch and roll; right,
+      // up, back.
+      {"openvr-osc",
+       {.address = "/tracker/{name}",
+        .rotation = {5, 4, 3},
+        .euler = "triad",
+        .axes = {"-z", "-x", "y"}}},
       // https://www.tuio.org: TUIO 1.1, a surface seen from above with y towards its front edge.
       {"tuio", {.address = "/tuio/2Dcur", .match = {"set"}, .axes = {"x", "-y", "z"}}},
   };
@@ -123,8 +130,10 @@ Fields<TrackerEntry> number_fields() {
        &T::rotation},
       {{.key = "euler",
         .unit = "",
-        .meaning = "Axes, fixed in the room, in the order in which the angles turn about them.",
-        .choices = {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"}},
+        .meaning = "Axes, fixed in the room, in the order in which the angles turn about them; "
+                   "triad: xyz, and the angle about y is that of triad_openvr, whose tangent is "
+                   "minus the right one's over the cosine of that about z.",
+        .choices = {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "triad"}},
        &T::euler},
       {{.key = "angles", .unit = "", .meaning = "Their unit.", .choices = {"degrees", "radians"}},
        &T::angles},

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "program/printable.hpp"
+#include "protocol/arrays.hpp"
 #include "protocol/limits.hpp"
 #include "sim-server/tracker_monitor/mapping_lines.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::size_t kMost = 200;  ///< trackers that are told apart, and hosts
 constexpr std::size_t kShown = 64;  ///< characters of what was refused
+constexpr double kLeastSpan = 0.5;  ///< over which a rate is told: a single message has none [s]
 
 std::string host_of(std::uint32_t address) {
   const std::string text = protocol::to_string({.address = address, .port = 0});
@@ -86,7 +88,7 @@ void Heard::take(protocol::Bytes packet, const protocol::Endpoint& from, std::ui
                  double now) {
   if (since_ < 0.0) since_ = now;
   ++packets_;
-  const auto decoded = protocol::decode(packet);
+  const auto decoded = protocol::decode_with_arrays(packet);
   if (decoded.refusal != protocol::Refusal::none) {
     if (refused_.size() >= kMost && !refused_.contains(from.address)) return;
     Refused& refused = refused_[from.address];
@@ -114,7 +116,7 @@ void Heard::note(const protocol::Message& message, const protocol::Endpoint& fro
 
 std::string Heard::report(double now) {
   std::string text;
-  const double span = std::max(now - since_, 1e-3);
+  const double span = std::max(now - since_, kLeastSpan);
   for (auto& [key, row] : rows_) {
     if (row.count == 0) continue;
     text += key.address + "  from " +

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "protocol/arrays.hpp"
 #include "protocol/message.hpp"
 #include "sim-server/bodies/motion/pressure_feet.hpp"
 #include "sim-server/bodies/motion/tracker_map.hpp"
@@ -66,7 +67,7 @@ void check(const sim::FloorTouch& touch, std::size_t bodies) {
 bool try_tracker(Bytes input) {
   static const sim::Scene kScene = scene_of_all_presets();
   const std::vector<std::byte> tight(input.begin(), input.end());
-  const protocol::DecodeResult decoded = protocol::decode(tight);
+  const protocol::DecodeResult decoded = protocol::decode_with_arrays(tight);
   sim::TrackerMap map(kScene);
   sim::TuioFeet surfaces(kScene);
   sim::PressureFeet floor(kScene);

@@ -77,12 +77,23 @@ Quaternion along(const TrackerSource& source, const Quaternion& theirs) {
   return {hand * axis[0], hand * axis[1], hand * axis[2], theirs[3]};
 }
 
+/// Of a rotation about x, y and z, one after the other, whose matrix is m, triad_openvr says
+/// atan2(m20, m00) for the angle about y, which is -asin(m20): its tangent is -tan(y) / cos(z).
+double undivided(double y, double z) {
+  return -std::atan2(std::sin(y) * std::abs(std::cos(z)), std::abs(std::cos(y)));
+}
+
 /// Turns about fixed axes, one after the other.
 Quaternion from_angles(const TrackerSource& source, const std::vector<double>& angles) {
+  Vector3 about = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    about[axis] = std::remainder(source.angle * angles[axis], 2.0 * std::numbers::pi);
+  }
+  if (source.divided) about[1] = undivided(about[1], about[2]);
   Quaternion turned = {0.0, 0.0, 0.0, 1.0};
   for (const std::size_t axis : source.order) {
     Vector3 turn = {0.0, 0.0, 0.0};
-    turn[axis] = std::remainder(source.angle * angles[axis], 2.0 * std::numbers::pi);
+    turn[axis] = about[axis];
     turned = compose(from_turn(turn), turned);
   }
   return turned;

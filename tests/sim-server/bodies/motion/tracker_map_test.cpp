@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "protocol/arrays.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 
@@ -177,6 +178,21 @@ TEST(TrackerMap, TakesNatNetThree2Osc) {
       "2f7269676964626f647900002c697366666666000000000771756174000000003dcccccd3f333333bdcccccd3f"
       "333333");
   mapped.expect_one(kFromMotive * kPosition, kFromMotive * of(kRotation) * transposed(kFromMotive));
+}
+
+// A headset and a tracker in arrays, as python-osc writes a list. The tracker is turned by 130, -25
+// and 70 degrees about z, y and x, of which the sender says 130, 144.04 and 70.
+TEST(TrackerMap, TakesOpenVrOsc) {
+  Mapped mapped("  sources: [{body: hand, preset: openvr-osc, name: '1'}]\n");
+  const auto decoded = protocol::decode_with_arrays(
+      bytes("2362756e646c650000000000000000010000002c2f686d642f3100002c5b6666666666665d000000000000"
+            "003fd9999a00000000000000000000000000000000000000302f747261636b65722f3100002c5b66666666"
+            "66665d0000003e8000003fc00000bf4000004302000043100a88428c0000"));
+  ASSERT_EQ(decoded.refusal, protocol::Refusal::none);
+  for (const auto& message : decoded.packet.messages) mapped.take(message);
+  constexpr Matrix kFromOpenVr = {{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};  // ahead, left, up
+  const Matrix tracker = about(2, 130.0) * about(1, -25.0) * about(0, 70.0);
+  mapped.expect_one(kFromOpenVr * kPosition, kFromOpenVr * tracker * transposed(kFromOpenVr));
 }
 
 TEST(TrackerMap, TakesMessagesThatAreSpelledOut) {
