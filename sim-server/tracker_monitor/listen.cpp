@@ -95,7 +95,7 @@ int listen(const Options& options) {
   std::printf("listening at UDP port%s, from all hosts; Ctrl-C ends it\n", list.c_str());
   std::fflush(stdout);
   Heard heard;
-  const std::uint64_t unwanted = unwanted_datagrams();
+  const Missed before = missed();
   const double start = protocol::monotonic_now();
   double next = start + kPeriod;
   bool warned = false;
@@ -108,10 +108,12 @@ int listen(const Options& options) {
     std::fputs(heard.report(now).c_str(), stdout);
     if (!warned && heard.packets() == 0 && (now - start >= kSilence || over)) {
       warned = true;
+      const Missed all = missed();
+      const Missed since = {all.unwanted - before.unwanted, all.filtered - before.filtered};
       std::printf(
           "nothing has come yet: the sender needs this host's address and one of the ports "
           "above\n%s",
-          obstacles(ports_of(ears), unwanted_datagrams() - unwanted).c_str());
+          obstacles(ports_of(ears), since).c_str());
     }
     std::fflush(stdout);
     if (over) break;

@@ -16,13 +16,16 @@ struct SystemFiles {
   std::filesystem::path counters = "/proc/net/snmp";
 };
 
-/// Datagrams that came for UDP ports where nobody listens, since the host was started; 0: not
-/// known.
-[[nodiscard]] std::uint64_t unwanted_datagrams(const SystemFiles& files = {});
+/// What came to the host and to no program, since the host was started; 0: none, or not known.
+struct Missed {
+  std::uint64_t unwanted = 0;  ///< datagrams for UDP ports where nobody listens
+  std::uint64_t filtered = 0;  ///< packets that the kernel took in and a filter did not let through
+};
+[[nodiscard]] Missed missed(const SystemFiles& files = {});
 
-/// Sentences, a line each, on why nothing may arrive at `ports`. `unwanted`: such datagrams since
-/// it was begun to listen.
-[[nodiscard]] std::string obstacles(const std::vector<std::uint16_t>& ports, std::uint64_t unwanted,
+/// Sentences, a line each, on why nothing may arrive at `ports`. `since`: what was missed since it
+/// was begun to listen.
+[[nodiscard]] std::string obstacles(const std::vector<std::uint16_t>& ports, const Missed& since,
                                     const SystemFiles& files = {});
 
 }  // namespace splash::sim

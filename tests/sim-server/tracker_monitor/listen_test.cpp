@@ -86,6 +86,9 @@ TEST(Listen, TellsOnceHowEachIsMappedAndHowOftenItComes) {
                     HasSubstr(",fff 1.000 2.000 3.000"), HasSubstr("address: /phone"),
                     HasSubstr("--listen 0.0.0.0:57300 --allow 192.168.0.30")));
   EXPECT_EQ(heard.report(1.0), "");
+  Heard just;
+  just.take(packet, phone, 57300, 0.0);
+  EXPECT_THAT(just.report(0.001), HasSubstr("2.0/s")) << "one came";
   heard.take(packet, phone, 57300, 1.1);
   EXPECT_THAT(heard.report(1.5), AllOf(HasSubstr("2.0/s"), Not(HasSubstr("tracking:"))));
 }
@@ -102,12 +105,21 @@ TEST(Listen, SaysWhatAFirewallNeeds) {
   const std::filesystem::path ufw = tests::temporary_path("ufw.conf");
   std::ofstream(ufw) << "# a comment\nENABLED=yes\n";
   SystemFiles files = {.ufw = ufw, .firewalld = "/nowhere", .counters = "/nowhere"};
-  EXPECT_THAT(obstacles({9000}, 0, files), HasSubstr("sudo ufw allow 9000/udp"));
-  std::ofstream(ufw) << "ENABLED=no\nUdp: InDatagrams NoPorts InErrors\nUdp: 5 17 0\n";
+  EXPECT_THAT(obstacles({9000}, {}, files), HasSubstr("sudo ufw allow 9000/udp"));
+  std::ofstream(ufw)
+      << "ENABLED=no\n"
+         "Ip: Forwarding InReceives InHdrErrors InDelivers\nIp: 2 100 1 90\n"
+         "Udp: InDatagrams NoPorts InErrors\nUdp: 5 17 0\nUdpLite: NoPorts\nUdpLite: 4\n";
   files.counters = ufw;
-  EXPECT_EQ(obstacles({9000}, 0, files), "");
-  EXPECT_THAT(obstacles({9000}, 3, files), HasSubstr("3 datagrams came for ports"));
-  EXPECT_EQ(unwanted_datagrams(files), 17U);
+  EXPECT_EQ(obstacles({9000}, {}, files), "");
+  EXPECT_THAT(obstacles({9000}, {.unwanted = 3}, files), HasSubstr("3 datagrams came for ports"));
+  EXPECT_THAT(obstacles({9000, 3333}, {.filtered = 4}, files),
+              AllOf(HasSubstr("4 packets reached this host and were not let in: a firewall"),
+                    HasSubstr("UDP is wanted at 9000 3333")));
+  EXPECT_EQ(missed(files).unwanted, 17U);
+  EXPECT_EQ(missed(files).filtered, 9U);
+  files.counters = "/nowhere";
+  EXPECT_EQ(missed(files).unwanted + missed(files).filtered, 0U);
   std::filesystem::remove(ufw);
 }
 
