@@ -66,6 +66,9 @@ struct Line {
   std::ostream& out;
   void operator()(const protocol::Impact& e) const {
     print(out, "impact", e.id, e.body, e.speed, e.approach, e.position);
+    if (e.momentum <= 0.0F || e.rise <= 0.0F) return;
+    print(out, e.momentum);
+    print(out, e.rise);
   }
   void operator()(const protocol::Bubble& e) const {
     print(out, "bubble", e.id, e.body, e.radius, e.epsilon, e.position);

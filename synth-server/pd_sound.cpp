@@ -15,12 +15,11 @@
 namespace splash::synth {
 namespace {
 
-/// Rows that the patches do not play: linear theory, place, clouds, fine water, water under the
-/// foot.
-constexpr std::array kUnplayed = {"physical", "place"};
+/// Rows that the patches do not play: linear theory, forces that the simulator tells.
+constexpr std::array kUnplayed = {"physical", "least"};
 
 struct PdRow {
-  std::string part;  ///< impact, bubble, cavity
+  std::string part;  ///< impact, bubble, cavity, cloud, fine, foot
   program::Row row;
   double number = 0.0;  ///< of the sound that was asked for
   [[nodiscard]] std::string name() const { return part + '_' + row.key; }
@@ -40,6 +39,22 @@ std::vector<PdRow> rows_of(const Sound& sound) {
   add("impact", impact_fields(), sound.impact, rows);
   add("bubble", bubble_fields(), sound.bubble, rows);
   add("cavity", cavity_fields(), sound.cavity, rows);
+  add("cloud", cloud_fields(), sound.cloud, rows);
+  add("fine", fine_fields(), sound.fine, rows);
+  add("foot", foot_fields(), sound.foot, rows);
+  return rows;
+}
+
+/// Where surface and floor are, which the synth's command line says; far away at first.
+std::vector<PdRow> with_levels(std::vector<PdRow> rows) {
+  constexpr double kFar = 1e6;
+  const auto level = [](const char* part) {
+    return PdRow{part, {.key = "level", .unit = "m", .meaning = "", .min = -kFar, .max = kFar}};
+  };
+  rows.push_back(level("water"));
+  rows.back().number = kFar;
+  rows.push_back(level("floor"));
+  rows.back().number = -kFar;
   return rows;
 }
 
@@ -78,18 +93,22 @@ constexpr int kRow = 28;    // [pixels]
 constexpr int kTop = 110;   // where rows begin
 constexpr int kWide = 420;  // from column to column
 
-/// Position of row `i` of `part` in three columns.
+/// Position of row `i`: impacts, bubbles and cavities have a column each, all others the last.
 std::pair<int, int> place_of(const std::vector<PdRow>& rows, std::size_t i) {
   static const std::map<std::string, int> kColumns = {{"impact", 0}, {"bubble", 1}, {"cavity", 2}};
-  const auto first = std::find_if(rows.begin(), rows.end(),
-                                  [&](const PdRow& row) { return row.part == rows[i].part; });
-  const auto index = static_cast<int>(i) - static_cast<int>(first - rows.begin());
-  return {20 + kColumns.at(rows[i].part) * kWide, kTop + index * kRow};
+  const auto column_of = [](const PdRow& row) {
+    const auto found = kColumns.find(row.part);
+    return found == kColumns.end() ? static_cast<int>(kColumns.size()) : found->second;
+  };
+  const int column = column_of(rows[i]);
+  const auto above = std::count_if(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(i),
+                                   [&](const PdRow& row) { return column_of(row) == column; });
+  return {20 + column * kWide, kTop + static_cast<int>(above) * kRow};
 }
 
 /// Every number as a [value] that the voices' [expr]s read, with its range.
 std::string sound_patch(const std::vector<PdRow>& rows) {
-  Patch patch(1300, 560);
+  Patch patch(1720, 560);
   patch.add("text", 20, 8,
             "The sound's numbers \\, each a value that the voices read when they start: "
             "splash_impact_q and so on. Generated from synth-server's rows (pd-sound) \\, do not "
@@ -109,7 +128,7 @@ std::string sound_patch(const std::vector<PdRow>& rows) {
 
 /// One box for each number, and one message for each preset.
 std::string controls_patch(const std::vector<PdRow>& rows, const std::vector<NamedSound>& presets) {
-  Patch patch(1300, 620);
+  Patch patch(1720, 620);
   patch.add(
       "text", 20, 8,
       "All numbers of the sound \\, live: type or drag. What starts from then on has them \\; "
@@ -240,7 +259,7 @@ std::map<std::string, std::string> pd_sound(const std::filesystem::path& configs
   }
   std::sort(presets.begin(), presets.end(),
             [](const NamedSound& a, const NamedSound& b) { return a.name < b.name; });
-  const std::vector<PdRow> paper = rows_of(Sound{});
+  const std::vector<PdRow> paper = with_levels(rows_of(Sound{}));
   const auto rig = [&](const char* name) {
     return read_rig(configs / "rigs" / name).outputs.at(0);
   };

@@ -73,10 +73,17 @@ Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPai
 
 Channels render_with_synth(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
                            std::int64_t frames, const synth::Sound& sound) {
+  synth::EngineSettings settings;
+  settings.sound = sound;
+  return render_with_synth(log, rig, frames, settings);
+}
+
+Channels render_with_synth(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
+                           std::int64_t frames, const synth::EngineSettings& engine) {
   const synth::Rig read = synth::read_rig(source("configs/rigs", rig.rig));
   synth::ReplaySettings settings;
+  settings.engine = engine;
   settings.engine.sample_rate = kRate;
-  settings.engine.sound = sound;
   settings.engine.skip_unfelt = false;  // Pd plays its voices to the end, felt or not
   settings.tail = static_cast<double>(frames) / kRate;  // the last event is never before 0
   Channels channels(static_cast<std::size_t>(synth::channel_count(read)));

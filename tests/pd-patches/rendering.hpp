@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/event_log.hpp"
+#include "synth-server/render/engine.hpp"
 #include "synth-server/voices/sound.hpp"
 #include "tests/pd-patches/float_wav.hpp"
 
@@ -50,6 +51,10 @@ struct EventAt {
 [[nodiscard]] Channels render_with_pd(const std::vector<protocol::LogEntry>& log,
                                       const RigPair& rig, std::int64_t frames,
                                       const std::vector<std::string>& messages = {});
+/// `settings`: what concerns the voices.
+[[nodiscard]] Channels render_with_synth(const std::vector<protocol::LogEntry>& log,
+                                         const RigPair& rig, std::int64_t frames,
+                                         const synth::EngineSettings& settings);
 [[nodiscard]] Channels render_with_synth(const std::vector<protocol::LogEntry>& log,
                                          const RigPair& rig, std::int64_t frames,
                                          const synth::Sound& sound = {});
