@@ -145,7 +145,7 @@ const std::vector<Room>& rooms() {
       {"synth-server/receive",
        {"program", "protocol", "synth-server/play"},
        {"oscpack/", "boost/"}},
-      {"synth-server/figure", {}, {"kissfft/", "kiss_fft", "CLI/"}},
+      {"synth-server/figure", {"protocol/event_log.hpp"}, {"kissfft/", "kiss_fft", "CLI/"}},
       {"synth-server", {"program", "protocol", "synth-server/"}, {"CLI/", "boost/", "nlohmann/"}},
 
       {"view-server", {"program", "protocol"}, {"CLI/", "boost/", "nlohmann/"}},
