@@ -7,6 +7,7 @@
 
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
+#include "view-server/announce.hpp"
 #include "view-server/server.hpp"
 
 namespace {
@@ -18,6 +19,8 @@ void run(const view::Options& options) {
   view::Server server(options);
   const std::string place = protocol::to_string(server.local());
   std::printf("listening: %s\nopen http://%s/\n", place.c_str(), place.c_str());
+  const view::Announcement announcement(server.local());
+  if (announcement.is_made()) std::printf("announced as _oscjson._tcp\n");
   std::fflush(stdout);
   service.ready("http://" + place + "/");
   server.run([&service] {
