@@ -38,6 +38,9 @@ class PageOwner {
 
 class Page : public std::enable_shared_from_this<Page> {
  public:
+  /// What waits to be sent; of states never more than one.
+  enum class Content { bytes, text, state };
+
   /// `watches`: it gets frames; else it speaks in the tree's addresses.
   Page(beast::tcp_stream stream, PageOwner& owner, bool watches)
       : socket_(std::move(stream)), owner_(owner), watches_(watches) {}
@@ -54,16 +57,20 @@ class Page : public std::enable_shared_from_this<Page> {
     });
   }
   /// A page that does not take what it got loses this.
-  void send(const SharedFrame& bytes, bool text = false) {
+  void send(const SharedFrame& bytes, Content content = Content::bytes) {
     if (ended_ || waiting_.size() >= kQueueMax) return;
-    waiting_.push_back({bytes, text});
+    waiting_.push_back({bytes, content});
     if (waiting_.size() == 1) write();
   }
   void send_state(const SharedFrame& frame) {
-    if (std::exchange(wants_state_, false)) send(frame);
+    if (!wants_state()) return;
+    wants_state_ = false;
+    state_waits_ = true;
+    send(frame, Content::state);
   }
   [[nodiscard]] bool watches() const noexcept { return watches_; }
-  [[nodiscard]] bool wants_state() const noexcept { return wants_state_; }
+  /// It asked, and what it asked for before is on its way.
+  [[nodiscard]] bool wants_state() const noexcept { return wants_state_ && !state_waits_; }
   void end() {
     if (std::exchange(ended_, true)) return;
     beast::get_lowest_layer(socket_).close();
@@ -75,7 +82,7 @@ class Page : public std::enable_shared_from_this<Page> {
  private:
   struct Waiting {
     SharedFrame bytes;
-    bool text = false;
+    Content content = Content::bytes;
   };
 
   void read() {
@@ -99,13 +106,21 @@ class Page : public std::enable_shared_from_this<Page> {
   }
   void write() {
     const Waiting& next = waiting_.front();
-    socket_.text(next.text);
+    socket_.text(next.content == Content::text);
     socket_.async_write(asio::buffer(*next.bytes),
                         [self = shared_from_this()](const error_code& error, std::size_t) {
                           if (error) return self->end();
-                          self->waiting_.pop_front();
-                          if (!self->waiting_.empty()) self->write();
+                          self->written();
                         });
+  }
+
+  void written() {
+    if (waiting_.front().content == Content::state) {
+      state_waits_ = false;
+      if (wants_state_) owner_.wants_state();
+    }
+    waiting_.pop_front();
+    if (!waiting_.empty()) write();
   }
 
   beast::websocket::stream<beast::tcp_stream> socket_;
@@ -114,6 +129,7 @@ class Page : public std::enable_shared_from_this<Page> {
   beast::flat_buffer buffer_;
   std::deque<Waiting> waiting_;
   bool wants_state_ = false;
+  bool state_waits_ = false;
   bool ended_ = false;
 };
 

@@ -32,6 +32,8 @@ namespace {
 using asio::ip::udp;
 
 constexpr std::size_t kPagesMax = 16;
+/// What the kernel keeps of what a page does not read [bytes].
+constexpr int kSendBuffer = 1 << 18;
 constexpr std::size_t kListensMax = 1024;  ///< addresses
 constexpr std::size_t kSoundAsked = 16;    ///< as many as the synth allows
 constexpr int kNotifyEvery = 10;           ///< seconds; the programs forget clients after a minute
@@ -181,7 +183,7 @@ class Server::Hub final : public PageOwner, public Host {
   }
 
   void greet(Page& page) {
-    page.send(presence(), true);
+    page.send(presence(), Page::Content::text);
     for (const Feed* feed : {&water_, &sound_}) {
       if (feed->connected()) page.send(feed->greeting());
     }
@@ -239,6 +241,7 @@ class Server::Hub final : public PageOwner, public Host {
       if (error) return accept_later();
       error_code ignored;  // a browser may be gone again
       socket.set_option(tcp::no_delay(true), ignored);
+      socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
       std::make_shared<Visit>(std::move(socket), options_.origins, *this)->begin();
       accept();
     });
@@ -262,7 +265,7 @@ class Server::Hub final : public PageOwner, public Host {
 
   void note_feed(const Feed& feed) {
     (&feed == &sound_ ? sound_asked_ : state_asked_) = false;
-    for (const auto& page : pages_) page->send(presence(), true);
+    for (const auto& page : pages_) page->send(presence(), Page::Content::text);
     if (!feed.connected()) return;
     ask_for_sound();
     subscribe();
