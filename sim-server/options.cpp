@@ -61,6 +61,10 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("FILE.json");
   app.add_option("--gauges", options.gauges, "Write what the scene's gauges read to this file")
       ->type_name("FILE.csv");
+  app.add_option("--vtk", options.vtk,
+                 "Write the water to files in this folder, 25 a simulated second, for ParaView "
+                 "(open water.vtk.series)")
+      ->type_name("FOLDER");
   app.add_flag("--faster-than-real-time", texts.fast, "Do not wait for the wall clock");
 }
 

@@ -23,6 +23,7 @@ struct Options {
 
   std::filesystem::path record;  ///< event log to write; empty: none
   std::filesystem::path report;  ///< JSON to write; empty: none
+  std::filesystem::path vtk;     ///< folder for the water, for ParaView; empty: none
   std::filesystem::path gauges;  ///< CSV to write the scene's gauges to; empty: none
   double duration = 0.0;         ///< simulated seconds; 0: until it is stopped
   bool real_time = true;

@@ -40,6 +40,11 @@ std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Sc
   }
 }
 
+std::optional<VtkFiles> open_vtk(const std::filesystem::path& folder) {
+  if (folder.empty()) return std::nullopt;
+  return program::failing_with(program::kExitIo, [&] { return VtkFiles(folder); });
+}
+
 void print_line(const std::string& line) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
@@ -92,6 +97,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       socket_(open_socket(options)),
       log_(open_log(options.record)),
       gauges_(open_gauges(options.gauges, simulation.scene())),
+      vtk_(open_vtk(options.vtk)),
       sender_(
           targets_, socket_, log_ ? &*log_ : nullptr,
           {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),
@@ -142,6 +148,7 @@ void Server::run(const std::function<bool()>& ended) {
   started_ = protocol::monotonic_now();
   next_line_ = started_ + kLinePeriod;
   note_gauges();
+  note_vtk();
   while (!ended() && !is_over()) {
     if (begins_anew_.exchange(false)) simulation_.begin_anew();
     if (paused_) {
@@ -160,6 +167,7 @@ void Server::run(const std::function<bool()>& ended) {
     send(frame);
     show(frame);
     note_gauges();
+    note_vtk();
     note_status(frame);
     target_status_.poll();
     const double end = protocol::monotonic_now();
@@ -333,6 +341,12 @@ void Server::note_gauges() {
   keep_going(
       [this] { gauges_->note(simulation_.seconds(), simulation_.fluid(), simulation_.bodies()); },
       [this] { gauges_.reset(); });
+}
+
+void Server::note_vtk() {
+  if (!vtk_) return;
+  keep_going([this] { vtk_->note(simulation_.seconds(), simulation_.fluid()); },
+             [this] { vtk_.reset(); });
 }
 
 void Server::print_progress() {

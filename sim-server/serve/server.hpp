@@ -24,6 +24,7 @@
 #include "sim-server/serve/recent_pace.hpp"
 #include "sim-server/serve/report.hpp"
 #include "sim-server/show/show.hpp"
+#include "sim-server/show/vtk_files.hpp"
 #include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
@@ -68,6 +69,7 @@ class Server {
   void note_status(const FrameResult& frame);
   [[nodiscard]] std::uint64_t unsent() const;
   void note_gauges();
+  void note_vtk();
   /// What a frame cost; more gives way, or less.
   void note_load(double seconds, double spent);
   /// `write` puts something into a file. If it cannot: whoever plays in real time goes on without
@@ -83,6 +85,7 @@ class Server {
   protocol::UdpSocket socket_;
   std::optional<protocol::LogWriter> log_;
   std::optional<GaugeFile> gauges_;
+  std::optional<VtkFiles> vtk_;
   std::optional<Show> show_;
   EventSender sender_;
   ForceSender forces_;

@@ -24,8 +24,6 @@ class Show {
   [[nodiscard]] protocol::Endpoint local() const noexcept { return stream_.local(); }
 
  private:
-  void read(Fluid& fluid);
-
   protocol::FrameStream stream_;
   ShownWater water_;
   double next_ = 0.0;  ///< monotonic [s]

@@ -119,7 +119,7 @@ const std::vector<Room>& rooms() {
       {"sim-server/send", {"protocol"}, {"lo/"}},
       {"sim-server/listen", {"program", "protocol", "sim-server/send"}, {}},
       {"sim-server/show",
-       {"protocol", "sim-server/scene/", "sim-server/bodies/motion", "sim-server/fluid"},
+       {"program", "protocol", "sim-server/scene/", "sim-server/bodies/motion", "sim-server/fluid"},
        {"nlohmann/"}},
       {"sim-server/tracker_monitor", {"program", "protocol", "sim-server/scene"}, {"CLI/"}},
       {"sim-server/serve", {"program", "protocol", "sim-server/"}, {"nlohmann/"}},

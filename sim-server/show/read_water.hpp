@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim-server/fluid/fluid.hpp"
+#include "sim-server/show/state_frame.hpp"
+
+namespace splash::sim {
+
+/// Reads the water back from the device, between two frames; waits.
+void read_water(Fluid& fluid, ShownWater& water);
+
+}  // namespace splash::sim
