@@ -46,7 +46,8 @@ float lampReaches(vec3 p) {
   float lit = 0.0;
   for (int i = -1; i <= 1; ++i) for (int k = -1; k <= 1; ++k) {
     vec2 near = at + 1.7 * vec2(i, k) / ${SIDE}.0;
-    lit += texture(heights, near).r < p.z + 0.012 * (1.0 + length(mapBox.zw)) ? 1.0 : 0.0;
+    bool off = clamp(near, 0.0, 1.0) != near; // the map ends there
+    lit += off || texture(heights, near).r < p.z + 0.012 * (1.0 + length(mapBox.zw)) ? 1.0 : 0.0;
   }
   return lit / 9.0;
 }

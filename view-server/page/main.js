@@ -236,8 +236,9 @@ function drawAll(size, seen) {
   const levels = new Float32Array(64);
   if (peaks) levels.set(peaks.slice(tilesFirst, tilesFirst + 64));
   const rig = { tiles, levels };
-  return water.draw(size, seen, world, particles, lights.uniforms,
-    () => solids.draw(seen, lights.uniforms, rig), marks);
+  return water.draw(size, seen, world, particles, lights.uniforms, { marks,
+    solids: () => solids.draw(seen, lights.uniforms, rig),
+    edges: (hidden) => solids.drawEdges(seen, lights.uniforms, hidden) });
 }
 
 function drawCharts(now) {

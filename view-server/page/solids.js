@@ -27,6 +27,8 @@ uniform float glow;
 uniform vec4 tiles;         // corner [m], edge [m], columns; no columns: none
 uniform float levels[64];
 uniform vec4 tankBox;       // lower and upper corner, seen from above
+uniform sampler2D water;    // how far it is [m], 0: none; hides the tank's edges behind it
+uniform vec2 pixels;        // of the picture; 0: nothing is hidden
 out vec4 colour;
 
 float seam(vec2 p, float edge) {
@@ -44,6 +46,10 @@ float tileLevel(vec2 p) {
 }
 
 void main() {
+  if (material == 3 && pixels.x > 0.0) {
+    float w = texture(water, gl_FragCoord.xy / pixels).r;
+    if (w > 0.0 && w < 1.0 / gl_FragCoord.w - 0.004) discard;
+  }
   vec3 n = normalize(facing), view = normalize(eye - world);
   if (dot(n, view) < 0.0 && material == 2) n = -n;
   vec3 base = tint;
@@ -86,6 +92,7 @@ void main() {
   colour = vec4(seen, 1.0);
 }`;
 
+const NONE = new Float32Array(64); // no tile is lit
 const STILL = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
 export const PALETTE = [[0.72, 0.20, 0.11], [0.78, 0.45, 0.07], [0.60, 0.12, 0.30],
   [0.28, 0.50, 0.12]];
@@ -180,8 +187,8 @@ export class Solids {
     this.still = [
       { material: 0, tint: [0.030, 0.043, 0.058], draw: draw(ground) },
       { material: 1, tint: sand, draw: draw(floorOf(world)) },
-      { material: 3, tint: [0.55, 0.66, 0.72], draw: draw(edgesOf(world)) },
     ];
+    this.edges = { material: 3, tint: [0.55, 0.66, 0.72], draw: draw(edgesOf(world)) };
     this.bodies = world.bodies.map((body, index) => {
       const mesh = trianglesOf(body);
       return { ...mesh, draw: draw(mesh), free: body.motion === 'free', tint: PALETTE[index % PALETTE.length], glow: 0,
@@ -193,14 +200,25 @@ export class Solids {
     Object.assign(this.bodies[index], { place, turn, pose: poseMatrix(place, turn) });
   }
 
+  /// All but the tank's edges: thin bars would be seen torn by the water in front of them.
   draw(camera, light, rig) {
+    this.drawAll([...this.still, ...this.bodies.map((b) => ({ ...b, material: 2 }))], camera, light,
+      { tiles: rig.tiles, levels: rig.levels });
+  }
+
+  /// Where no water is before them; `water`: how far it is, `pixels`: of the picture.
+  drawEdges(camera, light, hidden = {}) {
+    this.drawAll([this.edges], camera, light, { tiles: [0, 0, 1, 0], ...hidden });
+  }
+
+  drawAll(solids, camera, light, more) {
     const gl = this.gl;
     const { lower: l, upper: u } = this.world.tank;
-    const shared = { ...light, both: camera.both, eye: camera.eye, tiles: rig.tiles,
-      levels: rig.levels, tankBox: [l[0], l[1], u[0], u[1]],
-      sand: Boolean(this.world.slope) && rig.tiles[3] === 0 };
+    const shared = { levels: NONE, water: light.waves, pixels: [0, 0], ...light, ...more,
+      both: camera.both, eye: camera.eye, tankBox: [l[0], l[1], u[0], u[1]],
+      sand: Boolean(this.world.slope) && more.tiles[3] === 0 };
     gl.enable(gl.DEPTH_TEST);
-    for (const solid of [...this.still, ...this.bodies.map((b) => ({ ...b, material: 2 }))]) {
+    for (const solid of solids) {
       use(gl, this.shader, { ...shared, pose: solid.pose ?? STILL, material: solid.material,
         tint: solid.tint, glow: solid.glow ?? 0 });
       solid.draw();

@@ -314,9 +314,9 @@ export class Water {
     this.thick = [0, 1].map(() => new Target(gl, gl.RGBA16F, gl.LINEAR));
   }
 
-  /// `drawSolids` and `drawMarks` draw into what is bound; the picture goes to a part of `frame`, or to
-  /// the canvas.
-  draw({ width, height, share, frame = null, x = 0, y = 0 }, camera, world, particles, light, drawSolids, drawMarks) {
+  /// `solids`, `edges` and `marks` draw into what is bound; the picture goes to a part of `frame`, or
+  /// to the canvas.
+  draw({ width, height, share, frame = null, x = 0, y = 0 }, camera, world, particles, light, { solids, edges, marks }) {
     const gl = this.gl;
     const slope = [camera.aspect / camera.focal, 1 / camera.focal];
     const { lower, upper } = world.tank;
@@ -328,7 +328,7 @@ export class Water {
     this.solids.fit(width, height).bind([0.012, 0.02, 0.032, 1]);
     gl.enable(gl.DEPTH_TEST);
     gl.disable(gl.BLEND);
-    drawSolids();
+    solids();
     use(gl, this.bubblePass, { ...shared, height });
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
@@ -381,14 +381,14 @@ export class Water {
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.whole.frame);
     gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.DEPTH_BUFFER_BIT, gl.NEAREST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.whole.frame);
-    gl.enable(gl.DEPTH_TEST);
+    edges({ water: this.depths[0].colour, pixels: [width, height] });
     gl.depthMask(false);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     use(gl, this.dropPass, { ...shared, height, pixels: [width, height],
       depth: this.depths[0].colour });
     particles.drawWater(5);
-    drawMarks();
+    marks();
     gl.disable(gl.BLEND);
     gl.depthMask(true);
 
