@@ -6,49 +6,30 @@
 // And how much matter backs what it may hit: the colour of all water and of the tank's solid at a
 // place as far ahead along its normal as the water is deep that a blow of the whole body moves.
 
+#include "sim-server/detect/touch.h"
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/neighbours/grid.h"
+#include "sim-server/fluid/neighbours/around.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/smoothing.h"
 
-typedef struct {
-  float colour;                // c_f [1]
-  float gx, gy, gz;            // its gradient: points into the water [1/m]
-  float x, y, z;               // of the point [m]
-  float u, v, w;               // its velocity [m/s]
-  float water_u, water_v, water_w;  // the water's mean velocity [m/s]
-  float nx, ny, nz;            // unit vector out of the body
-  float ahead;                 // matter there, at most 1: water without end [1]
-  float unused[3];
-} Touch;
-
 // Matter at a place: colour of all water, and 1 inside walls.
-static float matter_at(constant FluidParams* p, global const int* cell_start,
-                       global const float* position, float piston, float x, float y, float z) {
+static float matter_at(constant FluidParams* p, const Cloud* water, float piston, float x, float y,
+                       float z) {
   for (int k = 0; k < p->wall_count; ++k) {
     if (first_lane(wall_distance(p, k, (lanes)(x), (lanes)(y), (lanes)(z), piston)) <= 0.0f) {
       return 1.0f;
     }
   }
-  const int n = p->capacity;
-  const int row = cell_row(p, y, z);
-  const int slice = slice_x(p, x);
   lanes c = 0.0f;
-  for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, cell_start, row, slice, slice, k);
-    for (int j = run.x; j < run.y; j += LANES) {
-      const lanes dx = x - load_x(position, j, run.y);
-      const lanes dy = y - LOAD(position + n, j);
-      const lanes dz = z - LOAD(position + 2 * n, j);
-      c += kernel_shape(dx * dx + dy * dy + dz * dz, p->inverse_support);
-    }
+  for (Around a = around(p, x, y, z); next_around(p, water, &a);) {
+    c += kernel_shape(square_of(&a), p->inverse_support);
   }
-  const float water = p->mass / p->rest_density * p->kernel_norm * total(c);
+  const float share = p->mass / p->rest_density * p->kernel_norm * total(c);
   const float walls =
       first_lane(wall_field(p, (lanes)(x), (lanes)(y), (lanes)(z), piston).share);
-  return fmin(water + walls, 1.0f);
+  return fmin(share + walls, 1.0f);
 }
 
 // `skin`: points of the bodies' true surfaces in body axes; `facing`: of each its normal and how
@@ -69,36 +50,29 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
                                   b.qx, b.qy, b.qz, b.qw);
   const float3 motion = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm);
   const float x = b.px + arm.x, y = b.py + arm.y, z = b.pz + arm.z;
-  const int row = cell_row(p, y, z);
-  const int slice = slice_x(p, x);
+  const Cloud water = {cell_start, position, n};
   const float least = p->least_density;
   lanes c = 0.0f, gx = 0.0f, gy = 0.0f, gz = 0.0f, u = 0.0f, v = 0.0f, w = 0.0f;
-  for (int k = 0; k < 9; ++k) {
-    const int2 run = neighbour_run(p, cell_start, row, slice, slice, k);
-    for (int j = run.x; j < run.y; j += LANES) {
-      const lanes dx = x - load_x(position, j, run.y);
-      const lanes dy = y - LOAD(position + n, j);
-      const lanes dz = z - LOAD(position + 2 * n, j);
-      const lanes dense = step((lanes)(least), LOAD(density, j));
-      const lanes r2 = dx * dx + dy * dy + dz * dz;
-      const lanes weight = dense * kernel_shape(r2, p->inverse_support);
-      const lanes slope = dense * kernel_slope(r2, p->inverse_support);
-      c += weight;
-      gx -= slope * dx;
-      gy -= slope * dy;
-      gz -= slope * dz;
-      u += weight * LOAD(velocity, j);
-      v += weight * LOAD(velocity + n, j);
-      w += weight * LOAD(velocity + 2 * n, j);
-    }
+  for (Around a = around(p, x, y, z); next_around(p, &water, &a);) {
+    const lanes dense = step((lanes)(least), LOAD(density, a.j));
+    const lanes r2 = square_of(&a);
+    const lanes weight = dense * kernel_shape(r2, p->inverse_support);
+    const lanes slope = dense * kernel_slope(r2, p->inverse_support);
+    c += weight;
+    gx -= slope * a.dx;
+    gy -= slope * a.dy;
+    gz -= slope * a.dz;
+    u += weight * LOAD(velocity, a.j);
+    v += weight * LOAD(velocity + n, a.j);
+    w += weight * LOAD(velocity + 2 * n, a.j);
   }
   const float volume = p->mass / p->rest_density;
   const float gradient = gradient_norm(p) * volume;
   const float sum = total(c);
   const float share = 1.0f / fmax(sum, TINY);
   const float far = facing[4 * s + 3];
-  const float ahead = matter_at(p, cell_start, position, piston, x + far * normal.x,
-                                y + far * normal.y, z + far * normal.z);
+  const float ahead = matter_at(p, &water, piston, x + far * normal.x, y + far * normal.y,
+                                z + far * normal.z);
   const Touch touch = {volume * p->kernel_norm * sum, gradient * total(gx), gradient * total(gy),
                        gradient * total(gz), x, y, z, motion.x, motion.y, motion.z,
                        share * total(u), share * total(v), share * total(w), normal.x, normal.y,

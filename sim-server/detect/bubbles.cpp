@@ -11,12 +11,8 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(Spawn) == 40 && sizeof(BubbleState) == 24);
-
 /// Spawns read without asking how many there are: more in one frame are rare.
 constexpr std::size_t kReadAtOnce = 128;
-
-constexpr float kSlow = -8.0F;  ///< a particle's memory: it was slow (bubble_spawn.cl)
 
 /// Of the draws that a frame makes as a whole.
 constexpr auto kNoParticle = std::numeric_limits<std::uint32_t>::max();
@@ -69,7 +65,7 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
       spawn_bubbles_(program, "spawn_bubbles"),
       carry_bubbles_(program, "carry_bubbles") {
   const auto particles = static_cast<std::size_t>(fluid.params().count);
-  memory_ = Buffer<float>(fluid.device(), std::vector<float>(particles, kSlow));
+  memory_ = Buffer<float>(fluid.device(), std::vector<float>(particles, SPLASH_PARTICLE_SLOW));
   std::vector<int> slots(room);
   std::iota(slots.begin(), slots.end(), 0);
   points_.id.write(fluid.device(), slots);
@@ -124,29 +120,44 @@ void Bubbles::look_for_spawns(const Step& step) {
   spawn_count_.enqueue_clear(device);
   // The threshold is in units of the gradient at a flat surface; its outermost particles, half a
   // spacing below, see 0.65 of that (the planar marginal there over the one at the centre).
-  spawn_bubbles_.run(
-      device.queue(), static_cast<std::size_t>(fluid_.params().count),
-      fluid_.params_buffer().memory(), fluid_.grid().cell_start(),
-      fluid_.particles().position.memory(), fluid_.particles().velocity.memory(),
-      fluid_.water_density().memory(), fluid_.particles().id.memory(),
-      fluid_.boundary().grid().cell_start(), fluid_.boundary().points().position.memory(),
-      fluid_.boundary().volume().memory(), fluid_.boundary().points().stride,
-      fluid_.boundary().steps().memory(), step.first_body, fluid_.boundary().body_count(),
-      grid_.cell_start(), sorted_.position.memory(), sorted_.stride, carried_,
-      as_float(step.piston), as_float(settings_.bubble_speed), as_float(settings_.bubble_gradient),
-      static_cast<int>(spawns_read_.size()), memory_.memory(), spawn_count_.memory(),
-      spawns_.memory());
+  const Boundary& boundary = fluid_.boundary();
+  spawn_bubbles_.run(device.queue(), static_cast<std::size_t>(fluid_.params().count),
+                     {{"p", fluid_.params_buffer()},
+                      {"cell_start", fluid_.grid().cell_start()},
+                      {"position", fluid_.particles().position},
+                      {"velocity", fluid_.particles().velocity},
+                      {"density", fluid_.water_density()},
+                      {"id", fluid_.particles().id},
+                      {"bubble_start", grid_.cell_start()},
+                      {"bubble_position", sorted_.position},
+                      {"bubble_stride", sorted_.stride},
+                      {"bubble_count", carried_},
+                      {"piston", as_float(step.piston)},
+                      {"least_speed", as_float(settings_.bubble_speed)},
+                      {"least_gradient", as_float(settings_.bubble_gradient)},
+                      {"room", static_cast<int>(spawns_read_.size())},
+                      {"memory", memory_},
+                      {"counts", spawn_count_},
+                      {"out", spawns_}},
+                     boundary.matter(), boundary.bodies_at(step));
 }
 
 void Bubbles::carry(const Step& step, double frame) {
-  carry_bubbles_.run(
-      fluid_.device().queue(), static_cast<std::size_t>(carried_), fluid_.params_buffer().memory(),
-      as_float(frame), fluid_.grid().cell_start(), fluid_.particles().position.memory(),
-      fluid_.particles().velocity.memory(), fluid_.boundary().grid().cell_start(),
-      fluid_.boundary().points().position.memory(), fluid_.boundary().volume().memory(),
-      fluid_.boundary().points().stride, fluid_.boundary().steps().memory(), step.first_body,
-      fluid_.boundary().body_count(), grid_.cell_start(), sorted_.position.memory(),
-      sorted_.id.memory(), sorted_.stride, carried_, as_float(step.piston), state_buffer_.memory());
+  const Boundary& boundary = fluid_.boundary();
+  carry_bubbles_.run(fluid_.device().queue(), static_cast<std::size_t>(carried_),
+                     {{"p", fluid_.params_buffer()},
+                      {"dt", as_float(frame)},
+                      {"cell_start", fluid_.grid().cell_start()},
+                      {"position", fluid_.particles().position},
+                      {"velocity", fluid_.particles().velocity},
+                      {"bubble_start", grid_.cell_start()},
+                      {"bubble_position", sorted_.position},
+                      {"bubble_id", sorted_.id},
+                      {"bubble_stride", sorted_.stride},
+                      {"bubble_count", carried_},
+                      {"piston", as_float(step.piston)},
+                      {"out", state_buffer_}},
+                     boundary.matter(), boundary.bodies_at(step));
 }
 
 std::vector<Spawn> Bubbles::read_spawns() {
@@ -246,8 +257,8 @@ void Bubbles::renew(double time) {
 void Bubbles::forget() {
   pool_.clear();
   skip();
-  memory_.write(fluid_.device(),
-                std::vector<float>(static_cast<std::size_t>(fluid_.params().count), kSlow));
+  memory_.write(fluid_.device(), std::vector<float>(static_cast<std::size_t>(fluid_.params().count),
+                                                    SPLASH_PARTICLE_SLOW));
 }
 
 }  // namespace splash::sim

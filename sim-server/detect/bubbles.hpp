@@ -9,28 +9,11 @@
 
 #include "sim-server/detect/bubble_budget.hpp"
 #include "sim-server/detect/bubble_draw.hpp"
+#include "sim-server/detect/bubble_state.h"
 #include "sim-server/detect/detection.hpp"
 #include "sim-server/fluid/fluid.hpp"
 
 namespace splash::sim {
-
-/// As bubble_state.cl gives it.
-struct BubbleState {
-  float colour = 0.0F;                 ///< c_b [1]
-  float upward = 0.0F;                 ///< gradient of c_p, in that of a flat surface [1]
-  float x = 0.0F, y = 0.0F, z = 0.0F;  ///< [m]
-  int id = 0;                          ///< place in the pool
-};
-
-/// As bubble_spawn.cl gives it.
-struct Spawn {
-  int id = 0;
-  float x = 0.0F, y = 0.0F, z = 0.0F;
-  float u = 0.0F, v = 0.0F, w = 0.0F;
-  float before = 0.0F;
-  int fresh = 0;
-  int dense = 0;
-};
 
 struct PoolBubble {
   Vector3 position = {0.0, 0.0, 0.0};  ///< [m]

@@ -3,20 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <utility>
 
 namespace splash::sim {
 namespace {
 
-constexpr int kUnlabelled = std::numeric_limits<int>::max();
 /// Rounds enqueued between two looks at whether anything changed.
 constexpr int kRoundsAtOnce = 4;
 
 struct Group {
   int bubbles = 0;
-  int cavity = kUnlabelled;  ///< smallest serial of a known cavity among its bubbles
+  int cavity = SPLASH_UNLABELLED;  ///< smallest serial of a known cavity among its bubbles
   Vector3 sum = {0.0, 0.0, 0.0};
 };
 
@@ -42,7 +40,7 @@ std::vector<DetectedCavity> name_cavities(std::vector<PoolBubble>& pool,
   }
   std::vector<DetectedCavity> fresh;
   for (auto& [first, group] : groups) {
-    if (group.cavity != kUnlabelled || group.bubbles < settings.cavity_bubbles_min) continue;
+    if (group.cavity != SPLASH_UNLABELLED || group.bubbles < settings.cavity_bubbles_min) continue;
     group.cavity = next_cavity++;
     DetectedCavity cavity;
     cavity.time = time;
@@ -56,7 +54,7 @@ std::vector<DetectedCavity> name_cavities(std::vector<PoolBubble>& pool,
   for (std::size_t i = 0; i < label.size(); ++i) {
     if (label[i] < 0) continue;
     const Group& group = groups[label[i]];
-    if (group.cavity != kUnlabelled) pool[i].cavity = group.cavity;
+    if (group.cavity != SPLASH_UNLABELLED) pool[i].cavity = group.cavity;
   }
   return fresh;
 }
@@ -75,19 +73,26 @@ Cavities::Cavities(Fluid& fluid, const cl::Program& program, const DetectSetting
 std::vector<int> Cavities::grow(const Bubbles& bubbles) {
   Device& device = fluid_.device();
   const auto count = static_cast<std::size_t>(bubbles.carried());
-  seed_cavities_.run(device.queue(), count, bubbles.carried(),
-                     static_cast<float>(settings_.cavity_colour), bubbles.state_buffer().memory(),
-                     label_.memory());
+  seed_cavities_.run(device.queue(), count,
+                     {{"bubble_count", bubbles.carried()},
+                      {"least_colour", static_cast<float>(settings_.cavity_colour)},
+                      {"state", bubbles.state_buffer()},
+                      {"label", label_}});
   bool changing = true;
   for (int rounds = kRoundsAtOnce; changing && rounds <= bubbles.carried() + kRoundsAtOnce;
        rounds += kRoundsAtOnce) {
     const std::array<int, 1> none = {0};
     changed_.write(device, none);
     for (int k = 0; k < kRoundsAtOnce; ++k) {
-      grow_cavities_.run(device.queue(), count, fluid_.params_buffer().memory(),
-                         bubbles.grid().cell_start(), bubbles.sorted().position.memory(),
-                         bubbles.sorted().stride, bubbles.carried(), label_.memory(),
-                         grown_.memory(), changed_.memory());
+      grow_cavities_.run(device.queue(), count,
+                         {{"p", fluid_.params_buffer()},
+                          {"bubble_start", bubbles.grid().cell_start()},
+                          {"position", bubbles.sorted().position},
+                          {"stride", bubbles.sorted().stride},
+                          {"bubble_count", bubbles.carried()},
+                          {"label", label_},
+                          {"grown", grown_},
+                          {"changed", changed_}});
       std::swap(label_, grown_);
     }
     changing = changed_.read(device, 1).front() != 0;
@@ -106,7 +111,7 @@ std::vector<DetectedCavity> Cavities::search(double time, Bubbles& bubbles) {
   const std::vector<int> grown = grow(bubbles);
   std::vector<int> label(bubbles.pool().size(), -1);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (grown[i] != kUnlabelled) label[static_cast<std::size_t>(states[i].id)] = grown[i];
+    if (grown[i] != SPLASH_UNLABELLED) label[static_cast<std::size_t>(states[i].id)] = grown[i];
   }
   return name_cavities(bubbles.pool(), label, time, settings_, next_cavity_);
 }

@@ -7,12 +7,10 @@
 #include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/params/fluid_params.h"
 
-#define UNLABELLED 0x7FFFFFFF
-
 kernel void seed_cavities(int bubble_count, float least_colour, global const BubbleState* state,
                           global int* label) {
   const int i = get_global_id(0);
-  if (i < bubble_count) label[i] = state[i].colour > least_colour ? i : UNLABELLED;
+  if (i < bubble_count) label[i] = state[i].colour > least_colour ? i : SPLASH_UNLABELLED;
 }
 
 kernel void grow_cavities(constant FluidParams* p, global const int* bubble_start,

@@ -13,7 +13,12 @@ std::vector<KernelSource> detect();
 
 namespace {
 
-static_assert(sizeof(Touch) == 80);
+/// A point that nobody has looked at yet.
+Touch unseen() {
+  Touch touch = {};
+  touch.nz = -1.0F;
+  return touch;
+}
 
 /// Bubbles alive at once: the paper's scenes hold 1 to 6 per cent of the particles.
 std::size_t bubble_room(int particles) {
@@ -67,7 +72,7 @@ Detector::Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const Detec
                                       kSpacingsSeen * static_cast<double>(fluid.params().spacing))),
       owner_(fluid.device(), owners(points_)),
       touches_(fluid.device(), points_.size()),
-      touches_read_(points_.size()),
+      touches_read_(points_.size(), unseen()),
       program_(build(fluid.device())),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
@@ -104,12 +109,20 @@ void Detector::rehearse(const Step& step) {
 }
 
 void Detector::enqueue_contacts(const Step& step) {
-  touch_water_.run(fluid_.device().queue(), points_.size(), fluid_.params_buffer().memory(),
-                   fluid_.grid().cell_start(), fluid_.particles().position.memory(),
-                   fluid_.particles().velocity.memory(), fluid_.water_density().memory(),
-                   static_cast<int>(points_.size()), skin_.memory(), facing_.memory(),
-                   owner_.memory(), fluid_.boundary().steps().memory(), step.first_body,
-                   static_cast<float>(step.piston), touches_.memory());
+  touch_water_.run(fluid_.device().queue(), points_.size(),
+                   {{"p", fluid_.params_buffer()},
+                    {"cell_start", fluid_.grid().cell_start()},
+                    {"position", fluid_.particles().position},
+                    {"velocity", fluid_.particles().velocity},
+                    {"density", fluid_.water_density()},
+                    {"points", static_cast<int>(points_.size())},
+                    {"skin", skin_},
+                    {"facing", facing_},
+                    {"owner", owner_},
+                    {"bodies", fluid_.boundary().steps()},
+                    {"first_body", step.first_body},
+                    {"piston", static_cast<float>(step.piston)},
+                    {"out", touches_}});
 }
 
 void Detector::forget() {

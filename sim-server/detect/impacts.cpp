@@ -63,7 +63,7 @@ constexpr double kCushion = 0.001;
 /// Unit vector into the water under all of the chosen points: that of their summed gradients.
 Vector3 mean_inward(const std::vector<SurfacePoint>& points,
                     const std::vector<std::size_t>& chosen) {
-  Touch sum;
+  Touch sum = {};
   for (const std::size_t i : chosen) {
     sum.gx += points[i].touch.gx;
     sum.gy += points[i].touch.gy;

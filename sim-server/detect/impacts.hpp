@@ -20,26 +20,15 @@
 
 #include "sim-server/detect/detection.hpp"
 #include "sim-server/detect/surface_distance.hpp"
+#include "sim-server/detect/touch.h"
 
 namespace splash::sim {
 
-/// A point of a body's skin and what it sees of the water; as body_touch.cl gives it.
-struct Touch {
-  float colour = 0.0F;                                   ///< c_f [1]
-  float gx = 0.0F, gy = 0.0F, gz = 0.0F;                 ///< its gradient [1/m]
-  float x = 0.0F, y = 0.0F, z = 0.0F;                    ///< of the point [m]
-  float u = 0.0F, v = 0.0F, w = 0.0F;                    ///< its velocity [m/s]
-  float water_u = 0.0F, water_v = 0.0F, water_w = 0.0F;  ///< the water's mean velocity [m/s]
-  float nx = 0.0F, ny = 0.0F, nz = -1.0F;                ///< unit vector out of the body
-  float ahead = 0.0F;  ///< matter some way along it: 1 in water without end [1]
-  float unused[3] = {};
-};
-
-/// With what stays the same of the point.
+/// A point of a body's skin: what it sees, and what stays the same of it.
 struct SurfacePoint {
   int body = 0;
   double area = 0.0;  ///< of the skin that it stands for [m2]
-  Touch touch;
+  Touch touch = {};
 };
 
 /// Farther from the surface than this, the colour is too faint to tell how far [spacings].

@@ -12,9 +12,6 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FluidParams) == 39 * sizeof(float) + SPLASH_MAX_WALLS * sizeof(WallPlane));
-static_assert(sizeof(FluidStatsPart) == 56);
-
 float as_float(double value) {
   return static_cast<float>(value);
 }
@@ -107,8 +104,7 @@ void Fluid::advance(const Step& step) {
   } else {
     health_.look(device_,
                  {params_buffer_, sorted_, solver_->carried(*this), unsorted_, acceleration_,
-                  density_, grid_.source(), sleep_.resting(), boundary_.shapes(),
-                  boundary_.meshes(), boundary_.steps(), boundary_.body_count()},
+                  density_, grid_.source(), sleep_.resting(), boundary_},
                  step);
   }
 }
@@ -157,33 +153,57 @@ std::size_t Fluid::groups() const {
 }
 
 void Fluid::compute_density(const Step& step) {
-  compute_density_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.activity(),
-      grid_.source(), density_before_.memory(), water_density_before_.memory(),
-      peak_density_before_.memory(), sorted_.position.memory(), boundary_.grid().cell_start(),
-      boundary_.points().position.memory(), boundary_.volume().memory(), boundary_.points().stride,
-      boundary_.shapes().memory(), boundary_.meshes().memory(), boundary_.steps().memory(),
-      step.first_body, boundary_.body_count(), as_float(step.dt), as_float(step.piston),
-      body_images_.memory(), density_.memory(), water_density_.memory(), peak_density_.memory(),
-      pressure_term_.memory(), acceleration_.memory(), moving_.memory(), sleep_.resting());
+  compute_density_.run(device_.queue(), groups(),
+                       {{"p", params_buffer_},
+                        {"dt", as_float(step.dt)},
+                        {"piston", as_float(step.piston)},
+                        {"cell_start", grid_.cell_start()},
+                        {"activity", sleep_.activity()},
+                        {"source", grid_.source()},
+                        {"density_before", density_before_},
+                        {"water_density_before", water_density_before_},
+                        {"peak_before", peak_density_before_},
+                        {"position", sorted_.position},
+                        {"images", body_images_},
+                        {"density", density_},
+                        {"water_density", water_density_},
+                        {"peak", peak_density_},
+                        {"pressure_term", pressure_term_},
+                        {"acceleration", acceleration_},
+                        {"moving", moving_},
+                        {"resting", sleep_.resting()}},
+                       boundary_.matter(), boundary_.outlines(), boundary_.bodies_at(step));
 }
 
 void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
-  compute_acceleration_.run(
-      device_.queue(), groups(), params_buffer_.memory(), grid_.cell_start(), sleep_.activity(),
-      sleep_.resting(), sorted_.position.memory(), velocity.memory(), pressure_term_.memory(),
-      body_images_.memory(), boundary_.grid().cell_start(), boundary_.points().position.memory(),
-      boundary_.points().velocity.memory(), boundary_.volume().memory(), boundary_.points().stride,
-      boundary_.steps().memory(), step.first_body, boundary_.body_count(), as_float(step.piston),
-      acceleration_.memory(), moving_.memory());
+  compute_acceleration_.run(device_.queue(), groups(),
+                            {{"p", params_buffer_},
+                             {"piston", as_float(step.piston)},
+                             {"cell_start", grid_.cell_start()},
+                             {"activity", sleep_.activity()},
+                             {"resting", sleep_.resting()},
+                             {"position", sorted_.position},
+                             {"velocity", velocity},
+                             {"pressure_term", pressure_term_},
+                             {"images", body_images_},
+                             {"body_velocity", boundary_.points().velocity},
+                             {"acceleration", acceleration_},
+                             {"moving", moving_}},
+                            boundary_.matter(), boundary_.bodies_at(step));
 }
 
 void Fluid::integrate(const Step& step) {
-  integrate_.run(device_.queue(), groups(), params_buffer_.memory(), as_float(step.dt),
-                 as_float(step.piston), as_float(step.piston_speed), boundary_.shapes().memory(),
-                 boundary_.meshes().memory(), boundary_.steps().memory(), step.first_body,
-                 boundary_.body_count(), acceleration_.memory(), sorted_.position.memory(),
-                 sorted_.velocity.memory(), moving_.memory(), sleep_.resting());
+  integrate_.run(device_.queue(), groups(),
+                 {{"p", params_buffer_},
+                  {"dt", as_float(step.dt)},
+                  {"piston", as_float(step.piston)},
+                  {"piston_speed", as_float(step.piston_speed)},
+                  {"acceleration", acceleration_},
+                  {"position", sorted_.position},
+                  {"velocity", sorted_.velocity},
+                  {"moving", moving_},
+                  {"resting", sleep_.resting()}},
+                 boundary_.outlines(), boundary_.bodies_at(step));
 }
 
 void Fluid::still() {
@@ -204,9 +224,15 @@ void Fluid::give_weight() {
 }
 
 void Fluid::enqueue_stats() {
-  stats_.run_teams(device_.queue(), stats_read_.size(), params_buffer_.memory(),
-                   sorted_.position.memory(), sorted_.velocity.memory(), acceleration_.memory(),
-                   density_.memory(), sorted_.id.memory(), moving_.memory(), stats_parts_.memory());
+  stats_.run_teams(device_.queue(), stats_read_.size(),
+                   {{"p", params_buffer_},
+                    {"position", sorted_.position},
+                    {"velocity", sorted_.velocity},
+                    {"acceleration", acceleration_},
+                    {"density", density_},
+                    {"id", sorted_.id},
+                    {"moving", moving_},
+                    {"out", stats_parts_}});
   stats_parts_.enqueue_read(device_, stats_read_);
   if (watched_) health_.enqueue_read(device_);
   if (free_) free_->enqueue_read(*this);

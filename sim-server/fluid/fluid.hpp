@@ -11,6 +11,7 @@
 #include "sim-server/fluid/boundary/outlines.hpp"
 #include "sim-server/fluid/free_bodies/free_bodies.hpp"
 #include "sim-server/fluid/health/health.hpp"
+#include "sim-server/fluid/health/stats_part.h"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
@@ -38,20 +39,6 @@ struct FluidStats {
   int asleep = 0;                   ///< particles that did not take part in the last step
   Vector3 lower = {0.0, 0.0, 0.0};  ///< box around all particles [m]
   Vector3 upper = {0.0, 0.0, 0.0};
-};
-
-/// Partial results of the statistics; host and kernel agree on the layout (health/reduce_stats.cl).
-struct FluidStatsPart {
-  float speed2 = 0.0F;
-  float acceleration2 = 0.0F;
-  float excess_sum = 0.0F;
-  float excess_max = 0.0F;
-  int not_finite = 0;
-  int first_bad = 0;
-  int runaway = 0;
-  int asleep = 0;
-  float lower[3] = {};
-  float upper[3] = {};
 };
 
 /// A copy of the state that can be put back.
@@ -138,7 +125,7 @@ class Fluid {
   [[nodiscard]] const PointArrays& particles_before() const noexcept { return unsorted_; }
   [[nodiscard]] const NeighbourGrid& grid() const noexcept { return grid_; }
   /// What goes on in each cell (sleep/sleep.h).
-  [[nodiscard]] const cl::Buffer& cell_activity() const noexcept { return sleep_.activity(); }
+  [[nodiscard]] const Buffer<int>& cell_activity() const noexcept { return sleep_.activity(); }
   [[nodiscard]] const Buffer<float>& density() const noexcept { return density_; }
   [[nodiscard]] const Buffer<float>& water_density() const noexcept { return water_density_; }
   /// What boundary/body_image.h keeps of each particle near a body: R, its gradient and the nearest

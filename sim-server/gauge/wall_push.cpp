@@ -19,9 +19,12 @@ WallPush::WallPush(Fluid& fluid)
       push_(fluid.device(), 3 * static_cast<std::size_t>(fluid.params().capacity)) {}
 
 std::vector<Vector3> WallPush::read(Fluid& fluid, const Step& step) {
-  push_by_walls_.run(fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
-                     fluid.particles().position.memory(), fluid.pressure_term().memory(),
-                     static_cast<float>(step.piston), push_.memory());
+  push_by_walls_.run(fluid.device().queue(), fluid.groups(),
+                     {{"p", fluid.params_buffer()},
+                      {"position", fluid.particles().position},
+                      {"pressure_term", fluid.pressure_term()},
+                      {"piston", static_cast<float>(step.piston)},
+                      {"push", push_}});
   const auto stride = static_cast<std::size_t>(fluid.params().capacity);
   const std::vector<float> parts = push_.read(fluid.device(), 3 * stride);
   std::vector<Vector3> push(static_cast<std::size_t>(fluid.params().count));

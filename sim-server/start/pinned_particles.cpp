@@ -29,9 +29,13 @@ PinnedParticles::PinnedParticles(Fluid& fluid, const std::vector<bool>& kept)
 void PinnedParticles::restore() {
   if (is_empty()) return;
   const PointArrays& water = fluid_.particles();
-  put_back_.run(fluid_.device().queue(), particles_, fluid_.params_buffer().memory(),
-                kept_.memory(), place_.memory(), water.id.memory(), water.position.memory(),
-                water.velocity.memory());
+  put_back_.run(fluid_.device().queue(), particles_,
+                {{"p", fluid_.params_buffer()},
+                 {"kept", kept_},
+                 {"place", place_},
+                 {"id", water.id},
+                 {"position", water.position},
+                 {"velocity", water.velocity}});
 }
 
 }  // namespace splash::sim

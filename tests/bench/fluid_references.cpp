@@ -27,7 +27,7 @@ Particles copy_of(Device& device, Block& block) {
                             static_cast<std::size_t>(p.params.cells_y) *
                             static_cast<std::size_t>(p.params.cells_z);
   p.cell_start.resize(cells + 1);
-  device.queue().enqueueReadBuffer(block.fluid.grid().cell_start(), CL_TRUE, 0,
+  device.queue().enqueueReadBuffer(block.fluid.grid().cell_start().memory(), CL_TRUE, 0,
                                    4 * p.cell_start.size(), p.cell_start.data());
   return p;
 }
@@ -79,18 +79,19 @@ struct MainKernels {
     term = Buffer<float>(device, points);
     push = Buffer<float>(device, 3 * points);
     moving = Buffer<int>(device, points);
-    set(density, f.params_buffer().memory(), f.grid().cell_start(), activity.memory(),
-        f.grid().source(), rho.memory(), water.memory(), peak.memory(),
-        f.particles().position.memory(), f.boundary().grid().cell_start(),
+    set(density, f.params_buffer().memory(), f.grid().cell_start().memory(), activity.memory(),
+        f.grid().source().memory(), rho.memory(), water.memory(), peak.memory(),
+        f.particles().position.memory(), f.boundary().grid().cell_start().memory(),
         f.boundary().points().position.memory(), none.memory(), 0, f.boundary().shapes().memory(),
         f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F, 0.0F, f.body_images().memory(),
         rho.memory(), water.memory(), peak.memory(), term.memory(), push.memory(), moving.memory(),
         resting.memory());
-    set(acceleration, f.params_buffer().memory(), f.grid().cell_start(), activity.memory(),
+    set(acceleration, f.params_buffer().memory(), f.grid().cell_start().memory(), activity.memory(),
         resting.memory(), f.particles().position.memory(), f.particles().velocity.memory(),
-        f.pressure_term().memory(), f.body_images().memory(), f.boundary().grid().cell_start(),
-        f.boundary().points().position.memory(), f.boundary().points().velocity.memory(),
-        none.memory(), 0, nobody.memory(), 0, 0, 0.0F, push.memory(), moving.memory());
+        f.pressure_term().memory(), f.body_images().memory(),
+        f.boundary().grid().cell_start().memory(), f.boundary().points().position.memory(),
+        f.boundary().points().velocity.memory(), none.memory(), 0, nobody.memory(), 0, 0, 0.0F,
+        push.memory(), moving.memory());
   }
 
   /// Each says what goes on in it (sleep/sleep.h).

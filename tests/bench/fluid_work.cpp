@@ -275,13 +275,8 @@ Places places_of(sim::Fluid& fluid, const sim::Step& step) {
   const std::size_t cells = SPLASH_SLICES * static_cast<std::size_t>(p.params.cells_x) *
                             static_cast<std::size_t>(p.params.cells_y) *
                             static_cast<std::size_t>(p.params.cells_z);
-  const auto numbers = [&](const cl::Buffer& buffer, std::size_t count) {
-    std::vector<int> all(count);
-    device.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, 4 * count, all.data());
-    return all;
-  };
-  p.cell_start = numbers(fluid.grid().cell_start(), cells + 1);
-  p.source = numbers(fluid.grid().source(), static_cast<std::size_t>(p.params.count));
+  p.cell_start = fluid.grid().cell_start().read(device, cells + 1);
+  p.source = fluid.grid().source().read(device, static_cast<std::size_t>(p.params.count));
   p.used = used_cells(p.cell_start);
   const sim::Boundary& boundary = fluid.boundary();
   if (boundary.point_count() == 0) return p;
@@ -293,7 +288,7 @@ Places places_of(sim::Fluid& fluid, const sim::Step& step) {
     p.body_position.insert(p.body_position.end(), first,
                            first + static_cast<std::ptrdiff_t>(points));
   }
-  p.body_start = numbers(boundary.grid().cell_start(), cells + 1);
+  p.body_start = boundary.grid().cell_start().read(device, cells + 1);
   const auto first = boundary.given_steps().begin() + step.first_body;
   p.bodies.assign(first, first + boundary.body_count());
   return p;

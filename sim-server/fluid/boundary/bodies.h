@@ -5,6 +5,23 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
 
+// The bodies of a step, which are `count` of the frame's `steps` from `first` on, and their looks.
+typedef struct {
+  constant BodyShape* shapes;
+  global const float* meshes;
+  global const BodyStep* steps;
+  int first, count;
+} Bodies;
+
+// Their points, sorted by cells; x, y and z parts `stride` apart.
+typedef struct {
+  global const int* start;
+  global const float* position;
+  global const float* velocity;
+  global const float* volume;
+  int stride;
+} BodyPoints;
+
 // `s` turned by the quaternion q.
 static float3 rotate_by(float3 s, float qx, float qy, float qz, float qw) {
   const float3 axis = (float3)(qx, qy, qz);

@@ -5,12 +5,6 @@
 #include <numeric>
 
 namespace splash::sim {
-namespace {
-
-static_assert(sizeof(BodyStep) == 22 * sizeof(float));
-static_assert(sizeof(BodyShape) == 17 * sizeof(float));
-
-}  // namespace
 
 Boundary::Boundary(Device& device, const cl::Program& program, const FluidParams& params,
                    const std::vector<BoundaryPoint>& points, const Outlines& outlines)
@@ -69,12 +63,24 @@ void Boundary::let_go(Device& device, const std::vector<FreeBody>& bodies) {
 void Boundary::place(cl::CommandQueue& queue, const Buffer<FluidParams>& params, const Step& step) {
   if (point_count_ == 0) return;
   const auto points = static_cast<std::size_t>(point_count_);
-  place_bodies_.run(queue, points, point_count_, unsorted_.stride, sample_.memory(),
-                    owner_.memory(), steps_.memory(), step.first_body, unsorted_.position.memory(),
-                    unsorted_.velocity.memory());
+  place_bodies_.run(queue, points,
+                    {{"points", point_count_},
+                     {"stride", unsorted_.stride},
+                     {"sample", sample_},
+                     {"owner", owner_},
+                     {"bodies", steps_},
+                     {"first_body", step.first_body},
+                     {"position", unsorted_.position},
+                     {"velocity", unsorted_.velocity}});
   grid_.sort(queue, params, point_count_, unsorted_, sorted_);
-  gather_volumes_.run(queue, points, point_count_, sorted_.id.memory(), sample_volume_.memory(),
-                      owner_.memory(), steps_.memory(), step.first_body, volume_.memory());
+  gather_volumes_.run(queue, points,
+                      {{"points", point_count_},
+                       {"id", sorted_.id},
+                       {"volume", sample_volume_},
+                       {"owner", owner_},
+                       {"bodies", steps_},
+                       {"first_body", step.first_body},
+                       {"sorted_volume", volume_}});
 }
 
 }  // namespace splash::sim

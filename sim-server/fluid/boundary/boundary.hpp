@@ -4,6 +4,7 @@
 // that nothing is caught in.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
@@ -46,6 +47,19 @@ class Boundary {
   [[nodiscard]] const Buffer<BodyStep>& steps() const noexcept { return steps_; }
   /// As set_steps gave them: free bodies are there in the frame's first step only.
   [[nodiscard]] const std::vector<BodyStep>& given_steps() const noexcept { return uploaded_; }
+  // For kernels: where the bodies are in a step, what they look like, and their points.
+  [[nodiscard]] std::array<KernelArg, 3> bodies_at(const Step& step) const {
+    return {{{"bodies", steps_}, {"first_body", step.first_body}, {"body_count", body_count_}}};
+  }
+  [[nodiscard]] std::array<KernelArg, 2> outlines() const {
+    return {{{"shapes", shapes_}, {"meshes", meshes_}}};
+  }
+  [[nodiscard]] std::array<KernelArg, 4> matter() const {
+    return {{{"body_start", grid_.cell_start()},
+             {"body_position", sorted_.position},
+             {"body_volume", volume_},
+             {"body_stride", sorted_.stride}}};
+  }
   [[nodiscard]] int step_entries() const noexcept { return static_cast<int>(uploaded_.size()); }
 
  private:

@@ -51,7 +51,7 @@ static void add_water(const Reach* r, Lever lever, float inverse_size, lanes pus
 // each body and part. `pushing`: of the pressure given, in it and in seconds; `rubbing`: of a_i,
 // likewise.
 kernel void weigh_water(constant FluidParams* p, int k, global const SolveState* state,
-                        int free_count, float pushing, float rubbing, constant FreeBody* frees,
+                        float pushing, float rubbing, constant FreeBody* frees,
                         global const BodyStep* bodies, int first_body,
                         global const float* position, global const float* pressure,
                         global float* reach, global const int* reached, global float* parts) {
@@ -96,7 +96,7 @@ static void add_body(FreeBody f, BodyStep b, float* a) {
 // water gave each body in this step so far, its momentum and angular momentum. The body's speeds in
 // this step change at once.
 kernel void answer_bodies(constant FluidParams* p, int k, global const SolveState* state,
-                          int free_count, float falling, constant FreeBody* frees,
+                          float falling, constant FreeBody* frees,
                           global BodyStep* bodies, int first_body, global const float* parts,
                           int films, global const float* film, global float* answer,
                           global float* felt) {

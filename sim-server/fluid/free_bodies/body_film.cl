@@ -54,19 +54,20 @@ typedef struct {
 } Beside;
 
 // Of the particles from `i` on, whose reach of the free body `k`, the scene's `body`, is known.
-static Beside beside(constant FluidParams* p, float piston, constant BodyShape* shapes,
-                     global const float* meshes, global const BodyStep* bodies, int body_count,
-                     int body, global const float* position, global const float* density,
+static Beside beside(constant FluidParams* p, float piston, const Bodies* bodies, int body,
+                     global const float* position, global const float* density,
                      global const float* pressure, global float* reach, int k, int i) {
+  global const BodyStep* steps = bodies->steps + bodies->first;
   const int n = p->capacity;
   const Reach r = load_reach(p, reach, k, i);
   const lanes rho = LOAD(density, i);
   const lanes x = LOAD(position, i), y = LOAD(position + n, i), z = LOAD(position + 2 * n, i);
-  const Gap gap = gap_at(p, piston, shapes, meshes, bodies, body_count, body, x, y, z);
-  const BodyFace own = nearest_face(shapes + body, meshes, bodies + body, 0, 1, x, y, z);
+  const Gap gap = gap_at(p, piston, bodies, body, x, y, z);
+  const BodyFace own =
+      nearest_face(bodies->shapes + body, bodies->meshes, steps + body, 0, 1, x, y, z);
   Beside w;
   w.area = areas_of(p, &r, rho);
-  w.arm = lever_of(p, position, bodies[body], i);
+  w.arm = lever_of(p, position, steps[body], i);
   w.size = length_of(w.area.x, w.area.y, w.area.z);
   w.pressure = LOAD(pressure, i) * rho * rho;
   w.between = between(p, &own, &gap);
@@ -86,17 +87,16 @@ kernel void measure_rims(constant FluidParams* p, float piston, int free_count,
   if (item >= free_count * SPLASH_PUSH_PARTS) return;
   const int k = item / SPLASH_PUSH_PARTS, part = item % SPLASH_PUSH_PARTS;
   const int body = frees[k].body;
-  global const BodyStep* bodies = steps + first_body;
-  const BodyStep b = bodies[body];
+  const Bodies bodies = {shapes, meshes, steps, first_body, body_count};
+  const BodyStep b = steps[first_body + body];
   Gap nearest = {FAR_AWAY, FAR_AWAY, 0.0f, 0.0f, 0.0f};
   lanes sum[SPLASH_RIM_ENTRIES];
   for (int e = 0; e < SPLASH_RIM_ENTRIES; ++e) sum[e] = 0.0f;
-  if (has_neighbour(p, piston, shapes, bodies, body_count, body)) {
+  if (has_neighbour(p, piston, &bodies, body)) {
     for (int i = skin_from[k] + part * LANES; i < skin_from[k + 1];
          i += SPLASH_PUSH_PARTS * LANES) {
       const Skin s = load_skin(skin, skin_stride, b, i);
-      const Gap gap = gap_at(p, piston, shapes, meshes, bodies, body_count, body, b.px + s.x,
-                             b.py + s.y, b.pz + s.z);
+      const Gap gap = gap_at(p, piston, &bodies, body, b.px + s.x, b.py + s.y, b.pz + s.z);
       nearest.held = fmin(nearest.held, gap.held);
       nearest.next = fmin(nearest.next, gap.next);
     }
@@ -104,20 +104,20 @@ kernel void measure_rims(constant FluidParams* p, float piston, int free_count,
     const int groups = group_count(p);
     for (int group = part; group < groups; group += SPLASH_PUSH_PARTS) {
       if (!reached[k * groups + group]) continue;
-      const Beside w = beside(p, piston, shapes, meshes, bodies, body_count, body, position,
-                              density, pressure, reach, k, group * LANES);
+      const Beside w = beside(p, piston, &bodies, body, position, density, pressure, reach, k,
+                              group * LANES);
       const lanes none = 0.0f;
       const lanes counts = select(none, fmax(1.0f - w.between, LEAST), w.size > none);
       const lanes level =
           select(none, w.pressure - (weight.x * w.arm.x + weight.y * w.arm.y + weight.z * w.arm.z),
                  w.size > none);
-      const lanes part[4] = {counts * w.size, counts * w.area.x, counts * w.area.y,
+      const lanes counted[4] = {counts * w.size, counts * w.area.x, counts * w.area.y,
                              counts * w.area.z};
-      sum[FILM_AREA] += part[0];
-      sum[FILM_AREA + 1] += level * part[0];
+      sum[FILM_AREA] += counted[0];
+      sum[FILM_AREA + 1] += level * counted[0];
       for (int axis = 0; axis < 3; ++axis) {
-        sum[FILM_TOWARDS + axis] += part[1 + axis];
-        sum[FILM_TOWARDS + 3 + axis] += level * part[1 + axis];
+        sum[FILM_TOWARDS + axis] += counted[1 + axis];
+        sum[FILM_TOWARDS + 3 + axis] += level * counted[1 + axis];
       }
     }
   }
@@ -192,8 +192,8 @@ kernel void press_films(constant FluidParams* p, float dt, float piston, int fre
   if (item >= free_count * SPLASH_PUSH_PARTS) return;
   const int k = item / SPLASH_PUSH_PARTS, part = item % SPLASH_PUSH_PARTS;
   const int body = frees[k].body;
-  global const BodyStep* bodies = steps + first_body;
-  const BodyStep b = bodies[body];
+  const Bodies bodies = {shapes, meshes, steps, first_body, body_count};
+  const BodyStep b = steps[first_body + body];
   const Film film = film_of(p, dt, rims, kept, k);
   if (!(film.share > 0.0f)) return;
   const float3 weight = weight_at(p, b);
@@ -204,16 +204,15 @@ kernel void press_films(constant FluidParams* p, float dt, float piston, int fre
     const Lever arm = {s.x, s.y, s.z}, area = {s.ax, s.ay, s.az};
     const lanes level = pressure_at(&film, weight, arm);
     press(level, arm, area, (lane_flags)(-1), &sum);
-    const Gap gap = gap_at(p, piston, shapes, meshes, bodies, body_count, body, b.px + s.x,
-                           b.py + s.y, b.pz + s.z);
+    const Gap gap = gap_at(p, piston, &bodies, body, b.px + s.x, b.py + s.y, b.pz + s.z);
     const lanes open = clamp(fmin(gap.held, gap.next) / p->spacing, 0.0f, 1.0f);
     sum.of[FILM_BELOW] += select((lanes)(0.0f), open * length_of(s.ax, s.ay, s.az), level > 0.0f);
   }
   const int groups = group_count(p);
   for (int group = part; group < groups; group += SPLASH_PUSH_PARTS) {
     if (!reached[k * groups + group]) continue;
-    const Beside w = beside(p, piston, shapes, meshes, bodies, body_count, body, position, density,
-                            pressure, reach, k, group * LANES);
+    const Beside w =
+        beside(p, piston, &bodies, body, position, density, pressure, reach, k, group * LANES);
     const lanes level = pressure_at(&film, weight, w.arm);
     press(level + w.between * (w.pressure - level), w.arm, w.area, w.size > 0.0f, &sum);
     sum.of[FILM_WET] += w.size;

@@ -24,9 +24,8 @@ static bool reaches_meet(BodyStep a, BodyStep b) {
          a.lower_y < b.upper_y && a.upper_z > b.lower_z && a.lower_z < b.upper_z;
 }
 
-static Gap gap_at(constant FluidParams* p, float piston, constant BodyShape* shapes,
-                  global const float* meshes, global const BodyStep* bodies, int body_count,
-                  int body, lanes x, lanes y, lanes z) {
+static Gap gap_at(constant FluidParams* p, float piston, const Bodies* bodies, int body, lanes x,
+                  lanes y, lanes z) {
   Gap gap = {FAR_AWAY, FAR_AWAY, 0.0f, 0.0f, 0.0f};
   for (int k = 0; k < p->wall_count; ++k) {
     const lanes distance = wall_distance(p, k, x, y, z, piston);
@@ -36,14 +35,16 @@ static Gap gap_at(constant FluidParams* p, float piston, constant BodyShape* sha
     gap.ny = select(gap.ny, (lanes)(p->walls[k].ny), nearer);
     gap.nz = select(gap.nz, (lanes)(p->walls[k].nz), nearer);
   }
-  for (int other = 0; other < body_count; ++other) {
-    if (other == body || !reaches_meet(bodies[body], bodies[other])) continue;
-    const BodyFace face = nearest_face(shapes + other, meshes, bodies + other, 0, 1, x, y, z);
+  global const BodyStep* steps = bodies->steps + bodies->first;
+  for (int other = 0; other < bodies->count; ++other) {
+    if (other == body || !reaches_meet(steps[body], steps[other])) continue;
+    const BodyFace face =
+        nearest_face(bodies->shapes + other, bodies->meshes, steps + other, 0, 1, x, y, z);
     const lane_flags nearer = face.distance < fmin(gap.held, gap.next);
     gap.nx = select(gap.nx, face.nx, nearer);
     gap.ny = select(gap.ny, face.ny, nearer);
     gap.nz = select(gap.nz, face.nz, nearer);
-    if (shapes[other].free) {
+    if (bodies->shapes[other].free) {
       gap.next = fmin(gap.next, face.distance);
     } else {
       gap.held = fmin(gap.held, face.distance);
@@ -60,13 +61,13 @@ static lanes between(constant FluidParams* p, const BodyFace* own, const Gap* ga
 }
 
 // Whether anything else is within the support of the box around a body, already grown by it.
-static bool has_neighbour(constant FluidParams* p, float piston, constant BodyShape* shapes,
-                          global const BodyStep* bodies, int body_count, int body) {
-  const BodyStep b = bodies[body];
-  for (int other = 0; other < body_count; ++other) {
-    if (other != body && reaches_meet(b, bodies[other])) return true;
+static bool has_neighbour(constant FluidParams* p, float piston, const Bodies* bodies, int body) {
+  global const BodyStep* steps = bodies->steps + bodies->first;
+  const BodyStep b = steps[body];
+  for (int other = 0; other < bodies->count; ++other) {
+    if (other != body && reaches_meet(b, steps[other])) return true;
   }
-  const float3 reach = reach_along_axes(shapes[body], b);
+  const float3 reach = reach_along_axes(bodies->shapes[body], b);
   for (int k = 0; k < p->wall_count; ++k) {
     const float3 n = fabs(wall_normal(p, k));
     if (above_wall(p, k, piston, b, (float3)(0.0f)) < dot(n, reach) + p->support) return true;

@@ -38,23 +38,46 @@ void BodyPushes::begin(Fluid& fluid) {
 void BodyPushes::add(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
   const Boundary& boundary = fluid.boundary();
-  const PointArrays& points = boundary.points();
-  const cl::Buffer& params = fluid.params_buffer().memory();
-  const cl::Buffer& places = fluid.particles().position.memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
+  const Buffer<float>& places = fluid.particles().position;
   const auto dt = static_cast<float>(step.dt);
-  reach_bodies_.run(queue, list_.size() * groups_, params, dt, count_, bodies_.memory(),
-                    boundary.steps().memory(), step.first_body, fluid.grid().cell_start(), places,
-                    fluid.particles().velocity.memory(), fluid.density().memory(),
-                    fluid.body_images().memory(), fluid.pressure_term().memory(),
-                    fluid.density().memory(), boundary.grid().cell_start(),
-                    points.position.memory(), points.velocity.memory(), boundary.volume().memory(),
-                    points.id.memory(), boundary.owner().memory(), points.stride, reach_.memory(),
-                    reached_.memory());
-  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS, params, 0, no_solve_.memory(),
-                         count_, dt, dt, bodies_.memory(), boundary.steps().memory(),
-                         step.first_body, places, fluid.pressure_term().memory(), reach_.memory(),
-                         reached_.memory(), parts_.memory());
-  sum_pushes_.run(queue, list_.size(), count_, bodies_.memory(), parts_.memory(), sums_.memory());
+  reach_bodies_.run(queue, list_.size() * groups_,
+                    {{"p", params},
+                     {"dt", dt},
+                     {"free_count", count_},
+                     {"frees", bodies_},
+                     {"bodies", boundary.steps()},
+                     {"first_body", step.first_body},
+                     {"cell_start", fluid.grid().cell_start()},
+                     {"position", places},
+                     {"velocity", fluid.particles().velocity},
+                     {"density", fluid.density()},
+                     {"images", fluid.body_images()},
+                     {"pressure_term", fluid.pressure_term()},
+                     {"response", fluid.density()},
+                     {"body_velocity", boundary.points().velocity},
+                     {"body_id", boundary.points().id},
+                     {"owner", boundary.owner()},
+                     {"reach", reach_},
+                     {"reached", reached_}},
+                    boundary.matter());
+  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS,
+                         {{"p", params},
+                          {"k", 0},
+                          {"state", no_solve_},
+                          {"pushing", dt},
+                          {"rubbing", dt},
+                          {"frees", bodies_},
+                          {"bodies", boundary.steps()},
+                          {"first_body", step.first_body},
+                          {"position", places},
+                          {"pressure", fluid.pressure_term()},
+                          {"reach", reach_},
+                          {"reached", reached_},
+                          {"parts", parts_}});
+  sum_pushes_.run(
+      queue, list_.size(),
+      {{"body_count", count_}, {"bodies", bodies_}, {"parts", parts_}, {"sums", sums_}});
 }
 
 void BodyPushes::enqueue_read(Fluid& fluid) {

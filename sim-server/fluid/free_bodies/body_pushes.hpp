@@ -10,7 +10,7 @@
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/divergence_free/solve_state.hpp"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/step.hpp"
 #include "sim-server/scene/scene.hpp"
 

@@ -3,7 +3,7 @@
 //   g_i = rho0 (R sum_b V_b grad W_ib + S grad R, if the body is the nearest)     body_image.h
 //   a_i = sum_b V_b K_ib (v_ib . x_ib) / (r^2 + eta^2) grad W_ib
 //   c_i = dt sum_b V_b K |grad W_ib| r / (r^2 + eta^2),  the most that rubbing can yield
-// the same terms as in acceleration.cl, of this body's points alone.
+// the same terms as in acceleration.cl (viscosity.h), of this body's points alone.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_image.h"
@@ -12,37 +12,31 @@
 #include "sim-server/fluid/neighbours/group.h"
 #include "sim-server/fluid/neighbours/near.h"
 #include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/neighbours/viscosity.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/smoothing.h"
 
 static void reach_of_group(constant FluidParams* p, const Group* g, global const float* velocity,
-                           int first, global const int* body_start,
-                           global const float* body_position, global const float* body_velocity,
-                           global const float* body_volume, global const int* body_id,
-                           global const int* owner, int stride, int body, BodyImage image,
-                           Reach* sum) {
+                           int first, const BodyPoints* points, global const int* body_id,
+                           global const int* owner, int body, BodyImage image, Reach* sum) {
   const int n = p->capacity;
   const lanes u = LOAD(velocity, first), v = LOAD(velocity + n, first),
               w = LOAD(velocity + 2 * n, first);
-  const float eta2 = 0.01f * p->length * p->length;
   BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
   lanes all = 0.0f;  // the share of all bodies
   Near near;
   begin_search(&near);
-  while (search(p, g, body_start, body_position, stride, &near)) {
+  while (search(p, g, points->start, points->position, points->stride, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
-      const Pair pair = pair_with(p, g, body_position, stride, j);
-      all += body_volume[j] * kernel_shape(pair.r2, p->inverse_support);
+      const Pair pair = pair_with(p, g, points->position, points->stride, j);
+      all += points->volume[j] * kernel_shape(pair.r2, p->inverse_support);
       if (owner[body_id[j]] != body) continue;
-      add_share(p, &pair, body_volume[j], &share);
-      const lanes closing = (u - body_velocity[j]) * pair.dx +
-                            (v - body_velocity[stride + j]) * pair.dy +
-                            (w - body_velocity[2 * stride + j]) * pair.dz;
-      const lanes steep = body_volume[j] * pair.slope;
-      const lanes near2 = inverse(pair.r2 + eta2);
-      const lanes rub =
-          steep * near2 * (p->viscous * closing + p->artificial * fmin(closing, 0.0f));
+      add_share(p, &pair, points->volume[j], &share);
+      const lanes closing = closing_with(&pair, u, v, w, points->velocity, points->stride, j);
+      const lanes steep = points->volume[j] * pair.slope;
+      const lanes near2 = inverse_square(p, &pair);
+      const lanes rub = steep * near2 * rubbing(p->viscous, p->artificial, closing);
       sum->ax += rub * pair.dx;
       sum->ay += rub * pair.dy;
       sum->az += rub * pair.dz;
@@ -97,6 +91,7 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
   const int k = item / group_count(p);
   const int first = item % group_count(p) * LANES;
   const int last = min(first + LANES, p->count);
+  const BodyPoints points = {body_start, body_position, body_velocity, body_volume, body_stride};
   Reach all = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   int near = 0;
   for (int turn = first; turn < last;) {
@@ -105,8 +100,8 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
     if (!bodies_near_box(bodies, first_body + frees[k].body, 1, g.lower, g.upper)) continue;
     near = 1;
     Reach one = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    reach_of_group(p, &g, velocity, first, body_start, body_position, body_velocity, body_volume,
-                   body_id, owner, body_stride, frees[k].body, load_image(p, images, first), &one);
+    reach_of_group(p, &g, velocity, first, &points, body_id, owner, frees[k].body,
+                   load_image(p, images, first), &one);
     all.gx = select(all.gx, one.gx, g.mine);
     all.gy = select(all.gy, one.gy, g.mine);
     all.gz = select(all.gz, one.gz, g.mine);

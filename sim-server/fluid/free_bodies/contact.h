@@ -35,12 +35,6 @@ typedef struct {
 // The host gives each so much room.
 typedef char contact_fits[sizeof(Contact) <= 4 * SPLASH_CONTACT_FLOATS ? 1 : -1];
 
-// What is left of a contact for the next step.
-typedef struct {
-  int key;
-  float pushed;  // [N s]
-} KeptPush;
-
 // All contacts of a step, and the bodies that they change.
 typedef struct {
   constant FreeBody* frees;

@@ -99,27 +99,63 @@ void Films::press(Fluid& fluid, const Step& step, const Now& now) {
   if (!pressed_) return;
   ++steps_;
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
   const Boundary& boundary = fluid.boundary();
   const auto count = static_cast<int>(free_.size());
   const auto dt = as_float(step.dt);
   const auto piston = as_float(step.piston);
   const std::size_t items = free_.size() * SPLASH_PUSH_PARTS;
-  measure_rims_.run(
-      queue, items, params, piston, count, now.bodies.memory(), boundary.shapes().memory(),
-      boundary.meshes().memory(), boundary.steps().memory(), step.first_body, boundary.body_count(),
-      skin_.memory(), skin_from_.memory(), skin_stride_, fluid.particles().position.memory(),
-      fluid.density().memory(), now.pressure.memory(), now.reach.memory(), now.reached.memory(),
-      rims_.memory());
-  press_films_.run(
-      queue, items, params, dt, piston, count, now.bodies.memory(), boundary.shapes().memory(),
-      boundary.meshes().memory(), boundary.steps().memory(), step.first_body, boundary.body_count(),
-      skin_.memory(), skin_from_.memory(), skin_stride_, fluid.particles().position.memory(),
-      fluid.density().memory(), now.pressure.memory(), now.reach.memory(), now.reached.memory(),
-      rims_.memory(), kept_.memory(), parts_.memory());
-  sum_films_.run(queue, 1, params, dt, count, now.bodies.memory(), boundary.steps().memory(),
-                 step.first_body, rims_.memory(), parts_.memory(), kept_.memory(), lists_.memory(),
-                 push_.memory());
+  measure_rims_.run(queue, items,
+                    {{"p", params},
+                     {"piston", piston},
+                     {"free_count", count},
+                     {"frees", now.bodies},
+                     {"steps", boundary.steps()},
+                     {"first_body", step.first_body},
+                     {"body_count", boundary.body_count()},
+                     {"skin", skin_},
+                     {"skin_from", skin_from_},
+                     {"skin_stride", skin_stride_},
+                     {"position", fluid.particles().position},
+                     {"density", fluid.density()},
+                     {"pressure", now.pressure},
+                     {"reach", now.reach},
+                     {"reached", now.reached},
+                     {"rims", rims_}},
+                    boundary.outlines());
+  press_films_.run(queue, items,
+                   {{"p", params},
+                    {"piston", piston},
+                    {"free_count", count},
+                    {"frees", now.bodies},
+                    {"steps", boundary.steps()},
+                    {"first_body", step.first_body},
+                    {"body_count", boundary.body_count()},
+                    {"skin", skin_},
+                    {"skin_from", skin_from_},
+                    {"skin_stride", skin_stride_},
+                    {"position", fluid.particles().position},
+                    {"density", fluid.density()},
+                    {"pressure", now.pressure},
+                    {"reach", now.reach},
+                    {"reached", now.reached},
+                    {"rims", rims_},
+                    {"dt", dt},
+                    {"kept", kept_},
+                    {"parts", parts_}},
+                   boundary.outlines());
+  sum_films_.run(queue, 1,
+                 {{"p", params},
+                  {"dt", dt},
+                  {"free_count", count},
+                  {"frees", now.bodies},
+                  {"steps", boundary.steps()},
+                  {"first_body", step.first_body},
+                  {"rims", rims_},
+                  {"parts", parts_},
+                  {"kept", kept_},
+                  {"lists", lists_},
+                  {"push", push_}});
 }
 
 }  // namespace splash::sim

@@ -7,8 +7,6 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(FreeBody) == 12 * sizeof(float));
-
 float as_float(double value) {
   return static_cast<float>(value);
 }
@@ -27,8 +25,8 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       reached_(device, bodies.size() * groups_),
       parts_(device, bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES),
       answer_(device, 6 * bodies.size()),
-      contacts_(device, bodies.size() * SPLASH_CONTACTS * SPLASH_CONTACT_FLOATS),
-      kept_pushes_(device, 2 * (bodies.size() * SPLASH_CONTACTS + 1)),
+      contacts_(device, bodies.size() * SPLASH_CONTACTS * SPLASH_CONTACT_FLOATS * sizeof(float)),
+      kept_pushes_(device, bodies.size() * SPLASH_CONTACTS + 1),
       felt_(device, 6 * bodies.size()),
       force_(device, 6 * bodies.size()),
       no_solve_(device, 1),
@@ -47,16 +45,27 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
 
 void FreeBodies::reach(Fluid& fluid, const Step& step, const Buffer<float>& velocity,
                        const Buffer<float>& response) {
-  const PointArrays& points = fluid.boundary().points();
-  reach_bodies_.run(fluid.device().queue(), list_.size() * groups_, fluid.params_buffer().memory(),
-                    as_float(step.dt), count_, bodies_.memory(), fluid.boundary().steps().memory(),
-                    step.first_body, fluid.grid().cell_start(), fluid.particles().position.memory(),
-                    velocity.memory(), fluid.density().memory(), fluid.body_images().memory(),
-                    fluid.pressure_term().memory(), response.memory(),
-                    fluid.boundary().grid().cell_start(), points.position.memory(),
-                    points.velocity.memory(), fluid.boundary().volume().memory(),
-                    points.id.memory(), fluid.boundary().owner().memory(), points.stride,
-                    reach_.memory(), reached_.memory());
+  const Boundary& boundary = fluid.boundary();
+  reach_bodies_.run(fluid.device().queue(), list_.size() * groups_,
+                    {{"p", fluid.params_buffer()},
+                     {"dt", as_float(step.dt)},
+                     {"free_count", count_},
+                     {"frees", bodies_},
+                     {"bodies", boundary.steps()},
+                     {"first_body", step.first_body},
+                     {"cell_start", fluid.grid().cell_start()},
+                     {"position", fluid.particles().position},
+                     {"velocity", velocity},
+                     {"density", fluid.density()},
+                     {"images", fluid.body_images()},
+                     {"pressure_term", fluid.pressure_term()},
+                     {"response", response},
+                     {"body_velocity", boundary.points().velocity},
+                     {"body_id", boundary.points().id},
+                     {"owner", boundary.owner()},
+                     {"reach", reach_},
+                     {"reached", reached_}},
+                    boundary.matter());
 }
 
 void FreeBodies::answer(Fluid& fluid, const Step& step) {
@@ -72,48 +81,97 @@ void FreeBodies::answer(Fluid& fluid, const Step& step) {
 
 void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion) {
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
-  const cl::Buffer& state = (occasion.state != nullptr ? *occasion.state : no_solve_).memory();
-  const cl::Buffer& steps = fluid.boundary().steps().memory();
-  const cl::Buffer& places = fluid.particles().position.memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
+  const Buffer<SolveState>& state = occasion.state != nullptr ? *occasion.state : no_solve_;
+  const Buffer<BodyStep>& steps = fluid.boundary().steps();
+  const Buffer<float>& places = fluid.particles().position;
   const int k = occasion.iteration;
   if (occasion.falling > 0.0) {
     films_.press(fluid, step, {bodies_, *occasion.pressure, reach_, reached_});
   }
-  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS, params, k, state, count_,
-                         as_float(occasion.pushing), as_float(occasion.rubbing), bodies_.memory(),
-                         steps, step.first_body, places, occasion.pressure->memory(),
-                         reach_.memory(), reached_.memory(), parts_.memory());
-  answer_bodies_.run_teams(queue, list_.size(), params, k, state, count_,
-                           as_float(occasion.falling), bodies_.memory(), steps, step.first_body,
-                           parts_.memory(), films_.pressed() ? 1 : 0, films_.push().memory(),
-                           answer_.memory(), felt_.memory());
+  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS,
+                         {{"p", params},
+                          {"k", k},
+                          {"state", state},
+                          {"pushing", as_float(occasion.pushing)},
+                          {"rubbing", as_float(occasion.rubbing)},
+                          {"frees", bodies_},
+                          {"bodies", steps},
+                          {"first_body", step.first_body},
+                          {"position", places},
+                          {"pressure", *occasion.pressure},
+                          {"reach", reach_},
+                          {"reached", reached_},
+                          {"parts", parts_}});
+  answer_bodies_.run_teams(queue, list_.size(),
+                           {{"p", params},
+                            {"k", k},
+                            {"state", state},
+                            {"falling", as_float(occasion.falling)},
+                            {"frees", bodies_},
+                            {"bodies", steps},
+                            {"first_body", step.first_body},
+                            {"parts", parts_},
+                            {"films", films_.pressed() ? 1 : 0},
+                            {"film", films_.push()},
+                            {"answer", answer_},
+                            {"felt", felt_}});
   const bool wants_rate = occasion.rate != nullptr;
-  carry_water_.run(queue, groups_, params, k, state, count_, as_float(occasion.factor),
-                   bodies_.memory(), steps, step.first_body, answer_.memory(), places,
-                   reach_.memory(), reached_.memory(), occasion.velocity->memory(),
-                   wants_rate ? 1 : 0, (wants_rate ? *occasion.rate : answer_).memory());
+  carry_water_.run(queue, groups_,
+                   {{"p", params},
+                    {"k", k},
+                    {"state", state},
+                    {"free_count", count_},
+                    {"factor", as_float(occasion.factor)},
+                    {"frees", bodies_},
+                    {"bodies", steps},
+                    {"first_body", step.first_body},
+                    {"answer", answer_},
+                    {"position", places},
+                    {"reach", reach_},
+                    {"reached", reached_},
+                    {"velocity", *occasion.velocity},
+                    {"wants_rate", wants_rate ? 1 : 0},
+                    {"rate", wants_rate ? *occasion.rate : answer_}});
 }
 
 void FreeBodies::move(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
-  const cl::Buffer& shapes = fluid.boundary().shapes().memory();
-  const cl::Buffer& meshes = fluid.boundary().meshes().memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
+  const Boundary& boundary = fluid.boundary();
   const PointArrays& particles = fluid.particles();
   const auto piston = as_float(step.piston);
   const auto speed = as_float(step.piston_speed);
-  keep_out_of_free_.run(queue, groups_, params, as_float(step.dt), piston, speed, count_,
-                        bodies_.memory(), shapes, meshes, fluid.boundary().steps().memory(),
-                        step.first_body, fluid.particles_before().position.memory(),
-                        fluid.grid().source(), particles.position.memory(),
-                        particles.velocity.memory(), reach_.memory(), reached_.memory());
+  keep_out_of_free_.run(queue, groups_,
+                        {{"p", params},
+                         {"dt", as_float(step.dt)},
+                         {"piston", piston},
+                         {"piston_speed", speed},
+                         {"free_count", count_},
+                         {"frees", bodies_},
+                         {"bodies", boundary.steps()},
+                         {"first_body", step.first_body},
+                         {"position_before", fluid.particles_before().position},
+                         {"source", fluid.grid().source()},
+                         {"position", particles.position},
+                         {"velocity", particles.velocity},
+                         {"reach", reach_},
+                         {"reached", reached_}},
+                        boundary.outlines());
   answer(fluid, step,
          {.pressure = &fluid.pressure_term(), .rubbing = 1.0, .velocity = &particles.velocity});
-  move_bodies_.run(queue, 1, params, as_float(step.dt), piston, speed, count_, bodies_.memory(),
-                   shapes, meshes, step.first_body, fluid.boundary().body_count(),
-                   fluid.boundary().steps().memory(), contacts_.memory(), kept_pushes_.memory(),
-                   felt_.memory(), force_.memory());
+  move_bodies_.run(queue, 1,
+                   {{"p", params},
+                    {"dt", as_float(step.dt)},
+                    {"piston", piston},
+                    {"piston_speed", speed},
+                    {"free_count", count_},
+                    {"frees", bodies_},
+                    {"contacts", contacts_},
+                    {"kept", kept_pushes_},
+                    {"felt", felt_},
+                    {"force", force_}},
+                   boundary.outlines(), boundary.bodies_at(step));
   next_ = static_cast<std::size_t>(step.first_body) +
           static_cast<std::size_t>(fluid.boundary().body_count());
 }

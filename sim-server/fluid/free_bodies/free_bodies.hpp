@@ -11,7 +11,7 @@
 #include "sim-server/device/program.hpp"
 #include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/divergence_free/solve_state.hpp"
+#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/step.hpp"
 #include "sim-server/scene/scene.hpp"
 
@@ -75,8 +75,8 @@ class FreeBodies {
   Buffer<int> reached_;
   Buffer<float> parts_;
   Buffer<float> answer_;
-  Buffer<float> contacts_;
-  Buffer<float> kept_pushes_;
+  Buffer<std::byte> contacts_;
+  Buffer<KeptPush> kept_pushes_;
   Buffer<float> felt_;
   Buffer<float> force_;
   Buffer<SolveState> no_solve_;

@@ -5,35 +5,13 @@
 // A fault is counted once for each thing that is wrong; what is not finite is nothing else.
 
 #include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/health/state_sums.h"
 #include "sim-server/fluid/health/stray.h"
 #include "sim-server/fluid/lanes/bits.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"
-
-typedef struct {
-  float lower[3];  // box that holds the water [m]
-  float upper[3];
-  float speed;     // nothing is this fast or faster [m/s]
-  float thinnest;  // density [kg/m3]
-  float densest;
-} HealthLimits;
-
-// In the order of sim-server/fluid/health/health.hpp.
-#define HEALTH_NOT_FINITE 0
-#define HEALTH_OUTSIDE 1
-#define HEALTH_STRAY 2
-#define HEALTH_SPEED 3
-#define HEALTH_DENSITY 4
-#define HEALTH_CHECKS 5
-
-typedef struct {
-  int count[HEALTH_CHECKS];  // particles
-  int first[HEALTH_CHECKS];  // 2^31 - 1 less the smallest id among them, 0: none
-  uint before, after;        // sums of the state's bits at the step's ends
-  uint ids_before, ids_after;
-} HealthRecord;
 
 // The particles that one work-item judges at once, LANES of them.
 typedef struct {
@@ -84,10 +62,9 @@ static lanes place_before(global const float* before, global const int* source, 
   return LOAD(part, 0);
 }
 
-static CheckInputs load(constant FluidParams* p, float dt, global const float* position,
-                        global const float* velocity, global const float* carried,
-                        global const float* density, global const float* position_before,
-                        global const int* source, int i) {
+static CheckInputs load(constant FluidParams* p, float dt, const Particles* now,
+                        global const float* carried, global const float* density,
+                        const Particles* was, global const int* source, int i) {
   const int n = p->capacity;
   CheckInputs s;
   const bool together = were_together(source, i, p->count);
@@ -95,9 +72,9 @@ static CheckInputs load(constant FluidParams* p, float dt, global const float* p
   s.density = LOAD(density, i);
   s.way.way2 = s.way.miss2 = s.way.size = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    s.x[axis] = LOAD(position + axis * n, i);
-    s.v[axis] = LOAD(velocity + axis * n, i);
-    const lanes before = place_before(position_before + axis * n, source, together, i, p->count);
+    s.x[axis] = LOAD(now->position + axis * n, i);
+    s.v[axis] = LOAD(now->velocity + axis * n, i);
+    const lanes before = place_before(was->position + axis * n, source, together, i, p->count);
     const lanes way = s.x[axis] - before;
     const lanes miss = way - dt * LOAD(carried + axis * n, i);
     s.way.way2 += way * way;
@@ -121,15 +98,15 @@ static void report_lanes(global HealthRecord* record, int check, lane_flags bad,
 }
 
 // A body throws what is near it at whatever speed, and presses what has no way out.
-static lane_flags but_for_bodies(lane_flags far, global const BodyStep* bodies, int first_body,
-                                 int body_count, global const float* position, int n, int i) {
+static lane_flags but_for_bodies(lane_flags far, const Bodies* bodies,
+                                 global const float* position, int n, int i) {
   if (!any_lane(far)) return far;
   int flag[LANES];
   STORE(far, flag, 0);
   for (int lane = 0; lane < LANES; ++lane) {
     const int j = i + lane;
-    if (flag[lane] != 0 && near_bodies(bodies, first_body, body_count, position[j], position[n + j],
-                                       position[2 * n + j])) {
+    if (flag[lane] != 0 && near_bodies(bodies->steps, bodies->first, bodies->count, position[j],
+                                       position[n + j], position[2 * n + j])) {
       flag[lane] = 0;
     }
   }
@@ -138,21 +115,17 @@ static lane_flags but_for_bodies(lane_flags far, global const BodyStep* bodies, 
 
 // The lanes of `stray` that neither a wall nor a body put where they are.
 static lane_flags but_for_solids(lane_flags stray, constant FluidParams* p, float dt, float piston,
-                                 constant BodyShape* shapes, global const float* meshes,
-                                 global const BodyStep* bodies, int first_body, int body_count,
-                                 global const float* position_before,
-                                 global const float* velocity_before, global const int* source,
-                                 global const float* position, global const float* velocity,
+                                 const Bodies* bodies, const Particles* was,
+                                 global const int* source, const Particles* now,
                                  global const float* acceleration, int i) {
   if (!any_lane(stray)) return stray;
   int flag[LANES];
   STORE(stray, flag, 0);
   for (int lane = 0; lane < LANES; ++lane) {
     if (flag[lane] == 0) continue;
-    const Displacement l = displacement_of(p, position_before, velocity_before, source[i + lane],
-                                           position, velocity, acceleration, i + lane);
-    if (stopped_by_wall(p, &l, dt, piston) ||
-        put_by_body(p, shapes, meshes, bodies, first_body, body_count, &l, piston)) {
+    const Displacement l =
+        displacement_of(p, was, source[i + lane], now, acceleration, i + lane);
+    if (stopped_by_wall(p, &l, dt, piston) || put_by_body(p, bodies, &l, piston)) {
       flag[lane] = 0;
     }
   }
@@ -196,36 +169,36 @@ kernel void check_health(constant FluidParams* p, constant HealthLimits* limits,
   local uint of_team[4 * TEAM];
   const int n = p->capacity;
   global HealthRecord* record = records + slot;
+  const Particles now = {position, velocity, id};
+  const Particles was = {position_before, velocity_before, id_before};
+  const Bodies all = {shapes, meshes, bodies, first_body, body_count};
   Sums sums = {0, 0, 0, 0, {0, 0}, 0};
   const Share share = share_of(p->count, get_group_id(0), get_num_groups(0), LANES, LANES);
   for (int i = share.first; i < share.last; i += share.step) {
     const int rests = resting[i / LANES];
-    if (rests > 1 && look == RESTING_UNSEEN) {
+    if (rests > 1 && look == SPLASH_RESTING_UNSEEN) {
       sums.known.state += rested[i / LANES].state;
       sums.known.ids += rested[i / LANES].ids;
       continue;
     }
-    const CheckInputs s =
-        load(p, dt, position, velocity, carried, density, position_before, source, i);
-    add_bits(&sums, n, i, ALL_BITS(s.here), rests, look, position, velocity, id, position_before,
-             velocity_before, id_before, rested + i / LANES);
-    lane_flags bad[HEALTH_CHECKS];
-    bad[HEALTH_NOT_FINITE] = s.here & not_finite(&s);
-    const lane_flags fine = s.here & (bad[HEALTH_NOT_FINITE] == (lane_flags)(0));
-    bad[HEALTH_OUTSIDE] = fine & outside(&s, limits);
-    bad[HEALTH_STRAY] = fine & strays(p, &s.way);
-    bad[HEALTH_SPEED] = fine & too_fast(&s, limits);
-    bad[HEALTH_DENSITY] = fine & wrong_density(&s, limits);
+    const CheckInputs s = load(p, dt, &now, carried, density, &was, source, i);
+    add_bits(&sums, n, i, ALL_BITS(s.here), rests, look, &now, &was, rested + i / LANES);
+    lane_flags bad[SPLASH_HEALTH_CHECKS];
+    bad[SPLASH_HEALTH_NOT_FINITE] = s.here & not_finite(&s);
+    const lane_flags fine = s.here & (bad[SPLASH_HEALTH_NOT_FINITE] == (lane_flags)(0));
+    bad[SPLASH_HEALTH_OUTSIDE] = fine & outside(&s, limits);
+    bad[SPLASH_HEALTH_STRAY] = fine & strays(p, &s.way);
+    bad[SPLASH_HEALTH_SPEED] = fine & too_fast(&s, limits);
+    bad[SPLASH_HEALTH_DENSITY] = fine & wrong_density(&s, limits);
     lane_flags any = 0;
-    for (int check = 0; check < HEALTH_CHECKS; ++check) any |= bad[check];
+    for (int check = 0; check < SPLASH_HEALTH_CHECKS; ++check) any |= bad[check];
     if (!any_lane(any)) continue;
-    bad[HEALTH_STRAY] = but_for_solids(bad[HEALTH_STRAY], p, dt, piston, shapes, meshes, bodies,
-                                       first_body, body_count, position_before, velocity_before,
-                                       source, position, velocity, acceleration, i);
-    for (int check = HEALTH_SPEED; check < HEALTH_CHECKS; ++check) {
-      bad[check] = but_for_bodies(bad[check], bodies, first_body, body_count, position, n, i);
+    bad[SPLASH_HEALTH_STRAY] = but_for_solids(bad[SPLASH_HEALTH_STRAY], p, dt, piston, &all, &was,
+                                              source, &now, acceleration, i);
+    for (int check = SPLASH_HEALTH_SPEED; check < SPLASH_HEALTH_CHECKS; ++check) {
+      bad[check] = but_for_bodies(bad[check], &all, position, n, i);
     }
-    for (int check = 0; check < HEALTH_CHECKS; ++check) {
+    for (int check = 0; check < SPLASH_HEALTH_CHECKS; ++check) {
       if (checks & (1 << check)) report_lanes(record, check, bad[check], id, i);
     }
   }

@@ -13,15 +13,16 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(HealthLimits) == 36 && sizeof(HealthRecord) == 56);
+static_assert(SPLASH_HEALTH_NOT_FINITE == static_cast<int>(Fault::not_finite) &&
+              SPLASH_HEALTH_OUTSIDE == static_cast<int>(Fault::outside) &&
+              SPLASH_HEALTH_STRAY == static_cast<int>(Fault::stray) &&
+              SPLASH_HEALTH_SPEED == static_cast<int>(Fault::speed) &&
+              SPLASH_HEALTH_DENSITY == static_cast<int>(Fault::density));
 static_assert(kFaults == static_cast<std::size_t>(Fault::step) + 1);
 
 /// Faults by how much each explains the others: who changed the state made it wrong.
 constexpr Fault kByCause[] = {Fault::step,    Fault::changed, Fault::lost,  Fault::not_finite,
                               Fault::outside, Fault::stray,   Fault::speed, Fault::density};
-
-/// At groups that rest (RESTING_ in health/state_sums.h).
-enum class Look { unseen, seen, anew };
 
 float as_float(double value) {
   return static_cast<float>(value);
@@ -83,7 +84,7 @@ std::string_view likely_cause(Fault fault) noexcept {
 }
 
 HealthLimits health_limits(const FluidParams& p) {
-  HealthLimits limits;
+  HealthLimits limits = {};
   const float slack = 0.5F * p.spacing;
   // The floor and the four sides always come first (set_up.hpp).
   limits.lower[0] = p.walls[1].offset - slack;
@@ -103,7 +104,7 @@ Health::Health(Device& device, const cl::Program& program, const FluidParams& pa
     : particles_(params.count),
       parts_(device.profile().parts),
       longest_step_(2.0 * largest_time_step(params, 0.0, 0.0, 1.0)),
-      rested_(device, 2 * device.vectors_of(params.count)),
+      rested_(device, device.vectors_of(params.count)),
       check_(program, "check_health", device.profile().team) {
   const HealthLimits limits = health_limits(params);
   limits_ = Buffer<HealthLimits>(device, std::span<const HealthLimits>(&limits, 1));
@@ -124,15 +125,31 @@ void Health::look(Device& device, const CheckInputs& inputs, const Step& step) {
   steps_.push_back(step.dt);
   const bool anew = missed_ || (!last_ && slot == 0);
   missed_ = false;
-  const Look resting = anew ? Look::anew : steps_.size() >= frame_ ? Look::seen : Look::unseen;
-  check_.run_teams(
-      device.queue(), parts_, inputs.params.memory(), limits_.memory(), static_cast<int>(checks_),
-      as_float(step.dt), as_float(step.piston), inputs.now.position.memory(),
-      inputs.now.velocity.memory(), inputs.carried.memory(), inputs.acceleration.memory(),
-      inputs.density.memory(), inputs.now.id.memory(), inputs.before.position.memory(),
-      inputs.before.velocity.memory(), inputs.before.id.memory(), inputs.source, inputs.resting,
-      static_cast<int>(resting), rested_.memory(), inputs.shapes.memory(), inputs.meshes.memory(),
-      inputs.bodies.memory(), step.first_body, inputs.body_count, slot, records_.memory());
+  const int look = anew                      ? SPLASH_RESTING_ANEW
+                   : steps_.size() >= frame_ ? SPLASH_RESTING_SEEN
+                                             : SPLASH_RESTING_UNSEEN;
+  check_.run_teams(device.queue(), parts_,
+                   {{"p", inputs.params},
+                    {"limits", limits_},
+                    {"checks", static_cast<int>(checks_)},
+                    {"dt", as_float(step.dt)},
+                    {"piston", as_float(step.piston)},
+                    {"position", inputs.now.position},
+                    {"velocity", inputs.now.velocity},
+                    {"carried", inputs.carried},
+                    {"acceleration", inputs.acceleration},
+                    {"density", inputs.density},
+                    {"id", inputs.now.id},
+                    {"position_before", inputs.before.position},
+                    {"velocity_before", inputs.before.velocity},
+                    {"id_before", inputs.before.id},
+                    {"source", inputs.source},
+                    {"resting", inputs.resting},
+                    {"look", look},
+                    {"rested", rested_},
+                    {"slot", slot},
+                    {"records", records_}},
+                   inputs.boundary.outlines(), inputs.boundary.bodies_at(step));
 }
 
 void Health::enqueue_read(Device& device) {

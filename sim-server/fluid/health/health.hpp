@@ -10,6 +10,8 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
+#include "sim-server/fluid/boundary/boundary.hpp"
+#include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/step.hpp"
@@ -41,23 +43,6 @@ inline constexpr FaultSet kAllFaults = (1U << kFaults) - 1U;
   return kAllFaults & ~(1U << static_cast<unsigned>(fault));
 }
 
-/// Host and kernel agree on these two (health/health.cl).
-struct HealthLimits {
-  float lower[3] = {};
-  float upper[3] = {};
-  float speed = 0.0F;
-  float thinnest = 0.0F;
-  float densest = 0.0F;
-};
-struct HealthRecord {
-  int count[5] = {};
-  int first[5] = {};
-  std::uint32_t before = 0;
-  std::uint32_t after = 0;
-  std::uint32_t ids_before = 0;
-  std::uint32_t ids_after = 0;
-};
-
 /// The limits of a scene, by what cannot be whatever happens in it:
 ///   box     the tank's walls less half a spacing; above, the top of the grid plus c0^2 / 2 g,
 ///   which
@@ -85,12 +70,9 @@ struct CheckInputs {
   const PointArrays& before;     ///< at its beginning, unsorted
   const Buffer<float>& acceleration;
   const Buffer<float>& density;
-  const cl::Buffer& source;   ///< where each particle was among those before
-  const cl::Buffer& resting;  ///< steps that each group of particles has rested (sleep/rest.h)
-  const Buffer<BodyShape>& shapes;
-  const Buffer<float>& meshes;
-  const Buffer<BodyStep>& bodies;
-  int body_count = 0;
+  const Buffer<int>& source;   ///< where each particle was among those before
+  const Buffer<int>& resting;  ///< steps that each group of particles has rested (sleep/rest.h)
+  const Boundary& boundary;
 };
 
 class Health {
@@ -138,7 +120,7 @@ class Health {
   std::size_t frame_ = 0;      ///< steps of the frame
   Buffer<HealthLimits> limits_;
   Buffer<HealthRecord> records_;
-  Buffer<std::uint32_t> rested_;  ///< bits of each group when it was last looked at
+  Buffer<Rested> rested_;  ///< of each group
   std::vector<HealthRecord> read_;
   std::vector<double> steps_;          ///< lengths of those that were looked at [s]
   std::optional<std::uint32_t> last_;  ///< the state's bits at the end of the last sound frame

@@ -2,22 +2,10 @@
 // Health and limits of the whole fluid, once a frame: only of finite numbers is the difference to
 // themselves zero.
 
+#include "sim-server/fluid/health/stats_part.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"
-
-typedef struct {
-  float speed2;         // largest [m2/s2]
-  float acceleration2;  // largest [m2/s4]
-  float excess_sum;     // of max(rho / rho0 - 1, 0)
-  float excess_max;
-  int not_finite;  // particles with a coordinate, speed or density that is no number
-  int first_bad;   // the smallest id of such a particle, 2^31 - 1: none
-  int runaway;     // particles at the speed limit
-  int asleep;      // particles that did not take part in the last step
-  float lower[3];  // box around all particles [m]
-  float upper[3];
-} FluidStatsPart;
 
 // The sums of one part of the fluid, lane by lane.
 typedef struct {

@@ -3,17 +3,15 @@
 // is looked at in the last step of a frame only. Until then it counts with the bits that it had
 // when it was last looked at: what is done to it meanwhile is seen there, for the bits are others.
 
+#include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/lanes/bits.h"
 
-// Of groups that rest.
-#define RESTING_UNSEEN 0  // they are not looked at
-#define RESTING_SEEN 1    // they are, and have been before
-#define RESTING_ANEW 2    // they are, for the first time
-
-// The bits of a group that rests, when it was last looked at.
+// The particles at one end of a step.
 typedef struct {
-  uint state, ids;
-} Rested;
+  global const float* position;
+  global const float* velocity;
+  global const int* id;
+} Particles;
 
 // Sums of bits at the step's ends; `known`: of what is not looked at, which is the same at both,
 // and `ids_known`: of what was looked at before.
@@ -25,19 +23,16 @@ typedef struct {
 
 // Adds the group of particle `i`, of whose lanes `mine` hold one.
 static void add_bits(Sums* sums, int n, int i, lane_bits mine, int rests, int look,
-                     global const float* position, global const float* velocity,
-                     global const int* id, global const float* position_before,
-                     global const float* velocity_before, global const int* id_before,
-                     global Rested* rested) {
-  const lane_bits state = mine & state_bits(position, velocity, n, i);
-  const lane_bits ids = mine & id_bits(id, i);
-  sums->before += mine & state_bits(position_before, velocity_before, n, i);
+                     const Particles* now, const Particles* was, global Rested* rested) {
+  const lane_bits state = mine & state_bits(now->position, now->velocity, n, i);
+  const lane_bits ids = mine & id_bits(now->id, i);
+  sums->before += mine & state_bits(was->position, was->velocity, n, i);
   sums->after += state;
   sums->ids_after += ids;
-  if (rests > 1 && look == RESTING_SEEN) {
+  if (rests > 1 && look == SPLASH_RESTING_SEEN) {
     sums->ids_known += rested->ids;
   } else {
-    sums->ids_before += mine & id_bits(id_before, i);
+    sums->ids_before += mine & id_bits(was->id, i);
   }
   if (rests == 0) return;
   rested->state = bits_of(state);

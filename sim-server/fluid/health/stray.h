@@ -10,6 +10,7 @@
 #include "sim-server/fluid/boundary/keep_out.h"
 #include "sim-server/fluid/boundary/outline.h"
 #include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/health/state_sums.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"
 
@@ -34,19 +35,20 @@ typedef struct {
   float rounding;            // of its coordinates [m]
 } Displacement;
 
-static Displacement displacement_of(constant FluidParams* p, global const float* position_before,
-                                    global const float* velocity_before, int before,
-                                    global const float* position, global const float* velocity,
-                                    global const float* acceleration, int i) {
+static float3 vector_of(global const float* array, int n, int i) {
+  return (float3)(array[i], array[n + i], array[2 * n + i]);
+}
+
+static Displacement displacement_of(constant FluidParams* p, const Particles* was, int before,
+                                    const Particles* now, global const float* acceleration,
+                                    int i) {
   const int n = p->capacity;
   Displacement l;
-  l.from = (float3)(position_before[before], position_before[n + before],
-                    position_before[2 * n + before]);
-  l.to = (float3)(position[i], position[n + i], position[2 * n + i]);
-  l.speed_from = (float3)(velocity_before[before], velocity_before[n + before],
-                          velocity_before[2 * n + before]);
-  l.speed = (float3)(velocity[i], velocity[n + i], velocity[2 * n + i]);
-  l.push = (float3)(acceleration[i], acceleration[n + i], acceleration[2 * n + i]);
+  l.from = vector_of(was->position, n, before);
+  l.to = vector_of(now->position, n, i);
+  l.speed_from = vector_of(was->velocity, n, before);
+  l.speed = vector_of(now->velocity, n, i);
+  l.push = vector_of(acceleration, n, i);
   const float3 size = fabs(l.from) + fabs(l.to);
   l.rounding = STRAY_ROUNDING * (size.x + size.y + size.z + p->spacing);
   return l;
@@ -71,18 +73,17 @@ static bool stopped_by_wall(constant FluidParams* p, const Displacement* l, floa
 
 // A body that appears in the water, cuts through it or pinches it puts what was there to its skin,
 // however far that is, or against a wall behind that.
-static bool put_by_body(constant FluidParams* p, constant BodyShape* shapes,
-                        global const float* meshes, global const BodyStep* bodies, int first_body,
-                        int body_count, const Displacement* l, float piston) {
-  for (int k = 0; k < body_count; ++k) {
-    const BodyStep b = bodies[first_body + k];
+static bool put_by_body(constant FluidParams* p, const Bodies* bodies, const Displacement* l,
+                        float piston) {
+  for (int k = 0; k < bodies->count; ++k) {
+    const BodyStep b = bodies->steps[bodies->first + k];
     const float3 arm = l->to - (float3)(b.px, b.py, b.pz);
     float3 out;
     const float size = size_of(b);
-    const float depth = size * depth_inside(shapes[k], meshes,
+    const float depth = size * depth_inside(bodies->shapes[k], bodies->meshes,
                                             rotate_by(arm, -b.qx, -b.qy, -b.qz, b.qw) / size, &out);
     if (fabs(depth - KEPT_DEPTH * p->spacing) <= 1.0e-3f * p->spacing + l->rounding) return true;
   }
-  return near_bodies(bodies, first_body, body_count, l->to.x, l->to.y, l->to.z) &&
+  return near_bodies(bodies->steps, bodies->first, bodies->count, l->to.x, l->to.y, l->to.z) &&
          touches_wall(p, l, piston);
 }

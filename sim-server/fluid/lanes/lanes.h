@@ -3,7 +3,9 @@
 // makes SPH fast (explicit vectors; the compiler finds none by itself); on GPUs LANES is 1 and the
 // same source is plain scalar code.
 
-#define FAR_AWAY 1.0e6f  // [m]: beyond every support, its square still finite
+#include "sim-server/fluid/lanes/far_away.h"
+
+#define FAR_AWAY SPLASH_FAR_AWAY
 
 #if LANES == 16
 typedef float16 lanes;

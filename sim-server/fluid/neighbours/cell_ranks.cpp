@@ -33,18 +33,43 @@ void CellRanks::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params,
   const auto items = static_cast<std::size_t>(points);
   const auto block = static_cast<int>(block_);
   const Buffer<int>& arrival = source;  // nobody asks for the source until the end
-  count_points_.run(queue, items, params.memory(), points, from.stride, from.position.memory(),
-                    cells_.memory(), count_.memory(), arrival.memory());
-  sum_cells_.run_teams(queue, blocks_, params.memory(), block, count_.memory(),
-                       block_sum_.memory());
-  start_cells_.run_teams(queue, blocks_, params.memory(), block, points, block_sum_.memory(),
-                         count_.memory(), cell_start.memory());
-  gather_cells_.run(queue, items, points, cells_.memory(), cell_start.memory(), arrival.memory(),
-                    order_.memory());
-  rank_points_.run(queue, items, points, from.stride, cells_.memory(), cell_start.memory(),
-                   order_.memory(), from.position.memory(), from.velocity.memory(),
-                   from.id.memory(), to.position.memory(), to.velocity.memory(), to.id.memory(),
-                   source.memory());
+  count_points_.run(queue, items,
+                    {{"p", params},
+                     {"points", points},
+                     {"stride", from.stride},
+                     {"position", from.position},
+                     {"cells", cells_},
+                     {"count", count_},
+                     {"arrival", arrival}});
+  sum_cells_.run_teams(
+      queue, blocks_,
+      {{"p", params}, {"block", block}, {"count", count_}, {"block_sum", block_sum_}});
+  start_cells_.run_teams(queue, blocks_,
+                         {{"p", params},
+                          {"block", block},
+                          {"points", points},
+                          {"block_sum", block_sum_},
+                          {"count", count_},
+                          {"cell_start", cell_start}});
+  gather_cells_.run(queue, items,
+                    {{"points", points},
+                     {"cells", cells_},
+                     {"cell_start", cell_start},
+                     {"arrival", arrival},
+                     {"order", order_}});
+  rank_points_.run(queue, items,
+                   {{"points", points},
+                    {"stride", from.stride},
+                    {"cells", cells_},
+                    {"cell_start", cell_start},
+                    {"order", order_},
+                    {"position", from.position},
+                    {"velocity", from.velocity},
+                    {"id", from.id},
+                    {"position_out", to.position},
+                    {"velocity_out", to.velocity},
+                    {"id_out", to.id},
+                    {"source", source}});
 }
 
 }  // namespace splash::sim

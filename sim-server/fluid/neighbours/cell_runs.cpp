@@ -23,16 +23,49 @@ void CellRuns::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, 
   const auto blocks = static_cast<std::size_t>(blocks_);
   const int whole = points == sorted_points_ ? 0 : 1;
   sorted_points_ = points;
-  count_cells_.run(queue, chunks, params.memory(), points, from.stride, chunks_, whole,
-                   from.position.memory(), cells_.memory(), count_.memory(), extent_.memory());
-  sum_blocks_.run(queue, blocks, params.memory(), chunks_, blocks_, whole, extent_.memory(),
-                  count_.memory(), block_sum_.memory());
-  place_cells_.run(queue, blocks, params.memory(), chunks_, blocks_, whole, extent_.memory(),
-                   block_sum_.memory(), count_.memory(), cell_start.memory());
-  sort_points_.run(queue, chunks, params.memory(), points, from.stride, chunks_, whole,
-                   cells_.memory(), count_.memory(), from.position.memory(), from.velocity.memory(),
-                   from.id.memory(), to.position.memory(), to.velocity.memory(), to.id.memory(),
-                   source.memory(), extent_.memory());
+  count_cells_.run(queue, chunks,
+                   {{"p", params},
+                    {"points", points},
+                    {"stride", from.stride},
+                    {"chunks", chunks_},
+                    {"whole", whole},
+                    {"position", from.position},
+                    {"cells", cells_},
+                    {"count", count_},
+                    {"extent", extent_}});
+  sum_blocks_.run(queue, blocks,
+                  {{"p", params},
+                   {"chunks", chunks_},
+                   {"blocks", blocks_},
+                   {"whole", whole},
+                   {"extent", extent_},
+                   {"count", count_},
+                   {"block_sum", block_sum_}});
+  place_cells_.run(queue, blocks,
+                   {{"p", params},
+                    {"chunks", chunks_},
+                    {"blocks", blocks_},
+                    {"whole", whole},
+                    {"extent", extent_},
+                    {"block_sum", block_sum_},
+                    {"count", count_},
+                    {"cell_start", cell_start}});
+  sort_points_.run(queue, chunks,
+                   {{"p", params},
+                    {"points", points},
+                    {"stride", from.stride},
+                    {"chunks", chunks_},
+                    {"whole", whole},
+                    {"cells", cells_},
+                    {"place", count_},
+                    {"position", from.position},
+                    {"velocity", from.velocity},
+                    {"id", from.id},
+                    {"position_out", to.position},
+                    {"velocity_out", to.velocity},
+                    {"id_out", to.id},
+                    {"source", source},
+                    {"extent", extent_}});
 }
 
 }  // namespace splash::sim

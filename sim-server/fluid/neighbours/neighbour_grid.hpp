@@ -21,9 +21,9 @@ class NeighbourGrid {
             const PointArrays& from, const PointArrays& to);
 
   /// Where each sorted point was before the sort.
-  [[nodiscard]] const cl::Buffer& source() const noexcept { return source_.memory(); }
+  [[nodiscard]] const Buffer<int>& source() const noexcept { return source_; }
   /// First point of each cell; one more entry than cells.
-  [[nodiscard]] const cl::Buffer& cell_start() const noexcept { return cell_start_.memory(); }
+  [[nodiscard]] const Buffer<int>& cell_start() const noexcept { return cell_start_; }
 
  private:
   Buffer<int> cell_start_;

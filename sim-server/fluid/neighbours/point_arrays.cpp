@@ -3,18 +3,14 @@
 
 #include <vector>
 
+#include "sim-server/fluid/lanes/far_away.h"
+
 namespace splash::sim {
-namespace {
-
-/// Where array ends are parked: no kernel reaches them, and their squares are still finite [m].
-constexpr float kFarAway = 1.0e6F;
-
-}  // namespace
 
 PointArrays::PointArrays(Device& device, std::size_t points) {
   const std::size_t room = (points + kReadAhead + 15) / 16 * 16;
   stride = static_cast<int>(room);
-  position = Buffer<float>(device, std::vector<float>(3 * room + kReadAhead, kFarAway));
+  position = Buffer<float>(device, std::vector<float>(3 * room + kReadAhead, SPLASH_FAR_AWAY));
   velocity = Buffer<float>(device, 3 * room + kReadAhead);
   id = Buffer<int>(device, room);
 }

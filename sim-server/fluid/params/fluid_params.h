@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Numbers that stay the same for a whole run, shared by host and kernels word for word.
-// Only 4-byte members, so that both sides lay them out alike; the host asserts the size.
+// Numbers that stay the same for a whole run, and bodies, shared by host and kernels.
 #ifndef SPLASH_FLUID_PARAMS_H
 #define SPLASH_FLUID_PARAMS_H
+
+#include "sim-server/device/shared_struct.h"
 
 #define SPLASH_MAX_WALLS 8
 #define SPLASH_SLICES 4  // of each cell along x, by which points are sorted (neighbours/grid.h)
@@ -21,6 +22,7 @@ typedef struct {
   float nx, ny, nz;  // unit normal, into the fluid
   float offset;      // [m]
 } WallPlane;
+SPLASH_SHARED_STRUCT(WallPlane, 16)
 
 typedef struct {
   int count;     // fluid particles
@@ -65,6 +67,7 @@ typedef struct {
   float way;         // as far as anything goes in a step, but with the state equation [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
+SPLASH_SHARED_STRUCT(FluidParams, 39 * 4 + 16 * SPLASH_MAX_WALLS)
 
 // Water that is stretched (pressure/state_equation.h): its stiffness over that of compressed water
 // [1], and how fast it forgets that it is [1/s]. A slap's relief takes R / c0, some 10 ms, a hollow
@@ -85,6 +88,7 @@ typedef struct {
   float lacks;  // of its size, while it appears (boundary/bodies.h) [1]
   float grows;  // by so much of its size [1/s]
 } BodyStep;
+SPLASH_SHARED_STRUCT(BodyStep, 22 * 4)
 
 // A body slower than this is at rest: trackers tremble [m/s].
 #define SPLASH_TREMBLE 1e-3f
@@ -112,6 +116,7 @@ typedef struct {
   int vertices;                     // where they begin, x y z of each [m]
   int vertex_count;
 } BodyShape;
+SPLASH_SHARED_STRUCT(BodyShape, 17 * 4)
 
 // A body that the water moves. Its centre is that of its mass.
 typedef struct {
@@ -123,6 +128,7 @@ typedef struct {
   float friction;        // on those, Coulomb [1]
   float ax, ay, az, aw;  // its own axes to the principal ones, of which the moments are
 } FreeBody;
+SPLASH_SHARED_STRUCT(FreeBody, 12 * 4)
 
 // Fields of what a particle and a free body in its reach do to each other
 // (free_bodies/body_reach.h).
@@ -138,6 +144,13 @@ typedef struct {
 // (free_bodies/contact.h).
 #define SPLASH_CONTACTS 96
 #define SPLASH_CONTACT_FLOATS 32
+
+// What is left of a contact for the next step.
+typedef struct {
+  int key;
+  float pushed;  // [N s]
+} KeptPush;
+SPLASH_SHARED_STRUCT(KeptPush, 8)
 
 #ifdef __cplusplus
 }  // namespace splash::sim

@@ -17,6 +17,7 @@
 #include "sim-server/fluid/neighbours/group.h"
 #include "sim-server/fluid/neighbours/near.h"
 #include "sim-server/fluid/neighbours/pair.h"
+#include "sim-server/fluid/neighbours/viscosity.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/params/smoothing.h"
@@ -35,12 +36,10 @@ typedef struct {
 // The viscous part of what one neighbour does, beside P_i + P_j.
 static lanes friction(constant FluidParams* p, const Movers* m, const Pair* pair,
                       global const float* velocity, int stride, int j) {
-  const float eta2 = 0.01f * p->length * p->length;
   const float viscous = p->viscous / p->rest_density;
   const float artificial = p->artificial / p->rest_density;
-  const lanes closing = (m->u - velocity[j]) * pair->dx + (m->v - velocity[stride + j]) * pair->dy +
-                        (m->w - velocity[2 * stride + j]) * pair->dz;
-  return (viscous * closing + artificial * fmin(closing, 0.0f)) * inverse(pair->r2 + eta2);
+  const lanes closing = closing_with(pair, m->u, m->v, m->w, velocity, stride, j);
+  return rubbing(viscous, artificial, closing) * inverse_square(p, pair);
 }
 
 // Adds what one neighbour does to the movers, divided by the factor of -grad W; `mass`: the
@@ -74,20 +73,18 @@ static Push push_by_fluid(constant FluidParams* p, const Group* g, const Movers*
 
 // The share of the bodies, and how they rub on the movers.
 static BodyShare rub_by_bodies(constant FluidParams* p, const Group* g, const Movers* movers,
-                               global const int* body_start, global const float* body_position,
-                               global const float* body_velocity, global const float* body_volume,
-                               int stride, Push* rub) {
+                               const BodyPoints* points, Push* rub) {
   BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
   Near near;
   begin_search(&near);
-  while (search(p, g, body_start, body_position, stride, &near)) {
+  while (search(p, g, points->start, points->position, points->stride, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
-      const Pair pair = pair_with(p, g, body_position, stride, j);
-      add_share(p, &pair, body_volume[j], &share);
+      const Pair pair = pair_with(p, g, points->position, points->stride, j);
+      add_share(p, &pair, points->volume[j], &share);
       if (!HAS_FRICTION) continue;
-      const lanes f = p->rest_density * body_volume[j] * pair.slope *
-                      friction(p, movers, &pair, body_velocity, stride, j);
+      const lanes f = p->rest_density * points->volume[j] * pair.slope *
+                      friction(p, movers, &pair, points->velocity, points->stride, j);
       rub->x -= f * pair.dx;
       rub->y -= f * pair.dy;
       rub->z -= f * pair.dz;
@@ -123,7 +120,7 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
   lane_flags move = 0;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
+    if (activity_of(p, activity, &g) < SPLASH_ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }
@@ -133,8 +130,9 @@ kernel void compute_acceleration(constant FluidParams* p, global const int* cell
     Push by = push_by_fluid(p, &g, &movers, cell_start, position, velocity, pressure_term);
     lanes gx = 0.0f, gy = 0.0f, gz = 0.0f;
     if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
-      const BodyShare share = rub_by_bodies(p, &g, &movers, body_start, body_position,
-                                            body_velocity, body_volume, body_stride, &by);
+      const BodyPoints points = {body_start, body_position, body_velocity, body_volume,
+                                 body_stride};
+      const BodyShare share = rub_by_bodies(p, &g, &movers, &points, &by);
       const BodyImage image = load_image(p, images, first);
       image_gradient(p, &image, &share, &gx, &gy, &gz);
     }

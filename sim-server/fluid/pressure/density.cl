@@ -59,20 +59,33 @@ static lanes sum_bodies(constant FluidParams* p, const Group* g, global const in
   return sum;
 }
 
+// The densities of a step: of all matter, without the bodies' part, and the peak
+// (state_equation.h).
+typedef struct {
+  global float* density;
+  global float* water;
+  global float* peak;
+} Densities;
+
+// The same of the step before, as it was before the sort.
+typedef struct {
+  global const float* density;
+  global const float* water;
+  global const float* peak;
+} DensitiesBefore;
+
 // A group that rests has what it had, wherever the sort put it, and nothing moves it.
 static void keep_resting(constant FluidParams* p, global const int* source, int first, int last,
-                         global const float* density_before,
-                         global const float* water_density_before, global const float* peak_before,
-                         global float* density, global float* water_density, global float* peak,
+                         const DensitiesBefore* before, const Densities* now,
                          global float* pressure_term, global float* acceleration,
                          global int* moving) {
-  const lanes rho = kept(density_before, source, first, last);
-  const lanes k = kept(peak_before, source, first, last);
+  const lanes rho = kept(before->density, source, first, last);
+  const lanes k = kept(before->peak, source, first, last);
   const lanes none = 0.0f;
   const lane_flags still = 0;
-  STORE(rho, density, first);
-  STORE(kept(water_density_before, source, first, last), water_density, first);
-  STORE(k, peak, first);
+  STORE(rho, now->density, first);
+  STORE(kept(before->water, source, first, last), now->water, first);
+  STORE(k, now->peak, first);
   STORE(state_equation(p, rho, k), pressure_term, first);
   STORE(still, moving, first);
   for (int axis = 0; axis < 3; ++axis) STORE(none, acceleration + axis * p->capacity, first);
@@ -96,8 +109,9 @@ kernel void compute_density(
                           resting[group], first, last);
   if (resting[group] > 0) {
     if (resting[group] == RESTED) return;
-    keep_resting(p, source, first, last, density_before, water_density_before, peak_before, density,
-                 water_density, peak, pressure_term, acceleration, moving);
+    const DensitiesBefore before = {density_before, water_density_before, peak_before};
+    const Densities now = {density, water_density, peak};
+    keep_resting(p, source, first, last, &before, &now, pressure_term, acceleration, moving);
     return;
   }
   lanes water = p->rest_density, rho = p->rest_density;
@@ -114,7 +128,7 @@ kernel void compute_density(
       choose_image(&images_here, &image, g.mine);
       any_near = true;
     }
-    if (activity_of(p, activity, &g) < ACTIVITY_DENSITY) {
+    if (activity_of(p, activity, &g) < SPLASH_ACTIVITY_DENSITY) {
       water = select(water, kept(water_density_before, source, first, last), g.mine);
       rho = select(rho, kept(density_before, source, first, last), g.mine);
       turn = g.next;
@@ -125,9 +139,9 @@ kernel void compute_density(
         p->kernel_norm * p->mass * sum_fluid(p, &g, cell_start, position) + p->rest_density * share;
     lanes all = fluid;
     if (near) {
-      const lanes share =
+      const lanes bodies_share =
           p->kernel_norm * sum_bodies(p, &g, body_start, body_position, body_volume, body_stride);
-      all += p->rest_density * image.factor * share;
+      all += p->rest_density * image.factor * bodies_share;
     }
     water = select(water, fluid, g.mine);
     rho = select(rho, all, g.mine);

@@ -56,7 +56,8 @@ static int activity_along(constant FluidParams* p, global const int* awake, int 
   int activity = 0;
   for (int k = max(x - WAKES_DENSITY, 0); k <= last; ++k) {
     if (awake[k] == 0) continue;
-    activity = max(activity, abs(k - x) <= WAKES_MOTION ? ACTIVITY_MOTION : ACTIVITY_DENSITY);
+    const bool moves = abs(k - x) <= WAKES_MOTION;
+    activity = max(activity, moves ? SPLASH_ACTIVITY_MOTION : SPLASH_ACTIVITY_DENSITY);
   }
   return activity;
 }
@@ -121,7 +122,7 @@ kernel void spread_activity(constant FluidParams* p, global const int* awake,
       const int other = z * p->cells_y + y;
       if (most[other] == 0) continue;
       const int off = max(abs(z - at_z), abs(y - at_y));
-      const int reach = off <= WAKES_MOTION ? ACTIVITY_MOTION : ACTIVITY_DENSITY;
+      const int reach = off <= WAKES_MOTION ? SPLASH_ACTIVITY_MOTION : SPLASH_ACTIVITY_DENSITY;
       for (int x = share.item; x < p->cells_x; x += share.items) {
         activity[x] = max(activity[x], min(own[other * p->cells_x + x], reach));
       }

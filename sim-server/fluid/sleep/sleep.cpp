@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "sim-server/fluid/sleep/activity.h"
+
 namespace splash::sim {
 namespace {
 
@@ -26,9 +28,8 @@ Sleep::Sleep(Device& device, const cl::Program& program, const FluidParams& para
 }
 
 void Sleep::wake(Device& device) {
-  constexpr int kMoves = 2;  // ACTIVITY_MOTION
   awake_.write(device, std::vector<int>(awake_.size(), std::max(rule_.frames, 1) + 1));
-  activity_.write(device, std::vector<int>(activity_.size(), kMoves));
+  activity_.write(device, std::vector<int>(activity_.size(), SPLASH_ACTIVITY_MOTION));
   resting_.write(device, std::vector<int>(resting_.size(), 0));
 }
 
@@ -40,10 +41,19 @@ void Sleep::update(cl::CommandQueue& queue, const FluidParams& params,
   const double cell =
       (wall - static_cast<double>(params.origin_x)) * static_cast<double>(params.inverse_cell);
   const int piston_reach = piston_moves ? static_cast<int>(cell) + 2 : 0;
-  over_rows(keep_awake_, queue, params_buffer.memory(), grid.cell_start(), velocity.memory(),
-            bodies.memory(), body_count, piston_reach, static_cast<float>(rule_.speed),
-            rule_.frames, awake_.memory(), activity_.memory());
-  over_rows(spread_activity_, queue, params_buffer.memory(), awake_.memory(), activity_.memory());
+  over_rows(keep_awake_, queue,
+            {{"p", params_buffer},
+             {"cell_start", grid.cell_start()},
+             {"velocity", velocity},
+             {"bodies", bodies},
+             {"body_count", body_count},
+             {"piston_reach", piston_reach},
+             {"speed", static_cast<float>(rule_.speed)},
+             {"hold", rule_.frames},
+             {"awake", awake_},
+             {"activity", activity_}});
+  over_rows(spread_activity_, queue,
+            {{"p", params_buffer}, {"awake", awake_}, {"activity", activity_}});
 }
 
 }  // namespace splash::sim

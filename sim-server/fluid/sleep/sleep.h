@@ -10,12 +10,10 @@
 #include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/neighbours/group.h"
 #include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/sleep/activity.h"
 
 #define WAKES_MOTION 1  // [cells]
 #define WAKES_DENSITY 2
-
-#define ACTIVITY_DENSITY 1  // the particles' density is kept up
-#define ACTIVITY_MOTION 2   // they move
 
 // The most that goes on in cells `from` to `to` of a row.
 static int activity_in(constant FluidParams* p, global const int* activity, int row, int from,

@@ -34,18 +34,18 @@ class Sleep {
   /// Wakes everything.
   void wake(Device& device);
 
-  /// Of each cell, what goes on in it (ACTIVITY_ in sleep/sleep.h).
-  [[nodiscard]] const cl::Buffer& activity() const noexcept { return activity_.memory(); }
+  /// Of each cell, what goes on in it (sleep/activity.h).
+  [[nodiscard]] const Buffer<int>& activity() const noexcept { return activity_; }
   /// Of each group of particles, for how many steps it has rested (sleep/rest.h).
-  [[nodiscard]] const cl::Buffer& resting() const noexcept { return resting_.memory(); }
+  [[nodiscard]] const Buffer<int>& resting() const noexcept { return resting_; }
 
  private:
-  template <class... Args>
-  void over_rows(Kernel& kernel, cl::CommandQueue& queue, const Args&... args) {
+  void over_rows(Kernel& kernel, cl::CommandQueue& queue,
+                 std::initializer_list<KernelArg> args) const {
     if (by_teams_) {
-      kernel.run_teams(queue, rows_, args...);
+      kernel.run_teams(queue, rows_, args);
     } else {
-      kernel.run(queue, rows_, args...);
+      kernel.run(queue, rows_, args);
     }
   }
 

@@ -27,6 +27,7 @@ void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {
     point.touch.gz = any ? -30.0F : 0.0F;
     point.touch.x = 0.02F * static_cast<float>(k % 4);
     point.touch.y = 0.02F * static_cast<float>(k / 4);
+    point.touch.nz = -1.0F;
     point.touch.z = static_cast<float>(at.underside);
     point.touch.u = static_cast<float>(at.drift);
     point.touch.w = static_cast<float>(at.speed);

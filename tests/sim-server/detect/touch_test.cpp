@@ -59,12 +59,20 @@ std::vector<Touch> touch(Water& water, const Skins& skins) {
   const Buffer<BodyStep> bodies(device, steps);
   const Buffer<Touch> out(device, skins.places.size());
   const Fluid& fluid = *water.fluid;
-  kernel.run(device.queue(), skins.places.size(), fluid.params_buffer().memory(),
-             fluid.grid().cell_start(), fluid.particles().position.memory(),
-             fluid.particles().velocity.memory(), fluid.water_density().memory(),
-             static_cast<int>(skins.places.size()), skin.memory(), facing.memory(), owner.memory(),
-             bodies.memory(), static_cast<int>(skins.bodies.size()),
-             static_cast<float>(water.piston.offset), out.memory());
+  kernel.run(device.queue(), skins.places.size(),
+             {{"p", fluid.params_buffer()},
+              {"cell_start", fluid.grid().cell_start()},
+              {"position", fluid.particles().position},
+              {"velocity", fluid.particles().velocity},
+              {"density", fluid.water_density()},
+              {"points", static_cast<int>(skins.places.size())},
+              {"skin", skin},
+              {"facing", facing},
+              {"owner", owner},
+              {"bodies", bodies},
+              {"first_body", static_cast<int>(skins.bodies.size())},
+              {"piston", static_cast<float>(water.piston.offset)},
+              {"out", out}});
   return out.read(device, skins.places.size());
 }
 

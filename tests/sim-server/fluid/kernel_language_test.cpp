@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // All kernels in the eyes of clang, for the targets of GPUs' compilers: OpenCL C 1.2 without a
-// single extension, no double, no half, nothing that only PoCL knows; and what they take of a GPU
-// stays within its documented limits.
+// single extension, no double, no half, nothing that only PoCL knows; with the warnings of the
+// host's code as errors, but for functions that a program has of a shared header and does not
+// call, and parameters that vectors alone have a use for. What kernels take of a GPU stays within
+// its documented limits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -86,8 +88,8 @@ class Compiled : public ::testing::Test {
     int status = 0;
     std::string output = output_of(
         "clang -x cl -cl-std=CL1.2 -Xclang -cl-ext=-all -Xclang -finclude-default-header "
-        "-nogpulib -Wno-unused-command-line-argument -Werror=implicit-function-declaration "
-        "-Werror=double-promotion " +
+        "-nogpulib -Wno-unused-command-line-argument -Wall -Wextra -Wshadow -Wdouble-promotion "
+        "-Werror -Wno-unused-function -Wno-unused-parameter " +
             how + ' ' + file_.string(),
         status);
     EXPECT_EQ(status, 0) << program.name << ":\n" << output;

@@ -64,9 +64,8 @@ class Resting : public Sleeping {
   Cells read_cells() {
     const FluidParams& p = water_.params;
     Cells cells = {p.cells_x, p.cells_y, p.cells_z, {}};
-    cells.activity.resize(static_cast<std::size_t>(p.cells_x * p.cells_y * p.cells_z));
-    device_.queue().enqueueReadBuffer(water_.fluid->cell_activity(), CL_TRUE, 0,
-                                      cells.activity.size() * sizeof(int), cells.activity.data());
+    cells.activity = water_.fluid->cell_activity().read(
+        device_, static_cast<std::size_t>(p.cells_x * p.cells_y * p.cells_z));
     return cells;
   }
 

@@ -9,8 +9,6 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(SolveState) == 32);
-
 /// Iterations of the two solves, at least and at most. A fresh lattice would want a hundred; it is
 /// given several steps for it.
 struct Iterations {
@@ -59,47 +57,72 @@ DivergenceFree::DivergenceFree(Device& device, const FluidParams& params,
 }
 
 void DivergenceFree::recall_pressure(Fluid& fluid, const Step& /*step*/) {
-  recall_pressure_.run(fluid.device().queue(), particles_, fluid.params_buffer().memory(),
-                       fluid.particles().id.memory(), all_.memory(),
-                       fluid.pressure_term().memory());
+  recall_pressure_.run(fluid.device().queue(), particles_,
+                       {{"p", fluid.params_buffer()},
+                        {"id", fluid.particles().id},
+                        {"kept", all_},
+                        {"pressure", fluid.pressure_term()}});
 }
 
 void DivergenceFree::accelerate(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
   const PointArrays& particles = fluid.particles();
   const auto dt = static_cast<float>(step.dt);
   measure_response(fluid, step);
   FreeBodies* bodies = fluid.free_bodies();
   if (bodies != nullptr) bodies->reach(fluid, step, particles.velocity, response_);
-  begin_divergence_solve_.run(queue, particles_, params, fluid.density().memory(),
-                              particles.velocity.memory(), guess_.memory(), offset_.memory(),
-                              divergence_pressure_.memory());
+  begin_divergence_solve_.run(queue, particles_,
+                              {{"p", params},
+                               {"density", fluid.density()},
+                               {"velocity", particles.velocity},
+                               {"guess", guess_},
+                               {"offset", offset_},
+                               {"pressure", divergence_pressure_}});
   solve(fluid, step, kDivergence, divergence_pressure_);
-  recall_pressure_.run(queue, particles_, params, particles.id.memory(), warm_.memory(),
-                       fluid.pressure_term().memory());
+  recall_pressure_.run(
+      queue, particles_,
+      {{"p", params}, {"id", particles.id}, {"kept", warm_}, {"pressure", fluid.pressure_term()}});
   fluid.compute_acceleration(step, guess_);
   if (bodies != nullptr) bodies->reach(fluid, step, guess_, response_);
-  begin_density_solve_.run(queue, particles_, params, dt, fluid.density().memory(),
-                           fluid.acceleration().memory(), guess_.memory(), offset_.memory());
+  begin_density_solve_.run(queue, particles_,
+                           {{"p", params},
+                            {"dt", dt},
+                            {"density", fluid.density()},
+                            {"acceleration", fluid.acceleration()},
+                            {"guess", guess_},
+                            {"offset", offset_}});
   if (bodies != nullptr) answer_of_bodies(fluid, step);
   solve(fluid, step, kDensity, fluid.pressure_term());
-  end_solves_.run(queue, particles_, params, dt, kFollow, particles.id.memory(),
-                  particles.velocity.memory(), guess_.memory(), divergence_pressure_.memory(),
-                  fluid.pressure_term().memory(), warm_.memory(), all_.memory(),
-                  fluid.acceleration().memory());
+  end_solves_.run(queue, particles_,
+                  {{"p", params},
+                   {"dt", dt},
+                   {"follow", kFollow},
+                   {"id", particles.id},
+                   {"velocity", particles.velocity},
+                   {"guess", guess_},
+                   {"divergence_pressure", divergence_pressure_},
+                   {"pressure", fluid.pressure_term()},
+                   {"warm", warm_},
+                   {"pushed", all_},
+                   {"acceleration", fluid.acceleration()}});
 }
 
 void DivergenceFree::measure_response(Fluid& fluid, const Step& step) {
-  measure_response_.run(
-      fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
-      fluid.grid().cell_start(), fluid.cell_activity(), fluid.particles().position.memory(),
-      fluid.body_images().memory(), fluid.boundary().grid().cell_start(),
-      fluid.boundary().points().position.memory(), fluid.boundary().points().velocity.memory(),
-      fluid.boundary().volume().memory(), fluid.boundary().points().stride,
-      fluid.boundary().steps().memory(), step.first_body, fluid.boundary().body_count(),
-      static_cast<float>(step.piston), static_cast<float>(step.piston_speed), gradient_.memory(),
-      response_.memory(), boundary_rate_.memory());
+  const Boundary& boundary = fluid.boundary();
+  measure_response_.run(fluid.device().queue(), fluid.groups(),
+                        {{"p", fluid.params_buffer()},
+                         {"cell_start", fluid.grid().cell_start()},
+                         {"activity", fluid.cell_activity()},
+                         {"position", fluid.particles().position},
+                         {"images", fluid.body_images()},
+                         {"body_velocity", boundary.points().velocity},
+                         {"piston", static_cast<float>(step.piston)},
+                         {"piston_speed", static_cast<float>(step.piston_speed)},
+                         {"gradient", gradient_},
+                         {"response", response_},
+                         {"boundary_rate", boundary_rate_}},
+                        boundary.matter(), boundary.bodies_at(step));
 }
 
 void DivergenceFree::answer_of_bodies(Fluid& fluid, const Step& step) {
@@ -115,11 +138,11 @@ void DivergenceFree::answer_of_bodies(Fluid& fluid, const Step& step) {
 void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
                            const Buffer<float>& pressure) {
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
-  const cl::Buffer& cells = fluid.grid().cell_start();
-  const cl::Buffer& activity = fluid.cell_activity();
-  const cl::Buffer& places = fluid.particles().position.memory();
-  const cl::Buffer& state = state_[number].memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
+  const Buffer<int>& cells = fluid.grid().cell_start();
+  const Buffer<int>& activity = fluid.cell_activity();
+  const Buffer<float>& places = fluid.particles().position;
+  const Buffer<SolveState>& state = state_[number];
   const std::size_t items = fluid.groups();
   const auto dt = static_cast<float>(step.dt);
   const auto [least, most] = kIterations[number];
@@ -128,14 +151,44 @@ void DivergenceFree::solve(Fluid& fluid, const Step& step, std::size_t number,
     const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     const auto beta = static_cast<float>((t - 1.0) / next);
     t = next;
-    correct_pressure_.run(queue, items, params, k, state, beta, dt, cells, activity, places,
-                          guess_.memory(), gradient_.memory(), response_.memory(),
-                          boundary_rate_.memory(), offset_.memory(), pressure.memory(),
-                          jacobi_.memory(), change_.memory(), error_part_.memory());
-    judge_solve_.run_teams(queue, 1, params, static_cast<int>(error_parts_), k, least, most,
-                           error_part_.memory(), state);
-    push_by_pressure_.run(queue, items, params, k, state, dt, cells, activity, places,
-                          gradient_.memory(), change_.memory(), pressure.memory(), guess_.memory());
+    correct_pressure_.run(queue, items,
+                          {{"p", params},
+                           {"k", k},
+                           {"state", state},
+                           {"beta", beta},
+                           {"dt", dt},
+                           {"cell_start", cells},
+                           {"activity", activity},
+                           {"position", places},
+                           {"velocity", guess_},
+                           {"gradient", gradient_},
+                           {"response", response_},
+                           {"boundary_rate", boundary_rate_},
+                           {"offset", offset_},
+                           {"pressure", pressure},
+                           {"jacobi", jacobi_},
+                           {"change", change_},
+                           {"error_part", error_part_}});
+    judge_solve_.run_teams(queue, 1,
+                           {{"p", params},
+                            {"parts", static_cast<int>(error_parts_)},
+                            {"k", k},
+                            {"least", least},
+                            {"most", most},
+                            {"error_part", error_part_},
+                            {"state", state}});
+    push_by_pressure_.run(queue, items,
+                          {{"p", params},
+                           {"k", k},
+                           {"state", state},
+                           {"dt", dt},
+                           {"cell_start", cells},
+                           {"activity", activity},
+                           {"position", places},
+                           {"gradient", gradient_},
+                           {"change", change_},
+                           {"pressure", pressure},
+                           {"velocity", guess_}});
     if (fluid.free_bodies() == nullptr) continue;
     fluid.free_bodies()->answer(fluid, step,
                                 {.iteration = k,

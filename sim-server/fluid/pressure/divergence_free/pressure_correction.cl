@@ -46,48 +46,56 @@ static lanes carried_by_fluid(constant FluidParams* p, const Group* g, global co
   return p->mass * sum;
 }
 
+// What a correction reads of each particle, and what it writes.
+typedef struct {
+  global const float* velocity;
+  global const float* gradient;
+  global const float* response;
+  global const float* boundary_rate;
+  global const float* offset;
+  global const float* pressure;
+  global float* jacobi;
+  global float* change;
+} Iterate;
+
 // Of the particles `first` to `last` (not included) that move, the sum of what Jacobi's step
 // answers to, which is errors but not those below zero of particles without pressure [kg/m3]; and
 // their number.
 static float2 correct(constant FluidParams* p, int k, float beta, float dt,
                       global const int* cell_start, global const int* activity,
-                      global const float* position, global const float* velocity,
-                      global const float* gradient, global const float* response,
-                      global const float* boundary_rate, global const float* offset,
-                      global const float* pressure, global float* jacobi, global float* change,
-                      int first, int last) {
+                      global const float* position, const Iterate* it, int first, int last) {
   const int n = p->capacity;
   const float scale = -gradient_norm(p);
   lanes carried = 0.0f;
   lane_flags moves = 0;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
+    if (activity_of(p, activity, &g) < SPLASH_ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }
     moves |= g.mine;
-    carried = select(carried, carried_by_fluid(p, &g, cell_start, position, velocity), g.mine);
+    carried = select(carried, carried_by_fluid(p, &g, cell_start, position, it->velocity), g.mine);
     turn = g.next;
   }
-  const lanes own = LOAD(velocity, first) * LOAD(gradient, first) +
-                    LOAD(velocity + n, first) * LOAD(gradient + n, first) +
-                    LOAD(velocity + 2 * n, first) * LOAD(gradient + 2 * n, first);
-  const lanes rate = own - scale * carried + LOAD(boundary_rate, first);
-  const lanes error = LOAD(offset, first) + dt * rate;
+  const lanes own = LOAD(it->velocity, first) * LOAD(it->gradient, first) +
+                    LOAD(it->velocity + n, first) * LOAD(it->gradient + n, first) +
+                    LOAD(it->velocity + 2 * n, first) * LOAD(it->gradient + 2 * n, first);
+  const lanes rate = own - scale * carried + LOAD(it->boundary_rate, first);
+  const lanes error = LOAD(it->offset, first) + dt * rate;
   // A lone particle answers to no pressure, and gets next to none.
   const float least = scale * p->mass * SLOPE_UNIT;
-  const lanes d = fmax(LOAD(response, first), 1.0e-4f * least * least);
+  const lanes d = fmax(LOAD(it->response, first), 1.0e-4f * least * least);
   const lanes step = RELAXATION / (dt * dt) * error / d;
-  const lanes now = LOAD(pressure, first);
+  const lanes now = LOAD(it->pressure, first);
   const lanes none = 0.0f, one = 1.0f;
   const float grid_speed = p->spacing / dt;
   const lanes most = p->way * grid_speed * grid_speed / p->rest_density;
   const lanes better = clamp(now + step, none, most);
-  const lanes before = k > 0 ? LOAD(jacobi, first) : now;
-  STORE(better, jacobi, first);
+  const lanes before = k > 0 ? LOAD(it->jacobi, first) : now;
+  STORE(better, it->jacobi, first);
   const lanes next = clamp(better + beta * (better - before), none, most);
-  STORE(select(none, next - now, moves), change, first);
+  STORE(select(none, next - now, moves), it->change, first);
   const lanes found = fabs(better - now) * d * (dt * dt / RELAXATION);
   return (float2)(total(select(none, found, moves)), total(select(none, one, moves)));
 }
@@ -103,12 +111,13 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   if (is_done(state, k)) return;
   const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
+  const Iterate it = {velocity, gradient, response, boundary_rate,
+                      offset,   pressure, jacobi,   change};
 #if TEAM > 1
   local float2 of_team[TEAM];
   float2 found = (float2)(0.0f, 0.0f);
   if (first < last) {
-    found = correct(p, k, beta, dt, cell_start, activity, position, velocity, gradient, response,
-                    boundary_rate, offset, pressure, jacobi, change, first, last);
+    found = correct(p, k, beta, dt, cell_start, activity, position, &it, first, last);
   }
   of_team[get_local_id(0)] = found;
   barrier(CLK_LOCAL_MEM_FENCE);
@@ -117,8 +126,7 @@ kernel void correct_pressure(constant FluidParams* p, int k, global const SolveS
   vstore2(found, get_group_id(0), error_part);
 #else
   if (first >= last) return;
-  vstore2(correct(p, k, beta, dt, cell_start, activity, position, velocity, gradient, response,
-                  boundary_rate, offset, pressure, jacobi, change, first, last),
+  vstore2(correct(p, k, beta, dt, cell_start, activity, position, &it, first, last),
           get_global_id(0), error_part);
 #endif
 }

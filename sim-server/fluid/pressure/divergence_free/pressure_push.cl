@@ -50,7 +50,7 @@ kernel void push_by_pressure(constant FluidParams* p, int k, global const SolveS
   Shove shove = {0.0f, 0.0f, 0.0f};
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
+    if (activity_of(p, activity, &g) < SPLASH_ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }

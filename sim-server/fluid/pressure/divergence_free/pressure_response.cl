@@ -70,24 +70,21 @@ static lanes nearing(const Group* g, global const BodyStep* bodies, int first_bo
 // does where the particle is: so its points' own speeds serve for R grad S, and the nearest body's
 // there for S grad R.
 static BodyResponse response_of_bodies(constant FluidParams* p, const Group* g,
-                                       global const int* body_start,
-                                       global const float* body_position,
-                                       global const float* body_velocity,
-                                       global const float* body_volume, int stride,
-                                       global const BodyStep* bodies, int first_body,
-                                       int body_count, BodyImage image) {
+                                       const BodyPoints* points, global const BodyStep* bodies,
+                                       int first_body, int body_count, BodyImage image) {
+  const int n = points->stride;
   BodyShare share = {0.0f, 0.0f, 0.0f, 0.0f};
   lanes carried = 0.0f;
   Near near;
   begin_search(&near);
-  while (search(p, g, body_start, body_position, stride, &near)) {
+  while (search(p, g, points->start, points->position, n, &near)) {
     for (int k = 0; k < near.count; ++k) {
       const int j = NEAR(near, k);
-      const Pair pair = pair_with(p, g, body_position, stride, j);
-      add_share(p, &pair, body_volume[j], &share);
-      carried += body_volume[j] * pair.slope *
-                 (pair.dx * body_velocity[j] + pair.dy * body_velocity[stride + j] +
-                  pair.dz * body_velocity[2 * stride + j]);
+      const Pair pair = pair_with(p, g, points->position, n, j);
+      add_share(p, &pair, points->volume[j], &share);
+      carried += points->volume[j] * pair.slope *
+                 (pair.dx * points->velocity[j] + pair.dy * points->velocity[n + j] +
+                  pair.dz * points->velocity[2 * n + j]);
     }
   }
   BodyResponse r;
@@ -112,15 +109,16 @@ kernel void measure_response(constant FluidParams* p, global const int* cell_sta
   lanes gx = 0.0f, gy = 0.0f, gz = 0.0f, d = 0.0f, rate = 0.0f;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
-    if (activity_of(p, activity, &g) < ACTIVITY_MOTION) {
+    if (activity_of(p, activity, &g) < SPLASH_ACTIVITY_MOTION) {
       turn = g.next;
       continue;
     }
     const Response sum = response_of_fluid(p, &g, cell_start, position);
     BodyResponse body = {0.0f, 0.0f, 0.0f, 0.0f};
     if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
-      body = response_of_bodies(p, &g, body_start, body_position, body_velocity, body_volume,
-                                body_stride, bodies, first_body, body_count,
+      const BodyPoints points = {body_start, body_position, body_velocity, body_volume,
+                                 body_stride};
+      body = response_of_bodies(p, &g, &points, bodies, first_body, body_count,
                                 load_image(p, images, first));
     }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);

@@ -42,11 +42,11 @@ kernel void begin_density_solve(constant FluidParams* p, float dt, global const 
 }
 
 // Acceleration from first to last velocity, and the pressures kept: `warm` is what the next density
-// solve starts from, a mean over 1 / follow steps; `all` is all that pushed in this step.
+// solve starts from, a mean over 1 / follow steps; `pushed` is all that did in this step.
 kernel void end_solves(constant FluidParams* p, float dt, float follow, global const int* id,
                        global const float* velocity, global const float* guess,
                        global const float* divergence_pressure, global float* pressure,
-                       global float* warm, global float* all, global float* acceleration) {
+                       global float* warm, global float* pushed, global float* acceleration) {
   const int i = get_global_id(0);
   if (i >= p->count) return;
   const int n = p->capacity;
@@ -55,7 +55,7 @@ kernel void end_solves(constant FluidParams* p, float dt, float follow, global c
   }
   warm[id[i]] += follow * (pressure[i] - warm[id[i]]);
   pressure[i] += divergence_pressure[i];
-  all[id[i]] = pressure[i];
+  pushed[id[i]] = pressure[i];
 }
 
 // Judges the errors that the corrections of iteration `k` found; one work-group of at most JUDGES,

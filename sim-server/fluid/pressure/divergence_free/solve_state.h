@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 // How far an iterative solve has come. It is kept on the device: the host enqueues as many
 // iterations as are allowed at most, and those after convergence return at once, so that no
-// iteration waits for the host. Layout known to the host (divergence_free.hpp).
+// iteration waits for the host.
+#ifndef SPLASH_SOLVE_STATE_H
+#define SPLASH_SOLVE_STATE_H
+
+#include "sim-server/device/shared_struct.h"
+
+#ifdef __cplusplus
+namespace splash::sim {
+#endif
 
 typedef struct {
   int done;
@@ -13,6 +21,13 @@ typedef struct {
   int given_up;    // solves that were not done after all iterations allowed
   int unused;
 } SolveState;
+SPLASH_SHARED_STRUCT(SolveState, 32)
 
+#ifdef __cplusplus
+}  // namespace splash::sim
+#else
 // Whether iteration `k` is to be left out.
 static bool is_done(global const SolveState* state, int k) { return k > 0 && state->done != 0; }
+#endif
+
+#endif

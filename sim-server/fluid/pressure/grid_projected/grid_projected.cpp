@@ -108,7 +108,7 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   const cl::Buffer& params = fluid.params_buffer().memory();
   const PointArrays& particles = fluid.particles();
   const Boundary& boundary = fluid.boundary();
-  const cl::Buffer& cells = fluid.grid().cell_start();
+  const cl::Buffer& cells = fluid.grid().cell_start().memory();
   const cl::Buffer& places = particles.position.memory();
   gather_faces_.run(queue, strips_, params, grid_buffer_.memory(), cells, places,
                     particles.velocity.memory(), mean_.memory(), weight_.memory(), fill_.memory());
@@ -121,12 +121,13 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   solve(fluid, step);
   const double sound = kSpacingWay * static_cast<double>(fluid.params().support) / step.dt;
   const double slower = sound / static_cast<double>(fluid.params().sound_speed);
-  find_spacing_.run(
-      queue, fluid.groups(), params, as_float(part_ * slower * slower), fluid.grid().cell_start(),
-      particles.position.memory(), fluid.pressure_term().memory(), fluid.body_images().memory(),
-      boundary.grid().cell_start(), boundary.points().position.memory(), boundary.volume().memory(),
-      boundary.points().stride, boundary.steps().memory(), step.first_body, boundary.body_count(),
-      as_float(step.piston), fluid.acceleration().memory(), fluid.moving().memory());
+  find_spacing_.run(queue, fluid.groups(), params, as_float(part_ * slower * slower),
+                    fluid.grid().cell_start().memory(), particles.position.memory(),
+                    fluid.pressure_term().memory(), fluid.body_images().memory(),
+                    boundary.grid().cell_start().memory(), boundary.points().position.memory(),
+                    boundary.volume().memory(), boundary.points().stride, boundary.steps().memory(),
+                    step.first_body, boundary.body_count(), as_float(step.piston),
+                    fluid.acceleration().memory(), fluid.moving().memory());
 }
 
 void GridProjected::place_bodies(Fluid& fluid, const Step& step) {
