@@ -18,10 +18,6 @@ void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
       ->check(CLI::Range(-1e6, 1e6))
       ->check(program::refuse_nan)
       ->type_name("M");
-  app.add_option("--precision", texts.precision,
-                 "Bubbles within -140 dB of their formula, or within -95 dB for half the time")
-      ->check(CLI::IsMember({"exact", "fast"}))
-      ->capture_default_str();
   app.add_option("--max-voices", engine.max_voices,
                  "Bubbles and cavities at once; beyond, the quietest is faded out")
       ->check(CLI::Range(1, 131072))
@@ -70,7 +66,6 @@ void apply(const SoundOptions& options, Sound& sound) {
 }
 
 void apply(const VoiceTexts& texts, EngineSettings& engine) {
-  engine.precision = texts.precision == "fast" ? Precision::fast : Precision::exact;
   for (const std::string& kind : texts.no_skip) {
     if (kind == "silent") engine.skip_silent = false;
     if (kind == "band") engine.skip_out_of_band = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of the command line that concerns the sound: which one, how exactly, how many voices,
-// what is left out.
+// The part of the command line that concerns the sound: which one, how many voices, what
+// is left out.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,6 @@ struct SoundOptions {
 
 /// The options whose text becomes something else.
 struct VoiceTexts {
-  std::string precision = "exact";
   std::vector<std::string> no_skip;
 };
 

@@ -47,7 +47,6 @@ struct EngineSettings {
   double water_level = kNoWaterLevel;  ///< z of the surface, for the depths of physical bubbles [m]
   double floor_level = kNoFloor;       ///< z of the floor, for bubbles near it [m]
   unsigned components = kAllComponents;
-  Precision precision = Precision::exact;
   InstructionSet instructions = InstructionSet::best;
   int max_voices = 4096;         ///< bubbles and cavities at once; above it the quietest fades out
   int max_impacts = 256;         ///< the same of impacts

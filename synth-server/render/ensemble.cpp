@@ -14,7 +14,7 @@ namespace splash::synth {
 namespace {
 
 PoolSettings pool_settings(const Rig& rig, const EngineSettings& s, const Routing& routing) {
-  return {s.precision,      s.instructions,     s.max_voices, routing.max_routes(),
+  return {s.instructions,   s.max_voices,       routing.max_routes(),
           routing.groups(), channel_count(rig), s.sample_rate};
 }
 
@@ -24,7 +24,7 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
     : settings_(settings),
       routing_(rig, {settings.skip_out_of_band, settings.skip_unfelt}),
       routes_(static_cast<std::size_t>(routing_.max_routes())),
-      bubbles_(make_bubble_pool(pool_settings(rig, settings, routing_))),
+      bubbles_(pool_settings(rig, settings, routing_)),
       impact_level_(rig),
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       masking_(channel_count(rig), settings.sample_rate),
@@ -83,7 +83,7 @@ Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
 
 bool Ensemble::masking() const noexcept {
   return settings_.skip_masked &&
-         static_cast<double>(bubbles_->size()) >= settings_.mask_from * settings_.max_voices;
+         static_cast<double>(bubbles_.size()) >= settings_.mask_from * settings_.max_voices;
 }
 
 Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
@@ -104,16 +104,16 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
     return Outcome::left_out;
   }
   const std::span<const Route> routes = reached(reach);
-  if (!kept && masking() && masking_.covers(tone, routes, sample, bubbles_->ranking())) {
+  if (!kept && masking() && masking_.covers(tone, routes, sample, bubbles_.ranking())) {
     counts_.masked.add();
     return Outcome::left_out;
   }
   if (starts_ >= (kept ? kMostStarts : kMostStarts - kKeptStarts)) return Outcome::no_place;
-  const BubblePool::Started started = bubbles_->start(tone, life, routes, reach.group, sample);
+  const BubblePool::Started started = bubbles_.start(tone, life, routes, reach.group, sample);
   if (started.result == BubblePool::Start::refused) return Outcome::no_place;
   if (started.result == BubblePool::Start::stole) counts_.stolen.add();
   if (settings_.skip_masked && !breaks) {  // what it hides may ring on
-    masking_.note(tone, routes, sample, started.place, bubbles_->ranking());
+    masking_.note(tone, routes, sample, started.place, bubbles_.ranking());
   }
   return Outcome::started;
 }
@@ -149,14 +149,14 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
   impacts_.mix(from, to, mix);
-  bubbles_->mix(from, to, mix);
+  bubbles_.mix(from, to, mix);
   fine_.mix(from, to, mix);
   underfoot_.mix(from, to, mix);
 }
 
 void Ensemble::end_cell(std::int64_t sample) noexcept {
   impacts_.release(sample);
-  bubbles_->release(sample);
+  bubbles_.release(sample);
   fine_.end_cell();
   underfoot_.end_cell();
   starts_ = 0;
@@ -164,7 +164,7 @@ void Ensemble::end_cell(std::int64_t sample) noexcept {
 
 void Ensemble::fade_all(std::int64_t sample) noexcept {
   impacts_.fade_all(sample);
-  bubbles_->fade_all(sample);
+  bubbles_.fade_all(sample);
   fine_.clear();
   underfoot_.clear();
 }

@@ -3,7 +3,6 @@
 // all voices.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -34,7 +33,7 @@ class Ensemble {
   void start(const TimedEvent& timed) noexcept;
 
   /// At the beginning of a cell, at `sample`: see BubblePool.
-  void limit(int most, std::int64_t sample) noexcept { bubbles_->limit(most, sample); }
+  void limit(int most, std::int64_t sample) noexcept { bubbles_.limit(most, sample); }
 
   /// Adds samples [from, to) of all voices; both within one cell.
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
@@ -43,7 +42,7 @@ class Ensemble {
   /// Fades all voices out from `sample` on.
   void fade_all(std::int64_t sample) noexcept;
 
-  [[nodiscard]] std::size_t voices() const noexcept { return bubbles_->size() + impacts_.size(); }
+  [[nodiscard]] std::size_t voices() const noexcept { return bubbles_.size() + impacts_.size(); }
 
   struct Counts {
     Count stolen, pool, band, unheard, masked;
@@ -72,7 +71,7 @@ class Ensemble {
   EngineSettings settings_;
   Routing routing_;
   std::vector<Route> routes_;  ///< of the voice that is being started
-  std::unique_ptr<BubblePool> bubbles_;
+  BubblePool bubbles_;
   ImpactLevel impact_level_;
   ImpactPool impacts_;
   Masking masking_;

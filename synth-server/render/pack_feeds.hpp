@@ -31,7 +31,6 @@ struct Aligned {
   bool operator==(const Aligned& /*other*/) const noexcept { return true; }
 };
 
-template <class Real>
 class PackFeeds {
  public:
   /// `most`: channels of a pack; a voice has no more.
@@ -63,16 +62,16 @@ class PackFeeds {
         gains_[at(p, slot)] = {};
         channels_[at(p, slot)] = route.channel;
       }
-      gains_[at(p, slot)].gains[lane] = static_cast<Real>(route.gain);
+      gains_[at(p, slot)].gains[lane] = route.gain;
       ++routes_[static_cast<std::size_t>(route.channel)];
     }
   }
 
   void remove(std::size_t pack, std::size_t lane) noexcept {
     for (std::int32_t slot = counts_[pack] - 1; slot >= 0; --slot) {
-      PackFeed<Real>& feed = gains_[at(pack, slot)];
-      if (feed.gains[lane] == Real{0}) continue;
-      feed.gains[lane] = 0;
+      PackFeed& feed = gains_[at(pack, slot)];
+      if (feed.gains[lane] == 0.0) continue;
+      feed.gains[lane] = 0.0;
       --routes_[static_cast<std::size_t>(channels_[at(pack, slot)])];
       if (any(feed)) continue;
       const std::int32_t last = --counts_[pack];
@@ -83,10 +82,10 @@ class PackFeeds {
 
   /// Adds a pack, whose samples will lie in `rows`, to those that are mixed together: kMixedPacks
   /// at most.
-  void join(std::size_t pack, const Real* rows) noexcept {
+  void join(std::size_t pack, const double* rows) noexcept {
     for (std::int32_t slot = 0; slot < counts_[pack]; ++slot) {
       const std::int32_t channel = channels_[at(pack, slot)];
-      PackMix<Real>& packs = joined_[static_cast<std::size_t>(channel)];
+      PackMix& packs = joined_[static_cast<std::size_t>(channel)];
       if (packs.count == 0) joined_channels_.push_back(channel);  // within what was reserved
       packs.rows[packs.count] = rows;
       packs.feeds[packs.count++] = &gains_[at(pack, slot)];
@@ -102,7 +101,7 @@ class PackFeeds {
     std::size_t single = kNobody;  // waits for another that all go to
     for (const std::int32_t next : joined_channels_) {
       const auto channel = static_cast<std::size_t>(next);
-      if (packs_of(channel).count < kMixedPacks<Real>) {
+      if (packs_of(channel).count < kMixedPacks) {
         mix(channel, packs_of(channel));
       } else if (single == kNobody) {
         single = channel;
@@ -141,19 +140,19 @@ class PackFeeds {
     }
     return -1;
   }
-  static bool any(const PackFeed<Real>& feed) noexcept {
-    for (const Real gain : feed.gains) {
-      if (gain != Real{0}) return true;
+  static bool any(const PackFeed& feed) noexcept {
+    for (const double gain : feed.gains) {
+      if (gain != 0.0) return true;
     }
     return false;
   }
 
   std::size_t most_;
-  std::vector<PackFeed<Real>, Aligned<PackFeed<Real>>> gains_;  ///< by pack, most_ each
-  std::vector<std::int32_t> channels_;                          ///< the same
-  std::vector<std::int32_t> counts_;                            ///< by pack: how many are used
-  std::vector<std::uint32_t> routes_;          ///< by channel: voices that go there
-  std::vector<PackMix<Real>> joined_;          ///< by channel: of the packs that are being mixed
+  std::vector<PackFeed, Aligned<PackFeed>> gains_;  ///< by pack, most_ each
+  std::vector<std::int32_t> channels_;              ///< the same
+  std::vector<std::int32_t> counts_;                ///< by pack: how many are used
+  std::vector<std::uint32_t> routes_;               ///< by channel: voices that go there
+  std::vector<PackMix> joined_;                ///< by channel: of the packs that are being mixed
   std::vector<std::int32_t> joined_channels_;  ///< those that any of them goes to
 };
 

@@ -25,17 +25,16 @@ struct VoiceSpan {
 
   /// Makes nil of what lies outside, and fades. `samples`: from sample `from` of the clock on,
   /// `stride` apart.
-  template <class Real>
-  void shape(std::int64_t from, int count, Real* samples, int stride = 1) const noexcept {
+  void shape(std::int64_t from, int count, double* samples, int stride = 1) const noexcept {
     const auto length = static_cast<double>(end - fade);
     for (int i = 0; i < count; ++i) {
-      Real& sample = samples[static_cast<std::ptrdiff_t>(i) * stride];
+      double& sample = samples[static_cast<std::ptrdiff_t>(i) * stride];
       const std::int64_t now = from + i;
       if (now < start || now >= end) {
         sample = 0;
       } else if (now > fade) {
         const double left = 1.0 - static_cast<double>(now - fade) / length;
-        sample *= static_cast<Real>(left * left * (3.0 - 2.0 * left));
+        sample *= left * left * (3.0 - 2.0 * left);
       }
     }
   }

@@ -7,25 +7,14 @@
 namespace splash::synth {
 namespace {
 
-template <class Real>
-void set(ComplexLanes<Real>& lanes, std::size_t lane, std::complex<double> value) noexcept {
-  lanes.re[lane] = static_cast<Real>(value.real());
-  lanes.im[lane] = static_cast<Real>(value.imag());
+void set(ComplexLanes& lanes, std::size_t lane, std::complex<double> value) noexcept {
+  lanes.re[lane] = value.real();
+  lanes.im[lane] = value.imag();
 }
 
-template <class Real>
-void copy(const ComplexLanes<Real>& from, ComplexLanes<Real>& to, std::size_t lane) noexcept {
+void copy(const ComplexLanes& from, ComplexLanes& to, std::size_t lane) noexcept {
   to.re[lane] = from.re[lane];
   to.im[lane] = from.im[lane];
-}
-
-template <class Pack>
-void copy_turning(const Pack& from, Pack& to, std::size_t lane) noexcept {
-  for (const std::size_t parity : {std::size_t{0}, std::size_t{1}}) {
-    copy(from.sound[parity], to.sound[parity], lane);
-    copy(from.turn[parity], to.turn[parity], lane);
-  }
-  copy(from.rise, to.rise, lane);
 }
 
 /// a b, without what std::complex does for infinities.
@@ -62,7 +51,7 @@ struct Steps {
 
 }  // namespace
 
-void set_lane(ExactPack& pack, std::size_t lane, const BubbleTone& tone, double sample_rate,
+void set_lane(BubblePack& pack, std::size_t lane, const BubbleTone& tone, double sample_rate,
               int ahead) noexcept {
   const Steps steps(tone, sample_rate, ahead);
   const std::complex<double> first = tone.amplitude * steps.start();
@@ -75,34 +64,12 @@ void set_lane(ExactPack& pack, std::size_t lane, const BubbleTone& tone, double 
   set(pack.rise, lane, product(rise, rise));
 }
 
-void set_lane(FastPack& pack, std::size_t lane, const BubbleTone& tone, double sample_rate,
-              int ahead) noexcept {
-  const Steps steps(tone, sample_rate, ahead);
-  set(pack.cell_sound, lane, tone.amplitude * steps.start());
-  set(pack.cell_leap, lane, steps.leap(kCell));
-  set(pack.cell_leap_rise, lane, steps.rise(kCell, kCell));
-  set(pack.first_turn, lane, steps.leap(1.0));
-  set(pack.first_turn_rise, lane, steps.rise(1.0, kCell));
-  set(pack.pair_turn, lane, steps.leap(2.0));
-  set(pack.pair_turn_rise, lane, steps.rise(2.0, kCell));
-  set(pack.half_rise, lane, steps.rise(2.0, 1.0));
-  set(pack.rise, lane, steps.rise(2.0, 2.0));
-}
-
-void copy_lane(const ExactPack& from, ExactPack& to, std::size_t lane) noexcept {
-  copy_turning(from, to, lane);
-}
-
-void copy_lane(const FastPack& from, FastPack& to, std::size_t lane) noexcept {
-  copy_turning(from, to, lane);
-  copy(from.cell_sound, to.cell_sound, lane);
-  copy(from.cell_leap, to.cell_leap, lane);
-  copy(from.cell_leap_rise, to.cell_leap_rise, lane);
-  copy(from.first_turn, to.first_turn, lane);
-  copy(from.first_turn_rise, to.first_turn_rise, lane);
-  copy(from.pair_turn, to.pair_turn, lane);
-  copy(from.pair_turn_rise, to.pair_turn_rise, lane);
-  copy(from.half_rise, to.half_rise, lane);
+void copy_lane(const BubblePack& from, BubblePack& to, std::size_t lane) noexcept {
+  for (const std::size_t parity : {std::size_t{0}, std::size_t{1}}) {
+    copy(from.sound[parity], to.sound[parity], lane);
+    copy(from.turn[parity], to.turn[parity], lane);
+  }
+  copy(from.rise, to.rise, lane);
 }
 
 }  // namespace splash::synth

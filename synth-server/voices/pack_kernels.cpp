@@ -5,13 +5,11 @@
 
 namespace splash::synth {
 
-PackKernels<ExactPack> exact_kernels_portable() noexcept;
-PackKernels<FastPack> fast_kernels_portable() noexcept;
+// Made by pack_loops.cpp.
+PackKernels pack_kernels_portable() noexcept;
 #if defined(__x86_64__)
-PackKernels<ExactPack> exact_kernels_avx2() noexcept;
-PackKernels<FastPack> fast_kernels_avx2() noexcept;
-PackKernels<ExactPack> exact_kernels_avx512() noexcept;
-PackKernels<FastPack> fast_kernels_avx512() noexcept;
+PackKernels pack_kernels_avx2() noexcept;
+PackKernels pack_kernels_avx512() noexcept;
 #endif
 
 namespace {
@@ -52,24 +50,14 @@ const char* name_of(InstructionSet set) noexcept {
   return name_of(available(InstructionSet::best));
 }
 
-PackKernels<ExactPack> exact_kernels(InstructionSet set) noexcept {
+PackKernels pack_kernels(InstructionSet set) noexcept {
 #if defined(__x86_64__)
-  if (available(set) == InstructionSet::avx512) return exact_kernels_avx512();
-  if (available(set) == InstructionSet::avx2) return exact_kernels_avx2();
+  if (available(set) == InstructionSet::avx512) return pack_kernels_avx512();
+  if (available(set) == InstructionSet::avx2) return pack_kernels_avx2();
 #else
   static_cast<void>(set);
 #endif
-  return exact_kernels_portable();
-}
-
-PackKernels<FastPack> fast_kernels(InstructionSet set) noexcept {
-#if defined(__x86_64__)
-  if (available(set) == InstructionSet::avx512) return fast_kernels_avx512();
-  if (available(set) == InstructionSet::avx2) return fast_kernels_avx2();
-#else
-  static_cast<void>(set);
-#endif
-  return fast_kernels_portable();
+  return pack_kernels_portable();
 }
 
 }  // namespace splash::synth

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How many bubbles, how exactly, at what cost: the synth's voices and its engine, beside scsynth,
-// Pd and the processor's arithmetic, all in one run. Prints tables and writes CSV and PNG.
+// How many bubbles at what cost: the synth's engine beside scsynth and Pd, all in one run. Prints
+// tables and writes CSV and PNG.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -26,27 +26,12 @@ std::string processor() {
   return "unknown processor";
 }
 
-void measure_voices(SynthFigures& figures) {
-  figures.limits = measure_limits();
-  figures.algorithms = measure_algorithms();
-  std::printf("\nA bubble, every way tried (44.1 kHz, one channel, one core)\n");
-  std::printf("%-24s %-9s %12s %22s\n", "algorithm", "set", "voices", "largest error [dB]");
-  for (const Algorithm& a : figures.algorithms) {
-    std::printf("%-24s %-9s %12.0f %22.1f\n", a.name.c_str(), a.instructions.c_str(), a.voices,
-                a.error_db);
-  }
-  for (const Limit& limit : figures.limits) {
-    std::printf("%-24s %-9s %12.0f  (%.2f G vector operations per second)\n", "arithmetic alone",
-                limit.instructions.c_str(), limit.voices, 1e-9 * limit.operations);
-  }
-}
-
 void print(const EngineCase& c) {
   std::printf(
-      "%-6s %-9s %7d voices %4d channels (%.1f per voice) blocks of %4d: %6.1f %% of a core,"
+      "%-9s %7d voices %4d channels (%.1f per voice) blocks of %4d: %6.1f %% of a core,"
       " %7.0f voices would fill it\n",
-      c.precision.c_str(), c.instructions.c_str(), c.voices, c.tiles > 0 ? c.tiles * c.tiles : 1,
-      c.routes, c.block, 100.0 * c.cost, c.voices_per_core());
+      c.instructions.c_str(), c.voices, c.tiles > 0 ? c.tiles * c.tiles : 1, c.routes, c.block,
+      100.0 * c.cost, c.voices_per_core());
 }
 
 void add(std::vector<EngineCase>& list, EngineCase wanted) {
@@ -56,12 +41,8 @@ void add(std::vector<EngineCase>& list, EngineCase wanted) {
 
 void measure_capacity(SynthFigures& figures) {
   std::printf("\nThe engine: events, pool, voices, mix, filters, limiters\n");
-  for (const char* precision : {"fast", "exact"}) {
-    for (const Limit& limit : figures.limits) {
-      for (const int tiles : {0, 6}) {
-        add(figures.capacity, {precision, limit.instructions, 16384, tiles, 64});
-      }
-    }
+  for (const std::string& set : instruction_sets()) {
+    for (const int tiles : {0, 6}) add(figures.capacity, {set, 16384, tiles, 64});
   }
 }
 
@@ -73,26 +54,19 @@ void measure_floods() {
 }
 
 void measure_engines(SynthFigures& figures) {
-  for (const char* precision : {"fast", "exact"}) {
-    for (const int voices : {256, 1024, 4096, 16384, 65536}) {
-      add(figures.by_voices, {precision, "best", voices, 0, 64});
-    }
-    for (const int tiles : {0, 2, 4, 6, 8, 12}) {
-      add(figures.by_channels, {precision, "best", 16384, tiles, 64});
-    }
-    for (const int block : {16, 32, 64, 100, 128, 256, 1024}) {
-      add(figures.by_block, {precision, "best", 16384, 0, block});
-    }
+  for (const int voices : {256, 1024, 4096, 16384, 65536}) {
+    add(figures.by_voices, {"best", voices, 0, 64});
+  }
+  for (const int tiles : {0, 2, 4, 6, 8, 12}) add(figures.by_channels, {"best", 16384, tiles, 64});
+  for (const int block : {16, 32, 64, 100, 128, 256, 1024}) {
+    add(figures.by_block, {"best", 16384, 0, block});
   }
   std::printf("\nOnsets: bubbles of 10 to 300 ms (60 dB)\n");
-  for (const char* precision : {"fast", "exact"}) {
-    for (const Limit& limit : figures.limits) {
-      for (const int tiles : {0, 6}) {
-        figures.onsets.push_back(measure_onsets(precision, limit.instructions, tiles));
-        const OnsetCase& c = figures.onsets.back();
-        std::printf("%-6s %-9s %2d channels: %8.0f per second and core\n", precision,
-                    c.instructions.c_str(), tiles > 0 ? tiles * tiles : 1, c.onsets);
-      }
+  for (const std::string& set : instruction_sets()) {
+    for (const int tiles : {0, 6}) {
+      figures.onsets.push_back(measure_onsets(set, tiles));
+      std::printf("%-9s %2d channels: %8.0f per second and core\n", set.c_str(),
+                  tiles > 0 ? tiles * tiles : 1, figures.onsets.back().onsets);
     }
   }
 }
@@ -117,8 +91,8 @@ void print_ratios(const SynthFigures& figures) {
   for (std::size_t i = 0; i + 1 < figures.capacity.size(); i += 2) {
     const EngineCase& mono = figures.capacity[i];
     const EngineCase& spread = figures.capacity[i + 1];
-    std::printf("%s, %s: %d channels cost %.2f times one", mono.precision.c_str(),
-                mono.instructions.c_str(), spread.tiles * spread.tiles, spread.cost / mono.cost);
+    std::printf("%s: %d channels cost %.2f times one", mono.instructions.c_str(),
+                spread.tiles * spread.tiles, spread.cost / mono.cost);
     for (const Peer& peer : figures.peers) {
       std::printf("; %.1f times %s", mono.voices_per_core() / peer.voices, peer.name.c_str());
     }
@@ -142,20 +116,18 @@ int main(int argc, char** argv) {
                 name_of(splash::synth::InstructionSet::best));
     SynthFigures figures;
     if (only_capacity) {
-      figures.limits = measure_limits();
       measure_capacity(figures);
       measure_floods();
       print_ratios(figures);
       return 0;
     }
-    measure_voices(figures);
     measure_capacity(figures);
     measure_floods();
     measure_engines(figures);
     measure_peers(figures);
     print_ratios(figures);
     write_tables(figures, folder);
-    draw_charts(figures, folder);
+    draw_chart(figures, folder);
     std::printf("\ntables and charts: %s\n", folder.c_str());
   } catch (const std::exception& error) {
     std::cerr << "bench-synth: " << error.what() << '\n';

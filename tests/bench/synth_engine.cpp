@@ -49,15 +49,13 @@ Rig rig_of(int tiles, double full_scale) {
   return rig;
 }
 
-EngineSettings settings_of(const std::string& precision, const std::string& instructions,
-                           int voices) {
+EngineSettings settings_of(const std::string& instructions, int voices) {
   EngineSettings settings;
   settings.sample_rate = kRate;
   settings.start_ramp = 0.0;
   settings.max_voices = voices;
   settings.max_scheduled = 1 << 18;
   settings.skip_masked = false;
-  settings.precision = precision == "fast" ? synth::Precision::fast : synth::Precision::exact;
   settings.instructions = instructions == "portable"  ? synth::InstructionSet::portable
                           : instructions == "AVX2"    ? synth::InstructionSet::avx2
                           : instructions == "AVX-512" ? synth::InstructionSet::avx512
@@ -105,11 +103,19 @@ double mean_routes(const Rig& rig, int tiles) {
 
 }  // namespace
 
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  for (const auto set : {synth::InstructionSet::portable, synth::InstructionSet::avx2,
+                         synth::InstructionSet::avx512}) {
+    if (available(set) == set) names.emplace_back(name_of(set));
+  }
+  return names;
+}
+
 EngineCase measure_engine(EngineCase wanted, double seconds) {
   const Rig rig = rig_of(wanted.tiles, 100.0);  // no limiter acts, no voice ends early
   wanted.routes = mean_routes(rig, wanted.tiles);
-  const auto settings =
-      settings_of(wanted.precision, wanted.instructions, std::max(1, wanted.voices));
+  const auto settings = settings_of(wanted.instructions, std::max(1, wanted.voices));
   const auto measured = [&](int voices) {
     Engine engine(rig, settings);
     Draw draw;
@@ -164,15 +170,15 @@ std::vector<protocol::Bubble> bubbles_of_10_to_300_ms(int count, int tiles) {
 
 }  // namespace
 
-OnsetCase measure_onsets(const std::string& precision, const std::string& instructions, int tiles) {
+OnsetCase measure_onsets(const std::string& instructions, int tiles) {
   constexpr int kPerCell = 145;  // 100 000 per second
   constexpr int kCells = 345;    // half a second
   const Rig rig = rig_of(tiles, 0.01);
   const auto bubbles = bubbles_of_10_to_300_ms(20000, tiles);
-  OnsetCase result{precision, instructions, tiles};
+  OnsetCase result{instructions, tiles};
   std::vector<double> times;
   for (int run = 0; run < kRuns; ++run) {
-    Engine engine(rig, settings_of(precision, instructions, 65536));
+    Engine engine(rig, settings_of(instructions, 65536));
     Player player(engine, synth::kCell);
     std::size_t next = 0;
     double spent = 0.0;
@@ -200,7 +206,7 @@ double measure_flood(bool everything) {
   constexpr int kBirths = 10000;  // per second
   constexpr int kSeconds = 4;
   constexpr int kTiles = 6;
-  EngineSettings settings = settings_of("exact", "best", 16384);
+  EngineSettings settings = settings_of("best", 16384);
   if (everything) {
     settings.sound.cloud.coupling = 1.0;
     settings.sound.fine.amount = 1.0;

@@ -9,8 +9,10 @@
 
 namespace splash::bench {
 
+/// Names of the instruction sets that this processor has.
+[[nodiscard]] std::vector<std::string> instruction_sets();
+
 struct EngineCase {
-  std::string precision = "fast";
   std::string instructions = "best";
   int voices = 16384;   ///< sounding all the time
   int tiles = 0;        ///< per side of a floor, each bubble spread over its neighbours; 0: mono
@@ -27,14 +29,12 @@ struct EngineCase {
 /// Bubbles per second that one core could start and play: radii such that they last 10 to 300 ms
 /// (60 dB), spread over 36 tiles if `tiles` is 6.
 struct OnsetCase {
-  std::string precision;
   std::string instructions;
   int tiles = 0;
   double onsets = 0.0;  ///< per second and core
   double voices = 0.0;  ///< sounding on average while it was measured
 };
-[[nodiscard]] OnsetCase measure_onsets(const std::string& precision,
-                                       const std::string& instructions, int tiles);
+[[nodiscard]] OnsetCase measure_onsets(const std::string& instructions, int tiles);
 
 /// Of one core [1], 10,000 bubbles a second of 3 to 30 mm on 36 channels up to 20 kHz at 44.1 kHz:
 /// as the paper has them, or in coupled clouds, with fine water on every channel and a gain of

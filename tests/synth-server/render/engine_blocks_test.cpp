@@ -34,7 +34,6 @@ TEST_P(AnyBlocks, AreFiniteBoundedAndSoundTheSame) {
       read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/" + GetParam().rig + ".yaml");
   auto settings = file_settings();
   settings.sample_rate = GetParam().rate;
-  settings.precision = Precision::fast;
   const auto events = splashes(800, 6000);  // louder than the ceiling, on few channels
   const auto rendered = [&](const std::vector<int>& blocks) {
     Engine engine(rig, settings);

@@ -11,10 +11,6 @@
 namespace splash::synth {
 namespace {
 
-class EngineSoundIn : public testing::TestWithParam<Precision> {};
-INSTANTIATE_TEST_SUITE_P(Precisions, EngineSoundIn,
-                         testing::Values(Precision::exact, Precision::fast));
-
 /// Whether impacts, bubbles and cavities sound otherwise with this sound than with the paper's.
 std::array<bool, 3> changes(const Sound& sound) {
   std::array<bool, 3> differ{};
@@ -43,12 +39,11 @@ TEST(Engine, PlaysEachComponentByItsPartOfTheSound) {
 }
 
 // A component's gain turns its voices up and down as they are, and no others.
-TEST_P(EngineSoundIn, TurnsEachComponentUpAndDown) {
+TEST(Engine, TurnsEachComponentUpAndDown) {
   const std::array<protocol::Event, 3> events = {impact(1.0F), bubble(0.005F), cavity(0.03F)};
   for (std::size_t kind = 0; kind < events.size(); ++kind) {
     const auto played = [&](std::size_t turned, double decibels) {
       auto settings = file_settings();
-      settings.precision = GetParam();
       Sound& sound = settings.sound;
       const std::array gains = {&sound.impact.gain_db, &sound.bubble.gain_db,
                                 &sound.cavity.gain_db};

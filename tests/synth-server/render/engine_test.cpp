@@ -76,13 +76,9 @@ TEST(Engine, FadesACavityAfterItsLife) {
   EXPECT_LT(left_energy, 1e-4 * energy);  // half a second after its start
 }
 
-class EngineIn : public testing::TestWithParam<Precision> {};
-INSTANTIATE_TEST_SUITE_P(Precisions, EngineIn, testing::Values(Precision::exact, Precision::fast));
-
-TEST_P(EngineIn, GivesTheSameBitsInAnyBlocks) {
+TEST(Engine, GivesTheSameBitsInAnyBlocks) {
   const auto events = splashes(1500, 20000);
   auto settings = file_settings();
-  settings.precision = GetParam();
   settings.max_voices = 200;  // some have to be stolen
   settings.max_block = 65536;
   Channels reference;

@@ -136,9 +136,8 @@ int seconds_of_flood() {
 }
 
 /// A full pool on 36 channels, with a flood on top: 300 events in every cell.
-void flood_full_pool(Precision precision, double physical) {
+void flood_full_pool(double physical) {
   auto settings = file_settings();
-  settings.precision = precision;
   settings.sound.bubble.physical = settings.sound.cavity.physical = physical;
   settings.max_voices = 2000;
   settings.mask_from = 0.9;
@@ -175,8 +174,8 @@ void flood_full_pool(Precision precision, double physical) {
 }
 
 TEST(Realtime, AFullPoolOn36ChannelsDoesNothingForbidden) {
-  flood_full_pool(Precision::exact, 0.0);
-  flood_full_pool(Precision::fast, 1.0);
+  flood_full_pool(0.0);
+  flood_full_pool(1.0);
 }
 
 }  // namespace

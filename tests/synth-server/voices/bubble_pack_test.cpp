@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Running packs of bubbles against their closed form over whole lives; the same bits in any blocks
-// and, exactly, with any instruction set.
+// and with any instruction set.
 #include "synth-server/voices/bubble_pack.hpp"
 
 #include <gtest/gtest.h>
@@ -33,11 +33,10 @@ std::vector<BubbleTone> tones(const ToneSound& sound) {
 
 /// Each lane's largest error over its life to -120 dB [dB re its amplitude]; lane k starts 4 k
 /// samples into the first cell.
-template <class Pack>
-std::vector<double> errors(const PackKernels<Pack>& kernels, const std::vector<BubbleTone>& voices,
+std::vector<double> errors(const PackKernels& kernels, const std::vector<BubbleTone>& voices,
                            double rate) {
   std::vector<std::int64_t> lengths;
-  PackPlayer<Pack> player(kernels);
+  PackPlayer player(kernels);
   for (std::size_t lane = 0; lane < voices.size(); ++lane) {
     player.seat(lane, voices[lane], rate, static_cast<int>(4 * lane));
     lengths.push_back(life_of(voices[lane], rate, 1e-6 * voices[lane].amplitude).length);
@@ -51,7 +50,7 @@ std::vector<double> errors(const PackKernels<Pack>& kernels, const std::vector<B
         const std::int64_t sample = cell * kCell + n - static_cast<std::int64_t>(4 * lane);
         if (sample < 0 || sample >= lengths[lane]) continue;
         const double expected = pressure(voices[lane], static_cast<double>(sample) / rate);
-        const double error = std::abs(static_cast<double>(player.at(lane, n)) - expected);
+        const double error = std::abs(player.at(lane, n) - expected);
         worst[lane] = std::max(worst[lane], error / voices[lane].amplitude);
       }
     }
@@ -67,8 +66,7 @@ struct Case {
 
 class BubblePackError : public testing::TestWithParam<Case> {
  protected:
-  template <class Pack>
-  void expect_under(const PackKernels<Pack>& kernels, double limit) {
+  void expect_under(const PackKernels& kernels, double limit) {
     const std::vector<BubbleTone> voices = tones(GetParam().sound);
     const std::vector<double> found = errors(kernels, voices, GetParam().rate);
     for (std::size_t lane = 0; lane < found.size(); ++lane) {
@@ -82,31 +80,21 @@ class BubblePackError : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(BubblePackError, IsUnderMinus120DecibelsInTheExactSetting) {
-  expect_under(exact_kernels(InstructionSet::best), -140.0);
-}
-
-TEST_P(BubblePackError, IsUnderMinus90DecibelsInTheFastSetting) {
-  expect_under(fast_kernels(InstructionSet::best), -94.0);
-}
-
-TEST_P(BubblePackError, IsUnderMinus90DecibelsInTheFastPortableSetting) {
-  expect_under(fast_kernels(InstructionSet::portable), -94.0);
+TEST_P(BubblePackError, IsUnderMinus140Decibels) {
+  expect_under(pack_kernels(InstructionSet::best), -140.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BubblePackError,
                          testing::Values(Case{44100.0, {}}, Case{48000.0, {}}, Case{96000.0, {}},
                                          Case{44100.0, kIntegrated}, Case{48000.0, kPhysical}));
 
-template <class Pack>
-std::vector<typename Pack::Real> render(const PackKernels<Pack>& kernels,
-                                        const std::vector<int>& pieces) {
+std::vector<double> render(const PackKernels& kernels, const std::vector<int>& pieces) {
   const std::vector<BubbleTone> voices = tones({});
-  PackPlayer<Pack> player(kernels);
+  PackPlayer player(kernels);
   for (std::size_t lane = 0; lane < voices.size(); ++lane) {
     player.seat(lane, voices[lane], 48000.0, static_cast<int>(lane));
   }
-  std::vector<typename Pack::Real> out;
+  std::vector<double> out;
   for (int cell = 0; cell < 50; ++cell) {
     int done = 0;
     for (std::size_t p = 0; done < kCell; ++p) {
@@ -124,37 +112,27 @@ std::vector<typename Pack::Real> render(const PackKernels<Pack>& kernels,
 TEST(BubblePack, IsTheSameInAnyPieces) {
   for (const InstructionSet set :
        {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
-    const auto exact = render(exact_kernels(set), {kCell});
-    const auto fast = render(fast_kernels(set), {kCell});
+    const auto whole = render(pack_kernels(set), {kCell});
     for (const std::vector<int>& pieces :
          std::vector<std::vector<int>>{{1}, {3, 17}, {16}, {31, 2}, {5, 1, 40}}) {
-      EXPECT_EQ(render(exact_kernels(set), pieces), exact) << name_of(set) << " " << pieces[0];
-      EXPECT_EQ(render(fast_kernels(set), pieces), fast) << name_of(set) << " " << pieces[0];
+      EXPECT_EQ(render(pack_kernels(set), pieces), whole) << name_of(set) << " " << pieces[0];
     }
   }
 }
 
-TEST(BubblePack, GivesTheSameBitsOnEveryProcessorInTheExactSetting) {
-  const auto portable = render(exact_kernels(InstructionSet::portable), {kCell});
-  EXPECT_EQ(render(exact_kernels(InstructionSet::avx2), {kCell}), portable);
-  EXPECT_EQ(render(exact_kernels(InstructionSet::avx512), {kCell}), portable);
+TEST(BubblePack, GivesTheSameBitsOnEveryProcessor) {
+  const auto portable = render(pack_kernels(InstructionSet::portable), {kCell});
+  EXPECT_EQ(render(pack_kernels(InstructionSet::avx2), {kCell}), portable);
+  EXPECT_EQ(render(pack_kernels(InstructionSet::avx512), {kCell}), portable);
   if (available(InstructionSet::best) == InstructionSet::portable) {
     std::printf("only the portable loops run on this processor\n");
   }
 }
 
-/// A compiler's option that comes too early is without effect and without a warning: it did so
-/// once, at the cost of a third of the voices.
-TEST(FastPack, MultipliesAndAddsInOneRoundingWhereTheSetCan) {
-  if (available(InstructionSet::best) == InstructionSet::portable) GTEST_SKIP() << "no such set";
-  EXPECT_NE(render(fast_kernels(InstructionSet::best), {kCell}),
-            render(fast_kernels(InstructionSet::portable), {kCell}));
-}
-
 TEST(BubblePack, NeverGrows) {
   // A minute of the lowest voices: the envelope bounds every sample.
   const double rate = 44100.0;
-  PackPlayer<FastPack> player(fast_kernels(InstructionSet::best));
+  PackPlayer player(pack_kernels(InstructionSet::best));
   std::vector<BubbleTone> voices;
   for (int lane = 0; lane < kPackVoices; ++lane) {
     voices.push_back(paper_bubble(0.02 + 0.02 * lane, 1.0));
@@ -167,7 +145,7 @@ TEST(BubblePack, NeverGrows) {
           voices[lane].amplitude * std::exp(-voices[lane].damping * cell * kCell / rate) * 1.0001 +
           1e-36;
       for (int n = 0; n < kCell; ++n) {
-        ASSERT_LE(std::abs(static_cast<double>(player.at(lane, n))), bound) << "cell " << cell;
+        ASSERT_LE(std::abs(player.at(lane, n)), bound) << "cell " << cell;
       }
     }
   }
@@ -175,7 +153,7 @@ TEST(BubblePack, NeverGrows) {
 
 /// What lanes without a voice give: nil, whatever was in them.
 TEST(BubblePack, IsSilentWhereALaneIsFree) {
-  PackPlayer<ExactPack> player(exact_kernels(InstructionSet::best));
+  PackPlayer player(pack_kernels(InstructionSet::best));
   player.seat(3, paper_bubble(0.01, kEpsilon), 48000.0, 0);
   player.render(0, kCell);
   for (std::size_t lane = 0; lane < kPackVoices; ++lane) {

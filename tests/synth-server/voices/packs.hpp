@@ -9,25 +9,24 @@
 
 namespace splash::synth {
 
-template <class Pack>
 class PackPlayer {
  public:
-  explicit PackPlayer(const PackKernels<Pack>& kernels) : kernels_(kernels) {}
+  explicit PackPlayer(const PackKernels& kernels) : kernels_(kernels) {}
 
   void seat(std::size_t lane, const BubbleTone& tone, double rate, int ahead) {
     set_lane(pack_, lane, tone, rate, ahead);
   }
   void render(int from, int to) {
-    kernels_.advance(pack_, from, to, &rows_[static_cast<std::size_t>(from) * kPackVoices]);
+    kernels_.turn(pack_, from, to, &rows_[static_cast<std::size_t>(from) * kPackVoices]);
   }
-  [[nodiscard]] typename Pack::Real at(std::size_t lane, int n) const {
+  [[nodiscard]] double at(std::size_t lane, int n) const {
     return rows_[static_cast<std::size_t>(n) * kPackVoices + lane];
   }
 
  private:
-  PackKernels<Pack> kernels_;
-  Pack pack_{};
-  alignas(64) std::array<typename Pack::Real, kRows> rows_{};
+  PackKernels kernels_;
+  BubblePack pack_{};
+  alignas(64) std::array<double, kRows> rows_{};
 };
 
 }  // namespace splash::synth
