@@ -51,11 +51,10 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
       static_cast<unsigned long long>(report.events), static_cast<unsigned long long>(c.impacts),
       static_cast<unsigned long long>(c.bubbles), static_cast<unsigned long long>(c.cavities));
   std::printf(
-      "left out: %llu above every output's band, %llu unheard or out of reach, %llu masked, %llu "
+      "left out: %llu above every output's band, %llu unheard or out of reach, %llu "
       "without a voice (%llu of them impacts, %llu cavities), %llu out of range\n",
       static_cast<unsigned long long>(c.dropped_band),
       static_cast<unsigned long long>(c.dropped_unheard),
-      static_cast<unsigned long long>(c.dropped_masked),
       static_cast<unsigned long long>(c.dropped_pool) + c.dropped_queue,
       static_cast<unsigned long long>(c.without_place.impacts),
       static_cast<unsigned long long>(c.without_place.cavities),

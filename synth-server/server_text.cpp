@@ -72,8 +72,7 @@ std::string summary(const Totals& t) {
       << engine.bubbles + queue.bubbles << " bubbles, " << engine.cavities + queue.cavities
       << " cavities), " << t.engine.dropped_refused << " out of range, " << t.engine.dropped_band
       << " above the band, " << t.engine.dropped_unheard << " unheard or out of reach, "
-      << t.engine.dropped_masked << " masked, " << t.engine.dropped_cleared << " cleared, "
-      << t.waiting << " still to come at the end\n";
+      << t.engine.dropped_cleared << " cleared, " << t.waiting << " still to come at the end\n";
   out << "bundles: " << t.taken.sequence.received << " received, " << t.taken.sequence.lost
       << " lost, " << t.taken.sequence.duplicates << " duplicates, " << t.taken.sequence.reordered
       << " reordered, " << t.taken.corrected << " from a clock that was off; "

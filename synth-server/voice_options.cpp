@@ -25,8 +25,8 @@ void add_voices(CLI::App& app, VoiceTexts& texts, EngineSettings& engine) {
       ->capture_default_str();
   app.add_option("--no-skip", texts.no_skip,
                  "Do not leave out: silent channels, bubbles above a band, voices below a rig's "
-                 "threshold, bubbles that louder ones mask (repeatable)")
-      ->check(CLI::IsMember({"silent", "band", "unfelt", "masked"}));
+                 "threshold (repeatable)")
+      ->check(CLI::IsMember({"silent", "band", "unfelt"}));
   app.add_option("--seed", engine.seed, "Of the impacts' noise")
       ->type_name("N")
       ->capture_default_str();
@@ -70,7 +70,6 @@ void apply(const VoiceTexts& texts, EngineSettings& engine) {
     if (kind == "silent") engine.skip_silent = false;
     if (kind == "band") engine.skip_out_of_band = false;
     if (kind == "unfelt") engine.skip_unfelt = false;
-    if (kind == "masked") engine.skip_masked = false;
   }
 }
 

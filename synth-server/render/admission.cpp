@@ -50,7 +50,6 @@ const EngineSettings& checked(const EngineSettings& s) {
   require(s.max_block >= 1 && s.max_block <= 65536, "max_block", s.max_block, "1 to 65536 frames");
   require(s.max_voices >= 1 && s.max_voices <= 131072, "max_voices", s.max_voices, "1 to 131072");
   require(s.max_impacts >= 1 && s.max_impacts <= 4096, "max_impacts", s.max_impacts, "1 to 4096");
-  require(s.mask_from >= 0.0 && s.mask_from <= 1.0, "mask_from", s.mask_from, "0 to 1");
   require(s.water_level <= kMostPlace, "water_level", s.water_level, "at most 1000000 m");
   require(s.floor_level <= kMostPlace, "floor_level", s.floor_level, "at most 1000000 m");
   require(s.max_scheduled >= 1 && s.max_scheduled <= (1 << 20), "max_scheduled", s.max_scheduled,

@@ -71,18 +71,18 @@ BubblePool::BubblePool(const PoolSettings& s)
       ranking_(packs_.size() * kPackLanes, s.sample_rate),
       piece_(s.channels > 1 ? kCell : kPiece) {}
 
-BubblePool::Started BubblePool::start(const BubbleTone& tone, const VoiceLife& wanted,
-                                      std::span<const Route> routes, int group,
-                                      std::int64_t sample) noexcept {
+BubblePool::Start BubblePool::start(const BubbleTone& tone, const VoiceLife& wanted,
+                                    std::span<const Route> routes, int group,
+                                    std::int64_t sample) noexcept {
   VoiceLife life = wanted;
   life.kept = life.kept && kept_ < max_voices_ / kKeptPart;
   const int found = seating_.find(group, [&](int p) { return feeds_.added(p, routes); });
-  if (found == Seating::kNone) return {};
+  if (found == Seating::kNone) return Start::refused;
   const auto pack = static_cast<std::size_t>(found);
   const Start result = make_room(life, sample);
   if (result == Start::refused) {
     if (sitters_[pack].taken == 0) seating_.note_empty(found);
-    return {};
+    return result;
   }
   const auto lane = static_cast<std::size_t>(std::countr_one(sitters_[pack].taken));
   seat(packs_[pack], lane, tone, static_cast<int>(sample % kCell));
@@ -101,7 +101,7 @@ BubblePool::Started BubblePool::start(const BubbleTone& tone, const VoiceLife& w
   }
   ++size_;
   ++lasting_;
-  return {result, place};
+  return result;
 }
 
 void BubblePool::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {

@@ -45,14 +45,10 @@ class BubblePool {
   explicit BubblePool(const PoolSettings& settings);
 
   enum class Start { started, stole, refused };
-  struct Started {
-    Start result = Start::refused;
-    std::uint32_t place = 0;
-  };
   /// A voice begins at `sample`, which lies in the cell that is being mixed and not before what was
   /// mixed. Refused when all voices are louder than it, unless it is one that is kept.
-  Started start(const BubbleTone& tone, const VoiceLife& wanted, std::span<const Route> routes,
-                int group, std::int64_t sample) noexcept;
+  Start start(const BubbleTone& tone, const VoiceLife& wanted, std::span<const Route> routes,
+              int group, std::int64_t sample) noexcept;
   /// Adds samples [from, to) of all voices; both within one cell.
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
   /// At the beginning of a cell, at `sample`: from now on no more than `most` voices at once, up to
@@ -64,7 +60,6 @@ class BubblePool {
   void fade_all(std::int64_t sample) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }  ///< with fading ones
-  [[nodiscard]] const Ranking& ranking() const noexcept { return ranking_; }
 
  private:
   static constexpr auto kCellRows = static_cast<std::size_t>(kRows);

@@ -29,7 +29,6 @@ struct EngineCounters {
   std::uint64_t cells = 0;             ///< times of 64 samples rendered, for the line above
   std::uint64_t resets = 0;            ///< samples that were not finite and reset their channel
   std::uint64_t limited = 0;           ///< samples that a limiter turned down
-  std::uint64_t dropped_masked = 0;    ///< bubbles that nobody could tell from louder ones
   protocol::ByKind<std::uint64_t> without_place;  ///< dropped_queue and dropped_pool by kind
 };
 

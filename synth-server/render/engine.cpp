@@ -251,7 +251,6 @@ EngineCounters Engine::counters() const noexcept {
           c.cells.get(),
           c.resets.get(),
           c.limited.get(),
-          e.masked.get(),
           {without_place(&Kinds::impacts), without_place(&Kinds::bubbles),
            without_place(&Kinds::cavities)}};
 }

@@ -55,8 +55,6 @@ struct EngineSettings {
   bool skip_silent = true;       ///< leave silent channels uncomputed (same samples, less work)
   bool skip_out_of_band = true;  ///< leave bubbles out where they are born above the band
   bool skip_unfelt = true;       ///< end voices 20 dB below the threshold that the rig states
-  bool skip_masked = true;       ///< leave out what louder bubbles cover, see render/masking.hpp
-  double mask_from = 0.5;        ///< the latter only while this part of max_voices sounds, 0 to 1
   StartWatch* watch = nullptr;   ///< may be null; outlives the engine
   ControlBox* controls = nullptr;  ///< what changes sound and levels; may be null; outlives it
 };

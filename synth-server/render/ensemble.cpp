@@ -27,7 +27,6 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       bubbles_(pool_settings(rig, settings, routing_)),
       impact_level_(rig),
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
-      masking_(channel_count(rig), settings.sample_rate),
       cloud_(settings.sample_rate),
       fine_(rig, settings.sample_rate, settings.seed),
       underfoot_(rig, settings.sample_rate, settings.seed) {}
@@ -81,11 +80,6 @@ Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
   return Outcome::started;
 }
 
-bool Ensemble::masking() const noexcept {
-  return settings_.skip_masked &&
-         static_cast<double>(bubbles_.size()) >= settings_.mask_from * settings_.max_voices;
-}
-
 Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Reach& reach,
                                        const protocol::Cavity* cavity,
                                        std::int64_t sample) noexcept {
@@ -93,8 +87,9 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
   const ToneSound& sound = kept ? settings_.sound.cavity : settings_.sound.bubble;
   VoiceLife life = life_of(tone, settings_.sample_rate, reach.floor / gain_of(sound.gain_db));
   life.kept = kept;
-  const bool breaks = kept && cavity->life > 0.0F;
-  if (breaks) life.breaks = std::llround(static_cast<double>(cavity->life) * settings_.sample_rate);
+  if (kept && cavity->life > 0.0F) {
+    life.breaks = std::llround(static_cast<double>(cavity->life) * settings_.sample_rate);
+  }
   if (reach.result == Routing::Result::out_of_band || life.fold <= 0) {
     counts_.band.add();
     return Outcome::left_out;
@@ -103,18 +98,10 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
     counts_.unheard.add();
     return Outcome::left_out;
   }
-  const std::span<const Route> routes = reached(reach);
-  if (!kept && masking() && masking_.covers(tone, routes, sample, bubbles_.ranking())) {
-    counts_.masked.add();
-    return Outcome::left_out;
-  }
   if (starts_ >= (kept ? kMostStarts : kMostStarts - kKeptStarts)) return Outcome::no_place;
-  const BubblePool::Started started = bubbles_.start(tone, life, routes, reach.group, sample);
-  if (started.result == BubblePool::Start::refused) return Outcome::no_place;
-  if (started.result == BubblePool::Start::stole) counts_.stolen.add();
-  if (settings_.skip_masked && !breaks) {  // what it hides may ring on
-    masking_.note(tone, routes, sample, started.place, bubbles_.ranking());
-  }
+  const BubblePool::Start result = bubbles_.start(tone, life, reached(reach), reach.group, sample);
+  if (result == BubblePool::Start::refused) return Outcome::no_place;
+  if (result == BubblePool::Start::stole) counts_.stolen.add();
   return Outcome::started;
 }
 

@@ -14,7 +14,6 @@
 #include "synth-server/render/impact_level.hpp"
 #include "synth-server/render/impact_pool.hpp"
 #include "synth-server/render/live_controls.hpp"
-#include "synth-server/render/masking.hpp"
 #include "synth-server/render/routing.hpp"
 #include "synth-server/render/underfoot.hpp"
 #include "synth-server/voices/cloud.hpp"
@@ -45,7 +44,7 @@ class Ensemble {
   [[nodiscard]] std::size_t voices() const noexcept { return bubbles_.size() + impacts_.size(); }
 
   struct Counts {
-    Count stolen, pool, band, unheard, masked;
+    Count stolen, pool, band, unheard;
     protocol::ByKind<Count> started;
     protocol::ByKind<Count> without_place;  ///< `pool` by kind
   };
@@ -66,7 +65,6 @@ class Ensemble {
   [[nodiscard]] std::span<const Route> reached(const Routing::Reach& reach) const noexcept {
     return {routes_.data(), static_cast<std::size_t>(reach.routes)};
   }
-  [[nodiscard]] bool masking() const noexcept;
 
   EngineSettings settings_;
   Routing routing_;
@@ -74,7 +72,6 @@ class Ensemble {
   BubblePool bubbles_;
   ImpactLevel impact_level_;
   ImpactPool impacts_;
-  Masking masking_;
   Cloud cloud_;
   FineWater fine_;
   Underfoot underfoot_;

@@ -53,16 +53,9 @@ double Ranking::level(std::uint32_t place, std::int64_t sample) const noexcept {
   return std::min(line.top, line.intercept - line.decay * static_cast<double>(sample));
 }
 
-double Ranking::decay(std::uint32_t place) const noexcept {
-  return lines_[place].decay;
-}
-
-bool Ranking::sounds(std::uint32_t place, std::int64_t since, std::int64_t sample) const noexcept {
-  return lines_[place].since == since && lines_[place].until > sample;
-}
-
 bool Ranking::stands(const Candidate& candidate, std::int64_t sample) const noexcept {
-  return sounds(candidate.place, candidate.since, sample);
+  const Line& line = lines_[candidate.place];
+  return line.since == candidate.since && line.until > sample;
 }
 
 std::uint32_t Ranking::quietest(std::int64_t sample) noexcept {

@@ -30,10 +30,6 @@ class Ranking {
 
   /// Natural logarithm of a voice's amplitude at `sample` [ln m].
   [[nodiscard]] double level(std::uint32_t place, std::int64_t sample) const noexcept;
-  [[nodiscard]] double decay(std::uint32_t place) const noexcept;  ///< of it, per sample
-  /// Whether the voice that began at `since` still sounds in this place.
-  [[nodiscard]] bool sounds(std::uint32_t place, std::int64_t since,
-                            std::int64_t sample) const noexcept;
 
  private:
   struct Line {

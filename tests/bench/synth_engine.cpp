@@ -55,7 +55,6 @@ EngineSettings settings_of(const std::string& instructions, int voices) {
   settings.start_ramp = 0.0;
   settings.max_voices = voices;
   settings.max_scheduled = 1 << 18;
-  settings.skip_masked = false;
   settings.instructions = instructions == "portable"  ? synth::InstructionSet::portable
                           : instructions == "AVX2"    ? synth::InstructionSet::avx2
                           : instructions == "AVX-512" ? synth::InstructionSet::avx512

@@ -19,7 +19,6 @@ synth::EngineSettings nothing_skipped() {
   settings.start_ramp = 0.0;
   settings.skip_out_of_band = false;
   settings.skip_unfelt = false;
-  settings.skip_masked = false;
   return settings;
 }
 

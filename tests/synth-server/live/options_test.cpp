@@ -46,14 +46,13 @@ TEST(Options, ReadWhatIsGiven) {
 }
 
 TEST(Options, ChooseHowVoicesSound) {
-  const auto parsed = parse({"--rig", "x.yaml", "--bubbles", "physical", "--water-level", "-0.5",
-                             "--impact-exponent", "1.5", "--max-voices", "60000", "--no-skip",
-                             "masked", "--no-skip", "unfelt"});
+  const auto parsed =
+      parse({"--rig", "x.yaml", "--bubbles", "physical", "--water-level", "-0.5",
+             "--impact-exponent", "1.5", "--max-voices", "60000", "--no-skip", "unfelt"});
   ASSERT_TRUE(parsed.options);
   const EngineSettings& engine = parsed.options->engine;
   EXPECT_DOUBLE_EQ(engine.water_level, -0.5);
   EXPECT_EQ(engine.max_voices, 60000);
-  EXPECT_FALSE(engine.skip_masked);
   EXPECT_FALSE(engine.skip_unfelt);
   EXPECT_TRUE(engine.skip_silent);
   EXPECT_TRUE(engine.skip_out_of_band);

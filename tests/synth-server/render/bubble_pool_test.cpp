@@ -28,7 +28,7 @@ PoolSettings settings_for(int voices) {
 
 Start start(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05) {
   const BubbleTone tone = paper_bubble(radius, epsilon);
-  return pool.start(tone, life_of(tone, kRate, kFloor), {&kRoute, 1}, 0, sample).result;
+  return pool.start(tone, life_of(tone, kRate, kFloor), {&kRoute, 1}, 0, sample);
 }
 
 double formula(double radius, std::int64_t start, double sample) {
@@ -165,7 +165,7 @@ Start start_kept(BubblePool& pool, double radius, std::int64_t sample, double ep
   const BubbleTone tone = paper_bubble(radius, epsilon);
   VoiceLife life = life_of(tone, kRate, kFloor);
   life.kept = true;
-  return pool.start(tone, life, {&kRoute, 1}, 0, sample).result;
+  return pool.start(tone, life, {&kRoute, 1}, 0, sample);
 }
 
 // However loud the others, and however many come after it.

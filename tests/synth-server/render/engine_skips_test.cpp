@@ -177,54 +177,5 @@ TEST_P(UnfeltVoices, StayBelowTheThresholdOfTouch) {
   EXPECT_GT(nearest_db, -40.0) << "the test's scene is too quiet to prove anything";
 }
 
-TEST(Skips, OfMaskedBubblesStay20DecibelsBelowWhatCoversThem) {
-  const auto render_with = [&](bool skip, EngineCounters& counters) {
-    auto settings = file_settings();
-    settings.skip_masked = skip;
-    settings.mask_from = 0.0;
-    Engine engine(open_rig(), settings);
-    for (int i = 0; i < 4000; ++i) {  // few strong ones and many weak ones of like pitches
-      const float radius = 0.004F + 0.000002F * static_cast<float>(i * 7919 % 1000);
-      const float epsilon = i % 40 == 0 ? 0.02F : 0.0001F * static_cast<float>(1 + i % 7);
-      engine.schedule({bubble(radius, epsilon), i * 12});
-    }
-    auto out = render(engine, 54000)[0];
-    counters = engine.counters();
-    EXPECT_EQ(counters.limited, 0U);
-    return out;
-  };
-  EngineCounters skips;
-  EngineCounters none;
-  const auto skipping = render_with(true, skips);
-  const auto diligent = render_with(false, none);
-  EXPECT_GT(skips.dropped_masked, 300U);
-  EXPECT_EQ(skips.dropped_masked + skips.bubbles, 4000U);
-  EXPECT_EQ(none.dropped_masked, 0U);
-  const auto left_out = difference(diligent, skipping);
-  double worst_db = -200.0;
-  for (std::size_t from = 0; from + 2400 <= left_out.size(); from += 2400) {
-    const double part = energy(left_out, from, from + 2400) / energy(diligent, from, from + 2400);
-    worst_db = std::max(worst_db, 10.0 * std::log10(part + 1e-20));
-  }
-  std::printf("%llu of 4000 left out: at most %.1f dB of what sounds, in 50 ms\n",
-              static_cast<unsigned long long>(skips.dropped_masked), worst_db);
-  EXPECT_LT(worst_db, -20.0);
-  EXPECT_GT(worst_db, -60.0) << "the test's scene proves nothing";
-}
-
-TEST(Skips, OfMaskedBubblesWaitUntilVoicesAreScarce) {
-  auto settings = file_settings();
-  settings.max_voices = 100;
-  settings.mask_from = 0.5;
-  Engine engine(open_rig(), settings);
-  engine.schedule({bubble(0.005F, 0.1F), 0});
-  for (int i = 0; i < 40; ++i) engine.schedule({bubble(0.00499F, 0.0001F), 1 + i});
-  render(engine, 64);
-  EXPECT_EQ(engine.counters().dropped_masked, 0U);
-  for (int i = 0; i < 40; ++i) engine.schedule({bubble(0.00499F, 0.0001F), 64});
-  render(engine, 64);
-  EXPECT_EQ(engine.counters().dropped_masked, 31U) << "from the 51st voice on";
-}
-
 }  // namespace
 }  // namespace splash::synth

@@ -99,7 +99,6 @@ TEST(Engine, GivesTheSameBitsInAnyBlocks) {
     EXPECT_EQ(out, reference) << "first block of " << blocks.front();
     EXPECT_EQ(counters.stolen, first.stolen);
     EXPECT_EQ(counters.dropped_pool, first.dropped_pool);
-    EXPECT_EQ(counters.dropped_masked, first.dropped_masked);
     EXPECT_EQ(counters.channels_skipped, first.channels_skipped);
   }
 }
@@ -242,7 +241,6 @@ TEST(Engine, SurvivesAFloodOfSimultaneousEvents) {
 // twenty times a second each: none of those is dropped, what is dropped is told by its kind.
 TEST(Engine, PlaysAllImpactsAndCavitiesInAFloodOfBubbles) {
   auto settings = file_settings();
-  settings.skip_masked = false;  // else most bubbles need no voice
   Engine engine(open_rig(), settings);
   constexpr int kBlocks = 94;
   constexpr int kBlock = 256;
@@ -300,7 +298,6 @@ TEST(Engine, RefusesSettingsBeyondTheirLimits) {
   refused([](auto& s) { s.max_voices = 0; }, "max_voices");
   refused([](auto& s) { s.max_impacts = 0; }, "max_impacts");
   refused([](auto& s) { s.max_scheduled = 0; }, "max_scheduled");
-  refused([](auto& s) { s.mask_from = 2.0; }, "mask_from");
   refused([](auto& s) { s.water_level = std::numeric_limits<double>::quiet_NaN(); }, "water_level");
   refused([](auto& s) { s.sound.impact.frequency = 24000.0; }, "sound.impact.frequency");
   refused([](auto& s) { s.sound.cavity.rise = std::numeric_limits<double>::infinity(); }, "sound");
