@@ -160,13 +160,7 @@ void BubblePool::mix_some(std::span<const int> packs, std::int64_t cell, int beg
     for (std::size_t k = 0; k < count; ++k) {
       const auto p = static_cast<std::size_t>(packs[k]);
       double* const rows = &rows_[k * kCellRows];
-      // Nothing is waited for while voices turn: time to fetch what is needed next. Not the next
-      // packs, which this one would have to wait for.
-      if (from == begin) feeds_.fetch_gains(p);
       kernels_.turn(packs_[p], from, to, rows);
-      if (from == begin && k + count < packs.size()) {
-        fetch(static_cast<std::size_t>(packs[k + count]));
-      }
       const Sitters& sitters = sitters_[p];
       if (cell + from < sitters.calm_from || cell + to > sitters.calm_to) {
         shape(sitters, cell + from, to - from, rows);
@@ -234,20 +228,6 @@ void BubblePool::seat(BubblePack& pack, std::size_t lane, const BubbleTone& tone
   set_lane(latecomer, lane, tone, sample_rate_, ahead);
   kernels_.turn(latecomer, 0, mixed_, unheard.data());
   copy_lane(latecomer, pack, lane);
-}
-
-/// Neighbours in the order of mixing are none in memory: the processor is told which pack comes
-/// next, into its second cache, as the first one is full of rows.
-void BubblePool::fetch(std::size_t p) const noexcept {
-  constexpr int kToWrite = 1;
-  constexpr int kSecondCache = 2;
-  constexpr std::size_t kPairOfLines = 128;  // one brings its neighbour
-  const char* const pack = reinterpret_cast<const char*>(&packs_[p]);
-  for (std::size_t at = 0; at < sizeof(BubblePack); at += kPairOfLines) {
-    __builtin_prefetch(pack + at, kToWrite, kSecondCache);
-  }
-  __builtin_prefetch(&sitters_[p]);
-  feeds_.fetch_channels(p);
 }
 
 void BubblePool::shape(const Sitters& sitters, std::int64_t from, int count,

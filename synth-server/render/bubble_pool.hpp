@@ -86,7 +86,6 @@ class BubblePool {
   void fade_out(std::uint32_t place, std::int64_t sample) noexcept;
   [[nodiscard]] VoiceSpan span_of(const VoiceLife& life, std::int64_t sample) const noexcept;
   void seat(BubblePack& pack, std::size_t lane, const BubbleTone& tone, int ahead) noexcept;
-  void fetch(std::size_t pack) const noexcept;
   static void shape(const Sitters& sitters, std::int64_t from, int count, double* rows) noexcept;
   void release_from(std::size_t pack, std::int64_t sample) noexcept;
 

@@ -117,15 +117,6 @@ class PackFeeds {
     joined_channels_.clear();
   }
 
-  void fetch_channels(std::size_t pack) const noexcept {
-    __builtin_prefetch(&channels_[pack * most_]);
-  }
-  void fetch_gains(std::size_t pack) const noexcept {
-    for (std::int32_t slot = 0; slot < counts_[pack]; ++slot) {
-      __builtin_prefetch(&gains_[at(pack, slot)]);
-    }
-  }
-
   /// Whether any voice goes to the channel.
   [[nodiscard]] bool reaches(std::size_t channel) const noexcept { return routes_[channel] != 0; }
 
