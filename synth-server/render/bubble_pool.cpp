@@ -175,14 +175,9 @@ void BubblePool::mix_some(std::span<const int> packs, std::int64_t cell, int beg
 
 /// Samples [from, to) of the cell, whose rows are there, to the channels that they go to.
 void BubblePool::mix_joined(int from, int to) noexcept {
-  const auto sums = [&](std::size_t channel) { return &sums_[channel * kSumStride]; };
-  feeds_.for_each_joined(
-      [&](std::size_t channel, const PackMix& packs) {
-        kernels_.mix(packs, from, to, sums(channel));
-      },
-      [&](std::size_t channel, const PackMix& packs, std::size_t other, const PackMix& its) {
-        kernels_.mix_two(packs, its, from, to, sums(channel), sums(other));
-      });
+  feeds_.for_each_joined([&](std::size_t channel, const PackMix& packs) {
+    kernels_.mix(packs, from, to, &sums_[channel * kSumStride]);
+  });
 }
 
 BubblePool::Start BubblePool::make_room(const VoiceLife& life, std::int64_t sample) noexcept {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <new>
 #include <span>
 #include <vector>
@@ -91,26 +90,13 @@ class PackFeeds {
       packs.feeds[packs.count++] = &gains_[at(pack, slot)];
     }
   }
-  /// Calls for each channel that they go to mix(channel, packs), or for two that all kMixedPacks
-  /// go to mix_two(channel, packs, other channel, its packs).
-  template <class MixOne, class MixTwo>
-  void for_each_joined(const MixOne& mix, const MixTwo& mix_two) const noexcept {
-    const auto packs_of = [&](std::size_t channel) -> const auto& {
-      return joined_[channel];
-    };
-    std::size_t single = kNobody;  // waits for another that all go to
+  /// Calls for each channel that they go to mix(channel, packs).
+  template <class MixOne>
+  void for_each_joined(const MixOne& mix) const noexcept {
     for (const std::int32_t next : joined_channels_) {
       const auto channel = static_cast<std::size_t>(next);
-      if (packs_of(channel).count < kMixedPacks) {
-        mix(channel, packs_of(channel));
-      } else if (single == kNobody) {
-        single = channel;
-      } else {
-        mix_two(single, packs_of(single), channel, packs_of(channel));
-        single = kNobody;
-      }
+      mix(channel, joined_[channel]);
     }
-    if (single != kNobody) mix(single, packs_of(single));
   }
   void part() noexcept {
     for (const std::int32_t c : joined_channels_) joined_[static_cast<std::size_t>(c)].count = 0;
@@ -121,7 +107,6 @@ class PackFeeds {
   [[nodiscard]] bool reaches(std::size_t channel) const noexcept { return routes_[channel] != 0; }
 
  private:
-  static constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
   [[nodiscard]] std::size_t at(std::size_t pack, std::int32_t slot) const noexcept {
     return pack * most_ + static_cast<std::size_t>(slot);
   }

@@ -38,9 +38,6 @@ struct PackKernels {
   /// Adds these samples of up to kMixedPacks packs to one channel, whose sums are kRows values,
   /// some lanes apart.
   void (*mix)(const PackMix& packs, int from, int to, double* sums);
-  /// The same to two channels that the same packs go to: their rows are fetched once for both.
-  void (*mix_two)(const PackMix& packs, const PackMix& other, int from, int to, double* sums,
-                  double* other_sums);
   /// Adds up the lanes of one channel, always in the same order, and clears them.
   void (*collect)(double* sums, int from, int to, double* out);
 };

@@ -91,81 +91,54 @@ constexpr int kGainVectors = kVectorBytes == 64 ? 16 : 8;
 /// wider vectors' do not wait for it.
 constexpr int kSamplesAtOnce = kVectorBytes == 16 ? 4 : 1;
 
-/// What kChannels channels get of the same packs, and their sums.
-template <int kChannels>
-struct Mixing {
-  const PackMix* packs[kChannels];
-  double* sums[kChannels];
-};
-
 /// Some of the packs: their gains fit into the registers.
-template <int kPacks, int kChannels>
-[[gnu::always_inline]] inline void mix_some(const Mixing<kChannels>& mixing, int first, int from,
-                                            int to) {
+template <int kPacks>
+[[gnu::always_inline]] inline void mix_some(const PackMix& packs, int first, int from, int to,
+                                            double* sums) {
   constexpr int kParts = kPackVoices / kSumLanes;
   for (int lane = 0; lane < kSumLanes; lane += kLanes) {
-    Vector gains[kChannels][kPacks][kParts];
-    const double* rows[kPacks];
+    Vector gains[kPacks][kParts];
     for (int k = 0; k < kPacks; ++k) {
-      rows[k] = mixing.packs[0]->rows[first + k];
-      for (int c = 0; c < kChannels; ++c) {
-        const double* const from_lane = mixing.packs[c]->feeds[first + k]->gains + lane;
-        for (int part = 0; part < kParts; ++part) {
-          gains[c][k][part] = *reinterpret_cast<const Vector*>(&from_lane[part * kSumLanes]);
-        }
+      const double* const from_lane = packs.feeds[first + k]->gains + lane;
+      for (int part = 0; part < kParts; ++part) {
+        gains[k][part] = *reinterpret_cast<const Vector*>(&from_lane[part * kSumLanes]);
       }
     }
 #pragma GCC unroll kSamplesAtOnce
     for (int n = from; n < to; ++n) {
-      Vector added[kChannels];
-      for (int c = 0; c < kChannels; ++c) {
-        added[c] = *reinterpret_cast<Vector*>(&mixing.sums[c][n * kSumLanes + lane]);
-      }
+      auto& sum = *reinterpret_cast<Vector*>(&sums[n * kSumLanes + lane]);
+      Vector added = sum;
       for (int k = 0; k < kPacks; ++k) {
         for (int part = 0; part < kParts; ++part) {
           const int at = (n - from) * kPackVoices + part * kSumLanes + lane;
-          // Volatile: once for all channels, where compilers would fetch it for each.
-          const Vector row = *reinterpret_cast<const volatile Vector*>(&rows[k][at]);
-          for (int c = 0; c < kChannels; ++c) added[c] += gains[c][k][part] * row;
+          added += gains[k][part] * *reinterpret_cast<const Vector*>(&packs.rows[first + k][at]);
         }
       }
-      for (int c = 0; c < kChannels; ++c) {
-        *reinterpret_cast<Vector*>(&mixing.sums[c][n * kSumLanes + lane]) = added[c];
-      }
+      sum = added;
     }
   }
 }
 
 /// The last of the packs, kMost at most: all at once.
-template <int kMost, int kChannels>
-[[gnu::always_inline]] inline void mix_rest(const Mixing<kChannels>& mixing, int first, int from,
-                                            int to) {
-  if (mixing.packs[0]->count - first == kMost) {
-    mix_some<kMost>(mixing, first, from, to);
+template <int kMost>
+[[gnu::always_inline]] inline void mix_rest(const PackMix& packs, int first, int from, int to,
+                                            double* sums) {
+  if (packs.count - first == kMost) {
+    mix_some<kMost>(packs, first, from, to, sums);
   } else if constexpr (kMost > 1) {
-    mix_rest<kMost - 1>(mixing, first, from, to);
+    mix_rest<kMost - 1>(packs, first, from, to, sums);
   }
 }
 
 /// As many at once as registers hold, then what is left: sums are fetched and put back seldom.
-template <int kChannels>
-[[gnu::always_inline]] inline void mix_all(const Mixing<kChannels>& mixing, int from, int to) {
-  constexpr int kFitting = kGainVectors * kSumLanes / (kChannels * kPackVoices);
+void mix(const PackMix& packs, int from, int to, double* sums) {
+  constexpr int kFitting = kGainVectors * kSumLanes / kPackVoices;
   constexpr int kAtOnce = kFitting < kMixedPacks ? kFitting : kMixedPacks;
   int first = 0;
-  for (; first + kAtOnce <= mixing.packs[0]->count; first += kAtOnce) {
-    mix_some<kAtOnce>(mixing, first, from, to);
+  for (; first + kAtOnce <= packs.count; first += kAtOnce) {
+    mix_some<kAtOnce>(packs, first, from, to, sums);
   }
-  if constexpr (kAtOnce > 1) mix_rest<kAtOnce - 1>(mixing, first, from, to);
-}
-
-void mix(const PackMix& packs, int from, int to, double* sums) {
-  mix_all<1>({{&packs}, {sums}}, from, to);
-}
-
-void mix_two(const PackMix& packs, const PackMix& other, int from, int to, double* sums,
-             double* other_sums) {
-  mix_all<2>({{&packs, &other}, {sums, other_sums}}, from, to);
+  if constexpr (kAtOnce > 1) mix_rest<kAtOnce - 1>(packs, first, from, to, sums);
 }
 
 /// low: a0 b0 a1 b1 ..., high: the same of the upper halves.
@@ -228,7 +201,7 @@ void collect(double* sums, int from, int to, double* out) {
 
 /// Made here as pack_kernels_portable, pack_kernels_avx2 and pack_kernels_avx512.
 PackKernels SPLASH_KERNELS() noexcept {
-  return {turn_lanes, mix, mix_two, collect};
+  return {turn_lanes, mix, collect};
 }
 
 }  // namespace splash::synth
