@@ -25,20 +25,14 @@ int places_of(const Output& output) {
   return output.kind == OutputKind::tiles ? output.tiles_x * output.tiles_y : 1;
 }
 
-struct Place {
-  int tile = 0;
-  int quarter = 0;
-};
-
-Place place_in(const Output& output, const protocol::Vec3& position) noexcept {
-  if (output.kind != OutputKind::tiles) return {};
-  const auto half = [&](double offset, int tiles) {
-    const double halves = std::floor(offset / (0.5 * output.tile_size));
-    return static_cast<int>(std::clamp(halves, 0.0, 2.0 * tiles - 1.0));
+int tile_of(const Output& output, const protocol::Vec3& position) noexcept {
+  if (output.kind != OutputKind::tiles) return 0;
+  const auto tile = [&](float offset, double edge, int tiles) {
+    const double steps = std::floor((static_cast<double>(offset) - edge) / output.tile_size);
+    return static_cast<int>(std::clamp(steps, 0.0, tiles - 1.0));
   };
-  const int x = half(static_cast<double>(position.x) - output.place[0], output.tiles_x);
-  const int y = half(static_cast<double>(position.y) - output.place[1], output.tiles_y);
-  return {y / 2 * output.tiles_x + x / 2, y % 2 * 2 + x % 2};
+  return tile(position.y, output.place[1], output.tiles_y) * output.tiles_x +
+         tile(position.x, output.place[0], output.tiles_x);
 }
 
 }  // namespace
@@ -59,7 +53,6 @@ Routing::Routing(const Rig& rig, const Skips& skips) : skips_(skips), outputs_(r
     groups_ = static_cast<int>(std::min<std::int64_t>(kMostGroups, product));
   }
   turned_.assign(outputs_.size(), 1.0);
-  groups_ *= kGroupParts;
   gains_.resize(widest);
 }
 
@@ -72,7 +65,6 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
   reach.floor = std::numeric_limits<double>::infinity();
   bool in_band = false;
   std::uint64_t group = 0;
-  int quarter = 0;
   int first = 0;
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
     const Output& output = outputs_[o];
@@ -94,14 +86,11 @@ Routing::Reach Routing::route(const Source& source, std::span<Route> routes) noe
     }
     group *= 1U + static_cast<unsigned>(places_of(output));
     if (loudest <= 0.0) continue;
-    const Place place = place_in(output, source.position);
-    group += 1U + static_cast<unsigned>(place.tile);
-    if (output.kind == OutputKind::tiles) quarter = place.quarter;
+    group += 1U + static_cast<unsigned>(tile_of(output, source.position));
     reach.floor =
         std::min(reach.floor, audibility_[o].floor(source.frequency) / (loudest * turned_[o]));
   }
-  const auto tiles = static_cast<unsigned>(groups_ / kGroupParts);
-  reach.group = static_cast<int>(group % tiles) * kGroupParts + quarter;
+  reach.group = static_cast<int>(group % static_cast<unsigned>(groups_));
   if (reach.routes > 0) {
     reach.result = Result::heard;
   } else if (!in_band) {

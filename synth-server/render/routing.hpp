@@ -43,8 +43,7 @@ class Routing {
     Result result = Result::unheard;
     int routes = 0;      ///< written
     double floor = 0.0;  ///< amplitude under which none of them needs the voice [m]
-    int group = 0;       ///< sources of one group, a quarter of a tile, reach almost the same
-                         ///< channels; those of kGroupParts in a row, a tile, many of the same
+    int group = 0;       ///< sources of one group, a tile, reach many of the same channels
   };
   /// Writes up to max_routes() routes.
   Reach route(const Source& source, std::span<Route> routes) noexcept;

@@ -2,15 +2,15 @@
 #include "synth-server/render/seating.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace splash::synth {
 
 Seating::Seating(std::size_t packs, int groups)
-    : heads_(static_cast<std::size_t>((groups + kGroupParts - 1) / kGroupParts), kNone),
-      sizes_(heads_.size(), 0),
-      links_(packs),
-      empty_(packs) {
+    : heads_(static_cast<std::size_t>(groups), kNone), links_(packs), empty_(packs / 64 + 1) {
   order_.reserve(packs);
+  for (std::size_t pack = 0; pack < packs; ++pack)
+    empty_[pack / 64] |= std::uint64_t{1} << pack % 64;
 }
 
 std::vector<int>::const_iterator Seating::place_of(int pack) const noexcept {
@@ -21,29 +21,26 @@ std::vector<int>::const_iterator Seating::place_of(int pack) const noexcept {
   });
 }
 
-std::size_t Seating::tile_of(int pack) const noexcept {
-  return static_cast<std::size_t>(links_[static_cast<std::size_t>(pack)].group / kGroupParts);
-}
-
 int Seating::begin(int group) noexcept {
-  const auto pack = static_cast<int>(empty_.take());
+  const auto word = std::find_if(empty_.begin(), empty_.end(), [](auto bits) { return bits != 0; });
+  if (word == empty_.end()) return kNone;
+  const auto pack = static_cast<int>(word - empty_.begin()) * 64 + std::countr_zero(*word);
+  *word &= *word - 1;
   links_[static_cast<std::size_t>(pack)].group = group;
-  ++sizes_[tile_of(pack)];
   link(pack);
   order_.insert(place_of(pack), pack);  // within what was reserved
   return pack;
 }
 
 void Seating::note_empty(int pack) noexcept {
-  --sizes_[tile_of(pack)];
   unlink(pack);
   order_.erase(place_of(pack));
-  empty_.give_back(static_cast<std::uint32_t>(pack));
+  empty_[static_cast<std::size_t>(pack) / 64] |= std::uint64_t{1} << pack % 64;
 }
 
 void Seating::link(int pack) noexcept {
   Link& link = links_[static_cast<std::size_t>(pack)];
-  int& head = heads_[tile_of(pack)];
+  int& head = heads_[static_cast<std::size_t>(link.group)];
   link.previous = kNone;
   link.next = head;
   if (head != kNone) links_[static_cast<std::size_t>(head)].previous = pack;
@@ -56,7 +53,7 @@ void Seating::unlink(int pack) noexcept {
   if (link.previous != kNone) {
     links_[static_cast<std::size_t>(link.previous)].next = link.next;
   } else {
-    heads_[tile_of(pack)] = link.next;
+    heads_[static_cast<std::size_t>(link.group)] = link.next;
   }
 }
 

@@ -10,13 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "synth-server/render/free_places.hpp"
-
 namespace splash::synth {
-
-/// Groups come in fours, the quarters of a tile: packs are shared within all four, and mixed in the
-/// order of the quarter they were begun for.
-inline constexpr int kGroupParts = 4;
 
 class Seating {
  public:
@@ -24,15 +18,12 @@ class Seating {
 
   static constexpr int kNone = -1;
   static constexpr int kUnfit = std::numeric_limits<int>::max();
-  /// A pack with a free lane, or an empty one, or kNone. `added(pack)`: how many more channels that
-  /// pack would be mixed into, or kUnfit; the fewest are taken. In a crowded tile voices share
-  /// packs only within their quarter; elsewhere an emptier pack would cost more than channels do.
+  /// A pack of the group with a free lane, or an empty one, or kNone. `added(pack)`: how many more
+  /// channels that pack would be mixed into, or kUnfit; the fewest are taken.
   template <class Added>
   [[nodiscard]] int find(int group, const Added& added) noexcept {
-    const bool crowded = sizes_[static_cast<std::size_t>(group / kGroupParts)] >= kCrowd;
-    const int best = fewest(group, crowded, added);
-    if (best != kNone) return best;
-    return empty_.empty() ? fewest(group, false, added) : begin(group);
+    const int best = fewest(group, added);
+    return best != kNone ? best : begin(group);
   }
 
   /// All packs that have voices, group by group.
@@ -43,45 +34,36 @@ class Seating {
   void note_empty(int pack) noexcept;                  ///< one that was not full has no voice left
 
  private:
-  static constexpr int kTries = 8;                ///< packs that are compared
-  static constexpr int kSeen = 64;                ///< packs that are looked at for that
-  static constexpr int kCrowd = 3 * kGroupParts;  ///< packs of a tile
+  static constexpr int kTries = 8;  ///< packs that are compared
   struct Link {
     int group = 0;
     int next = kNone;
     int previous = kNone;
   };
-  /// Of the tile's packs with free lanes, or of one quarter's, that with the fewest more channels.
+  /// Of the group's packs with free lanes, that with the fewest more channels.
   template <class Added>
-  [[nodiscard]] int fewest(int group, bool of_quarter, const Added& added) const noexcept {
+  [[nodiscard]] int fewest(int group, const Added& added) const noexcept {
     int best = kNone;
     int least = kUnfit;
-    int tries = 0;
-    int pack = heads_[static_cast<std::size_t>(group / kGroupParts)];
-    for (int seen = 0; pack != kNone && seen < kSeen && tries < kTries && least > 0; ++seen) {
-      const Link& link = links_[static_cast<std::size_t>(pack)];
-      if (!of_quarter || link.group == group) {
-        const int more = added(pack);
-        if (more < least) best = pack;
-        least = std::min(least, more);
-        ++tries;
-      }
-      pack = link.next;
+    int pack = heads_[static_cast<std::size_t>(group)];
+    for (int tries = 0; pack != kNone && tries < kTries && least > 0; ++tries) {
+      const int more = added(pack);
+      if (more < least) best = pack;
+      least = std::min(least, more);
+      pack = links_[static_cast<std::size_t>(pack)].next;
     }
     return best;
   }
-  [[nodiscard]] std::size_t tile_of(int pack) const noexcept;
-  /// An empty pack becomes the group's.
+  /// The first empty pack becomes the group's; kNone without one.
   int begin(int group) noexcept;
   void link(int pack) noexcept;
   [[nodiscard]] std::vector<int>::const_iterator place_of(int pack) const noexcept;
   void unlink(int pack) noexcept;
 
-  std::vector<int> heads_;   ///< by tile: its first pack with a free lane
-  std::vector<int> sizes_;   ///< by tile: its packs
-  std::vector<Link> links_;  ///< by pack
-  std::vector<int> order_;   ///< packs with voices, by group and number
-  FreePlaces empty_;
+  std::vector<int> heads_;            ///< by group: its first pack with a free lane
+  std::vector<Link> links_;           ///< by pack
+  std::vector<int> order_;            ///< packs with voices, by group and number
+  std::vector<std::uint64_t> empty_;  ///< a bit per pack: it has no voice
 };
 
 }  // namespace splash::synth

@@ -11,46 +11,35 @@ constexpr int kPacks = 16;
 constexpr auto kSame = [](int /*pack*/) { return 0; };
 
 TEST(Seating, TakesThePackWithTheFewestMoreChannels) {
-  Seating seating(kPacks, 8);
+  Seating seating(kPacks, 2);
   const int first = seating.find(0, kSame);
   seating.note_full(first);
   const int second = seating.find(0, kSame);
   ASSERT_NE(second, first);
   seating.note_open(first);
-  EXPECT_EQ(seating.find(1, [&](int pack) { return pack == second ? 1 : 2; }), second);
-  EXPECT_EQ(seating.find(1, [&](int pack) { return pack == second ? 2 : 1; }), first);
-  const int third = seating.find(1, [](int /*pack*/) { return Seating::kUnfit; });
+  EXPECT_EQ(seating.find(0, [&](int pack) { return pack == second ? 1 : 2; }), second);
+  EXPECT_EQ(seating.find(0, [&](int pack) { return pack == second ? 2 : 1; }), first);
+  const int third = seating.find(0, [](int /*pack*/) { return Seating::kUnfit; });
   EXPECT_NE(third, first);
   EXPECT_NE(third, second);
 }
 
-TEST(Seating, SharesAmongTheQuartersOfATileButNotAmongTiles) {
-  Seating seating(kPacks, 8);
+TEST(Seating, SharesAmongVoicesOfATileButNotAmongTiles) {
+  Seating seating(kPacks, 2);
   const int here = seating.find(0, kSame);
-  EXPECT_EQ(seating.find(3, kSame), here);
-  EXPECT_NE(seating.find(4, kSame), here) << "the next tile";
-}
-
-TEST(Seating, KeepsTheQuartersOfACrowdedTileApart) {
-  Seating seating(kPacks, 8);
-  for (int pack = 0; pack < 12; ++pack) seating.note_full(seating.find(0, kSame));
-  const int here = seating.find(0, kSame);
-  const int there = seating.find(1, kSame);
-  EXPECT_NE(there, here);
   EXPECT_EQ(seating.find(0, kSame), here);
-  EXPECT_EQ(seating.find(1, kSame), there);
-  EXPECT_EQ(seating.packs().back(), there) << "mixed in the order of the quarters";
+  EXPECT_NE(seating.find(1, kSame), here) << "the next tile";
 }
 
 TEST(Seating, TurnsNobodyAwayWhileThereIsALane) {
-  Seating seating(kPacks, 8);
+  Seating seating(kPacks, 2);
   for (int pack = 0; pack < kPacks - 1; ++pack) seating.note_full(seating.find(0, kSame));
   const int last = seating.find(0, kSame);
-  EXPECT_EQ(seating.find(1, kSame), last) << "of another quarter, but no pack is empty";
+  EXPECT_EQ(seating.find(0, kSame), last) << "no pack is empty";
   seating.note_full(last);
-  EXPECT_EQ(seating.find(1, kSame), Seating::kNone);
+  EXPECT_EQ(seating.find(0, kSame), Seating::kNone);
   seating.note_open(3);
-  EXPECT_EQ(seating.find(1, kSame), 3);
+  EXPECT_EQ(seating.find(0, kSame), 3);
 }
 
 }  // namespace
