@@ -79,6 +79,15 @@ void Targets::send(protocol::UdpSocket& socket, protocol::Bytes packet, unsigned
   }
 }
 
+void Targets::tell(protocol::UdpSocket& socket, protocol::Bytes packet) {
+  const std::lock_guard lock(mutex_);
+  drop_expired();
+  for (auto& target : targets_) {
+    if (target.fixed || !takes(target, kEventStream)) continue;
+    ++(socket.send_to(target.endpoint, packet) ? target.sent : target.failed);
+  }
+}
+
 std::vector<Target> Targets::list() const {
   const std::lock_guard lock(mutex_);
   return targets_;

@@ -49,6 +49,8 @@ class Targets {
 
   /// The same bytes to all of a stream. Refusals are counted, not thrown: UDP may lose.
   void send(protocol::UdpSocket& socket, protocol::Bytes packet, unsigned stream = kEventStream);
+  /// The same to those alone who asked for the events with /notify: a word on them, no event.
+  void tell(protocol::UdpSocket& socket, protocol::Bytes packet);
   /// Whether anybody gets the stream.
   [[nodiscard]] bool wants(unsigned stream);
 

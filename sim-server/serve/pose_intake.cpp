@@ -84,9 +84,11 @@ void PoseIntake::say(std::int32_t body, PoseRefusal refusal, double now) {
   } else {
     next_line_ = now + kLinePeriod;
   }
+  const std::string name = name_of(simulation_.scene(), body);
+  const std::string reason(describe(refusal));
   std::fprintf(stderr, "sim-server: a pose of body %s was refused: %s (%llu refused so far)\n",
-               name_of(simulation_.scene(), body).c_str(), std::string(describe(refusal)).c_str(),
-               static_cast<unsigned long long>(refused()));
+               name.c_str(), reason.c_str(), static_cast<unsigned long long>(refused()));
+  if (tell_) tell_(name, reason);
 }
 
 std::uint64_t PoseIntake::refused() const noexcept {

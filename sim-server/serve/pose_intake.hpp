@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Poses from the wire to the bodies that they move. What is not taken is counted by its reason and
-// said, but not over and over.
+// said, to stderr and viewers, but not over and over.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <bitset>
 #include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
 
 #include "protocol/event.hpp"
 #include "protocol/message.hpp"
@@ -22,8 +25,12 @@ namespace splash::sim {
 
 class PoseIntake {
  public:
-  explicit PoseIntake(const Simulation& simulation)
+  /// What is said of a body and why its pose was refused, for viewers. On the thread that listens.
+  using Tell = std::function<void(const std::string& body, const std::string& reason)>;
+
+  explicit PoseIntake(const Simulation& simulation, Tell tell = {})
       : simulation_(simulation),
+        tell_(std::move(tell)),
         trackers_(simulation.scene()),
         surfaces_(simulation.scene()),
         floor_(simulation.scene()) {}
@@ -46,6 +53,7 @@ class PoseIntake {
   void say(std::int32_t body, PoseRefusal refusal, double now);
 
   const Simulation& simulation_;
+  Tell tell_;
   TrackerMap trackers_;
   TuioFeet surfaces_;
   PressureFeet floor_;

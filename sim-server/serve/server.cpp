@@ -12,6 +12,7 @@
 
 #include "program/failure.hpp"
 #include "program/write_error.hpp"
+#include "protocol/control.hpp"
 #include "sim-server/serve/run_report.hpp"
 
 namespace splash::sim {
@@ -106,7 +107,11 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       overload_({.has_gauges = gauges_.has_value()}),
       target_status_(options.targets, protocol::monotonic_now,
                      [](const std::string& line) { print_line("sim-server: " + line); }),
-      poses_(simulation),
+      poses_(simulation,
+             [this](const std::string& body, const std::string& reason) {
+               targets_.tell(socket_,
+                             protocol::encode(protocol::fail("/body/pose", body + ": " + reason)));
+             }),
       line_pace_(kLinePeriod),
       clock_answers_(socket_, targets_, print_line),
       control_(program::failing_with(program::kExitUnavailable, [&] {

@@ -107,6 +107,7 @@ TEST(Tracker, PosesThatNoBodyCanFollowAreRefusedAndTold) {
   const SmallScene scene(tracked());
   const std::string report = temporary_path("refused.json");
   Simulator simulator({"--scene", scene.path(), "--report", report});
+  ASSERT_FALSE(simulator.ask({"/notify", {1}}, "/done").arguments.empty());
   for (int k = 0; k < 20; ++k) {
     const float x = k % 2 == 0 ? 30.0F : -30.0F;
     simulator.send(protocol::encode(
@@ -114,6 +115,10 @@ TEST(Tracker, PosesThatNoBodyCanFollowAreRefusedAndTold) {
   }
   EXPECT_TRUE(simulator.process().wait_for_text(
       "a pose of body 'disc' was refused: the speed is beyond the limit"));
+  const protocol::Message told = simulator.ask({"/version", {}}, "/fail");  // as a page is told
+  ASSERT_EQ(told.arguments.size(), 2U);
+  EXPECT_EQ(std::get<std::string>(told.arguments[0]), "/body/pose");
+  EXPECT_EQ(std::get<std::string>(told.arguments[1]), "'disc': the speed is beyond the limit");
   simulator.process().signal(SIGTERM);
   ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
   std::ifstream file(report);

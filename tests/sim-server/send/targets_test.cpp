@@ -56,6 +56,18 @@ TEST_F(TargetsTest, EachGetsTheStreamsThatItAskedFor) {
   EXPECT_FALSE(targets.wants(kForceStream)) << "it is gone";
 }
 
+TEST_F(TargetsTest, AWordOnTheEventsGoesToWhoAskedForThemAlone) {
+  const std::array<std::byte, 4> packet{};
+  test::Peer hears;
+  test::Peer feels;
+  EXPECT_TRUE(targets.subscribe(hears.endpoint()));
+  EXPECT_TRUE(targets.subscribe(feels.endpoint(), kForceStream));
+  targets.tell(socket, packet);
+  EXPECT_TRUE(hears.bytes().has_value());
+  EXPECT_TRUE(feels.silent());
+  for (const Target& target : targets.list()) EXPECT_TRUE(!target.fixed || target.sent == 0U);
+}
+
 TEST_F(TargetsTest, ATargetNamedAtStartGetsForcesForALeaseOnly) {
   EXPECT_TRUE(targets.subscribe(port(1), kForceStream));
   EXPECT_TRUE(targets.wants(kForceStream));
