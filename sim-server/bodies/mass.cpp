@@ -19,27 +19,37 @@ std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies) {
     const double mass = mass_of(body);
     const Vector3 inertia = inertia_of(body.shape, mass);
     const Quaternion axes = principal_axes(body.shape);
-    all.push_back({static_cast<int>(b), static_cast<float>(mass), static_cast<float>(inertia[0]),
-                   static_cast<float>(inertia[1]), static_cast<float>(inertia[2]),
-                   static_cast<float>(length(body.shape.size) / 2.0),
-                   static_cast<float>(body.motion.restitution),
-                   static_cast<float>(body.motion.friction), static_cast<float>(axes[0]),
-                   static_cast<float>(axes[1]), static_cast<float>(axes[2]),
-                   static_cast<float>(axes[3])});
+    // It turns on its spring as fast as it swings on it, on the mean over its axes.
+    const double lever2 = (inertia[0] + inertia[1] + inertia[2]) / (3.0 * mass);
+    const double spring = body.motion.stiffness;
+    const double damper = body.motion.damping;
+    all.push_back(
+        {static_cast<int>(b), static_cast<float>(mass), static_cast<float>(inertia[0]),
+         static_cast<float>(inertia[1]), static_cast<float>(inertia[2]),
+         static_cast<float>(length(body.shape.size) / 2.0),
+         static_cast<float>(body.motion.restitution), static_cast<float>(body.motion.friction),
+         static_cast<float>(axes[0]), static_cast<float>(axes[1]), static_cast<float>(axes[2]),
+         static_cast<float>(axes[3]), static_cast<float>(spring), static_cast<float>(damper),
+         static_cast<float>(lever2 * spring), static_cast<float>(lever2 * damper)});
   }
   return all;
 }
 
 std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies) {
   std::vector<FreeBody> all;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (bodies[b].motion.kind != MotionKind::osc) continue;
-    if (all.size() == static_cast<std::size_t>(kFreeBodiesMax)) break;
-    FreeBody felt = {};
-    felt.body = static_cast<int>(b);
-    felt.size = static_cast<float>(length(bodies[b].shape.size) / 2.0);
-    all.push_back(felt);
-  }
+  const auto add = [&](bool tracked) {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const bool follows = bodies[b].motion.kind == MotionKind::osc && !is_tied(bodies[b]);
+      if (tracked ? !follows : !is_grabbable(bodies[b])) continue;
+      if (all.size() == static_cast<std::size_t>(kFreeBodiesMax)) return;
+      FreeBody felt = {};
+      felt.body = static_cast<int>(b);
+      felt.size = static_cast<float>(length(bodies[b].shape.size) / 2.0);
+      all.push_back(felt);
+    }
+  };
+  add(true);
+  add(false);
   return all;
 }
 

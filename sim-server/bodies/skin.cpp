@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "sim-server/bodies/mass.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
@@ -193,14 +194,19 @@ std::vector<SkinFace> film_skin(const Shape& shape, int owner, double particle_s
   return faces;
 }
 
-std::vector<SkinFace> film_skins(const std::vector<BodySettings>& bodies, double particle_spacing) {
+std::vector<SkinFace> film_skins(const std::vector<BodySettings>& bodies,
+                                 const std::vector<FreeBody>& of, double particle_spacing) {
   std::vector<SkinFace> all;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!is_free(bodies[b])) continue;
-    const auto faces = film_skin(bodies[b].shape, static_cast<int>(b), particle_spacing);
+  for (const FreeBody& one : of) {
+    const auto b = static_cast<std::size_t>(one.body);
+    const auto faces = film_skin(bodies[b].shape, one.body, particle_spacing);
     all.insert(all.end(), faces.begin(), faces.end());
   }
   return all;
+}
+
+std::vector<SkinFace> film_skins(const std::vector<BodySettings>& bodies, double particle_spacing) {
+  return film_skins(bodies, free_bodies(bodies), particle_spacing);
 }
 
 std::vector<double> faces_of(const std::vector<SkinPoint>& skin, std::size_t bodies) {

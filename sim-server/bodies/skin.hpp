@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim-server/fluid/params/boundary_point.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -31,6 +32,10 @@ struct SkinPoint {
 [[nodiscard]] std::vector<SkinFace> film_skin(const Shape& shape, int owner,
                                               double particle_spacing);
 
+/// Of these bodies, of which the numbers count.
+[[nodiscard]] std::vector<SkinFace> film_skins(const std::vector<BodySettings>& bodies,
+                                               const std::vector<FreeBody>& of,
+                                               double particle_spacing);
 /// Of all bodies that the water moves.
 [[nodiscard]] std::vector<SkinFace> film_skins(const std::vector<BodySettings>& bodies,
                                                double particle_spacing);

@@ -94,9 +94,12 @@ void Fluid::prepare(const Step& step) {
   solver_->recall_pressure(*this, step);
 }
 
-void Fluid::advance(const Step& step) {
+void Fluid::accelerate(const Step& step) {
   prepared_ = false;
   solver_->accelerate(*this, step);
+}
+
+void Fluid::move(const Step& step) {
   solver_->move(*this, step);
   if (free_) free_->move(*this, step);
   if (!watched_) {

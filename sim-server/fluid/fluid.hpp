@@ -73,7 +73,13 @@ class Fluid {
   /// First half of a step: neighbours and density, for the state before it.
   void prepare(const Step& step);
   /// Second half: forces, and the state moves on by step.dt.
-  void advance(const Step& step);
+  void advance(const Step& step) {
+    accelerate(step);
+    move(step);
+  }
+  /// Its parts. In between pressure_term() has all that pushes in this step.
+  void accelerate(const Step& step);
+  void move(const Step& step);
 
   /// From now on water at rest may sleep: steps that open a frame say when that is looked at.
   void let_sleep(const SleepRule& rule);

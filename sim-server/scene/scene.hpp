@@ -120,24 +120,31 @@ enum class MotionKind { fixed, script, csv, trc, osc, touch, pressure, free };
 /// What a body does while its tracker is silent: goes on as it moved, for a while, or stays.
 enum class GapKind { bridge, hold };
 
+/// What a tracker's poses are to a body: where it is, or where a spring draws it.
+enum class CouplingKind { direct, spring };
+
 struct MotionSettings {
   MotionKind kind = MotionKind::fixed;
-  bool smooth = true;                  ///< script: cubic between keyframes, else straight lines
-  bool repeat = false;                 ///< script, csv, trc: start again at the end
-  std::vector<Keyframe> keyframes;     ///< script
-  std::filesystem::path file;          ///< csv, trc
-  std::vector<std::string> markers;    ///< trc: at least three
-  bool sole = false;                   ///< trc: a foot, its underside calibrated to the floor z = 0
-  double start = 0.0;                  ///< csv, trc: seconds of the recording that are skipped
-  GapKind gap = GapKind::bridge;       ///< osc
-  double gap_limit = 0.025;            ///< osc, bridge: so long the body goes on as it moved [s]
-  double delay_limit = 0.030;          ///< osc: uneven poses are played up to so much later [s]
-  double hover = 0.0;                  ///< same: out of the water, above where it stands [m]
-  double lift = 0.12;                  ///< touch, pressure: it waits so far above the water [m]
-  double fall = 1.0;                   ///< touch, pressure: comes down so fast [m/s]
-  double rise = 0.6;                   ///< touch, pressure: and goes up so fast [m/s]
-  double density = 0.0;                ///< free [kg/m3]; 0: from `mass`
-  double mass = 0.0;                   ///< free [kg]; 0: from `density`
+  bool smooth = true;                ///< script: cubic between keyframes, else straight lines
+  bool repeat = false;               ///< script, csv, trc: start again at the end
+  std::vector<Keyframe> keyframes;   ///< script
+  std::filesystem::path file;        ///< csv, trc
+  std::vector<std::string> markers;  ///< trc: at least three
+  bool sole = false;                 ///< trc: a foot, its underside calibrated to the floor z = 0
+  double start = 0.0;                ///< csv, trc: seconds of the recording that are skipped
+  GapKind gap = GapKind::bridge;     ///< osc
+  double gap_limit = 0.025;          ///< osc, bridge: so long the body goes on as it moved [s]
+  double delay_limit = 0.030;        ///< osc: uneven poses are played up to so much later [s]
+  CouplingKind coupling = CouplingKind::direct;  ///< osc
+  double stiffness = 0.0;                        ///< spring: to the device [N/m]
+  double damping = 0.0;                          ///< spring: of its damper [N s/m]
+  double device_damping = 0.0;  ///< spring: that the device has, with the hand [N s/m]
+  double hover = 0.0;           ///< touch, pressure: out of the water, above where it stands [m]
+  double lift = 0.12;           ///< touch, pressure: it waits so far above the water [m]
+  double fall = 1.0;            ///< touch, pressure: comes down so fast [m/s]
+  double rise = 0.6;            ///< touch, pressure: and goes up so fast [m/s]
+  double density = 0.0;         ///< free [kg/m3]; 0: from `mass`
+  double mass = 0.0;            ///< free [kg]; 0: from `density`
   Vector3 velocity = {0.0, 0.0, 0.0};  ///< free: when time begins [m/s]
   Vector3 spin = {0.0, 0.0, 0.0};      ///< free: when time begins, in the world [rad/s]
   double restitution = 0.2;            ///< free: of its speed after a knock [1]
@@ -156,9 +163,17 @@ struct BodySettings {
 [[nodiscard]] inline bool is_felt(const BodySettings& body) noexcept {
   return body.motion.kind == MotionKind::touch || body.motion.kind == MotionKind::pressure;
 }
+/// Whether the body hangs on a device by a spring.
+[[nodiscard]] inline bool is_tied(const BodySettings& body) noexcept {
+  return body.motion.kind == MotionKind::osc && body.motion.coupling == CouplingKind::spring;
+}
 /// Whether the water moves the body.
 [[nodiscard]] inline bool is_free(const BodySettings& body) noexcept {
-  return body.motion.kind == MotionKind::free;
+  return body.motion.kind == MotionKind::free || is_tied(body);
+}
+/// Whether the body has a motion of its own, from which poses can take it.
+[[nodiscard]] inline bool is_grabbable(const BodySettings& body) noexcept {
+  return !is_free(body) && !is_felt(body) && body.motion.kind != MotionKind::osc;
 }
 /// The wire numbers bodies from 0 to 255.
 inline constexpr std::size_t kBodiesMax = 256;

@@ -96,6 +96,9 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
   return keyframes;
 }
 
+/// Among kinds of motion: one of kind osc whose coupling is a spring.
+const std::string kOnSpring = "osc, spring";
+
 /// A key that this kind of motion does not use is a mistake, not a no-op.
 void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
   static const std::map<std::string, std::set<std::string>> kUsedBy = {
@@ -112,15 +115,23 @@ void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
       {"lift", {"touch", "pressure"}},
       {"fall", {"touch", "pressure"}},
       {"rise", {"touch", "pressure"}},
-      {"density", {"free"}},
-      {"mass", {"free"}},
+      {"coupling", {"osc"}},
+      {"stiffness", {kOnSpring}},
+      {"damping", {kOnSpring}},
+      {"device_damping", {kOnSpring}},
+      {"density", {"free", kOnSpring}},
+      {"mass", {"free", kOnSpring}},
       {"velocity", {"free"}},
       {"spin", {"free"}},
-      {"restitution", {"free"}},
-      {"friction", {"free"}}};
+      {"restitution", {"free", kOnSpring}},
+      {"friction", {"free", kOnSpring}}};
+  const bool spring = entry.kind == MotionKind::osc && entry.coupling == CouplingKind::spring;
   for (const auto& [key, kinds] : kUsedBy) {
     if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
-    throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name);
+    if (spring && kinds.contains(kOnSpring)) continue;
+    const bool wants_spring = entry.kind == MotionKind::osc && kinds.contains(kOnSpring);
+    throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name +
+                             (wants_spring ? " without coupling: spring" : ""));
   }
 }
 
@@ -141,6 +152,7 @@ MotionSettings read_motion(const ConfigMap& map) {
   MotionEntry entry;
   map.read(motion_fields(), {"keyframes"}, entry);
   entry.kind = kKinds.at(entry.kind_name);
+  if (entry.coupling_name == "spring") entry.coupling = CouplingKind::spring;
   refuse_foreign_keys(map, entry);
   entry.keyframes = read_keyframes(map);
   if (entry.kind == MotionKind::script && entry.keyframes.empty()) {
@@ -154,7 +166,9 @@ MotionSettings read_motion(const ConfigMap& map) {
   if (entry.gap == GapKind::hold && map.has("gap_limit")) {
     throw map.error("gap_limit", "has no meaning where a gap is held; gap: bridge needs it");
   }
-  if (entry.kind == MotionKind::free) check_free(map, entry);
+  const bool spring = entry.coupling == CouplingKind::spring;
+  if (entry.kind == MotionKind::free || spring) check_free(map, entry);
+  if (spring) check_spring(map, entry);
   entry.file = find_file(map, "file", entry.file_name);
   return entry;
 }
@@ -183,10 +197,13 @@ BodySettings read_body(const ConfigMap& map, double spacing) {
   if (const auto motion = map.optional_child("motion")) body.motion = read_motion(*motion);
   read_rest(map, body);
   if (is_mesh) body.shape = read_mesh_shape(shape, spacing, body);
+  if (is_mesh && is_tied(body)) {
+    throw shape.error("mesh", "a body on a spring is a box, a sphere or a cylinder");
+  }
   if (is_mesh && body.motion.sole) {
     throw map.child("motion").error("sole", "only a box has a sole, not a mesh");
   }
-  if (body.motion.kind == MotionKind::free && body.shape.rocker > 0.0) {
+  if (is_free(body) && body.shape.rocker > 0.0) {
     throw map.child("shape").error("rocker", "a free body cannot have a curved sole");
   }
   return body;
@@ -320,6 +337,12 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
     scene.tracking = read_tracking(*tracking, scene);
   }
   find_hovers(map, scene);
+  const std::vector<ConfigMap> entries = map.list("bodies");
+  for (std::size_t b = 0; b < entries.size(); ++b) {
+    if (is_tied(scene.bodies[b])) {
+      check_passivity(entries[b].child("motion"), scene.bodies[b].motion, scene.serve.frame_rate);
+    }
+  }
   return scene;
 }
 

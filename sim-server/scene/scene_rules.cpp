@@ -147,8 +147,40 @@ void check_shape(const ConfigMap& map, const Shape& shape) {
 
 void check_free(const ConfigMap& map, const MotionSettings& motion) {
   if (map.has("density") != map.has("mass")) return;
+  const bool spring = motion.coupling == CouplingKind::spring;
   throw map.error(motion.mass > 0.0 ? "mass" : "kind",
-                  "a free motion needs one of 'density' and 'mass'");
+                  std::string(spring ? "a body on a spring" : "a free motion") +
+                      " needs one of 'density' and 'mass'");
+}
+
+void check_spring(const ConfigMap& map, const MotionSettings& motion) {
+  for (const char* key : {"stiffness", "device_damping"}) {
+    if (map.has(key)) continue;
+    throw map.error("coupling", std::string("a spring needs '") + key + "'");
+  }
+  if (motion.gap == GapKind::hold) {
+    throw map.error("gap",
+                    "hold plays poses late, and a spring that is felt late gives a hand "
+                    "energy; with coupling: spring leave it out");
+  }
+}
+
+// A spring that acts tau seconds late is, to a slow hand, one with a damper of -k tau. Samples that
+// are held for a time T are T/2 late (Colgate & Schenkel 1997: b > k T/2 + |B|). Here they are held
+// for a frame, computed within one, and their poses may be played delay_limit late.
+void check_passivity(const ConfigMap& map, const MotionSettings& motion, double frame_rate) {
+  const double late = 1.5 / frame_rate + motion.delay_limit;
+  const double needed = motion.stiffness * late + motion.damping;
+  if (motion.device_damping >= needed) return;
+  const double most = std::max(motion.device_damping - motion.damping, 0.0) / late;
+  throw map.error("stiffness",
+                  "is " + text(motion.stiffness) + " N/m: felt " + text(1.0e3 * late) +
+                      " ms late (one and a half frames and delay_limit) it needs a device with a "
+                      "damping of " +
+                      text(needed) + " N s/m, and device_damping is " +
+                      text(motion.device_damping) + "; with that it may be " + text(most) +
+                      " N/m at most. Lower stiffness, damping or delay_limit, or raise "
+                      "serve.frame_rate");
 }
 
 void check_place(const ConfigMap& body, const Vector3& place, const Tank& tank) {

@@ -22,6 +22,11 @@ void check_gauge(const program::ConfigMap& map, const GaugeSettings& gauge, cons
 void check_shape(const program::ConfigMap& map, const Shape& shape);
 /// Of a free motion: density or mass, one of them.
 void check_free(const program::ConfigMap& map, const MotionSettings& motion);
+/// Of a motion on a spring: what it needs.
+void check_spring(const program::ConfigMap& map, const MotionSettings& motion);
+/// The spring, which is felt late, gives a hand no energy that its device does not take.
+void check_passivity(const program::ConfigMap& map, const MotionSettings& motion,
+                     double frame_rate);
 /// A free body must start between the tank's walls; a body with a prescribed motion need not.
 void check_place(const program::ConfigMap& body, const Vector3& place, const Tank& tank);
 void check_detect(const program::ConfigMap& map, const DetectSettings& detect);

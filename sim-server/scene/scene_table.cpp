@@ -253,6 +253,42 @@ Fields<MotionEntry> live_fields() {
   };
 }
 
+Fields<MotionEntry> coupling_fields() {
+  using M = MotionEntry;
+  return {
+      {{.key = "coupling",
+        .unit = "",
+        .meaning = "osc: direct, the body is where the poses are, and the water's force on it is "
+                   "told (/force); spring, the water moves it, and a spring and a damper draw it "
+                   "to the poses: their force is what is told. Walls hold such a body, and its "
+                   "device feels them.",
+        .choices = {"direct", "spring"}},
+       &M::coupling_name},
+      {{.key = "stiffness",
+        .unit = "N/m",
+        .meaning = "coupling spring: of the spring. It turns the body with a stiffness that makes "
+                   "it swing as fast about its centre.",
+        .min = 1,
+        .max = 1.0e5},
+       &M::stiffness},
+      {{.key = "damping",
+        .unit = "N s/m",
+        .meaning = "coupling spring: of the damper beside it.",
+        .min = 0,
+        .max = 1.0e4},
+       &M::damping},
+      {{.key = "device_damping",
+        .unit = "N s/m",
+        .meaning = "coupling spring: the least that the device and the hand on it have of their "
+                   "own. No less than stiffness x (one and a half frames + delay_limit) + damping, "
+                   "else the spring, which is felt so late, could give the hand energy.",
+        .min = 0,
+        .max = 1.0e4,
+        .source = "Colgate & Schenkel 1997"},
+       &M::device_damping},
+  };
+}
+
 Fields<MotionEntry> felt_fields() {
   using M = MotionEntry;
   return {
@@ -283,13 +319,14 @@ Fields<MotionEntry> free_fields() {
   return {
       {{.key = "density",
         .unit = "kg/m3",
-        .meaning = "free: of the body, the same everywhere in it. Give this or `mass`, not both.",
+        .meaning =
+            "free, spring: of the body, the same everywhere in it. Give this or `mass`, not both.",
         .min = 0.1,
         .max = 1.0e6},
        &M::density},
       {{.key = "mass",
         .unit = "kg",
-        .meaning = "free: of the whole body.",
+        .meaning = "free, spring: of the whole body.",
         .min = 1.0e-6,
         .max = 1.0e6},
        &M::mass},
@@ -307,15 +344,16 @@ Fields<MotionEntry> free_fields() {
        &M::spin},
       {{.key = "restitution",
         .unit = "1",
-        .meaning = "free: part of its speed with which it rebounds from a wall or another "
+        .meaning = "free, spring: part of its speed with which it rebounds from a wall or another "
                    "body; of two free ones the larger counts.",
         .min = 0,
         .max = 1},
        &M::restitution},
       {{.key = "friction",
         .unit = "1",
-        .meaning = "free: Coulomb's coefficient on walls and other bodies; of two free ones the "
-                   "geometric mean counts.",
+        .meaning =
+            "free, spring: Coulomb's coefficient on walls and other bodies; of two free ones the "
+            "geometric mean counts.",
         .min = 0,
         .max = 10},
        &M::friction},
@@ -327,7 +365,7 @@ Fields<MotionEntry> free_fields() {
 const Fields<MotionEntry>& motion_fields() {
   static const Fields<MotionEntry> kFields = [] {
     Fields<MotionEntry> all = recorded_fields();
-    for (const auto& part : {live_fields(), felt_fields(), free_fields()}) {
+    for (const auto& part : {live_fields(), coupling_fields(), felt_fields(), free_fields()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

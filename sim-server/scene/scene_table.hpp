@@ -38,6 +38,7 @@ struct MotionEntry : MotionSettings {
   std::string kind_name = "fixed";
   std::string file_name;
   std::string gap_name = "bridge";
+  std::string coupling_name = "direct";
 };
 
 /// Water as its mapping spells it: the form is still a word.

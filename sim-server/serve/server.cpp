@@ -78,8 +78,8 @@ std::string grab(const Simulation& simulation, int body, bool on) {
 /// Why nobody can feel the water of this scene; empty: one can.
 std::string no_forces(const Simulation& simulation) {
   if (simulation.can_feel()) return {};
-  const bool solves = simulation.scene().fluid.solver == PressureKind::divergence_free;
-  return solves ? "no forces with solver: divergence_free" : "no body has motion: {kind: osc}";
+  const bool grid = simulation.scene().fluid.solver == PressureKind::grid_projected;
+  return grid ? "no forces with solver: grid_projected" : "poses move no body of this scene";
 }
 
 protocol::UdpSocket open_socket(const Options& options) {
@@ -237,13 +237,14 @@ void Server::tell_forces(const FrameResult& frame) {
   for (const BodyPush& push : frame.pushes) {
     const BodyState state =
         simulation_.bodies().state(static_cast<std::size_t>(push.body), frame.seconds);
-    const auto& [x, q, v, w] = state;
+    const Vector3& x = state.position;
+    const Quaternion& q = state.rotation;
     const auto six = [](const Vector3& a, const Vector3& b) {
       return std::array<double, 6>{a[0], a[1], a[2], b[0], b[1], b[2]};
     };
     readings.push_back({.body = push.body,
                         .at = {x[0], x[1], x[2], q[0], q[1], q[2], q[3]},
-                        .twist = six(v, w),
+                        .twist = six(push.velocity, push.spin),
                         .force = six(push.force, push.torque),
                         .rate = six(push.by_speed, push.by_spin)});
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The water's particles as viewers and files get them.
 #pragma once
 
 #include "sim-server/fluid/fluid.hpp"

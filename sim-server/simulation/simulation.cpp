@@ -37,11 +37,23 @@ std::vector<SkinPoint> skins_of(const Scene& scene, const FluidParams& p) {
   return sample_skins(scene.bodies, static_cast<double>(p.spacing));
 }
 
-/// Null where no body follows poses or the solver has no pressures of a step.
+/// Bodies whose push by the water can be felt: none of a grid's water.
+std::vector<FreeBody> felt_by_water(const Scene& scene) {
+  if (scene.fluid.solver == PressureKind::grid_projected) return {};
+  return felt_bodies(scene.bodies);
+}
+
 std::unique_ptr<BodyPushes> make_pushes(Fluid& fluid, const Scene& scene) {
-  const std::vector<FreeBody> felt = felt_bodies(scene.bodies);
-  const bool may = scene.fluid.solver == PressureKind::weakly_compressible && !felt.empty();
-  return may ? std::make_unique<BodyPushes>(fluid, felt) : nullptr;
+  const std::vector<FreeBody> felt = felt_by_water(scene);
+  const auto spacing = static_cast<double>(fluid.params().spacing);
+  return std::make_unique<BodyPushes>(fluid, felt, film_skins(scene.bodies, felt, spacing));
+}
+
+/// Whether a body is where poses are, from the start on.
+bool has_tracked(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodySettings& body) {
+    return body.motion.kind == MotionKind::osc && !is_tied(body);
+  });
 }
 
 /// Where all particles are; waits [m].
@@ -65,6 +77,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
                        const Progress& tell)
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
+      hung_(scene_.bodies, live_),
       fluid_(make_fluid(device, scene_, bodies_, holding_)),
       detector_(fluid_, skins_of(scene_, fluid_.params()), scene_.detect, scene_.seed,
                 !scene_.skip.cavities),
@@ -86,23 +99,26 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
-  pushes_ = make_pushes(fluid_, scene_);
+  can_feel_ = !hung_.empty() || !felt_by_water(scene_).empty();
+  if (has_tracked(scene_)) feel(true);
   rehearse();
+  feel(false);
 }
 
 // OpenCL on CPUs compiles a kernel when it first runs. On a machine's first start that takes
 // seconds, which nobody minds before time begins, and everybody in the midst of a splash.
 void Simulation::rehearse() {
   std::vector<BodyStep> poses;
-  const std::vector<Step> plan =
-      plan_frame(steps_of_frame(1.0 / scene_.serve.frame_rate, largest_step_), poses);
-  fluid_.set_bodies(poses);
+  const FrameSteps steps = steps_of_frame(1.0 / scene_.serve.frame_rate, largest_step_);
+  const std::vector<Step> plan = plan_frame(steps, poses);
+  set_bodies(steps, poses);
   fluid_.begin_watch(plan.size());
   for (const Step& step : plan) {
     fluid_.prepare(step);
     if (&step == &plan.back()) detector_.rehearse(step);
+    fluid_.accelerate(step);
     if (&step == &plan.back() && pushes_) pushes_->add(fluid_, step);
-    fluid_.advance(step);
+    fluid_.move(step);
   }
   static_cast<void>(fluid_.stats());
   sound_.recall(fluid_.device(), state());
@@ -130,6 +146,36 @@ std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
   return plan;
 }
 
+void Simulation::set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses) {
+  fluid_.set_bodies(poses);
+  if (hung_.empty()) return;
+  fluid_.free_bodies()->hang(fluid_.device(), hung_.anchors(seconds_, steps.count, steps.dt));
+}
+
+// Many scenes have bodies that could be grabbed, and few are ever felt: what that takes is made
+// when somebody asks.
+void Simulation::feel(bool on) {
+  feels_ = on && can_feel_;
+  if (feels_ && !pushes_ && !felt_by_water(scene_).empty()) pushes_ = make_pushes(fluid_, scene_);
+}
+
+std::vector<BodyPush> Simulation::find_pushes(double seconds) {
+  std::vector<BodyPush> all;
+  for (BodyPush push : pushes_ ? pushes_->pushes(seconds) : std::vector<BodyPush>{}) {
+    const auto body = static_cast<std::size_t>(push.body);
+    if (!live_[body]->is_tracked() && !live_[body]->is_held()) continue;
+    const BodyState state = bodies_.state(body, seconds_);
+    push.velocity = state.velocity;
+    push.spin = state.spin;
+    all.push_back(push);
+  }
+  if (hung_.empty()) return all;
+  const std::vector<FreeBodyEnd> ends = fluid_.free_bodies()->ends();
+  const std::vector<BodyPush> hung = hung_.pushes(ends, seconds_, seconds);
+  all.insert(all.end(), hung.begin(), hung.end());
+  return all;
+}
+
 FrameResult Simulation::advance() {
   for (std::size_t b = 0; b < live_.size(); ++b) {
     if (live_[b] == nullptr) continue;
@@ -143,12 +189,14 @@ FrameResult Simulation::advance() {
         steps_of_frame(1.0 / scene_.serve.frame_rate, recovery_.step_share() * largest_step_);
     std::vector<BodyStep> poses;
     const std::vector<Step> plan = plan_frame(steps, poses);
-    const FrameNeeds needs = needs_.of_frame(
-        poses, stats_, steps.count * steps.dt,
-        plan.front().piston_speed != 0.0 || bodies_.restless(seconds_), detector_.bubbles_alive());
+    const FrameNeeds needs =
+        needs_.of_frame(poses, stats_, steps.count * steps.dt,
+                        plan.front().piston_speed != 0.0 || bodies_.restless(seconds_) ||
+                            hung_.move(seconds_, steps.count * steps.dt),
+                        detector_.bubbles_alive());
     if (!step_fault) count(needs);
     if (!needs.steps) return hold_still(steps.count * steps.dt);
-    fluid_.set_bodies(poses);
+    set_bodies(steps, poses);
     if (auto result = attempt(plan, needs)) {
       result->step_fault = step_fault;
       totals_.retried += step_fault.has_value();
@@ -176,20 +224,22 @@ FrameResult Simulation::hold_still(double frame) {
 
 void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since) {
   fluid_.begin_watch(plan.size());
-  if (feels_) pushes_->begin(fluid_);
+  const bool weighs = feels_ && pushes_;
+  if (weighs) pushes_->begin(fluid_);
   for (std::size_t k = 0; k < plan.size(); ++k) {
     Step step = plan[k];
     if (hook_) hook_(fluid_, step, Moment::before);
     fluid_.prepare(step);
     if (k + 1 == plan.size()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
     if (hook_) hook_(fluid_, step, Moment::between);
-    if (feels_) pushes_->add(fluid_, step);
-    fluid_.advance(step);
+    fluid_.accelerate(step);
+    if (weighs) pushes_->add(fluid_, step);
+    fluid_.move(step);
     fluid_.device().queue().flush();  // else a driver may begin with nothing before the end
   }
   fluid_.enqueue_stats();
   detector_.enqueue_read();
-  if (feels_) pushes_->enqueue_read(fluid_);
+  if (weighs) pushes_->enqueue_read(fluid_);
   fluid_.device().queue().finish();
 }
 
@@ -222,7 +272,7 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   result.found = collect(detect_time, since);
   result.stats = fluid_.stats_result();
   if (feels_) {
-    result.pushes = felt_ = pushes_->pushes(steps * dt);
+    result.pushes = felt_ = find_pushes(steps * dt);
     ++totals_.felt;
   }
   detected_at_ = detect_time;

@@ -18,6 +18,7 @@
 #include "sim-server/fluid/health/checkpoint.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/holding.hpp"
+#include "sim-server/simulation/hung_bodies.hpp"
 #include "sim-server/simulation/needs.hpp"
 #include "sim-server/simulation/recovery/recovery.hpp"
 #include "sim-server/simulation/recovery/step_fault.hpp"
@@ -30,7 +31,7 @@ struct FrameResult {
   double seconds = 0.0;  ///< simulated time at its end [s]
   Detections found;
   FluidStats stats;
-  std::vector<BodyPush> pushes;  ///< on bodies that poses move, while somebody wants to feel them
+  std::vector<BodyPush> pushes;         ///< that devices feel, while somebody wants to
   std::optional<StepFault> step_fault;  ///< something went wrong; found is of a sound try, or empty
 };
 
@@ -85,10 +86,11 @@ class Simulation {
   }
   /// The scene begins anew, its time goes on: water, free bodies and the bodies' own motions.
   void begin_anew();
-  /// Whether the pushes on bodies are found, from the next frame on. Needs can_feel().
-  void feel(bool on) noexcept { feels_ = on && pushes_ != nullptr; }
-  /// A body follows poses, and the water is weakly compressible.
-  [[nodiscard]] bool can_feel() const noexcept { return pushes_ != nullptr; }
+  /// Whether the pushes on bodies are found, from the next frame on. Needs can_feel(). The first
+  /// time builds kernels where no body follows poses from the start on.
+  void feel(bool on);
+  /// Poses can move a body, in water that is not a grid's, or a body hangs on a device.
+  [[nodiscard]] bool can_feel() const noexcept { return can_feel_; }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
@@ -117,6 +119,10 @@ class Simulation {
  private:
   [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps,
                                              std::vector<BodyStep>& poses) const;
+  /// Where bodies and devices are in the steps of a frame, to the device.
+  void set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses);
+  /// What is felt of a frame of so many seconds that has been computed.
+  [[nodiscard]] std::vector<BodyPush> find_pushes(double seconds);
   /// One try of a frame; nullopt: it was not sound.
   [[nodiscard]] std::optional<FrameResult> attempt(const std::vector<Step>& plan,
                                                    const FrameNeeds& needs);
@@ -145,13 +151,15 @@ class Simulation {
   Scene scene_;
   std::vector<PosedMotion*> live_;
   Bodies bodies_;
+  HungBodies hung_;
   std::vector<Holding> holding_;
   Fluid fluid_;
   Detector detector_;
   CavityWatch cavity_watch_;
   Needs needs_;
   FluidStats stats_;                    ///< the last one
-  std::unique_ptr<BodyPushes> pushes_;  ///< null where nobody can feel any
+  std::unique_ptr<BodyPushes> pushes_;  ///< null until somebody wants to feel the water
+  bool can_feel_ = false;
   bool feels_ = false;
   std::vector<BodyPush> felt_;  ///< of the last frame that was computed
   double seconds_ = 0.0;

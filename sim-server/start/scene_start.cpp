@@ -7,6 +7,7 @@
 
 #include "sim-server/bodies/motion/grabbed_motion.hpp"
 #include "sim-server/bodies/motion/make_motion.hpp"
+#include "sim-server/bodies/motion/tied_motion.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/flow.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
@@ -42,10 +43,11 @@ Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
   std::vector<std::unique_ptr<Motion>> motions;
   for (const BodySettings& body : scene.bodies) {
     auto motion = make_motion(body, tracker);
-    const bool grabbable = !is_free(body) && !is_felt(body) && body.motion.kind != MotionKind::osc;
-    if (grabbable) motion = std::make_unique<GrabbedMotion>(std::move(motion));
+    if (is_grabbable(body)) motion = std::make_unique<GrabbedMotion>(std::move(motion));
     motions.push_back(std::move(motion));
-    live.push_back(dynamic_cast<PosedMotion*>(motions.back().get()));
+    auto* const tied = dynamic_cast<TiedMotion*>(motions.back().get());
+    live.push_back(tied != nullptr ? &tied->tether()
+                                   : dynamic_cast<PosedMotion*>(motions.back().get()));
   }
   const double support = scene_support(scene);
   return {sample_bodies(scene.bodies, particle_spacing(scene), support), std::move(motions),

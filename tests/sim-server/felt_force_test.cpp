@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The force of the water that those feel who ask for it: that of sums in double precision, the
-// weight of what a held body displaces, all the momentum that the water gets, and how it changes
-// with the body's speed. While nobody asks nothing is found.
+// weight of what a held body displaces, also near the floor, all the momentum that the water gets
+// of tracked and of grabbed bodies, and how it changes with the body's speed. While nobody asks
+// nothing is found.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "sim-server/bodies/skin.hpp"
 #include "sim-server/device/device.hpp"
 #include "sim-server/gauge/body_force.hpp"
+#include "sim-server/gauge/film_force.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
@@ -76,41 +79,98 @@ TEST(FeltForce, IsThatOfSumsInDoublePrecision) {
   EXPECT_TRUE(simulation.advance().pushes.empty());
 }
 
-TEST(FeltForce, OfAHeldBoxIsTheWeightOfWhatItDisplaces) {
+/// Mean force on the box over 40 frames, in its displaced weight [1].
+Vector3 felt_share(const std::string& fluid, double height) {
   Device device;
-  const Scene scene = parse_scene("fluid: {spacing: 0.02}" + kHeldBox, "held.yaml");
+  Scene scene = parse_scene("fluid: {" + fluid + "}" + kHeldBox, "held.yaml");
+  scene.bodies[0].rest.position[2] = height;
   Simulation simulation(device, scene, {});
   simulation.feel(true);
   Vector3 mean = {};
   constexpr int kFrames = 40;
   for (int k = 0; k < kFrames; ++k) {
     const FrameResult frame = simulation.advance();
-    ASSERT_EQ(frame.pushes.size(), 1U);
+    EXPECT_EQ(frame.pushes.size(), 1U);
+    if (frame.pushes.empty()) return {};
     mean = mean + (1.0 / kFrames) * frame.pushes[0].force;
   }
   const double weight = 998.0 * 9.81 * 0.12 * 0.12 * 0.12;
-  std::printf("buoyancy %.4f of the displaced weight\n", mean[2] / weight);
-  EXPECT_NEAR(mean[2] / weight, 1.0, 0.03);
-  EXPECT_NEAR(mean[0] / weight, 0.0, 0.02);
+  std::printf("%s, at %.3f m: %.4f %.4f %.4f of the displaced weight\n", fluid.c_str(), height,
+              mean[0] / weight, mean[1] / weight, mean[2] / weight);
+  return (1.0 / weight) * mean;
 }
 
-/// A ball of water that floats in the air without weight, and a plate that runs into it: the
-/// momentum that it gets, and that of the forces in it [1].
-double momentum_felt(double speed, int frames) {
+TEST(FeltForce, OfAHeldBoxIsTheWeightOfWhatItDisplaces) {
+  for (const char* fluid : {"spacing: 0.02", "spacing: 0.02, solver: divergence_free"}) {
+    const Vector3 share = felt_share(fluid, 0.2);
+    EXPECT_NEAR(share[2], 1.0, 0.03) << fluid;
+    EXPECT_NEAR(share[0], 0.0, 0.02) << fluid;
+  }
+}
+
+// No particle fits under it: without the film of water there it would lack what carries it.
+TEST(FeltForce, OfABoxNextToTheFloorIsThatWeightAsWell) {
+  EXPECT_NEAR(felt_share("spacing: 0.02", 0.07)[2], 1.0, 0.03);
+}
+
+TEST(FeltForce, OfAFilmIsThatOfSumsInDoublePrecision) {
   Device device;
-  const Scene scene = parse_scene(R"(
-fluid: {spacing: 0.02, gravity: [0, 0, 0], settle: never, sound_speed: 20}
+  Scene scene = parse_scene("fluid: {spacing: 0.03}" + kHeldBox, "held.yaml");
+  scene.bodies[0].rest.position = {0.2, 0.2, 0.065};
+  Simulation simulation(device, scene, {});
+  simulation.feel(true);
+  const auto skin = film_skin(scene.bodies[0].shape, 0, 0.03);
+  const std::vector<BodyState> states = {simulation.bodies().state(0, 0.0)};
+  Vector3 sum = {};
+  Vector3 film = {};
+  int step_number = 0;
+  simulation.set_hook([&](Fluid& fluid, Step& step, Moment moment) {
+    if (moment != Moment::between) return;
+    const WaterState water = read_water(fluid, true);
+    sum = sum + step.dt * body_force(water, simulation.bodies().points(), 0, states[0]).force;
+    if (step_number++ > 0) return;  // the sums know of no past
+    film =
+        film_force(water, {scene, scene.tank, states}, simulation.bodies().points(), skin, 0).force;
+  });
+  const FrameResult frame = simulation.advance();
+  const Vector3 by_film = frame.pushes.at(0).force - (1.0 / frame.seconds) * sum;
+  std::printf("film %.3f N of %.3f N\n", by_film[2], film[2]);
+  EXPECT_GT(std::abs(film[2]), 1.0);
+  EXPECT_NEAR(by_film[2], film[2], 0.02 * std::abs(film[2]));
+}
+
+struct Case {
+  std::string fluid;
+  std::string motion;
+  bool grabbed = false;
+};
+const Case kTracked = {"sound_speed: 20",
+                       "motion: {kind: osc}\n    rest: {position: [-0.15, 0, 0.3]}"};
+const Case kSolved = {"solver: divergence_free", kTracked.motion};
+const Case kGrabbed = {"sound_speed: 20",
+                       "motion: {kind: script, keyframes: [{time: 0, position: [-0.15, 0, 0.3]}]}",
+                       true};
+
+/// A ball of water that floats in the air without weight, and a plate that runs into it: the
+/// momentum of the forces in what it gets [1].
+double momentum_felt(const Case& one, double speed, int frames) {
+  Device device;
+  const Scene scene =
+      parse_scene("fluid: {spacing: 0.02, gravity: [0, 0, 0], settle: never, " + one.fluid + R"(}
 tank: {lower: [-0.5, -0.3, 0], upper: [0.5, 0.3, 0.6]}
 water: [{lower: [-0.1, -0.1, 0.2], upper: [0.1, 0.1, 0.4], form: sphere}]
 bodies:
   - name: plate
     shape: {size: [0.06, 0.16, 0.16]}
-    motion: {kind: osc}
-    rest: {position: [-0.15, 0, 0.3]}
-)",
-                                  "ball.yaml");
+    )" + one.motion + "\n",
+                  "ball.yaml");
   Simulation simulation(device, scene, {});
   simulation.feel(true);
+  if (one.grabbed) {
+    EXPECT_TRUE(simulation.advance().pushes.empty()) << "nobody holds it";
+    simulation.live_body(0)->grab(true);
+    static_cast<void>(simulation.advance());
+  }
   Vector3 given = {};
   const auto momentum = [&] {
     const WaterState water = read_water(simulation.fluid(), false);
@@ -123,19 +183,24 @@ bodies:
     push_poses(simulation, {-0.15, 0.0, 0.3}, speed);
     const double start = simulation.seconds();
     const FrameResult frame = simulation.advance();
+    if (one.grabbed && frame.pushes.empty() && k < 2) continue;  // it has not been held so long
     EXPECT_EQ(frame.pushes.size(), 1U);
     if (frame.pushes.empty()) return 0.0;
     given = given - (frame.seconds - start) * frame.pushes[0].force;
   }
   const Vector3 got = momentum() - before;
-  std::printf("at %.1f m/s: momentum %.4f N s, by forces %.4f N s\n", speed, got[0], given[0]);
+  std::printf("%s%s at %.1f m/s: momentum %.4f N s, by forces %.4f N s\n", one.fluid.c_str(),
+              one.grabbed ? ", grabbed," : "", speed, got[0], given[0]);
   EXPECT_GT(got[0], 0.3 * 4.18 * speed);
   return given[0] / got[0];
 }
 
 TEST(FeltForce, IsAllTheMomentumThatTheWaterGets) {
-  EXPECT_NEAR(momentum_felt(0.3, 70), 1.0, 0.005);
-  EXPECT_NEAR(momentum_felt(1.0, 22), 1.0, 0.005);
+  EXPECT_NEAR(momentum_felt(kTracked, 0.3, 70), 1.0, 0.005);
+  EXPECT_NEAR(momentum_felt(kTracked, 1.0, 22), 1.0, 0.005);
+  EXPECT_NEAR(momentum_felt(kSolved, 0.3, 70), 1.0, 0.02);
+  EXPECT_NEAR(momentum_felt(kSolved, 1.0, 22), 1.0, 0.02);
+  EXPECT_NEAR(momentum_felt(kGrabbed, 0.5, 45), 1.0, 0.005);
 }
 
 // The body moves on from the frame's first step at either of two speeds: the force of the second
@@ -183,11 +248,15 @@ TEST(FeltForce, ChangesWithTheSpeedByItsRate) {
   EXPECT_NEAR(rate[2] / change, 1.0, 0.1);
 }
 
-TEST(FeltForce, NeedsABodyThatFollowsPosesAndPressuresOfAStep) {
+TEST(FeltForce, IsNoneOfWaterOnAGridAndOfAFreeBody) {
   Device device;
-  const Scene solver =
-      parse_scene("fluid: {spacing: 0.03, solver: divergence_free}" + kHeldBox, "held.yaml");
-  EXPECT_FALSE(Simulation(device, solver, {}).can_feel());
+  const Scene grid =
+      parse_scene("fluid: {spacing: 0.03, solver: grid_projected}" + kHeldBox, "held.yaml");
+  EXPECT_FALSE(Simulation(device, grid, {}).can_feel());
+  Scene free = parse_scene("fluid: {spacing: 0.03}" + kHeldBox, "held.yaml");
+  free.bodies[0].motion.kind = MotionKind::free;
+  free.bodies[0].motion.density = 900.0;
+  EXPECT_FALSE(Simulation(device, free, {}).can_feel());
 }
 
 }  // namespace

@@ -95,12 +95,29 @@ TEST(Force, IsFoundOnlyWhileSomebodyAsks) {
   EXPECT_GT(felt_frames(true), 0);
 }
 
-TEST(Force, IsRefusedWhereNoBodyFollowsPoses) {
+TEST(Force, IsToldOfABodyWhileItIsGrabbed) {
   const SmallScene scene(plunging());
+  Simulator simulator({"--scene", scene.path()});
+  ASSERT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
+  ASSERT_FALSE(simulator.ask({"/notify", {2}}, "/done").arguments.empty());
+  ASSERT_FALSE(simulator.ask({"/body/grab", {0, 1}}, "/done").arguments.empty());
+  const protocol::Message pose = {
+      "/body/pose",
+      {0, 0.0F, 0.0F, static_cast<float>(SmallScene::kLevel), 0.0F, 0.0F, 0.0F, 1.0F}};
+  bool felt = false;
+  for (int k = 0; k < 500 && !felt; ++k) {
+    const protocol::Message force = simulator.ask(pose, "/force");
+    felt = force.arguments.size() == 7U && std::get<float>(force.arguments[3]) > 1.0F;
+  }
+  EXPECT_TRUE(felt) << "the disc's buoyancy is 4 N";
+}
+
+TEST(Force, IsRefusedWherePosesMoveNoBody) {
+  const SmallScene scene("{kind: free, density: 500}\n    rest: {position: [0, 0, 0.35]}");
   Simulator simulator({"--scene", scene.path()});
   const protocol::Message reply = simulator.ask({"/notify", {2}}, "/fail");
   ASSERT_EQ(reply.arguments.size(), 2U);
-  EXPECT_THAT(std::get<std::string>(reply.arguments[1]), testing::HasSubstr("kind: osc"));
+  EXPECT_THAT(std::get<std::string>(reply.arguments[1]), testing::HasSubstr("poses move no body"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class FreeMotion : public Motion {
     seconds_ = seconds;
   }
   /// Back to how it was when time began, at `seconds`.
-  void reset(double seconds) noexcept { put(start_, seconds); }
+  virtual void reset(double seconds) noexcept { put(start_, seconds); }
   /// It is still there at `seconds`, and goes on from then.
   void hold(double seconds) noexcept { seconds_ = seconds; }
   /// Stops it where it is.

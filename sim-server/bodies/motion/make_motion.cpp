@@ -11,6 +11,7 @@
 #include "sim-server/bodies/motion/marker_motion.hpp"
 #include "sim-server/bodies/motion/path_motion.hpp"
 #include "sim-server/bodies/motion/pose_file.hpp"
+#include "sim-server/bodies/motion/tied_motion.hpp"
 #include "sim-server/scene/pace.hpp"
 
 namespace splash::sim {
@@ -94,6 +95,10 @@ std::unique_ptr<Motion> make_motion(const BodySettings& body,
       return with_names(body, file, [&] { return from_markers(body, file); });
     }
     case MotionKind::osc:
+      if (is_tied(body)) {
+        return std::make_unique<TiedMotion>(BodyState{body.rest.position, body.rest.rotation},
+                                            gap_of(motion), motion.delay_limit);
+      }
       return std::make_unique<LiveMotion>(body.rest, LiveLimits{}, gap_of(motion),
                                           motion.delay_limit);
     case MotionKind::touch:

@@ -2,11 +2,13 @@
 // How free bodies answer to the water, and the water to them (body_reach.h):
 //   (M + sum_i m J_i^T B_i J_i) (dV, dw) = M g dt + sum_i m J_i^T (s_i g_i - dt a_i)
 //   dv_i = B_i (dV + dw x (x_i - c)),   B_i = b_i g_i g_i^T + c_i 1
-// with s_i = dt P_i. Spins are solved for as speeds at a lever, so that all six equations are of
-// one unit. Sums have a fixed order: the same state gives the same bits.
+// with s_i = dt P_i; a body that hangs on a device is pulled by its spring, too (body_spring.h).
+// Spins are solved for as speeds at a lever, so that all six equations are of one unit. Sums have a
+// fixed order: the same state gives the same bits.
 
 #include "sim-server/fluid/free_bodies/body_inertia.h"
 #include "sim-server/fluid/free_bodies/body_reach.h"
+#include "sim-server/fluid/free_bodies/body_spring.h"
 #include "sim-server/fluid/free_bodies/six.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
@@ -91,15 +93,26 @@ static void add_body(FreeBody f, BodyStep b, float* a) {
   }
 }
 
-// One work-group for each free body. `falling`: of gravity [s], and of the films' pushes
-// (body_film.cl) where there are any. `answer`: dV, dw. `felt`: what the
-// water gave each body in this step so far, its momentum and angular momentum. The body's speeds in
-// this step change at once.
+static void add_tug(Tug tug, float size, float* sum) {
+  vstore3(vload3(0, sum) + tug.push, 0, sum);
+  vstore3(vload3(1, sum) + tug.turn / size, 1, sum);
+  for (int r = 0; r < 3; ++r) {
+    sum[6 + SIX_AT(r, r)] += tug.inertia;
+    sum[6 + SIX_AT(r + 3, r + 3)] += tug.turn_inertia / (size * size);
+  }
+}
+
+// One work-group for each free body. `falling`: of gravity [s], of the films' pushes
+// (body_film.cl) where there are any, and of springs. `answer`: dV, dw. `felt`: what the
+// water gave each body in this step so far, its momentum and angular momentum. `tugs`: what its
+// spring gave it in this frame so far. `anchors`: of the free bodies in this step, from
+// `first_anchor` on. The body's speeds in this step change at once.
 kernel void answer_bodies(constant FluidParams* p, int k, global const SolveState* state,
                           float falling, constant FreeBody* frees,
                           global BodyStep* bodies, int first_body, global const float* parts,
-                          int films, global const float* film, global float* answer,
-                          global float* felt) {
+                          int films, global const float* film, global const Anchor* anchors,
+                          int first_anchor, global float* answer, global float* felt,
+                          global float* tugs) {
   local float of_team[SPLASH_PUSH_ENTRIES];
   if (is_done(state, k)) return;
   const int item = get_group_id(0);
@@ -124,15 +137,28 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
     sum[e] += falling * film[6 * item + e] / (e < 3 ? 1.0f : f.size);
   }
   add_body(f, b, sum + 6);
+  const bool tied = f.spring > 0.0f && falling > 0.0f;
+  Tug tug = {(float3)(0.0f), (float3)(0.0f), 0.0f, 0.0f};
+  if (tied) {
+    tug = tug_of(f, b, anchors[first_anchor + item], falling);
+    add_tug(tug, f.size, sum);
+  }
   factor_six(sum + 6);
   solve_six(sum + 6, sum);
   const float3 dv = (float3)(sum[0], sum[1], sum[2]);
   const float3 dw = (float3)(sum[3], sum[4], sum[5]) / f.size;
-  const float3 pushed = f.mass * (dv - fall), turned = inertia_times(f, b, dw);
+  const float3 tugged = tug.push - tug.inertia * dv, twisted = tug.turn - tug.turn_inertia * dw;
+  const float3 pushed = f.mass * (dv - fall) - tugged, turned = inertia_times(f, b, dw) - twisted;
   vstore3(dv, 2 * item, answer);
   vstore3(dw, 2 * item + 1, answer);
   vstore3(vload3(2 * item, felt) + pushed, 2 * item, felt);
   vstore3(vload3(2 * item + 1, felt) + turned, 2 * item + 1, felt);
+  if (tied) {
+    const bool begins = first_body == 0;
+    const float3 none = (float3)(0.0f);
+    vstore3((begins ? none : vload3(2 * item, tugs)) + tugged, 2 * item, tugs);
+    vstore3((begins ? none : vload3(2 * item + 1, tugs)) + twisted, 2 * item + 1, tugs);
+  }
   b.vx += dv.x;
   b.vy += dv.y;
   b.vz += dv.z;

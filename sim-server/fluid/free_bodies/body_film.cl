@@ -298,7 +298,8 @@ kernel void sum_films(constant FluidParams* p, float dt, int free_count, constan
     kept[2 * k] = film.p0;
     kept[2 * k + 1] = film.share > 0.0f ? 1.0f : 0.0f;
     listed[k] = 0;
-    held[k] = film.held < FILM_GAP * p->spacing ? 1 : 0;
+    // A body without a mass goes its own way: nothing that it touches changes its film.
+    held[k] = film.held < FILM_GAP * p->spacing || frees[k].mass <= 0.0f ? 1 : 0;
   }
   for (int k = 0; k < free_count; ++k) {
     if (listed[k] || !is_pushed(push, k)) continue;

@@ -11,7 +11,8 @@ constexpr std::size_t kSums = 12;  ///< of each body
 
 }  // namespace
 
-BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies)
+BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies,
+                       const std::vector<SkinFace>& skin)
     : list_(bodies),
       count_(static_cast<int>(bodies.size())),
       groups_(fluid.groups()),
@@ -26,6 +27,7 @@ BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies)
   Device& device = fluid.device();
   const cl::Program program =
       build_program(device, free_body_sources(), kernel_defines(fluid.parts()));
+  films_ = Films(device, program, bodies, skin);
   reach_bodies_ = Kernel(program, "reach_bodies", device.profile().group);
   weigh_water_ = Kernel(program, "weigh_water", device.profile().team);
   sum_pushes_ = Kernel(program, "sum_pushes", 1);
@@ -54,13 +56,14 @@ void BodyPushes::add(Fluid& fluid, const Step& step) {
                      {"density", fluid.density()},
                      {"images", fluid.body_images()},
                      {"pressure_term", fluid.pressure_term()},
-                     {"response", fluid.density()},
+                     {"response", fluid.solver().response(fluid)},
                      {"body_velocity", boundary.points().velocity},
                      {"body_id", boundary.points().id},
                      {"owner", boundary.owner()},
                      {"reach", reach_},
                      {"reached", reached_}},
                     boundary.matter());
+  films_.press(fluid, step, {bodies_, fluid.pressure_term(), reach_, reached_});
   weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS,
                          {{"p", params},
                           {"k", 0},
@@ -75,9 +78,13 @@ void BodyPushes::add(Fluid& fluid, const Step& step) {
                           {"reach", reach_},
                           {"reached", reached_},
                           {"parts", parts_}});
-  sum_pushes_.run(
-      queue, list_.size(),
-      {{"body_count", count_}, {"bodies", bodies_}, {"parts", parts_}, {"sums", sums_}});
+  sum_pushes_.run(queue, list_.size(),
+                  {{"body_count", count_},
+                   {"bodies", bodies_},
+                   {"parts", parts_},
+                   {"pressed", films_.pressed() ? dt : 0.0F},
+                   {"film", films_.push()},
+                   {"sums", sums_}});
 }
 
 void BodyPushes::enqueue_read(Fluid& fluid) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the water does to bodies that go their own way, found on the device while somebody wants to
-// feel it (free_bodies/body_push.cl). Of the weakly compressible water alone: the other solver's
-// pressures are spread over the solves of a step.
+// feel it (free_bodies/body_push.cl). Not of water on a grid, whose particles do not push.
 #pragma once
 
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/program.hpp"
+#include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/step.hpp"
@@ -18,11 +18,14 @@ namespace splash::sim {
 
 class Fluid;
 
-/// Of the water on a body, the mean over a frame.
+/// Of the water on a body, or of the spring on the device that the body hangs on: the mean over a
+/// frame.
 struct BodyPush {
-  int body = 0;                      ///< index among the scene's
-  Vector3 force = {0.0, 0.0, 0.0};   ///< [N]
-  Vector3 torque = {0.0, 0.0, 0.0};  ///< about its centre [N m]
+  int body = 0;                        ///< index among the scene's
+  Vector3 velocity = {0.0, 0.0, 0.0};  ///< of the body, or of that device, at the frame's end [m/s]
+  Vector3 spin = {0.0, 0.0, 0.0};      ///< [rad/s]
+  Vector3 force = {0.0, 0.0, 0.0};     ///< [N]
+  Vector3 torque = {0.0, 0.0, 0.0};    ///< about its centre [N m]
   Vector3 by_speed = {0.0, 0.0,
                       0.0};  ///< what a speed along an axis adds to the force there [N s/m]
   Vector3 by_spin = {0.0, 0.0, 0.0};  ///< what a spin adds to the torque [N m s]
@@ -30,12 +33,13 @@ struct BodyPush {
 
 class BodyPushes {
  public:
-  /// `bodies`: at least one; of each its number and its size count.
-  BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies);
+  /// `bodies`: at least one; of each its number and its size count, and its mass is 0. `skin`: of
+  /// these, in any order; without it no film of water pushes them.
+  BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
 
   /// A frame begins.
   void begin(Fluid& fluid);
-  /// Between the fluid's prepare and advance of a step.
+  /// Between the fluid's accelerate and move of a step.
   void add(Fluid& fluid, const Step& step);
   void enqueue_read(Fluid& fluid);
   /// Once the queue is finished; of a frame of so many seconds.
@@ -52,6 +56,7 @@ class BodyPushes {
   Buffer<float> sums_;
   Buffer<SolveState> no_solve_;
   std::vector<float> read_;
+  Films films_;
   Kernel reach_bodies_;
   Kernel weigh_water_;
   Kernel sum_pushes_;

@@ -29,8 +29,11 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       kept_pushes_(device, bodies.size() * SPLASH_CONTACTS + 1),
       felt_(device, 6 * bodies.size()),
       force_(device, 6 * bodies.size()),
+      tugs_(device, 6 * bodies.size()),
+      anchors_(device, 1),
       no_solve_(device, 1),
-      force_read_(6 * bodies.size()) {
+      force_read_(6 * bodies.size()),
+      tugs_read_(6 * bodies.size()) {
   const cl::Program program = build_program(device, free_body_sources(), defines);
   films_ = Films(device, program, bodies, skin);
   const std::size_t group = device.profile().group;
@@ -41,6 +44,12 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
   carry_water_ = Kernel(program, "carry_water", group);
   keep_out_of_free_ = Kernel(program, "keep_out_of_free", group);
   move_bodies_ = Kernel(program, "move_bodies", 1);
+}
+
+void FreeBodies::hang(Device& device, const std::vector<Anchor>& anchors) {
+  if (anchors.size() > anchors_.size()) anchors_ = Buffer<Anchor>(device, 2 * anchors.size());
+  uploaded_ = anchors;
+  anchors_.enqueue_write(device, uploaded_);
 }
 
 void FreeBodies::reach(Fluid& fluid, const Step& step, const Buffer<float>& velocity,
@@ -86,6 +95,7 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
   const Buffer<BodyStep>& steps = fluid.boundary().steps();
   const Buffer<float>& places = fluid.particles().position;
   const int k = occasion.iteration;
+  const int first_anchor = step.first_body / fluid.boundary().body_count() * count_;
   if (occasion.falling > 0.0) {
     films_.press(fluid, step, {bodies_, *occasion.pressure, reach_, reached_});
   }
@@ -114,8 +124,11 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
                             {"parts", parts_},
                             {"films", films_.pressed() ? 1 : 0},
                             {"film", films_.push()},
+                            {"anchors", anchors_},
+                            {"first_anchor", first_anchor},
                             {"answer", answer_},
-                            {"felt", felt_}});
+                            {"felt", felt_},
+                            {"tugs", tugs_}});
   const bool wants_rate = occasion.rate != nullptr;
   carry_water_.run(queue, groups_,
                    {{"p", params},
@@ -180,6 +193,7 @@ void FreeBodies::enqueue_read(Fluid& fluid) {
   steps_read_.resize(static_cast<std::size_t>(fluid.boundary().body_count()));
   fluid.boundary().steps().enqueue_read(fluid.device(), steps_read_, next_);
   force_.enqueue_read(fluid.device(), force_read_);
+  tugs_.enqueue_read(fluid.device(), tugs_read_);
 }
 
 std::vector<FreeBodyEnd> FreeBodies::ends() const {
@@ -190,6 +204,8 @@ std::vector<FreeBodyEnd> FreeBodies::ends() const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       end.force[axis] = static_cast<double>(force_read_[6 * k + axis]);
       end.torque[axis] = static_cast<double>(force_read_[6 * k + 3 + axis]);
+      end.tug[axis] = static_cast<double>(tugs_read_[6 * k + axis]);
+      end.twist[axis] = static_cast<double>(tugs_read_[6 * k + 3 + axis]);
     }
     ends.push_back(end);
   }

@@ -24,6 +24,8 @@ struct FreeBodyEnd {
   BodyStep step = {};
   Vector3 force = {0.0, 0.0, 0.0};   ///< [N]
   Vector3 torque = {0.0, 0.0, 0.0};  ///< about its centre [N m]
+  Vector3 tug = {0.0, 0.0, 0.0};     ///< of its spring, in the frame [N s]
+  Vector3 twist = {0.0, 0.0, 0.0};   ///< about its centre [N m s]
 };
 
 class FreeBodies {
@@ -32,6 +34,10 @@ class FreeBodies {
   /// these, in any order.
   FreeBodies(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
              const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
+
+  /// Where the devices are that bodies hang on by springs: an entry for each free body, of a
+  /// frame's first step, then of the next one. Without it none may hang on any.
+  void hang(Device& device, const std::vector<Anchor>& anchors);
 
   /// Finds who is in reach of the bodies, and what they do to each other at these velocities;
   /// `response`: of densities to pressures (pressure/divergence_free/pressure_response.cl), the
@@ -79,9 +85,13 @@ class FreeBodies {
   Buffer<KeptPush> kept_pushes_;
   Buffer<float> felt_;
   Buffer<float> force_;
+  Buffer<float> tugs_;
+  Buffer<Anchor> anchors_;
+  std::vector<Anchor> uploaded_;
   Buffer<SolveState> no_solve_;
   std::vector<BodyStep> steps_read_;
   std::vector<float> force_read_;
+  std::vector<float> tugs_read_;
   Films films_;
   Kernel reach_bodies_;
   Kernel weigh_water_;

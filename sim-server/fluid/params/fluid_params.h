@@ -127,8 +127,22 @@ typedef struct {
   float restitution;     // of its speed, after a knock against a wall or another body [1]
   float friction;        // on those, Coulomb [1]
   float ax, ay, az, aw;  // its own axes to the principal ones, of which the moments are
+  // On the device that it hangs on; all 0: on none (free_bodies/body_spring.h).
+  float spring;          // [N/m]
+  float damper;          // [N s/m]
+  float turning_spring;  // [N m/rad]
+  float turning_damper;  // [N m s]
 } FreeBody;
-SPLASH_SHARED_STRUCT(FreeBody, 12 * 4)
+SPLASH_SHARED_STRUCT(FreeBody, 16 * 4)
+
+// Where a device is that a body hangs on by a spring, when a step begins.
+typedef struct {
+  float px, py, pz;      // [m]
+  float qx, qy, qz, qw;  // device to world
+  float vx, vy, vz;      // [m/s]
+  float wx, wy, wz;      // [rad/s]
+} Anchor;
+SPLASH_SHARED_STRUCT(Anchor, 13 * 4)
 
 // Fields of what a particle and a free body in its reach do to each other
 // (free_bodies/body_reach.h).

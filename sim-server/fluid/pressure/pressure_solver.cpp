@@ -34,6 +34,10 @@ const Buffer<float>& PressureSolver::carried(const Fluid& fluid) const {
   return fluid.particles().velocity;
 }
 
+const Buffer<float>& PressureSolver::response(const Fluid& fluid) const {
+  return fluid.density();
+}
+
 std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
                                                      const std::vector<std::string>& defines,
                                                      bool bodies) {

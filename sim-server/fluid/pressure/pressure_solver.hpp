@@ -49,6 +49,10 @@ class PressureSolver {
   /// The velocities that took the particles where the last step left them [m/s].
   [[nodiscard]] virtual const Buffer<float>& carried(const Fluid& fluid) const;
 
+  /// Of each particle in the step that accelerate() was for: what a change of its density by a body
+  /// answers to (free_bodies/body_reach.h); its density where a state equation makes the pressure.
+  [[nodiscard]] virtual const Buffer<float>& response(const Fluid& fluid) const;
+
   /// Enqueues the read of the work done; work() tells it once the queue is finished.
   virtual void enqueue_work(Device& device) = 0;
   [[nodiscard]] virtual SolverWork work() const = 0;

@@ -79,6 +79,12 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(FreeBody, ix, iy, iz),
     MEMBERS_3(FreeBody, size, restitution, friction),
     MEMBERS_4(FreeBody, ax, ay, az, aw),
+    MEMBERS_4(FreeBody, spring, damper, turning_spring, turning_damper),
+
+    MEMBERS_3(Anchor, px, py, pz),
+    MEMBERS_4(Anchor, qx, qy, qz, qw),
+    MEMBERS_3(Anchor, vx, vy, vz),
+    MEMBERS_3(Anchor, wx, wy, wz),
 
     MEMBERS_2(KeptPush, key, pushed),
 

@@ -50,7 +50,9 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
     }
     water.fluid->let_go(free_bodies(water.scene.bodies),
                         film_skins(water.scene.bodies, water.scene.fluid.spacing));
-    pushes.emplace(*water.fluid, free_bodies(water.scene.bodies));
+    std::vector<FreeBody> felt = free_bodies(water.scene.bodies);
+    for (FreeBody& body : felt) body.mass = 0.0F;
+    pushes.emplace(*water.fluid, felt, film_skins(water.scene.bodies, water.scene.fluid.spacing));
     pushes->begin(*water.fluid);
   }
   water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);

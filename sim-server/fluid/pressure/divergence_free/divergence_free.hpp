@@ -21,6 +21,9 @@ class DivergenceFree : public PressureSolver {
 
   void recall_pressure(Fluid& fluid, const Step& step) override;
   void accelerate(Fluid& fluid, const Step& step) override;
+  [[nodiscard]] const Buffer<float>& response(const Fluid& /*fluid*/) const override {
+    return response_;
+  }
   void enqueue_work(Device& device) override;
   [[nodiscard]] SolverWork work() const override;
   void forget_work(Device& device) override;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/simulation/hung_bodies.hpp"
+
+#include <algorithm>
+
+#include "sim-server/bodies/mass.hpp"
+#include "sim-server/scene/rotation.hpp"
+
+namespace splash::sim {
+namespace {
+
+Anchor anchor_of(const BodyState& s) {
+  const auto as_float = [](double value) { return static_cast<float>(value); };
+  return {as_float(s.position[0]), as_float(s.position[1]), as_float(s.position[2]),
+          as_float(s.rotation[0]), as_float(s.rotation[1]), as_float(s.rotation[2]),
+          as_float(s.rotation[3]), as_float(s.velocity[0]), as_float(s.velocity[1]),
+          as_float(s.velocity[2]), as_float(s.spin[0]),     as_float(s.spin[1]),
+          as_float(s.spin[2])};
+}
+
+}  // namespace
+
+HungBodies::HungBodies(const std::vector<BodySettings>& bodies,
+                       const std::vector<PosedMotion*>& live) {
+  const std::vector<FreeBody> free = free_bodies(bodies);
+  free_count_ = free.size();
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const auto body = static_cast<std::size_t>(free[k].body);
+    if (!is_tied(bodies[body])) continue;
+    tethers_.push_back({k, free[k], dynamic_cast<const Tether*>(live[body])});
+  }
+}
+
+std::vector<Anchor> HungBodies::anchors(double seconds, int steps, double dt) const {
+  std::vector<Anchor> all(free_count_ * static_cast<std::size_t>(steps));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(steps); ++k) {
+    for (const Hung& hung : tethers_) {
+      all[k * free_count_ + hung.free] =
+          anchor_of(hung.tether->at(seconds + static_cast<double>(k) * dt));
+    }
+  }
+  return all;
+}
+
+bool HungBodies::move(double seconds, double frame) const {
+  return std::any_of(tethers_.begin(), tethers_.end(),
+                     [&](const Hung& hung) { return hung.tether->moves(seconds, frame); });
+}
+
+std::vector<BodyPush> HungBodies::pushes(const std::vector<FreeBodyEnd>& ends, double seconds,
+                                         double frame) const {
+  std::vector<BodyPush> all;
+  for (const Hung& hung : tethers_) {
+    const BodyState device = hung.tether->at(seconds);
+    const FreeBodyEnd& end = ends[hung.free];
+    const auto by = [](float damper) {
+      const double d = -static_cast<double>(damper);
+      return Vector3{d, d, d};
+    };
+    all.push_back({.body = hung.body.body,
+                   .velocity = device.velocity,
+                   .spin = device.spin,
+                   .force = (-1.0 / frame) * end.tug,
+                   .torque = (-1.0 / frame) * end.twist,
+                   .by_speed = by(hung.body.damper),
+                   .by_spin = by(hung.body.turning_damper)});
+  }
+  return all;
+}
+
+}  // namespace splash::sim

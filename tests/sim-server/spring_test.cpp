@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// A body that hangs on a device by a spring: it sags by its weight less its buoyancy, swings as a
+// mass on a spring does, and what the device feels is all that the spring gives. A simulated device
+// that pushes it in and out of the water gets no energy out of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <limits>
+
+#include "examples/force/splash_force.hpp"
+#include "sim-server/device/device.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/simulation/simulation.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kGravity = 9.81;       // [m/s2]
+constexpr double kFrame = 1.0 / 160.0;  // [s]
+
+/// A cube of a litre on a spring, at this height.
+Scene scene_of(const std::string& height, const std::string& spring,
+               const std::string& fluid = "spacing: 0.033") {
+  return parse_scene("fluid: {" + fluid + R"(}
+tank: {lower: [0, 0, 0], upper: [0.4, 0.4, 1.6]}
+water: [{lower: [0, 0, 0], upper: [0.4, 0.4, 0.4]}]
+bodies:
+  - name: cube
+    shape: {size: [0.1, 0.1, 0.1]}
+    motion: {kind: osc, coupling: spring, device_damping: 100, )" +
+                         spring + R"(}
+    rest: {position: [0.2, 0.2, )" +
+                         height + "]}\n",
+                     "cube.yaml");
+}
+
+BodyState cube(const Simulation& simulation) {
+  return simulation.bodies().state(0, simulation.seconds());
+}
+
+Vector3 felt(const FrameResult& frame) {
+  return frame.pushes.size() == 1U ? frame.pushes[0].force : Vector3{NAN, NAN, NAN};
+}
+
+TEST(Spring, SagsByTheWeightInTheAirAndByThatLessTheBuoyancyInWater) {
+  Device device;
+  for (const bool wet : {false, true}) {
+    Simulation simulation(
+        device, scene_of(wet ? "0.28" : "1.2", "mass: 2, stiffness: 200, damping: 30"), {});
+    ASSERT_TRUE(simulation.can_feel());
+    simulation.feel(true);
+    while (simulation.seconds() < 2.0) static_cast<void>(simulation.advance());
+    double mean = 0.0, sag = 0.0;
+    constexpr int kFrames = 40;
+    for (int k = 0; k < kFrames; ++k) {
+      mean += felt(simulation.advance())[2] / kFrames;
+      sag += ((wet ? 0.28 : 1.2) - cube(simulation).position[2]) / kFrames;
+    }
+    const double load = (2.0 - (wet ? 0.998 : 0.0)) * kGravity;
+    std::printf("%s: felt %.4f N, sag %.5f m, of %.4f N and %.5f m\n", wet ? "in water" : "in air",
+                mean, sag, -load, load / 200.0);
+    EXPECT_NEAR(mean / -load, 1.0, wet ? 0.03 : 1.0e-3);
+    EXPECT_NEAR(sag / (load / 200.0), 1.0, wet ? 0.03 : 1.0e-3);
+  }
+}
+
+// It begins to fall on a slack spring, so it swings about where it would hang.
+TEST(Spring, SwingsAsAMassOnItDoes) {
+  Device device;
+  Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 50"), {});
+  const double sag = 0.5 * kGravity / 50.0;
+  const double period = 2.0 * M_PI * std::sqrt(0.5 / 50.0);
+  std::vector<double> crossings;
+  double above = sag;
+  while (simulation.seconds() < 3.0) {
+    static_cast<void>(simulation.advance());
+    const double now = cube(simulation).position[2] - (1.2 - sag);
+    if (above > 0.0 && now <= 0.0) {
+      crossings.push_back(simulation.seconds() - kFrame * now / (now - above));
+    }
+    above = now;
+  }
+  ASSERT_GE(crossings.size(), 4U);
+  const double found =
+      (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  std::printf("period %.5f s of %.5f s\n", found, period);
+  EXPECT_NEAR(found / period, 1.0, 0.01);
+}
+
+// The device is turned by half a radian and held; a cube's moments of inertia are alike.
+TEST(Spring, TurnsAsFastAsItSwings) {
+  Device device;
+  Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 50"), {});
+  const double period = 2.0 * M_PI * std::sqrt(0.5 / 50.0);
+  std::vector<double> crossings;
+  double before = 0.0;
+  while (simulation.seconds() < 3.0) {
+    const double now = simulation.seconds();
+    static_cast<void>(
+        simulation.live_body(0)->push({0.2, 0.2, 1.2}, from_turn({0.0, 0.0, 0.5}), {now, {}}));
+    static_cast<void>(simulation.advance());
+    const double angle = to_turn(cube(simulation).rotation)[2] - 0.5;
+    if (now > 0.6 && before > 0.0 && angle <= 0.0) {
+      crossings.push_back(simulation.seconds() - kFrame * angle / (angle - before));
+    }
+    before = angle;
+  }
+  ASSERT_GE(crossings.size(), 3U);
+  const double found =
+      (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  std::printf("period %.5f s of %.5f s\n", found, period);
+  EXPECT_NEAR(found / period, 1.0, 0.01);
+}
+
+TEST(Spring, TellsAllTheMomentumThatItGives) {
+  Device device;
+  Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 80, damping: 2"), {});
+  simulation.feel(true);
+  PosedMotion* const hand = simulation.live_body(0);
+  ASSERT_NE(hand, nullptr);
+  Vector3 given = {};
+  Vector3 turned = {};
+  while (simulation.seconds() < 0.8) {
+    const double now = simulation.seconds();
+    const Quaternion turn = from_turn({0.0, 0.0, 0.4 * std::sin(4.0 * now)});
+    static_cast<void>(hand->push({0.2 + 0.05 * std::sin(5.0 * now), 0.2, 1.2}, turn, {now, {}}));
+    const FrameResult frame = simulation.advance();
+    ASSERT_EQ(frame.pushes.size(), 1U);
+    const double seconds = frame.seconds - now;
+    given = given - seconds * frame.pushes[0].force + Vector3{0.0, 0.0, -0.5 * kGravity * seconds};
+    turned = turned - seconds * frame.pushes[0].torque;
+    EXPECT_EQ(frame.pushes[0].by_speed[0], -2.0);
+  }
+  const BodyState state = cube(simulation);
+  EXPECT_GT(length(state.velocity), 0.1);
+  EXPECT_LT(length(given - 0.5 * state.velocity), 1.0e-4) << "N s";
+  const double inertia = 0.5 * 0.1 * 0.1 / 6.0;
+  EXPECT_GT(std::abs(state.spin[2]), 0.1);
+  EXPECT_LT(length(turned - inertia * state.spin), 1.0e-5) << "N m s";
+}
+
+TEST(Spring, NeverPullsAtOnceWhenPosesBeginOrJump) {
+  Device device;
+  Simulation simulation(device, scene_of("0.7", "mass: 1, stiffness: 200, damping: 10"), {});
+  simulation.feel(true);
+  PosedMotion* const hand = simulation.live_body(0);
+  double before = 0.0, steepest = 0.0, farthest = 0.0;
+  Vector3 place = {0.2, 0.2, 0.7};
+  while (simulation.seconds() < 4.0) {
+    const double now = simulation.seconds();
+    if (now > 1.0) place = {0.3, 0.1, 0.9};   // the first pose is elsewhere
+    if (now > 2.5) place = {0.1, 0.3, 0.75};  // and the tracker jumps
+    if (now > 1.0) static_cast<void>(hand->push(place, {0, 0, 0, 1}, {now, {}}));
+    const double force = length(felt(simulation.advance()));
+    if (now > 0.9) {
+      steepest = std::max(steepest, std::abs(force - before));
+      farthest = std::max(farthest, force);
+    }
+    before = force;
+  }
+  std::printf("steepest %.2f N a frame, most %.1f N\n", steepest, farthest);
+  EXPECT_LT(steepest, 2.0) << "a jump of 0.3 m would be 60 N at once";
+  EXPECT_LT(length(cube(simulation).position - place - Vector3{0.0, 0.0, -kGravity / 200.0}), 0.01)
+      << "and it is there in the end";
+}
+
+TEST(Spring, IsSoundAfterAFrameWentWrongAndWhenTheSceneBeginsAnew) {
+  Device device;
+  Simulation simulation(device, scene_of("0.4", "mass: 0.7, stiffness: 100, damping: 5"), {});
+  simulation.feel(true);
+  PosedMotion* const hand = simulation.live_body(0);
+  const auto play = [&](double seconds, const Vector3& place) {
+    double most = 0.0;
+    for (const double end = simulation.seconds() + seconds; simulation.seconds() < end;) {
+      static_cast<void>(hand->push(place, {0, 0, 0, 1}, {simulation.seconds(), {}}));
+      const double force = length(felt(simulation.advance()));
+      EXPECT_TRUE(std::isfinite(force));
+      most = std::max(most, force);
+    }
+    return most;
+  };
+  play(0.5, {0.2, 0.2, 0.4});
+  const double calm = play(0.1, {0.2, 0.2, 0.4});
+  int harms = 0;
+  simulation.set_hook([&](Fluid& fluid, Step& /*step*/, Moment moment) {
+    if (moment != Moment::between || harms++ > 0) return;
+    std::vector<float> harmed = fluid.pressure_term().read(fluid.device(), 16);
+    harmed[3] = std::numeric_limits<float>::quiet_NaN();
+    Buffer<float> buffer = fluid.pressure_term();
+    buffer.write(fluid.device(), harmed);
+  });
+  const FrameResult frame = simulation.advance();
+  ASSERT_TRUE(frame.step_fault);
+  EXPECT_LT(length(felt(frame)), 2.0 * calm + 1.0);
+  simulation.set_hook({});
+  play(0.1, {0.2, 0.2, 0.4});
+  play(0.5, {0.25, 0.2, 0.55});
+  simulation.begin_anew();
+  EXPECT_NEAR(cube(simulation).position[2], 0.4, 1.0e-6);
+  EXPECT_LT(play(0.02, {0.25, 0.2, 0.55}), 3.0) << "the spring was slack";
+  play(1.0, {0.25, 0.2, 0.55});
+  EXPECT_NEAR(cube(simulation).position[0], 0.25, 0.01);
+}
+
+/// A device of 0.3 kg in a hand, at 1 kHz, that pushes the cube in and out of the water: the energy
+/// that it ever had more of than it gave [J], and what went to and fro.
+struct Outcome {
+  double gained = 0.0;
+  double work = 0.0;
+};
+
+Outcome push_in_and_out(Simulation& simulation, double factor, double seconds) {
+  constexpr double kTurn = 0.001;
+  splash_force::ForceModel model;
+  std::deque<std::pair<double, splash_force::Model>> under_way;
+  double z = 0.45, v = 0.0, energy = 0.0, next = 0.0;
+  Outcome run;
+  for (double now = 0.0; now < seconds; now += kTurn) {
+    static_cast<void>(simulation.live_body(0)->push({0.2, 0.2, z}, {0, 0, 0, 1}, {now, {}}));
+    if (now >= next) {
+      simulation.set_origin(now - simulation.seconds());
+      const FrameResult frame = simulation.advance();
+      next += kFrame / factor;
+      splash_force::Model told;
+      told.session = 1;
+      told.wrench.force = frame.pushes.at(0).force;
+      told.velocity = frame.pushes.at(0).velocity;
+      told.by_speed = frame.pushes.at(0).by_speed;
+      under_way.emplace_back(next, told);
+    }
+    while (!under_way.empty() && under_way.front().first <= now) {
+      model.take(under_way.front().second, now);
+      under_way.pop_front();
+    }
+    const double force = model.force({0.2, 0.2, z}, {0.0, 0.0, v}, {}, now).force[2];
+    const double wanted = 0.43 + 0.06 * std::sin(2.0 * M_PI * 0.7 * now);
+    for (int part = 0; part < 10; ++part) {
+      const double dt = kTurn / 10.0;
+      v += dt * (force + 500.0 * (wanted - z) - 3.0 * v) / 0.3;
+      const double way = dt * v;
+      z += way;
+      energy -= force * way;
+      run.work += std::abs(force * way);
+      run.gained = std::max(run.gained, -energy);
+    }
+  }
+  return run;
+}
+
+void expect_no_energy(double seconds) {
+  Device device;
+  for (const double factor : {1.0, 0.3}) {
+    Simulation simulation(
+        device, scene_of("0.45", "mass: 0.6, stiffness: 60, damping: 1", "particles: 600"), {});
+    simulation.feel(true);
+    const Outcome run = push_in_and_out(simulation, factor, seconds);
+    std::printf("x %.1f: gained %.3f mJ of %.2f J\n", factor, 1.0e3 * run.gained, run.work);
+    EXPECT_LT(run.gained, 1.0e-3);
+    EXPECT_GT(run.work, 0.1);
+  }
+}
+
+TEST(Spring, GivesADeviceNoEnergy) {
+  expect_no_energy(8.0);
+}
+
+TEST(Spring, GivesADeviceNoEnergyInAMinute) {
+  expect_no_energy(60.0);
+}
+
+}  // namespace
+}  // namespace splash::sim
