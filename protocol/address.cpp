@@ -249,7 +249,7 @@ constexpr auto kTable = std::to_array<AddressRow>({
      {}},
     {"/body/pose", Direction::to_sim, "Pose of a tracked body", kBodyPose},
     {"/body/pose", Direction::to_sim, "The same, the body by its name", kNamedPose},
-    {"/body/grab", Direction::to_sim,
+    {"/body/grab", Direction::sim_alone,
      "Grabs a body that has a motion of its own, or lets it go; answered by /done", kBodyGrab},
     {"/tile/pressure", Direction::to_sim,
      "What the force sensors of a floor of tiles feel; the last one ends a scan", kPressure},

@@ -27,6 +27,10 @@ Message fail(const std::string& command, const std::string& reason) {
   return {"/fail", {fit(command), fit(reason)}};
 }
 
+std::string too_many_subscribers() {
+  return "full: " + std::to_string(kMaxSubscribers) + " subscribers";
+}
+
 Message value_of(const std::string& name, double value) {
   return {"/value", {fit(name), static_cast<float>(value)}};
 }

@@ -17,6 +17,8 @@ inline constexpr const char* kSynthProgram = "synth-server";
 [[nodiscard]] Message done(const std::string& command, std::optional<std::int32_t> value = {});
 /// /fail command reason. Texts are made fit for the wire: printable ASCII, cut at 64 characters.
 [[nodiscard]] Message fail(const std::string& command, const std::string& reason);
+/// The reason of the /fail to /notify when kMaxSubscribers have subscribed.
+[[nodiscard]] std::string too_many_subscribers();
 /// /value name value
 [[nodiscard]] Message value_of(const std::string& name, double value);
 /// /synced id

@@ -217,8 +217,9 @@ void Server::start_receiver(protocol::UdpSocket socket) {
     return queue_.push(command) ? "" : "busy";
   };
   add_desk(actions);
-  receiver_ = std::make_unique<Receiver>(std::move(socket), queue_,
-                                         Control(std::move(actions), options_.allow), log);
+  actions.print = log;
+  receiver_ =
+      std::make_unique<Receiver>(std::move(socket), queue_, std::move(actions), options_.allow);
 }
 
 double Server::ceiling_share(int channel) const {

@@ -58,7 +58,7 @@ void ClockAnswers::take(protocol::Bytes packet, const protocol::Endpoint& from) 
 
 void ClockAnswers::withhold(const protocol::Endpoint& from, const std::string& why) {
   ++withheld_;
-  if (!print_ || !complaints_.allow(from, protocol::monotonic_now())) return;
+  if (!print_ || !reports_.allow(from, protocol::monotonic_now())) return;
   print_(protocol::to_string(from) + ' ' + why);
 }
 

@@ -10,8 +10,9 @@
 #include <string>
 #include <thread>
 
+#include "protocol/limits.hpp"
+#include "protocol/rate_limit.hpp"
 #include "protocol/udp_socket.hpp"
-#include "sim-server/listen/rate_limit.hpp"
 #include "sim-server/send/targets.hpp"
 
 namespace splash::sim {
@@ -41,8 +42,8 @@ class ClockAnswers {
   protocol::UdpSocket& socket_;
   const Targets& targets_;
   Print print_;
-  RateLimit replies_;
-  RateLimit complaints_;
+  protocol::RateLimit replies_{protocol::kPongRate, protocol::kPongBurst};
+  protocol::RateLimit reports_{protocol::kReportRate, protocol::kReportBurst};
   std::atomic<std::uint64_t> answered_ = 0;
   std::atomic<std::uint64_t> withheld_ = 0;
   std::jthread thread_;  ///< last: it uses all of the above

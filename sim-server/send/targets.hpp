@@ -10,17 +10,16 @@
 #include <vector>
 
 #include "protocol/gate.hpp"
+#include "protocol/limits.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
 
 namespace splash::sim {
 
-/// A subscriber that says nothing for this long is dropped [s]: nobody unplugs politely.
-inline constexpr double kSubscriptionLease = 60.0;
-inline constexpr std::size_t kMaxSubscribers = 16;
-/// Streams, as the bits of /notify.
-inline constexpr unsigned kEventStream = 1;
-inline constexpr unsigned kForceStream = 2;
+using protocol::kEventStream;
+using protocol::kForceStream;
+using protocol::kMaxSubscribers;
+using protocol::kSubscriptionLease;
 
 struct Target {
   protocol::Endpoint endpoint;

@@ -4,135 +4,133 @@
 #include <algorithm>
 #include <utility>
 
-#include "protocol/address.hpp"
 #include "protocol/control.hpp"
-#include "synth-server/receive/sender.hpp"
 
 namespace splash::synth {
 namespace {
 
-constexpr std::size_t kMostClients = 16;
+using protocol::Message;
+using protocol::Outcome;
+using protocol::Visit;
 
-std::int32_t integer(const protocol::Message& message) {
+/// Arguments of a message that conforms to its row of the address table.
+std::int32_t integer(const Message& message) {
   return std::get<std::int32_t>(message.arguments.front());
+}
+const std::string& name_in(const Message& message) {
+  return std::get<std::string>(message.arguments[0]);
+}
+double number_in(const Message& message) {
+  return static_cast<double>(std::get<float>(message.arguments[1]));
 }
 
 /// To who asked with /notify, when the program ends.
-protocol::Message goodbye() {
+Message goodbye() {
   return protocol::done("/quit");
 }
+
+constexpr const char* kNothingPlays = "nothing plays here";
 
 }  // namespace
 
-Control::Control(ControlActions actions, std::vector<std::uint32_t> allowed)
-    : actions_(std::move(actions)), allowed_(std::move(allowed)) {}
-
-bool Control::allows(const protocol::Endpoint& from) const noexcept {
-  return is_loopback(from) ||
-         std::find(allowed_.begin(), allowed_.end(), from.address) != allowed_.end();
+Control::Control(ControlActions actions, std::vector<std::uint32_t> allowed,
+                 std::function<protocol::SynthStatus()> heard)
+    : actions_(std::move(actions)),
+      heard_(std::move(heard)),
+      port_({.program = protocol::kSynthProgram,
+             .allowed = std::move(allowed),
+             .print = actions_.print},
+            actions_.quit) {
+  add_commands();
 }
 
-void Control::handle(const protocol::Message& message, const Arrived& arrived,
-                     const protocol::SynthStatus& status, std::vector<Reply>& replies) {
-  const auto reason = protocol::violation(message);
-  if (message.address == "/ping" && !reason) {
-    const auto pong = protocol::pong(std::get<protocol::TimeTag>(message.arguments[0]),
-                                     protocol::to_time_tag(arrived.unix_time),
-                                     protocol::to_time_tag(protocol::unix_now()));
-    answer(message.address, pong, arrived, pongs_, replies);
-    return;
-  }
-  const protocol::Message reply =
-      reason ? protocol::fail(message.address, *reason) : carry_out(message, arrived, status);
-  answer(message.address, reply, arrived, limit_, replies);
-}
-
-void Control::answer(const std::string& command, const protocol::Message& reply,
-                     const Arrived& arrived, ReplyLimit& limit, std::vector<Reply>& replies) {
-  auto fitting = arrived.budget.take(reply);
-  if (!fitting) {
-    complaint_ = protocol::to_string(arrived.from) + ' ' + arrived.budget.complaint(command, reply);
-  }
-  if (fitting && limit.allow(arrived.from.address, arrived.monotonic)) {
-    replies.push_back({arrived.from, std::move(*fitting)});
-  } else {
-    ++withheld_;
-  }
-}
-
-protocol::Message Control::carry_out(const protocol::Message& message, const Arrived& arrived,
-                                     const protocol::SynthStatus& status) {
-  const std::string& address = message.address;
-  if (address == "/status") return protocol::to_message(actions_.status(status));
-  if (address == "/version") return protocol::version_reply(protocol::kSynthProgram);
-  if (address == "/sync") return protocol::synced(integer(message));
-  if (address == "/notify") return notify(message, arrived);
-  if (address == "/quit") return quit(arrived.from);
-  if (address == "/set" || address == "/get" || address == "/preset") return change(message);
-  if (address == "/tone") {
-    const std::string reason = actions_.tone(integer(message));
-    return reason.empty() ? protocol::done(address) : protocol::fail(address, reason);
-  }
-  if (address == "/clearSched") {
+void Control::add_commands() {
+  port_.on("/status", [this](const Message&, const Visit&) {
+    const protocol::SynthStatus status = heard_();
+    return Outcome{.reply =
+                       protocol::to_message(actions_.status ? actions_.status(status) : status)};
+  });
+  port_.on("/notify",
+           [this](const Message& message, Visit& visit) { return notify(message, visit); });
+  port_.on("/clearSched", [this](const Message& message, const Visit&) {
+    if (!actions_.clear_scheduled) return Outcome{.refused = kNothingPlays};
     actions_.clear_scheduled();
-  } else if (address == "/mute") {
+    return protocol::done_unless({}, message);
+  });
+  port_.on("/mute", [this](const Message& message, const Visit&) {
+    if (!actions_.mute) return Outcome{.refused = kNothingPlays};
     actions_.mute(integer(message) != 0);
-  } else if (address == "/dumpOSC") {
-    dump_level_ = integer(message);
-  } else if (address == "/error") {
-    reports_failures_ = integer(message) != 0;
-  } else {
-    return protocol::fail(address, "not a command of synth-server");
-  }
-  return protocol::done(address);
+    return protocol::done_unless({}, message);
+  });
+  port_.on("/tone", [this](const Message& message, const Visit&) {
+    return protocol::done_unless(actions_.tone ? actions_.tone(integer(message)) : kNothingPlays,
+                                 message);
+  });
+  port_.on("/preset", [this](const Message& message, const Visit&) {
+    return protocol::done_unless(
+        actions_.preset ? actions_.preset(name_in(message), number_in(message)) : kNothingPlays,
+        message);
+  });
+  port_.on("/set", [this](const Message& message, const Visit&) {
+    const std::string refused =
+        actions_.set ? actions_.set(name_in(message), number_in(message)) : kNothingPlays;
+    return refused.empty() ? value_of(message) : Outcome{.refused = refused};
+  });
+  port_.on("/get", [this](const Message& message, const Visit&) { return value_of(message); });
 }
 
-protocol::Message Control::change(const protocol::Message& message) {
-  const std::string& name = std::get<std::string>(message.arguments[0]);
-  if (message.address != "/get") {
-    const auto number = static_cast<double>(std::get<float>(message.arguments[1]));
-    const bool set = message.address == "/set";
-    const std::string reason = set ? actions_.set(name, number) : actions_.preset(name, number);
-    if (!reason.empty()) return protocol::fail(message.address, reason);
-    if (!set) return protocol::done(message.address);
-  }
-  const std::optional<double> value = actions_.get(name);
-  return value ? protocol::value_of(name, *value) : protocol::fail(message.address, "no such row");
+Outcome Control::value_of(const Message& message) const {
+  const std::string& name = name_in(message);
+  const std::optional<double> value = actions_.get ? actions_.get(name) : std::nullopt;
+  if (!value) return {.refused = "no such row"};
+  return {.reply = protocol::value_of(name, *value)};
 }
 
-// Who cannot be told that it is a client is none.
-protocol::Message Control::notify(const protocol::Message& message, const Arrived& arrived) {
-  if (integer(message) > 1) return protocol::fail(message.address, "the synth has stream 1 alone");
-  std::erase(clients_, arrived.from);
-  if (integer(message) == 0) return protocol::done(message.address, 0);
-  if (clients_.size() == kMostClients) {
-    return protocol::fail(message.address,
-                          "there are " + std::to_string(kMostClients) + " clients already");
+// Who cannot be told that it has subscribed has not: the goodbye would be more than was asked for.
+Outcome Control::notify(const Message& message, Visit& visit) {
+  const std::int32_t streams = integer(message);
+  if (streams > 1) return {.refused = "the synth has stream 1 alone"};
+  const auto known = std::find_if(subscribers_.begin(), subscribers_.end(),
+                                  [&](const Subscriber& s) { return s.endpoint == visit.from; });
+  const bool is_new = known == subscribers_.end();
+  Outcome done = {.reply = protocol::done(message.address, streams)};
+  if (streams == 0) {
+    if (!is_new) subscribers_.erase(known);
+    return done;
   }
-  arrived.budget.owe(goodbye());
-  auto reply = protocol::done(message.address, static_cast<std::int32_t>(clients_.size() + 1));
-  if (arrived.budget.fits(reply)) clients_.push_back(arrived.from);
-  return reply;
+  if (!is_new) return done;
+  if (subscribers_.size() == protocol::kMaxSubscribers) {
+    return {.refused = protocol::too_many_subscribers()};
+  }
+  visit.budget.owe(goodbye());
+  if (visit.budget.fits(*done.reply)) {
+    subscribers_.push_back({visit.from, visit.arrival + protocol::kSubscriptionLease});
+  }
+  return done;
 }
 
-protocol::Message Control::quit(const protocol::Endpoint& from) {
-  if (!is_loopback(from)) return protocol::fail("/quit", "only from the synth's own host");
-  actions_.quit();
-  return protocol::done("/quit");
+void Control::renew(const protocol::Endpoint& from, double now) {
+  for (Subscriber& subscriber : subscribers_) {
+    if (subscriber.endpoint == from) subscriber.expires = now + protocol::kSubscriptionLease;
+  }
+}
+
+void Control::expire(double now) {
+  std::erase_if(subscribers_, [now](const Subscriber& s) { return s.expires < now; });
 }
 
 void Control::tell_changes(std::vector<Reply>& replies) const {
   constexpr std::size_t kMostAtOnce = 64;  // the next time the rest
-  if (clients_.empty()) return;
+  if (subscribers_.empty() || !actions_.changes) return;
   for (const auto& [name, value] : actions_.changes(kMostAtOnce)) {
-    for (const auto& client : clients_) {
-      replies.push_back({client, protocol::value_of(name, value)});
+    for (const auto& [endpoint, expires] : subscribers_) {
+      replies.push_back({endpoint, protocol::value_of(name, value)});
     }
   }
 }
 
 void Control::say_goodbye(std::vector<Reply>& replies) const {
-  for (const auto& client : clients_) replies.push_back({client, goodbye()});
+  for (const auto& [endpoint, expires] : subscribers_) replies.push_back({endpoint, goodbye()});
 }
 
 }  // namespace splash::synth

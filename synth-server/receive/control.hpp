@@ -1,105 +1,80 @@
 // SPDX-License-Identifier: MIT
-// Control commands, worded and answered like SuperCollider's server; only from allowed hosts.
+// What the synth's own commands do, and who is told of changes. protocol::ControlPort carries out
+// the commands that both programs have alike.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "protocol/message.hpp"
-#include "protocol/reply_budget.hpp"
+#include "protocol/control_port.hpp"
 #include "protocol/status.hpp"
-#include "protocol/udp_socket.hpp"
-#include "synth-server/receive/reply_limit.hpp"
 
 namespace splash::synth {
 
-/// What a command may do to the program.
+using protocol::Reply;
+
+/// What a command may do to the program. A command whose action is empty is refused with /fail.
 struct ControlActions {
   /// Completes what the receiving side knows with what the audio side does.
-  std::function<protocol::SynthStatus(protocol::SynthStatus)> status;
-  std::function<void()> clear_scheduled;
-  std::function<void()> quit;
-  std::function<void(bool)> mute;  ///< true: silent, false: heard
+  std::function<protocol::SynthStatus(protocol::SynthStatus)> status = {};
+  std::function<void()> clear_scheduled = {};
+  std::function<void()> quit = {};
+  std::function<void(bool)> mute = {};  ///< true: silent, false: heard
 
   struct Value {
     std::string name;
     double value = 0.0;
   };
-  /// The first two give the reason why not, or nothing.
-  std::function<std::string(const std::string&, double)> set = [](auto&&...) { return "no rows"; };
-  std::function<std::string(const std::string&, double)> preset = set;
-  std::function<std::optional<double>(const std::string&)> get = [](auto&&...) {
-    return std::nullopt;
-  };
-  /// At most so many values that have changed since they were last asked for.
-  std::function<std::vector<Value>(std::size_t)> changes = [](auto&&...) {
-    return std::vector<Value>();
-  };
-  /// A test tone on a channel, from 1, or none; the reason why not, or nothing.
-  std::function<std::string(int)> tone = [](int) { return "no channels"; };
-};
-
-/// Where and when a command came, and what its datagram may still draw.
-struct Arrived {
-  protocol::Endpoint from;
-  double monotonic = 0.0;  ///< [s]
-  double unix_time = 0.0;  ///< [s]
-  protocol::ReplyBudget& budget;
-};
-
-struct Reply {
-  protocol::Endpoint to;
-  protocol::Message message;
+  /// Both return the reason why they did not; empty: they did.
+  std::function<std::string(const std::string&, double)> set = {};
+  std::function<std::string(const std::string&, double)> preset = {};
+  std::function<std::optional<double>(const std::string&)> get = {};
+  /// Returns at most so many values that have changed since they were last asked for.
+  std::function<std::vector<Value>(std::size_t)> changes = {};
+  /// Plays a test tone on a channel, from 1, or none for 0. Returns the reason why it did not.
+  std::function<std::string(int)> tone = {};
+  std::function<void(const std::string& line)> print =
+      {};  ///< for the lines of /dumpOSC and /error
 };
 
 class Control {
  public:
-  /// Loopback is always allowed; `allowed`: further hosts (IPv4, host byte order).
-  Control(ControlActions actions, std::vector<std::uint32_t> allowed);
+  /// `allowed`: hosts whose commands are obeyed besides this one's, in host byte order.
+  /// `heard`: returns what the receiving side knows of the status.
+  Control(ControlActions actions, std::vector<std::uint32_t> allowed,
+          std::function<protocol::SynthStatus()> heard);
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
 
-  [[nodiscard]] bool allows(const protocol::Endpoint& from) const noexcept;
-  /// Carries out a command from an allowed host; what is no command is answered with /fail.
-  /// `status`: what the receiving side knows of it.
-  void handle(const protocol::Message& message, const Arrived& arrived,
-              const protocol::SynthStatus& status, std::vector<Reply>& replies);
-  /// To all who asked with /notify: what has changed.
+  [[nodiscard]] protocol::ControlPort& port() noexcept { return port_; }
+  [[nodiscard]] const protocol::ControlPort& port() const noexcept { return port_; }
+
+  /// Renews the subscription of a host that said something at `now` (monotonic [s]).
+  void renew(const protocol::Endpoint& from, double now);
+  /// Ends the subscriptions that have run out by `now` (monotonic [s]).
+  void expire(double now);
+  /// To all subscribers: what has changed.
   void tell_changes(std::vector<Reply>& replies) const;
-  /// To all who asked with /notify: the program ends.
+  /// To all subscribers: the program ends.
   void say_goodbye(std::vector<Reply>& replies) const;
 
-  [[nodiscard]] int dump_level() const noexcept { return dump_level_; }
-  [[nodiscard]] bool reports_failures() const noexcept { return reports_failures_; }
-  /// Replies withheld because a host asked too often, or in fewer bytes than the reply has.
-  [[nodiscard]] std::uint64_t withheld() const noexcept { return withheld_; }
-  /// A line for people on the last question that was too short, once; empty: none was.
-  [[nodiscard]] std::string take_complaint() { return std::exchange(complaint_, {}); }
-
  private:
-  /// The reply to a message that the address table accepts.
-  [[nodiscard]] protocol::Message carry_out(const protocol::Message& message,
-                                            const Arrived& arrived,
-                                            const protocol::SynthStatus& status);
-  [[nodiscard]] protocol::Message notify(const protocol::Message& message, const Arrived& arrived);
-  [[nodiscard]] protocol::Message change(const protocol::Message& message);
-  [[nodiscard]] protocol::Message quit(const protocol::Endpoint& from);
+  struct Subscriber {
+    protocol::Endpoint endpoint;
+    double expires = 0.0;  ///< monotonic [s]
+  };
 
-  /// Sends `reply` if the question is as long and `limit` lets it.
-  void answer(const std::string& command, const protocol::Message& reply, const Arrived& arrived,
-              ReplyLimit& limit, std::vector<Reply>& replies);
+  void add_commands();
+  [[nodiscard]] protocol::Outcome notify(const protocol::Message& message, protocol::Visit& visit);
+  [[nodiscard]] protocol::Outcome value_of(const protocol::Message& message) const;
 
   ControlActions actions_;
-  std::vector<std::uint32_t> allowed_;
-  std::vector<protocol::Endpoint> clients_;
-  ReplyLimit limit_;
-  ReplyLimit pongs_{100.0};  ///< no larger than four stamps; clocks are measured in bursts
-  int dump_level_ = 0;
-  bool reports_failures_ = true;
-  std::uint64_t withheld_ = 0;
-  std::string complaint_;
+  std::function<protocol::SynthStatus()> heard_;
+  std::vector<Subscriber> subscribers_;
+  protocol::ControlPort port_;
 };
 
 }  // namespace splash::synth

@@ -2,7 +2,6 @@
 #include "synth-server/receive/intake.hpp"
 
 #include <numeric>
-#include <string_view>
 #include <utility>
 
 #include "protocol/address.hpp"
@@ -17,16 +16,6 @@ namespace {
 constexpr int kQuickPings = 8;
 constexpr double kQuickPingPeriod = 0.09;  // less than a heartbeat
 constexpr double kPingPeriod = 1.0;
-
-bool is_event(std::string_view address) noexcept {
-  return address == "/impact" || address == "/bubble" || address == "/cavity";
-}
-
-/// Replies are never answered, lest two programs talk to each other for ever.
-bool is_reply(const protocol::Message& message) noexcept {
-  const auto* row = protocol::find_address(message.address);
-  return row != nullptr && row->direction == protocol::Direction::reply;
-}
 
 /// The same, as long as its /pong.
 protocol::Message answerable(const protocol::Message& ping) {
@@ -45,24 +34,26 @@ std::uint64_t refused(const IntakeCounters& counters) noexcept {
   return std::accumulate(counters.refusals.begin(), counters.refusals.end(), counters.out_of_table);
 }
 
-Intake::Intake(CommandQueue& queue, Control control, LocalTime time)
-    : queue_(queue), control_(std::move(control)), time_(std::move(time)) {}
+Intake::Intake(CommandQueue& queue, ControlActions actions, std::vector<std::uint32_t> allowed,
+               LocalTime time)
+    : queue_(queue),
+      time_(std::move(time)),
+      control_(std::move(actions), std::move(allowed), [this] { return status(); }) {}
 
 void Intake::datagram(protocol::Bytes bytes, const protocol::Endpoint& from, double arrival,
                       std::vector<Reply>& replies) {
   ++counters_.datagrams;
-  const auto [refusal, packet] = read_packet(bytes);
-  if (refusal != protocol::Refusal::none) {
-    ++counters_.refusals[static_cast<std::size_t>(refusal)];
-    return;
-  }
-  Visit visit{from, arrival, protocol::ReplyBudget(from, bytes.size()), replies};
-  const auto timing = open_bundle(packet, visit);
+  const protocol::DecodeResult read = read_packet(bytes);
+  if (!control_.port().inspect(bytes, read, from, arrival)) return;
+  control_.renew(from, arrival);
+  Visit visit{from, arrival, time_.unix_of(arrival), read.packet.time, {from, bytes.size()}};
+  const auto timing = open_bundle(read.packet, visit, replies);
   if (!timing) return;
-  for (const auto& message : packet.messages) route(message, *timing, visit);
+  for (const auto& message : read.packet.messages) route(message, *timing, visit, replies);
 }
 
-std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet, Visit& visit) {
+std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet, Visit& visit,
+                                                  Replies& replies) {
   const double arrival = visit.arrival;
   const bool tagged = packet.time && *packet.time != protocol::kImmediately;
   const auto frame =
@@ -74,7 +65,7 @@ std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet
   Sender& sender = senders_.at(visit.from);
   const protocol::Arrival order = welcome(*frame, sender, arrival);
   if (order == protocol::Arrival::duplicate) return std::nullopt;
-  if (arrival >= sender.next_ping) ask_clock(sender, visit);
+  if (arrival >= sender.next_ping) ask_clock(sender, visit, replies);
 
   const double delay = 1e-3 * static_cast<double>(frame->delay_ms);
   const double by_arrival = arrival + delay;
@@ -102,32 +93,33 @@ protocol::Arrival Intake::welcome(const protocol::Frame& frame, Sender& sender, 
   return kind;
 }
 
-void Intake::route(const protocol::Message& message, const Timing& timing, Visit& visit) {
-  if (message.address == "/leave") {
-    leave(message, visit.from);
-  } else if (is_event(message.address) || message.address == "/frame") {
+void Intake::route(const protocol::Message& message, const Timing& timing, Visit& visit,
+                   Replies& replies) {
+  const auto* row = protocol::find_address(message.address);
+  if (row != nullptr && row->direction == protocol::Direction::to_synth) {
     if (const auto event = protocol::to_event(message)) return play(*event, timing);
-    if (protocol::violation(message)) ++counters_.out_of_table;
-  } else if (is_reply(message)) {
+    if (const auto reason = protocol::violation(message)) return refuse(message, *reason, visit);
+    if (message.address == "/leave") leave(visit);
+  } else if (message.address == "/pong") {
     take_pong(message, visit.from, visit.arrival);
-  } else if (control_.allows(visit.from)) {
-    if (protocol::violation(message)) ++counters_.out_of_table;
-    control_.handle(message,
-                    {visit.from, visit.arrival, time_.unix_of(visit.arrival), visit.budget},
-                    status(), visit.replies);
+  } else if (control_.port().allows(visit.from)) {
+    control_.port().take(message, visit, replies);
   } else {
-    ++counters_.forbidden;
+    control_.port().turn_away(visit.from, visit.arrival);
   }
 }
 
-void Intake::leave(const protocol::Message& message, const protocol::Endpoint& from) {
-  Sender* sender = senders_.find(from);
-  if (protocol::violation(message)) {
-    ++counters_.out_of_table;
-  } else if (sender != nullptr && sender->present) {
-    sender->present = false;
-    if (!senders_.anybody_present()) ++counters_.departures;
-  }
+void Intake::refuse(const protocol::Message& message, const std::string& reason,
+                    const Visit& visit) {
+  ++counters_.out_of_table;
+  control_.port().report(visit.from, message.address + ": " + reason, visit.arrival);
+}
+
+void Intake::leave(const Visit& visit) {
+  Sender* sender = senders_.find(visit.from);
+  if (sender == nullptr || !sender->present) return;
+  sender->present = false;
+  if (!senders_.anybody_present()) ++counters_.departures;
 }
 
 void Intake::play(const protocol::Event& event, const Timing& timing) {
@@ -143,7 +135,7 @@ void Intake::play(const protocol::Event& event, const Timing& timing) {
 
 // Only ever in answer to a frame, which is longer: a forged frame draws no more than was sent. To
 // another host it is as long as the /pong that is wanted, unless the frame came alone, in 32 bytes.
-void Intake::ask_clock(Sender& sender, Visit& visit) {
+void Intake::ask_clock(Sender& sender, Visit& visit, Replies& replies) {
   const double now = visit.arrival;
   sender.next_ping = now + (sender.pings < kQuickPings ? kQuickPingPeriod : kPingPeriod);
   ++sender.pings;
@@ -151,13 +143,13 @@ void Intake::ask_clock(Sender& sender, Visit& visit) {
   const protocol::Message ping = protocol::ping(sender.asked);
   auto fitting = is_loopback(sender.endpoint) ? std::nullopt : visit.budget.take(answerable(ping));
   if (!fitting) fitting = visit.budget.take(ping);
-  if (fitting) visit.replies.push_back({sender.endpoint, std::move(*fitting)});
+  if (fitting) replies.push_back({sender.endpoint, std::move(*fitting)});
 }
 
 void Intake::take_pong(const protocol::Message& message, const protocol::Endpoint& from,
                        double arrival) {
   Sender* sender = senders_.find(from);
-  if (message.address != "/pong" || protocol::violation(message) || sender == nullptr) return;
+  if (sender == nullptr || protocol::violation(message)) return;
   const auto stamp = [&](std::size_t i) {
     return std::get<protocol::TimeTag>(message.arguments[i]);
   };
@@ -170,6 +162,7 @@ void Intake::take_pong(const protocol::Message& message, const protocol::Endpoin
 void Intake::tick(double now) {
   if (senders_.expire(now)) ++counters_.departures;
   if (time_.refresh()) ++counters_.clock_steps;
+  control_.expire(now);
 }
 
 protocol::SynthStatus Intake::status() const {
@@ -184,8 +177,12 @@ protocol::SynthStatus Intake::status() const {
 }
 
 IntakeCounters Intake::counters() const {
+  const protocol::ControlCounts& port = control_.port().counts();
   IntakeCounters counters = counters_;
-  counters.withheld = control_.withheld();
+  counters.refusals = port.refused;
+  counters.out_of_table += port.out_of_table;
+  counters.forbidden = port.not_allowed;
+  counters.withheld = port.withheld;
   counters.sequence = senders_.totals();
   return counters;
 }

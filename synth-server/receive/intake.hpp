@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a datagram: gate, oscpack, then events with their moments to the audio thread,
-// commands to Control. Knows no socket and no thread, so tests bring their own time.
+// commands to the control port. It knows no socket and no thread, so that tests bring their own
+// time.
 #pragma once
 
 #include <array>
@@ -25,7 +26,7 @@ struct IntakeCounters {
   protocol::ByKind<std::uint64_t> without_place;  ///< same by kind
   std::uint64_t out_of_table = 0;                 ///< messages the address table refuses
   std::uint64_t forbidden = 0;                    ///< commands from hosts that are not allowed
-  std::uint64_t withheld = 0;      ///< replies over the limit or longer than their question
+  std::uint64_t withheld = 0;      ///< replies over the limit or longer than their request
   std::uint64_t clock_steps = 0;   ///< times this host's clock was set
   std::uint64_t sender_steps = 0;  ///< times a sender's clock was set, or ours against it
   std::uint64_t corrected = 0;     ///< bundles whose sender's clock was off
@@ -38,12 +39,17 @@ struct IntakeCounters {
 
 class Intake {
  public:
-  Intake(CommandQueue& queue, Control control, LocalTime time = LocalTime{});
+  /// `allowed`: hosts whose commands are obeyed besides this one's, in host byte order.
+  explicit Intake(CommandQueue& queue, ControlActions actions = {},
+                  std::vector<std::uint32_t> allowed = {}, LocalTime time = LocalTime{});
+  Intake(const Intake&) = delete;
+  Intake& operator=(const Intake&) = delete;
 
   /// `arrival`: when it came [s, monotonic]. Replies and pings are appended to `replies`.
   void datagram(protocol::Bytes bytes, const protocol::Endpoint& from, double arrival,
                 std::vector<Reply>& replies);
-  /// To be called often, with the socket drained: leases and this host's clock.
+  /// To be called often, with the socket drained: leases and this host's clock. `now`: monotonic
+  /// [s].
   void tick(double now);
   /// To all clients, at the end.
   void say_goodbye(std::vector<Reply>& replies) const { control_.say_goodbye(replies); }
@@ -51,9 +57,7 @@ class Intake {
   void tell_changes(std::vector<Reply>& replies) const { control_.tell_changes(replies); }
 
   [[nodiscard]] IntakeCounters counters() const;
-  [[nodiscard]] const Control& control() const noexcept { return control_; }
-  /// See Control.
-  [[nodiscard]] std::string take_complaint() { return control_.take_complaint(); }
+  [[nodiscard]] const protocol::ControlPort& port() const noexcept { return control_.port(); }
   [[nodiscard]] bool sender_present() const noexcept { return senders_.anybody_present(); }
   /// When tick() next has a lease to end [s, monotonic]; infinity: nobody is present.
   [[nodiscard]] double next_expiry() const noexcept { return senders_.next_expiry(); }
@@ -66,28 +70,28 @@ class Intake {
     bool at_once = false;      ///< OSC's "immediately", and no delay announced
     std::int32_t session = 0;  ///< of the sender, 0: there was no /frame
   };
-  /// Where and when a datagram came, and what it draws.
-  struct Visit {
-    const protocol::Endpoint& from;
-    double arrival = 0.0;  ///< [s, monotonic]
-    protocol::ReplyBudget budget;
-    std::vector<Reply>& replies;
-  };
+  using Visit = protocol::Visit;
+  using Replies = std::vector<Reply>;
+
   /// nullopt: a bundle that was heard before.
-  [[nodiscard]] std::optional<Timing> open_bundle(const protocol::Packet& packet, Visit& visit);
+  [[nodiscard]] std::optional<Timing> open_bundle(const protocol::Packet& packet, Visit& visit,
+                                                  Replies& replies);
   protocol::Arrival welcome(const protocol::Frame& frame, Sender& sender, double arrival);
-  void route(const protocol::Message& message, const Timing& timing, Visit& visit);
+  void route(const protocol::Message& message, const Timing& timing, Visit& visit,
+             Replies& replies);
+  /// Counts and reports a message that the address table refuses.
+  void refuse(const protocol::Message& message, const std::string& reason, const Visit& visit);
   void play(const protocol::Event& event, const Timing& timing);
-  void leave(const protocol::Message& message, const protocol::Endpoint& from);
+  void leave(const Visit& visit);
   void take_pong(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
-  void ask_clock(Sender& sender, Visit& visit);
+  void ask_clock(Sender& sender, Visit& visit, Replies& replies);
   [[nodiscard]] protocol::SynthStatus status() const;
 
   CommandQueue& queue_;
-  Control control_;
   LocalTime time_;
   SenderTable senders_;
-  IntakeCounters counters_;
+  IntakeCounters counters_;  ///< but for those of the control port
+  Control control_;
 };
 
 }  // namespace splash::synth

@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "protocol/time_tag.hpp"
-#include "synth-server/receive/oscpack_reader.hpp"
-#include "synth-server/receive/packet_text.hpp"
 
 namespace splash::synth {
 namespace {
@@ -17,26 +15,13 @@ constexpr double kTick = 0.02;
 constexpr int kMostBetweenTicks = 256;
 /// One byte more than any datagram has: nothing is cut off unseen.
 constexpr std::size_t kBuffer = 65536;
-constexpr double kReportPeriod = 1.0;  ///< [s]
-
-std::string complaint(const IntakeCounters& counters, const protocol::Endpoint& from) {
-  std::string text = "refused from " + protocol::to_string(from) + "; so far:";
-  for (std::size_t i = 0; i < counters.refusals.size(); ++i) {
-    if (counters.refusals[i] == 0) continue;
-    text += ' ' + std::to_string(counters.refusals[i]) + " x " +
-            std::string(protocol::describe(static_cast<protocol::Refusal>(i))) + ',';
-  }
-  return text + ' ' + std::to_string(counters.out_of_table) + " x outside the address table, " +
-         std::to_string(counters.forbidden) + " x command from a host that is not allowed";
-}
 
 }  // namespace
 
-Receiver::Receiver(protocol::UdpSocket socket, CommandQueue& queue, Control control,
-                   std::function<void(const std::string&)> log)
+Receiver::Receiver(protocol::UdpSocket socket, CommandQueue& queue, ControlActions actions,
+                   std::vector<std::uint32_t> allowed)
     : socket_(std::move(socket)),
-      log_(std::move(log)),
-      intake_(queue, std::move(control)),
+      intake_(queue, std::move(actions), std::move(allowed)),
       buffer_(kBuffer),
       thread_([this] { run(); }) {}
 
@@ -71,48 +56,11 @@ double Receiver::limits() const noexcept {
   return std::clamp(intake_.next_expiry() - protocol::monotonic_now(), 0.0, kTick);
 }
 
-// As above.
-std::uint64_t Receiver::rejected() const {
-  const IntakeCounters counters = intake_.counters();
-  return refused(counters) + counters.forbidden;
-}
-
 void Receiver::take(const protocol::UdpSocket::Received& received, std::vector<Reply>& replies) {
   const double arrival = protocol::monotonic_now();
   const protocol::Bytes bytes(buffer_.data(), std::min(received.size, buffer_.size()));
-  const std::uint64_t before = rejected();
-  std::string unanswered;
-  {
-    const std::lock_guard lock(mutex_);
-    intake_.datagram(bytes, received.from, arrival, replies);
-    unanswered = intake_.take_complaint();
-  }
-  if (rejected() != before && is_due(next_refusal_)) {
-    log_(complaint(intake_.counters(), received.from));
-  }
-  if (!unanswered.empty() && is_due(next_unanswered_)) log_(unanswered);
-  if (intake_.control().dump_level() != 0) dump(bytes, received.from);
-}
-
-bool Receiver::is_due(double& next) const {
-  const double now = protocol::monotonic_now();
-  if (!intake_.control().reports_failures() || now < next) return false;
-  next = now + kReportPeriod;
-  return true;
-}
-
-void Receiver::dump(protocol::Bytes bytes, const protocol::Endpoint& from) {
-  const double now = protocol::monotonic_now();
-  const int level = intake_.control().dump_level();
-  const std::string head = "osc from " + protocol::to_string(from) + ": ";
-  const auto [refusal, packet] = read_packet(bytes);
-  if ((level & 1) != 0) {
-    dumped_.print(head + (refusal == protocol::Refusal::none
-                              ? to_text(packet)
-                              : "refused: " + std::string(protocol::describe(refusal))),
-                  now, log_);
-  }
-  if ((level & 2) != 0) dumped_.print(head + to_hexadecimal(bytes), now, log_);
+  const std::lock_guard lock(mutex_);
+  intake_.datagram(bytes, received.from, arrival, replies);
 }
 
 void Receiver::send(std::vector<Reply>& replies) {

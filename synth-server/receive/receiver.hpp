@@ -3,13 +3,11 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
+#include <cstdint>
 #include <mutex>
-#include <string>
 #include <thread>
 #include <vector>
 
-#include "program/text_limit.hpp"
 #include "protocol/udp_socket.hpp"
 #include "synth-server/receive/intake.hpp"
 
@@ -17,10 +15,9 @@ namespace splash::synth {
 
 class Receiver {
  public:
-  /// `log` gets lines for people: refused datagrams and questions that are too short for their
-  /// answers (at most one line a second of each), and /dumpOSC's.
-  Receiver(protocol::UdpSocket socket, CommandQueue& queue, Control control,
-           std::function<void(const std::string&)> log);
+  /// `allowed`: hosts whose commands are obeyed besides this one's, in host byte order.
+  Receiver(protocol::UdpSocket socket, CommandQueue& queue, ControlActions actions,
+           std::vector<std::uint32_t> allowed);
   /// Says goodbye to the clients.
   ~Receiver();
   Receiver(const Receiver&) = delete;
@@ -29,7 +26,7 @@ class Receiver {
   [[nodiscard]] protocol::Endpoint local() const noexcept { return socket_.local(); }
   [[nodiscard]] IntakeCounters counters() const;
   [[nodiscard]] bool sender_present() const;
-  /// How often the thread has looked, fifty times a second at least.
+  /// The number of times that the thread has waited for a datagram, fifty a second at least.
   [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
   /// Datagrams the kernel dropped because they came faster than they were read.
   [[nodiscard]] std::uint64_t dropped_by_kernel() const noexcept { return dropped_by_kernel_; }
@@ -40,20 +37,11 @@ class Receiver {
   [[nodiscard]] double limits() const noexcept;
   void take(const protocol::UdpSocket::Received& received, std::vector<Reply>& replies);
   void send(std::vector<Reply>& replies);
-  void dump(protocol::Bytes bytes, const protocol::Endpoint& from);
-  /// Whether a line may be said of which the last was due before `next`: once a second at most,
-  /// whatever comes, and not at all after /error 0.
-  [[nodiscard]] bool is_due(double& next) const;
-  [[nodiscard]] std::uint64_t rejected() const;
 
   protocol::UdpSocket socket_;
-  std::function<void(const std::string&)> log_;
   mutable std::mutex mutex_;  ///< guards intake_; the audio thread never takes it
   Intake intake_;
   std::vector<std::byte> buffer_;
-  program::TextLimit dumped_;
-  double next_refusal_ = 0.0;     ///< when the next line on one is due [s, monotonic]
-  double next_unanswered_ = 0.0;  ///< same
   std::atomic<std::uint64_t> dropped_by_kernel_{0};
   std::atomic<std::uint64_t> turns_{0};
   std::atomic<bool> stopping_{false};

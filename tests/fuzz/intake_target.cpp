@@ -55,10 +55,8 @@ std::optional<Step> take_step(Bytes& rest) {
 class Story {
  public:
   Story()
-      : intake_(queue_,
-                Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {},
-                         [](bool) {}},
-                        {kAllowedHost}),
+      : intake_(queue_, {.clear_scheduled = [] {}, .quit = [] {}, .mute = [](bool) {}},
+                {kAllowedHost},
                 LocalTime([this] { return kUnix + (now_ - kStart); }, [this] { return now_; })) {}
 
   void take(const Step& step) {

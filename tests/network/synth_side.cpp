@@ -22,19 +22,13 @@ synth::EngineSettings nothing_skipped() {
   return settings;
 }
 
-synth::Control no_control() {
-  return synth::Control(
-      {[](protocol::SynthStatus status) { return status; }, [] {}, [] {}, [](bool) {}}, {});
-}
-
 }  // namespace
 
 SynthSide::SynthSide(std::function<double()> unix_clock)
     : engine_(synth::read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml"),
               nothing_skipped()),
       player_(engine_, passed_, nullptr, {kRate, kBlock, 0.0, false, {}}),
-      intake_(heard_, no_control(),
-              synth::LocalTime(std::move(unix_clock), [this] { return now(); })) {}
+      intake_(heard_, {}, {}, synth::LocalTime(std::move(unix_clock), [this] { return now(); })) {}
 
 void SynthSide::receive(const Datagram& datagram, const protocol::Endpoint& from) {
   intake_.datagram(datagram, from, now(), replies_);

@@ -98,8 +98,8 @@ TEST(AddressTable, OnlyCommandsMayBeFilledUp) {
       }
     }
   }
-  EXPECT_EQ(commands, 16) << "/notify /status /version /sync /clearSched /mute /set /get /preset "
-                             "/tone /pause /reset /dumpOSC /error /quit /ping";
+  EXPECT_EQ(commands, 17) << "/notify /status /version /sync /clearSched /mute /set /get /preset "
+                             "/tone /pause /reset /body/grab /dumpOSC /error /quit /ping";
 }
 
 TEST(AddressTable, FillingDoesNotStandInForArguments) {

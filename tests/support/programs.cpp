@@ -13,8 +13,7 @@
 namespace splash::tests {
 namespace {
 
-/// 127.0.0.2. A program answers each host ten times a second at most: its partner, which asks from
-/// 127.0.0.1, must not use up what the test has.
+/// 127.0.0.2: not the address from which a program's partner asks.
 constexpr std::uint32_t kOwnHost = INADDR_LOOPBACK + 1;
 
 Arguments on_some_port(Arguments arguments) {

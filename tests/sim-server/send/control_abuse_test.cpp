@@ -10,7 +10,7 @@
 
 #include "protocol/control.hpp"
 #include "protocol/filling.hpp"
-#include "sim-server/listen/rate_limit.hpp"
+#include "protocol/limits.hpp"
 #include "tests/protocol/killers.hpp"
 #include "tests/sim-server/send/control_fixture.hpp"
 #include "tests/support/own_address.hpp"
@@ -57,10 +57,10 @@ TEST_F(ControlAbuse, AFloodDrawsABoundedNumberOfRepliesAndHarmsNoOther) {
   int answers = 0;
   while (flooder.bytes(0.0)) ++answers;
   EXPECT_GE(answers, 1);
-  EXPECT_LE(answers, RateLimit::kBurst + RateLimit::kRate * seconds + 1.0);
+  EXPECT_LE(answers, protocol::kReplyBurst + protocol::kReplyRate * seconds + 1.0);
   EXPECT_EQ(server_->counts().failed, static_cast<std::uint64_t>(kFlood));
   EXPECT_LE(static_cast<double>(lines().size()),
-            RateLimit::kBurst + RateLimit::kRate * seconds + 1.0);
+            protocol::kReportBurst + protocol::kReportRate * seconds + 1.0);
 }
 
 TEST_F(ControlAbuse, PosesAreNotLimited) {
@@ -111,7 +111,7 @@ TEST_F(ControlStranger, WhoIsAllowedIsHeardButMayNotQuit) {
   };
   EXPECT_EQ(ask_friendly({"/status", {}}).address, "/status.reply");
   EXPECT_EQ(ask_friendly({"/quit", {}}),
-            protocol::fail("/quit", "only from the simulator's own host"));
+            protocol::fail("/quit", "only from the program's own host"));
   EXPECT_EQ(quits(), 0);
 }
 

@@ -9,7 +9,7 @@
 
 #include "protocol/control.hpp"
 #include "protocol/filling.hpp"
-#include "sim-server/listen/rate_limit.hpp"
+#include "protocol/limits.hpp"
 #include "tests/sim-server/send/control_fixture.hpp"
 #include "tests/support/own_address.hpp"
 
@@ -99,7 +99,7 @@ TEST_F(ReplyLength, AllRepliesToABundleTogetherAreNoLonger) {
   std::vector<Message> commands(30, Message{"/sync", {1}});
   commands.push_back({"/status", {}});
   const auto bundle = protocol::encode({1}, commands);
-  ASSERT_LT(commands.size(), RateLimit::kBurst);
+  ASSERT_LT(commands.size(), protocol::kReplyBurst);
   say(bundle);
   std::size_t bytes = 0;
   std::size_t replies = 0;
@@ -120,7 +120,7 @@ TEST_F(ReplyLength, AFloodOfShortQuestionsIsToldABoundedNumberOfTimes) {
   EXPECT_EQ(server_->counts().withheld, 500U);
   EXPECT_EQ(server_->counts().replies, 0U);
   EXPECT_LE(static_cast<double>(lines().size()),
-            RateLimit::kBurst + RateLimit::kRate * seconds + 1.0);
+            protocol::kReportBurst + protocol::kReportRate * seconds + 1.0);
 }
 
 }  // namespace

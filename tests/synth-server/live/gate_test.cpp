@@ -35,7 +35,7 @@ class Chain {
       : block_(block),
         engine_(stereo(), open_engine()),
         player_(engine_, queue_, nullptr, {kRate, 4096, ramp, muted, {}}),
-        intake_(queue_, Control({[](protocol::SynthStatus s) { return s; }, [] {}, [] {}, {}}, {}),
+        intake_(queue_, {}, {},
                 LocalTime([this] { return kUnix + (now() - kStart); }, [this] { return now(); })) {}
 
   [[nodiscard]] double now() const { return kStart + static_cast<double>(samples_.size()) / kRate; }

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "protocol/address.hpp"
+#include "protocol/control.hpp"
 #include "protocol/filling.hpp"
+#include "protocol/limits.hpp"
 
 namespace splash::synth {
 namespace {
@@ -14,51 +16,65 @@ using protocol::Message;
 
 constexpr protocol::Endpoint kLocal{INADDR_LOOPBACK, 9000};
 constexpr protocol::Endpoint kFriend{0x0A000005, 9000};
-constexpr protocol::Endpoint kStranger{0x0A000006, 9000};
 
 class ControlTest : public testing::Test {
  protected:
-  ControlTest() : control_(actions(), {kFriend.address}) {}
+  ControlTest()
+      : control_(actions(), {kFriend.address}, [] {
+          protocol::SynthStatus status;
+          status.events = 42;
+          return status;
+        }) {}
 
   ControlActions actions() {
-    return {[](protocol::SynthStatus status) {
+    return {
+        .status =
+            [](protocol::SynthStatus status) {
               status.voices = 7;
               return status;
             },
-            [this] { ++cleared_; },
-            [this] { ++quits_; },
-            [this](bool on) { muted_ = on; },
+        .clear_scheduled = [this] { ++cleared_; },
+        .quit = [this] { ++quits_; },
+        .mute = [this](bool on) { muted_ = on; },
+        .set =
             [this](const std::string& name, double value) {
               if (name != "impact/q") return std::string("no such row");
               q_ = value;
               return std::string();
             },
+        .preset =
             [](const std::string& name, double /*seconds*/) {
               return std::string(name == "calibrated" ? "" : "no sound is called so");
             },
+        .get =
             [this](const std::string& name) {
               return name == "impact/q" ? std::optional(q_) : std::nullopt;
             },
+        .changes =
             [this](std::size_t most) {
               std::vector<ControlActions::Value> all(std::min<std::size_t>(most, 1));
               all[0] = {"impact/q", q_};
               return all;
-            }};
+            },
+        .tone = [](int channel) { return std::string(channel > 2 ? "there are 2 channels" : ""); }};
   }
-  /// The one reply; a new second for each command, so that the limit is not met.
+  /// The one reply; a second later for each command, so that no limit of rate is met.
   Message ask(const Message& message, const protocol::Endpoint& from = kLocal) {
     std::vector<Reply> replies;
     now_ += 1.0;
-    protocol::SynthStatus status;
-    status.events = 42;
     const Message question = from == kLocal ? message : protocol::filled_up(message, 256);
-    protocol::ReplyBudget budget(from, protocol::encode(question).size());
-    control_.handle(question, {from, now_, 1.8e9 + now_, budget}, status, replies);
+    protocol::Visit visit{from, now_, 1.8e9 + now_, {}, {from, protocol::encode(question).size()}};
+    control_.port().take(question, visit, replies);
     EXPECT_EQ(replies.size(), 1U) << message.address;
     if (replies.empty()) return {};
     EXPECT_EQ(replies.front().to, from);
     EXPECT_EQ(protocol::violation(replies.front().message), std::nullopt) << message.address;
     return replies.front().message;
+  }
+  std::size_t subscribers() const {
+    std::vector<Reply> goodbyes;
+    control_.say_goodbye(goodbyes);
+    return goodbyes.size();
   }
 
   int cleared_ = 0;
@@ -69,10 +85,29 @@ class ControlTest : public testing::Test {
   Control control_;
 };
 
-TEST_F(ControlTest, AllowsLoopbackAndThoseNamed) {
-  EXPECT_TRUE(control_.allows(kLocal));
-  EXPECT_TRUE(control_.allows(kFriend));
-  EXPECT_FALSE(control_.allows(kStranger));
+TEST_F(ControlTest, HasEachCommandOfTheTable) {
+  EXPECT_THAT(control_.port().missing(), testing::IsEmpty());
+}
+
+TEST_F(ControlTest, WhatNothingIsThereForIsRefused) {
+  Control control({}, {}, [] { return protocol::SynthStatus{}; });
+  for (const Message& message :
+       {Message{"/clearSched", {}}, Message{"/mute", {1}}, Message{"/tone", {1}},
+        Message{"/quit", {}}, Message{"/get", {std::string("impact/q")}},
+        Message{"/set", {std::string("impact/q"), 1.0F}},
+        Message{"/preset", {std::string("calibrated"), 1.0F}}}) {
+    std::vector<Reply> replies;
+    protocol::Visit visit{kLocal, 1.0, 1.0, {}, {kLocal, 0}};
+    control.port().take(message, visit, replies);
+    ASSERT_EQ(replies.size(), 1U) << message.address;
+    EXPECT_EQ(replies[0].message.address, "/fail") << message.address;
+  }
+}
+
+TEST_F(ControlTest, PlaysTestTones) {
+  EXPECT_EQ(ask({"/tone", {2}}), (Message{"/done", {std::string("/tone")}}));
+  EXPECT_EQ(ask({"/tone", {3}}),
+            (Message{"/fail", {std::string("/tone"), std::string("there are 2 channels")}}));
 }
 
 TEST_F(ControlTest, Mutes) {
@@ -98,7 +133,7 @@ TEST_F(ControlTest, SetsAndGetsByName) {
   EXPECT_EQ(ask({"/preset", {std::string("calibrated"), 601.0F}}).address, "/fail");
 }
 
-TEST_F(ControlTest, TellsItsClientsWhatHasChanged) {
+TEST_F(ControlTest, TellsItsSubscribersWhatHasChanged) {
   std::vector<Reply> told;
   control_.tell_changes(told);
   EXPECT_TRUE(told.empty()) << "there are none";
@@ -119,44 +154,16 @@ TEST_F(ControlTest, StatusJoinsBothSides) {
   EXPECT_EQ(status->voices, 7U);
 }
 
-TEST_F(ControlTest, AnswersLikeSuperCollider) {
-  EXPECT_EQ(ask({"/version", {}}).address, "/version.reply");
-  EXPECT_EQ(ask({"/sync", {77}}), (Message{"/synced", {77}}));
-  EXPECT_EQ(ask({"/error", {0}}), (Message{"/done", {std::string("/error")}}));
-  EXPECT_FALSE(control_.reports_failures());
-  EXPECT_EQ(ask({"/dumpOSC", {3}}).address, "/done");
-  EXPECT_EQ(control_.dump_level(), 3);
+TEST_F(ControlTest, ClearsWhatWaits) {
   EXPECT_EQ(ask({"/clearSched", {}}), (Message{"/done", {std::string("/clearSched")}}));
   EXPECT_EQ(cleared_, 1);
 }
 
-TEST_F(ControlTest, PongCarriesTheStamps) {
-  const protocol::TimeTag sent{0x1234567800000001};
-  const Message pong = ask({"/ping", {sent}});
-  ASSERT_EQ(pong.address, "/pong");
-  EXPECT_EQ(std::get<protocol::TimeTag>(pong.arguments[0]), sent);
-  EXPECT_NEAR(protocol::to_unix_seconds(std::get<protocol::TimeTag>(pong.arguments[1])),
-              1.8e9 + now_, 1e-5);
-  EXPECT_NEAR(protocol::to_unix_seconds(std::get<protocol::TimeTag>(pong.arguments[2])),
-              protocol::unix_now(), 1.0);
-}
-
-TEST_F(ControlTest, FailsWhatItDoesNotKnow) {
-  for (const Message& message :
-       {Message{"/unheard", {}}, Message{"/sync", {}}, Message{"/dumpOSC", {4}},
-        Message{"/body/pose", {1}}, Message{"/force", {}}}) {
-    const Message reply = ask(message);
-    EXPECT_EQ(reply.address, "/fail");
-    ASSERT_EQ(reply.arguments.size(), 2U);
-    EXPECT_EQ(std::get<std::string>(reply.arguments[0]), message.address);
-    EXPECT_FALSE(std::get<std::string>(reply.arguments[1]).empty());
-  }
-  EXPECT_EQ(control_.dump_level(), 0);
-}
-
 TEST_F(ControlTest, FailsCommandsForTheSimulator) {
   const Message pose = protocol::to_message(protocol::BodyPose{});
-  EXPECT_EQ(ask(pose).address, "/fail");
+  EXPECT_EQ(ask(pose),
+            (Message{"/fail",
+                     {std::string("/body/pose"), std::string("not a command of synth-server")}}));
 }
 
 TEST_F(ControlTest, QuitsOnlyForItsOwnHost) {
@@ -166,11 +173,13 @@ TEST_F(ControlTest, QuitsOnlyForItsOwnHost) {
   EXPECT_EQ(quits_, 1);
 }
 
-TEST_F(ControlTest, SaysGoodbyeToItsClients) {
+TEST_F(ControlTest, SaysGoodbyeToItsSubscribers) {
   EXPECT_EQ(ask({"/notify", {1}}), (Message{"/done", {std::string("/notify"), 1}}));
   EXPECT_EQ(ask({"/notify", {1}}), (Message{"/done", {std::string("/notify"), 1}})) << "once each";
-  EXPECT_EQ(ask({"/notify", {1}}, kFriend), (Message{"/done", {std::string("/notify"), 2}}));
-  EXPECT_EQ(ask({"/notify", {0}}).address, "/done");
+  EXPECT_EQ(ask({"/notify", {1}}, kFriend), (Message{"/done", {std::string("/notify"), 1}}))
+      << "the streams, as from the simulator";
+  EXPECT_EQ(ask({"/notify", {0}}), (Message{"/done", {std::string("/notify"), 0}}));
+  EXPECT_EQ(ask({"/notify", {2}}).address, "/fail");
   std::vector<Reply> replies;
   control_.say_goodbye(replies);
   ASSERT_EQ(replies.size(), 1U);
@@ -178,18 +187,34 @@ TEST_F(ControlTest, SaysGoodbyeToItsClients) {
   EXPECT_EQ(replies[0].message, (Message{"/done", {std::string("/quit")}}));
 }
 
-TEST_F(ControlTest, LimitsRepliesAndPongsApart) {
-  std::vector<Reply> replies;
-  protocol::ReplyBudget budget(kLocal, 0);
-  const Arrived arrived{kLocal, 1.0, 1.0, budget};
-  for (int i = 0; i < 100; ++i) control_.handle({"/version", {}}, arrived, {}, replies);
-  EXPECT_EQ(replies.size(), 10U);
-  EXPECT_EQ(control_.withheld(), 90U);
-  for (int i = 0; i < 200; ++i) {
-    control_.handle({"/ping", {protocol::TimeTag{5}}}, arrived, {}, replies);
+TEST_F(ControlTest, ASubscriptionEndsUnlessItIsRenewed) {
+  static_cast<void>(ask({"/notify", {1}}));
+  static_cast<void>(ask({"/notify", {1}}, kFriend));
+  const double half = now_ + 0.5 * protocol::kSubscriptionLease;
+  control_.expire(half);
+  EXPECT_EQ(subscribers(), 2U);
+  control_.renew(kFriend, half);
+  control_.expire(now_ + protocol::kSubscriptionLease + 1.0);
+  EXPECT_EQ(subscribers(), 1U) << "one has said nothing since";
+  control_.expire(half + protocol::kSubscriptionLease + 1.0);
+  EXPECT_EQ(subscribers(), 0U);
+}
+
+TEST_F(ControlTest, SubscribersThatAreGoneMakeRoomForOthers) {
+  const auto notify = [&](std::uint16_t port) {
+    std::vector<Reply> replies;
+    const protocol::Endpoint from{INADDR_LOOPBACK, port};
+    protocol::Visit visit{from, now_, 1.8e9, {}, {from, 0}};
+    control_.port().take({"/notify", {1}}, visit, replies);
+    return replies.at(0).message;
+  };
+  for (std::uint16_t port = 1; port <= protocol::kMaxSubscribers; ++port) {
+    EXPECT_EQ(notify(port).address, "/done");
   }
-  EXPECT_EQ(replies.size(), 110U);
-  EXPECT_EQ(control_.withheld(), 190U);
+  EXPECT_EQ(notify(99), protocol::fail("/notify", "full: 16 subscribers"));
+  now_ += protocol::kSubscriptionLease + 1.0;
+  control_.expire(now_);
+  EXPECT_EQ(notify(99).address, "/done");
 }
 
 }  // namespace

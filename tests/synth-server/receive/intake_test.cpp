@@ -31,10 +31,7 @@ Message frame(int session, int sequence, float delay_ms = 0.0F) {
 class IntakeTest : public testing::Test {
  protected:
   IntakeTest()
-      : intake_(queue_,
-                Control({[](protocol::SynthStatus status) { return status; }, [] {}, [] {},
-                         [](bool) {}},
-                        {}),
+      : intake_(queue_, {}, {},
                 LocalTime([this] { return kUnix + (now_ - kStart); }, [this] { return now_; })) {}
 
   void send(const std::vector<std::byte>& bytes, const protocol::Endpoint& from = kSim) {

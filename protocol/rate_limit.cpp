@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Buckets in a short list: the allowed peers are few. A flood from ever new ports of one host would
-// get a fresh bucket each, so a peer that had to displace another starts with an empty one.
-#include "sim-server/listen/rate_limit.hpp"
+// The buckets stand in a short list, since the allowed peers are few. A flood from ever new ports
+// would get a fresh bucket each, so a peer that displaces another starts with an empty one.
+#include "protocol/rate_limit.hpp"
 
 #include <algorithm>
 
-namespace splash::sim {
+namespace splash::protocol {
 
-bool RateLimit::allow(const protocol::Endpoint& peer, double now) {
-  Bucket& bucket = bucket_of(peer, now);
+bool RateLimit::allow(const Endpoint& peer, double now) {
+  Bucket& bucket = bucket_of(is_loopback(peer) ? peer : Endpoint{peer.address, 0}, now);
   const double elapsed = std::max(0.0, now - bucket.updated);
-  bucket.tokens = std::min(kBurst, bucket.tokens + kRate * elapsed);
+  bucket.tokens = std::min(burst_, bucket.tokens + rate_ * elapsed);
   bucket.updated = now;
   if (bucket.tokens < 1.0) return false;
   bucket.tokens -= 1.0;
   return true;
 }
 
-RateLimit::Bucket& RateLimit::bucket_of(const protocol::Endpoint& peer, double now) {
+RateLimit::Bucket& RateLimit::bucket_of(const Endpoint& peer, double now) {
   const auto known = std::find_if(buckets_.begin(), buckets_.end(),
                                   [&](const Bucket& bucket) { return bucket.peer == peer; });
   if (known != buckets_.end()) return *known;
   if (buckets_.size() < kMaxPeers) {
-    return buckets_.emplace_back(Bucket{.peer = peer, .tokens = kBurst, .updated = now});
+    return buckets_.emplace_back(Bucket{.peer = peer, .tokens = burst_, .updated = now});
   }
   const auto oldest =
       std::min_element(buckets_.begin(), buckets_.end(),
@@ -32,4 +32,4 @@ RateLimit::Bucket& RateLimit::bucket_of(const protocol::Endpoint& peer, double n
   return *oldest;
 }
 
-}  // namespace splash::sim
+}  // namespace splash::protocol
