@@ -86,7 +86,7 @@ void add_output(CLI::App& app, Options& options) {
       ->type_name("all|N");
   auto* sweep = app.add_option("--sweep", options.sweep,
                                "A rising sine on the channel of that number, to measure its "
-                               "transducer with a sensor and any recorder; then end")
+                               "transducer with --sensor or any recorder; then end")
                     ->check(CLI::Range(1, 2048))
                     ->type_name("N");
   app.add_option("--response", options.response,
@@ -95,6 +95,12 @@ void add_output(CLI::App& app, Options& options) {
       ->needs(sweep)
       ->type_name("WAV");
   app.add_option("--record-audio", options.record_audio, "Also write the live output to this file")
+  app.add_option("--sensor", options.sensor,
+                 "With --sweep: hears it on this input of the same device, an accelerometer or a "
+                 "microphone, and prints the equaliser for the rig's file")
+      ->needs(sweep)
+      ->check(CLI::Range(1, 2048))
+      ->type_name("N");
       ->type_name("WAV");
   app.add_option(
          "--record-events", options.record_events,

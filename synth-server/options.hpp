@@ -33,6 +33,7 @@ struct Options {
   std::string test_tone;                ///< a channel's number or "all"; empty: play events
   int sweep = 0;                        ///< on this channel, from 1; 0: play events
   std::filesystem::path response;       ///< a recording of it; empty: it is played
+  int sensor = 0;                       ///< input that hears it, from 1; 0: none
   std::string device;                   ///< empty: the default one
   std::string api;                      ///< empty: the first that has a device
   std::filesystem::path record_audio;   ///< the live output; empty: not recorded

@@ -8,8 +8,8 @@ namespace splash::synth {
 namespace {
 
 DeviceChoice choice_of(const Options& options, const Rig& rig) {
-  return {options.api,         options.device, channel_count(rig),
-          options.sample_rate, options.block,  rig.device_channels};
+  return {options.api,   options.device, channel_count(rig), options.sample_rate,
+          options.block, options.sensor, rig.device_channels};
 }
 
 }  // namespace

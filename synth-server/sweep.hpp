@@ -31,7 +31,7 @@ namespace splash::synth {
 /// Lines for the rig's file.
 [[nodiscard]] std::string equaliser_text(const MeasuredResponse& response, const std::string& part);
 
-/// Plays it, or reads --response and prints the lines. Throws Failure.
+/// Plays it, and prints the lines from what --sensor hears; or from --response. Throws Failure.
 void measure(const Options& options, const Rig& rig, const sigset_t& signals);
 
 }  // namespace splash::synth

@@ -3,37 +3,17 @@
 
 #include <cstdio>
 #include <ctime>
-#include <memory>
-#include <stdexcept>
 
 #include "program/failure.hpp"
-#include "synth-server/audio/recorder.hpp"
-#include "synth-server/output/wav_file.hpp"
-#include "synth-server/output_choice.hpp"
 #include "synth-server/play/test_tone.hpp"
 #include "synth-server/server_text.hpp"
+#include "synth-server/tapped_output.hpp"
 
 namespace splash::synth {
 namespace {
 
-constexpr int kLongestBlock = 8192;  ///< of any device [frames]
-constexpr double kRecorderSeconds = 4.0;
 constexpr timespec kOneTone{1, 0};
 constexpr timespec kFading{0, 100'000'000};
-
-/// Passes blocks on to the recorder.
-class Tapped final : public BlockSource {
- public:
-  Tapped(BlockSource& source, Recorder* recorder) : source_(source), recorder_(recorder) {}
-  void render(const AudioBlock& block) noexcept override {
-    source_.render(block);
-    if (recorder_ != nullptr) recorder_->push(block.channels, block.frames);
-  }
-
- private:
-  BlockSource& source_;
-  Recorder* recorder_;
-};
 
 std::vector<int> wanted_channels(const std::string& text, int channels) {
   std::vector<int> all;
@@ -88,33 +68,14 @@ bool play_each(TestTone& tone, const std::vector<int>& channels,
 void play_test_tone(const Options& options, const Rig& rig, const sigset_t& signals) {
   const int channels = channel_count(rig);
   const std::vector<int> wanted = wanted_channels(options.test_tone, channels);
-  const OpenedOutput opened = program::failing_with(program::kExitUnavailable, [&] {
-    return open_output(options, rig, [](const std::string& line) {
-      std::fprintf(stderr, "synth-server: %s\n", line.c_str());
-    });
-  });
-  const AudioFormat& format = opened.output->format();
-  std::unique_ptr<WavFile> file;
-  std::unique_ptr<Recorder> recorder;
-  if (!options.record_audio.empty()) {
-    file = program::failing_with(program::kExitIo, [&] {
-      return std::make_unique<WavFile>(options.record_audio, channels, format.sample_rate);
-    });
-    recorder = std::make_unique<Recorder>(
-        channels, format.sample_rate, kLongestBlock, kRecorderSeconds,
-        [&file](const float* const* planar, int frames) { file->write(planar, frames); });
-  }
+  TappedOutput output(options, rig);
   const std::vector<std::string> names = channel_names(rig);
-  std::printf("output: %s\n%s", to_text(format).c_str(), channel_map(names, format.ports).c_str());
-  TestTone tone(rig, format.sample_rate);
-  Tapped tapped(tone, recorder.get());
-  opened.output->start(tapped);
-  if (play_each(tone, wanted, names, signals)) say_what_to_try(options, format);
-  opened.output->stop();
-  if (recorder == nullptr) return;
-  recorder->finish();
-  if (!recorder->error().empty()) throw program::Failure(program::kExitIo, recorder->error());
-  program::failing_with(program::kExitIo, [&] { file->close(); });
+  std::printf("output: %s\n%s", to_text(output.format()).c_str(),
+              channel_map(names, output.format().ports).c_str());
+  TestTone tone(rig, output.format().sample_rate);
+  output.start(tone);
+  if (play_each(tone, wanted, names, signals)) say_what_to_try(options, output.format());
+  output.finish();
 }
 
 }  // namespace splash::synth

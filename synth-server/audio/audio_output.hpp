@@ -12,9 +12,10 @@ namespace splash::synth {
 struct AudioBlock {
   float* const* channels = nullptr;  ///< channels[c][i], planar, to be filled
   int frames = 0;
-  double time = 0.0;     ///< when the block was asked for [s, monotonic]
-  bool xrun = false;     ///< samples were lost before this block
-  bool restart = false;  ///< first block since start(): it continues no other's timing
+  double time = 0.0;              ///< when the block was asked for [s, monotonic]
+  bool xrun = false;              ///< samples were lost before this block
+  bool restart = false;           ///< first block since start(): it continues no other's timing
+  const float* sensor = nullptr;  ///< what the input that was asked for heard; null: none was
 };
 
 /// Fills blocks. `render` runs in the real-time thread: it neither waits, allocates nor throws.

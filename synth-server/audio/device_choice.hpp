@@ -14,6 +14,7 @@ struct DeviceChoice {
   int channels = 2;              ///< needed
   int sample_rate = 0;           ///< [Hz]; 0: what the device prefers
   int block = 256;               ///< wanted frames per call; the device may have its own
+  int sensor = 0;                ///< input that is heard meanwhile, from 1 on; 0: none
   std::vector<int> places = {};  ///< the device's channel of each, from 1 on; empty: in order
 };
 
@@ -23,6 +24,7 @@ struct DeviceDescription {
   int channels = 0;  ///< outputs
   bool is_default = false;
   int preferred_rate = 0;  ///< [Hz]
+  int inputs = 0;
 };
 
 /// A device cannot be opened now: there is none, it has too few channels, its server refused.

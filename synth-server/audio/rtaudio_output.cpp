@@ -96,6 +96,7 @@ struct RtAudioOutput::Stream {
   AudioFormat format;
   std::vector<std::size_t> places;  ///< of each channel among the device's
   std::size_t opened = 0;           ///< channels of the device
+  std::size_t sensor = 0;           ///< its input, from 1 on; 0: none
   std::vector<float*> channels;
   bool restart = true;  ///< the next block is the first
   std::atomic<BlockSource*> source{nullptr};
@@ -112,17 +113,18 @@ struct RtAudioOutput::Stream {
   /// server dies, libjack cancels the thread wherever it is: not in the middle of our block. Where
   /// it still can, here, C++ must have nothing to clean up, or a cancellation between two calls
   /// ends the program: so nothing is inlined, and ThreadSanitizer, which cleans up, left out.
-  [[gnu::no_sanitize_thread]] static int called(void* output, void* /*input*/, unsigned int frames,
+  [[gnu::no_sanitize_thread]] static int called(void* output, void* input, unsigned int frames,
                                                 double /*stream_time*/, RtAudioStreamStatus status,
                                                 void* context) {
     int before = PTHREAD_CANCEL_ENABLE;
     pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before);
-    static_cast<Stream*>(context)->fill(static_cast<float*>(output), frames, status);
+    static_cast<Stream*>(context)->fill(static_cast<float*>(output), static_cast<float*>(input),
+                                        frames, status);
     pthread_setcancelstate(before, nullptr);
     return 0;
   }
 
-  [[gnu::noinline]] void fill(float* output, unsigned int count,
+  [[gnu::noinline]] void fill(float* output, const float* input, unsigned int count,
                               RtAudioStreamStatus status) noexcept {
     const double time = protocol::monotonic_now();
     if (policy == kNotSeen) note_scheduling();
@@ -133,8 +135,15 @@ struct RtAudioOutput::Stream {
     }
     if (target != nullptr) {
       for (std::size_t c = 0; c < channels.size(); ++c) channels[c] = output + places[c] * count;
-      target->render({channels.data(), static_cast<int>(count), time,
-                      (status & RTAUDIO_OUTPUT_UNDERFLOW) != 0, restart});
+      const bool hears = input != nullptr && sensor > 0;
+      const RtAudioStreamStatus lost =
+          RTAUDIO_OUTPUT_UNDERFLOW | (hears ? RTAUDIO_INPUT_OVERFLOW : 0U);
+      target->render({.channels = channels.data(),
+                      .frames = static_cast<int>(count),
+                      .time = time,
+                      .xrun = (status & lost) != 0,
+                      .restart = restart,
+                      .sensor = hears ? input + (sensor - 1) * count : nullptr});
       restart = false;
     }
     frames.store(frames.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
@@ -177,6 +186,10 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
                       " output channels, the rig needs " + std::to_string(needed) +
                       "; choose another device (--list-devices) or rig");
   }
+  if (chosen.inputs < choice.sensor) {
+    throw UnknownDevice("--sensor " + std::to_string(choice.sensor) + ": " + title + " has " +
+                        std::to_string(chosen.inputs) + " inputs");
+  }
   require_rate(chosen, choice.sample_rate);
   std::vector<std::string> ports = names_of(chosen, stream_->places, needed);
   stream_->audio = std::move(found.audio);
@@ -186,7 +199,8 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
                                 static_cast<unsigned int>(rate),
                                 static_cast<unsigned int>(choice.block),
                                 &Stream::called,
-                                stream_.get()};
+                                stream_.get(),
+                                static_cast<unsigned int>(choice.sensor)};
   try {
     rtaudio_port::open(*stream_->audio, opening);
   } catch (const DeviceError& error) {
@@ -196,6 +210,7 @@ RtAudioOutput::RtAudioOutput(const DeviceChoice& choice) : stream_(std::make_sha
   }
   stream_->channels.resize(stream_->places.size());
   stream_->opened = static_cast<std::size_t>(needed);
+  stream_->sensor = static_cast<std::size_t>(choice.sensor);
   stream_->format = {
       chosen.api,      chosen.name, choice.channels, rate, static_cast<int>(opening.block),
       std::move(ports)};

@@ -43,8 +43,12 @@ void translate(Action action) {
 #endif
 
 DeviceDescription describe(const RtAudio::DeviceInfo& info, const std::string& api) {
-  return {api, info.name, static_cast<int>(info.outputChannels), info.isDefaultOutput,
-          static_cast<int>(info.preferredSampleRate)};
+  return {api,
+          info.name,
+          static_cast<int>(info.outputChannels),
+          info.isDefaultOutput,
+          static_cast<int>(info.preferredSampleRate),
+          static_cast<int>(info.inputChannels)};
 }
 
 #ifdef SPLASH_HAS_ALSA
@@ -119,17 +123,21 @@ void open(RtAudio& audio, Opening& opening) {
   RtAudio::StreamParameters output;
   output.deviceId = opening.id;
   output.nChannels = opening.channels;
+  RtAudio::StreamParameters input;
+  input.deviceId = opening.id;
+  input.nChannels = opening.inputs;
+  RtAudio::StreamParameters* const heard = opening.inputs > 0 ? &input : nullptr;
   RtAudio::StreamOptions options;
   options.flags = RTAUDIO_NONINTERLEAVED | RTAUDIO_SCHEDULE_REALTIME;
   options.priority = kPriority;
   options.streamName = kClientName;
 #ifdef SPLASH_RTAUDIO_6
-  check(audio.openStream(&output, nullptr, RTAUDIO_FLOAT32, opening.sample_rate, &opening.block,
+  check(audio.openStream(&output, heard, RTAUDIO_FLOAT32, opening.sample_rate, &opening.block,
                          opening.callback, opening.context, &options),
         audio);
 #else
   translate([&] {
-    audio.openStream(&output, nullptr, RTAUDIO_FLOAT32, opening.sample_rate, &opening.block,
+    audio.openStream(&output, heard, RTAUDIO_FLOAT32, opening.sample_rate, &opening.block,
                      opening.callback, opening.context, &options, ignore_error);
   });
 #endif

@@ -35,8 +35,9 @@ struct Opening {
   unsigned int block = 0;        ///< frames; the device's own after open()
   RtAudioCallback callback = nullptr;
   void* context = nullptr;
+  unsigned int inputs = 0;  ///< of the same device, from its first on
 };
-/// Planar floats, realtime priority asked for. Throws DeviceError with RtAudio's words.
+/// Planar floats, both ways, realtime priority asked for. Throws DeviceError with RtAudio's words.
 void open(RtAudio& audio, Opening& opening);
 void start(RtAudio& audio);
 /// What JACK and PulseAudio call us.

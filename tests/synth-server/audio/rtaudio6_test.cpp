@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "synth-server/audio/rtaudio_output.hpp"
 #include "synth-server/audio/rtaudio_port.hpp"
 
@@ -28,7 +30,7 @@ class RtAudio6 : public testing::Test {
     RtAudio::stage() = {};
     // As the library numbers them: no indices, and inputs among them.
     RtAudio::stage().devices = {{129, "microphone", 0, false, 48000},
-                                {131, "floor", 36, false, 48000},
+                                {131, "floor", 36, false, 48000, 2},
                                 {130, "headphones", 2, true, 44100}};
   }
   static DeviceChoice choice(const std::string& name) { return {"alsa", name, 2, 0, 128}; }
@@ -69,6 +71,40 @@ TEST_F(RtAudio6, OpensTheDeviceThatIsMeant) {
   EXPECT_EQ(output.format().block, 192) << "the device's own";
   const RtAudioOutput other(choice("floor"));
   EXPECT_EQ(RtAudio::stage().opened.deviceId, 131U);
+}
+
+TEST_F(RtAudio6, HearsTheInputThatIsWanted) {
+  struct Ear final : BlockSource {
+    void render(const AudioBlock& block) noexcept override {
+      heard = block.sensor == nullptr ? -1.0F : block.sensor[1];
+      xrun = block.xrun;
+    }
+    float heard = 0.0F;
+    bool xrun = false;
+  };
+  DeviceChoice wanted = choice("floor");
+  wanted.sensor = 2;
+  Ear ear;
+  RtAudioOutput output(wanted);
+  EXPECT_EQ(RtAudio::stage().heard.deviceId, 131U);
+  EXPECT_EQ(RtAudio::stage().heard.nChannels, 2U);
+  output.start(ear);
+  std::array<float, 72> out{};
+  std::array<float, 4> in = {1.0F, 2.0F, 3.0F, 4.0F};  // two frames of the first input, then two
+  const auto& stage = RtAudio::stage();
+  (void)stage.callback(out.data(), in.data(), 2, 0.0, 0, stage.context);
+  EXPECT_EQ(ear.heard, 4.0F);
+  EXPECT_FALSE(ear.xrun);
+  (void)stage.callback(out.data(), in.data(), 2, 0.0, RTAUDIO_INPUT_OVERFLOW, stage.context);
+  EXPECT_TRUE(ear.xrun);
+  output.stop();
+  wanted.sensor = 3;
+  EXPECT_THAT(refusal(wanted), testing::HasSubstr("has 2 inputs"));
+}
+
+TEST_F(RtAudio6, HearsNothingUnlessItIsAsked) {
+  const RtAudioOutput output(choice("floor"));
+  EXPECT_EQ(RtAudio::stage().heard.nChannels, 0U);
 }
 
 TEST_F(RtAudio6, PlaysAndCloses) {

@@ -32,7 +32,7 @@ bool reachable() {
 
 }  // namespace
 
-JackServer::JackServer(const std::string& name, int channels, int period, int rate) {
+JackServer::JackServer(const std::string& name, int channels, int period, int rate, int inputs) {
   setenv("JACK_DEFAULT_SERVER", name.c_str(), 1);
   setenv("JACK_NO_AUDIO_RESERVATION", "1", 1);
   setenv("JACK_NO_START_SERVER", "1", 1);
@@ -42,9 +42,22 @@ JackServer::JackServer(const std::string& name, int channels, int period, int ra
   constexpr int kTries = 3;      // jackd 1.9.21 crashes now and then while it starts
   int status = kCrashed;
   for (int tries = 0; tries < kTries && status >= kCrashed; ++tries) {
-    jackd_ = std::make_unique<tests::ChildProcess>(std::vector<std::string>{
-        "jackd", "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C", "0", "-P",
-        std::to_string(channels), "-r", std::to_string(rate), "-p", std::to_string(period)});
+    const std::vector<std::string> command = {"jackd",
+                                              "--no-realtime",
+                                              "-S",
+                                              "-n",
+                                              name,
+                                              "-d",
+                                              "dummy",
+                                              "-C",
+                                              std::to_string(inputs),
+                                              "-P",
+                                              std::to_string(channels),
+                                              "-r",
+                                              std::to_string(rate),
+                                              "-p",
+                                              std::to_string(period)};
+    jackd_ = std::make_unique<tests::ChildProcess>(command);
     if (wait_until([this] { return !jackd_->running() || reachable(); }, 20.0) &&
         jackd_->running()) {
       return;

@@ -19,7 +19,7 @@ namespace splash::synth {
 class JackServer {
  public:
   /// Throws std::runtime_error saying what to install when jackd is missing or does not start.
-  JackServer(const std::string& name, int channels, int period, int rate = 48000);
+  JackServer(const std::string& name, int channels, int period, int rate = 48000, int inputs = 0);
   ~JackServer();
   JackServer(const JackServer&) = delete;
   JackServer& operator=(const JackServer&) = delete;

@@ -9,6 +9,8 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <thread>
 
@@ -146,6 +148,24 @@ TEST(JackPorts, AreNamedInTheChannelMap) {
                                  "system:playback_" + std::to_string(c + 1)));
   }
   EXPECT_FALSE(client.connected("synth-server:outport 0", "system:playback_2"));
+}
+
+TEST(JackPorts, AreThoseThatTheRigNames) {
+  const JackServer server(server_name("named"), 6, kPeriod);
+  const std::string rig = tests::temporary_path("named.yaml");
+  std::ofstream(rig)
+      << "name: named\noutputs:\n  - name: shoe\n    kind: worn\n    parts: [heel, toe]\n"
+         "    band: {low: 20, high: 750}\ndevice_channels: [5, 2]\n";
+  tests::ChildProcess synth(
+      tests::command("synth-server", {"--rig", rig, "--api", "jack", "--test-tone", "1"}));
+  JackCapture client("synth-server", 5, 0.5);
+  EXPECT_TRUE(client.wait(kTimeout));
+  EXPECT_EQ(synth.wait_for_end(kTimeout), 0) << synth.output();
+  std::filesystem::remove(rig);
+  EXPECT_THAT(synth.output(), testing::HasSubstr("1 shoe/heel -> system:playback_5, "
+                                                 "2 shoe/toe -> system:playback_2"));
+  EXPECT_GT(tests::peak(client.channels()[4]), 0.01F) << "heel";
+  for (const std::size_t c : {0U, 1U, 2U, 3U}) EXPECT_EQ(tests::peak(client.channels()[c]), 0.0F);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ using RtAudioStreamStatus = unsigned int;
 inline constexpr RtAudioFormat RTAUDIO_FLOAT32 = 0x10;
 inline constexpr RtAudioStreamFlags RTAUDIO_NONINTERLEAVED = 0x1;
 inline constexpr RtAudioStreamFlags RTAUDIO_SCHEDULE_REALTIME = 0x8;
+inline constexpr RtAudioStreamStatus RTAUDIO_INPUT_OVERFLOW = 0x1;
 inline constexpr RtAudioStreamStatus RTAUDIO_OUTPUT_UNDERFLOW = 0x2;
 
 using RtAudioCallback = int (*)(void* output, void* input, unsigned int frames, double time,
@@ -50,6 +51,7 @@ class RtAudio {
     unsigned int outputChannels{};
     bool isDefaultOutput{false};
     unsigned int preferredSampleRate{};
+    unsigned int inputChannels{};
   };
   struct StreamParameters {
     unsigned int deviceId{};
@@ -70,6 +72,7 @@ class RtAudio {
     RtAudioErrorType start_answer = RTAUDIO_NO_ERROR;
     unsigned int block = 0;  ///< the device's own; 0: the wanted one
     StreamParameters opened;
+    StreamParameters heard;
     StreamOptions options;
     unsigned int rate = 0;
     RtAudioCallback callback = nullptr;
@@ -104,11 +107,12 @@ class RtAudio {
     }
     return {};
   }
-  RtAudioErrorType openStream(StreamParameters* output, StreamParameters* /*input*/,
+  RtAudioErrorType openStream(StreamParameters* output, StreamParameters* input,
                               RtAudioFormat /*format*/, unsigned int rate, unsigned int* block,
                               RtAudioCallback callback, void* context, StreamOptions* options) {
     if (stage().open_answer > RTAUDIO_WARNING) return stage().open_answer;
     stage().opened = *output;
+    stage().heard = input == nullptr ? StreamParameters{} : *input;
     stage().options = *options;
     stage().rate = rate;
     stage().callback = callback;
