@@ -20,6 +20,7 @@ namespace {
 struct Texts {
   std::string listen = "127.0.0.1:" + std::to_string(protocol::kSynthPort);
   std::vector<std::string> allow;
+  std::string forces;
   std::string show;
   VoiceTexts voices;
   double latency_ms = -1.0;
@@ -46,6 +47,11 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
                  "A further host that may control (repeatable); no reply to it is longer than its "
                  "question, see protocol/README.md")
       ->type_name("HOST");
+  app.add_option("--forces", texts.forces,
+                 "Ask the simulator there for the forces on its bodies while the sound has a "
+                 "texture or a wash under the foot, which then follow them; on another host it "
+                 "needs --allow for this one")
+      ->type_name("HOST:PORT");
   app.add_option("--show", texts.show,
                  "Show levels and sound to viewers, such as view-server, at this TCP port; hosts "
                  "other than this one need --allow")
@@ -89,18 +95,18 @@ void add_output(CLI::App& app, Options& options) {
                                "transducer with --sensor or any recorder; then end")
                     ->check(CLI::Range(1, 2048))
                     ->type_name("N");
-  app.add_option("--response", options.response,
-                 "With --sweep: reads a recording of it (first channel) and prints the equaliser "
-                 "for the rig's file")
-      ->needs(sweep)
-      ->type_name("WAV");
-  app.add_option("--record-audio", options.record_audio, "Also write the live output to this file")
   app.add_option("--sensor", options.sensor,
                  "With --sweep: hears it on this input of the same device, an accelerometer or a "
                  "microphone, and prints the equaliser for the rig's file")
       ->needs(sweep)
       ->check(CLI::Range(1, 2048))
       ->type_name("N");
+  app.add_option("--response", options.response,
+                 "With --sweep: reads a recording of it (first channel) and prints the equaliser "
+                 "for the rig's file")
+      ->needs(sweep)
+      ->type_name("WAV");
+  app.add_option("--record-audio", options.record_audio, "Also write the live output to this file")
       ->type_name("WAV");
   app.add_option(
          "--record-events", options.record_events,
@@ -175,6 +181,9 @@ void apply(const Texts& texts, Options& options) {
   options.listen = protocol::endpoint_of("--listen", texts.listen, protocol::kSynthPort);
   for (const auto& host : texts.allow) {
     options.allow.push_back(protocol::endpoint_of("--allow", host, 0).address);
+  }
+  if (!texts.forces.empty()) {
+    options.forces = protocol::endpoint_of("--forces", texts.forces, protocol::kSimPort);
   }
   if (!texts.show.empty()) {
     options.show = protocol::endpoint_of("--show", texts.show, protocol::kSynthShowPort);

@@ -21,7 +21,8 @@ struct Options {
   protocol::Endpoint listen;
   std::vector<std::uint32_t> allow;  ///< hosts besides loopback that may control (IPv4)
 
-  std::optional<protocol::Endpoint> show;  ///< where viewers are let in; empty: nowhere
+  std::optional<protocol::Endpoint> forces;  ///< the simulator that is asked for them; empty: none
+  std::optional<protocol::Endpoint> show;    ///< where viewers are let in; empty: nowhere
 
   std::filesystem::path replay;  ///< a log to play; empty: only what comes over OSC
   std::filesystem::path render;  ///< the WAV file of a replay; empty: it plays aloud
@@ -32,8 +33,8 @@ struct Options {
   bool list_devices = false;
   std::string test_tone;                ///< a channel's number or "all"; empty: play events
   int sweep = 0;                        ///< on this channel, from 1; 0: play events
-  std::filesystem::path response;       ///< a recording of it; empty: it is played
   int sensor = 0;                       ///< input that hears it, from 1; 0: none
+  std::filesystem::path response;       ///< a recording of it; empty: it is played
   std::string device;                   ///< empty: the default one
   std::string api;                      ///< empty: the first that has a device
   std::filesystem::path record_audio;   ///< the live output; empty: not recorded

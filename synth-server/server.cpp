@@ -219,7 +219,13 @@ void Server::start_receiver(protocol::UdpSocket socket) {
   add_desk(actions);
   actions.print = log;
   receiver_ =
-      std::make_unique<Receiver>(std::move(socket), queue_, std::move(actions), options_.allow);
+      std::make_unique<Receiver>(std::move(socket), queue_, std::move(actions), options_.allow,
+                                 ForceSource{options_.forces, [this] { return has_foot(); }});
+}
+
+bool Server::has_foot() const {
+  return desk_.get("foot/texture").value_or(0.0) > 0.0 ||
+         desk_.get("foot/wash").value_or(0.0) > 0.0;
 }
 
 double Server::ceiling_share(int channel) const {

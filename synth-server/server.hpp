@@ -83,6 +83,8 @@ class Server {
   void start_receiver(protocol::UdpSocket socket);
   /// What is left of the rig's ceiling on a channel [1].
   [[nodiscard]] double ceiling_share(int channel) const;
+  /// Whether the sound, as it is now, has anything under the foot.
+  [[nodiscard]] bool has_foot() const;
   void add_desk(ControlActions& actions);
   void introduce() const;
   void warn_of_latency(const AudioFormat& format) const;

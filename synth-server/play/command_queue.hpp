@@ -6,12 +6,14 @@
 #include <cstddef>
 
 #include "protocol/event.hpp"
+#include "synth-server/render/underfoot.hpp"
 
 namespace splash::synth {
 
 struct Command {
   enum class Kind {
     play,             ///< `event` at `moment`
+    push,             ///< `push` at `moment`
     clear_scheduled,  ///< forget what waits; what sounds may end
     mute,             ///< fade out until told otherwise; all goes on unheard
     unmute,           ///< open slowly, as at the start
@@ -24,6 +26,7 @@ struct Command {
   bool at_once = false;      ///< came without a time: in the next block, `offset` into it
   double offset = 0.0;       ///< of the event after its bundle's time [s]
   std::int32_t session = 0;  ///< of the event's sender, 0: not known
+  Push push = {};            ///< of the water on a body
   int channel = -1;          ///< from 0, -1: none
   double share = 1.0;        ///< of the tone\'s amplitude [1]
 };

@@ -78,6 +78,8 @@ void Player::obey(const Command& command) noexcept {
   switch (command.kind) {
     case Command::Kind::play:
       return play(command);
+    case Command::Kind::push:
+      return push(command);
     case Command::Kind::clear_scheduled:
       return engine_.clear();
     case Command::Kind::mute:
@@ -108,6 +110,13 @@ void Player::play(const Command& command) noexcept {
   }
   // The engine counts what it refuses.
   (void)engine_.schedule({command.event, placement.sample, command.session});
+}
+
+/// One that is too late is left out: the next one comes soon.
+void Player::push(const Command& command) noexcept {
+  const Placement placement =
+      place(command.moment, command.by_arrival, clock_, engine_.clock(), schedule_);
+  if (placement.timing != Timing::too_late) engine_.push(command.push, placement.sample);
 }
 
 void Player::render_parts(const AudioBlock& block) noexcept {

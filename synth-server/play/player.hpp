@@ -73,6 +73,7 @@ class Player final : public BlockSource {
   void follow(const AudioBlock& block) noexcept;
   void obey(const Command& command) noexcept;
   void play(const Command& command) noexcept;
+  void push(const Command& command) noexcept;
   void render_parts(const AudioBlock& block) noexcept;
   void note_load(double seconds, double block_seconds) noexcept;
 

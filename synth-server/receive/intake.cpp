@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/receive/intake.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -16,6 +17,12 @@ namespace {
 constexpr int kQuickPings = 8;
 constexpr double kQuickPingPeriod = 0.09;  // less than a heartbeat
 constexpr double kPingPeriod = 1.0;
+
+/// Replies are never answered, lest two programs talk to each other for ever.
+bool is_reply(const protocol::Message& message) noexcept {
+  const auto* row = protocol::find_address(message.address);
+  return row != nullptr && row->direction == protocol::Direction::reply;
+}
 
 /// The same, as long as its /pong.
 protocol::Message answerable(const protocol::Message& ping) {
@@ -35,16 +42,31 @@ std::uint64_t refused(const IntakeCounters& counters) noexcept {
 }
 
 Intake::Intake(CommandQueue& queue, ControlActions actions, std::vector<std::uint32_t> allowed,
-               LocalTime time)
+               LocalTime time, ForceSource forces)
     : queue_(queue),
       time_(std::move(time)),
+      force_question_(std::move(forces)),
       control_(std::move(actions), std::move(allowed), [this] { return status(); }) {}
+
+void Intake::ask_for_forces(double now, std::vector<Reply>& replies) {
+  if (const auto question = force_question_.due(now)) {
+    replies.push_back({force_question_.simulator(), *question});
+  }
+}
+
+void Intake::say_goodbye(std::vector<Reply>& replies) {
+  control_.say_goodbye(replies);
+  if (const auto last = force_question_.last()) {
+    replies.push_back({force_question_.simulator(), *last});
+  }
+}
 
 void Intake::datagram(protocol::Bytes bytes, const protocol::Endpoint& from, double arrival,
                       std::vector<Reply>& replies) {
   ++counters_.datagrams;
   const protocol::DecodeResult read = read_packet(bytes);
   if (!control_.port().inspect(bytes, read, from, arrival)) return;
+  if (tells_forces(read.packet)) return push(read.packet, from, arrival);
   control_.renew(from, arrival);
   Visit visit{from, arrival, time_.unix_of(arrival), read.packet.time, {from, bytes.size()}};
   const auto timing = open_bundle(read.packet, visit, replies);
@@ -100,8 +122,8 @@ void Intake::route(const protocol::Message& message, const Timing& timing, Visit
     if (const auto event = protocol::to_event(message)) return play(*event, timing);
     if (const auto reason = protocol::violation(message)) return refuse(message, *reason, visit);
     if (message.address == "/leave") leave(visit);
-  } else if (message.address == "/pong") {
-    take_pong(message, visit.from, visit.arrival);
+  } else if (is_reply(message)) {
+    take_reply(message, visit.from, visit.arrival);
   } else if (control_.port().allows(visit.from)) {
     control_.port().take(message, visit, replies);
   } else {
@@ -133,6 +155,29 @@ void Intake::play(const protocol::Event& event, const Timing& timing) {
   if (!taken) ++counters_.without_place.of(event);
 }
 
+// These bundles count on their own: what of them is lost is no loss, for the next one comes soon.
+// They tell of the time in which the bodies move, by the clock of their sender.
+void Intake::push(const protocol::Packet& packet, const protocol::Endpoint& from, double arrival) {
+  const bool is_sound =
+      std::none_of(packet.messages.begin(), packet.messages.end(),
+                   [](const auto& message) { return protocol::violation(message).has_value(); });
+  if (!is_sound || !packet.time || *packet.time == protocol::kImmediately) {
+    ++counters_.out_of_table;
+    return;
+  }
+  const Sender* const sender = senders_.find(from);
+  const double correction =
+      sender == nullptr ? 0.0 : sender->clock.correction(time_.unix_of(arrival));
+  Command command;
+  command.kind = Command::Kind::push;
+  command.moment = time_.monotonic_of(*packet.time) + correction;
+  command.by_arrival = arrival;
+  for (const Push& found : forces_.take(packet, protocol::to_unix_seconds(*packet.time))) {
+    command.push = found;
+    if (queue_.write_available() > kKeptPlaces + kKeptFromBubbles) (void)queue_.push(command);
+  }
+}
+
 // Only ever in answer to a frame, which is longer: a forged frame draws no more than was sent. To
 // another host it is as long as the /pong that is wanted, unless the frame came alone, in 32 bytes.
 void Intake::ask_clock(Sender& sender, Visit& visit, Replies& replies) {
@@ -146,8 +191,11 @@ void Intake::ask_clock(Sender& sender, Visit& visit, Replies& replies) {
   if (fitting) replies.push_back({sender.endpoint, std::move(*fitting)});
 }
 
-void Intake::take_pong(const protocol::Message& message, const protocol::Endpoint& from,
-                       double arrival) {
+void Intake::take_reply(const protocol::Message& message, const protocol::Endpoint& from,
+                        double arrival) {
+  if (const std::string line = force_question_.refusal(message, from); !line.empty()) {
+    control_.port().report(from, line, arrival);
+  }
   Sender* sender = senders_.find(from);
   if (sender == nullptr || protocol::violation(message)) return;
   const auto stamp = [&](std::size_t i) {

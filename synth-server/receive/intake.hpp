@@ -14,6 +14,7 @@
 #include "protocol/udp_socket.hpp"
 #include "synth-server/play/command_queue.hpp"
 #include "synth-server/receive/control.hpp"
+#include "synth-server/receive/forces.hpp"
 #include "synth-server/receive/local_time.hpp"
 #include "synth-server/receive/sender.hpp"
 
@@ -41,7 +42,8 @@ class Intake {
  public:
   /// `allowed`: hosts whose commands are obeyed besides this one's, in host byte order.
   explicit Intake(CommandQueue& queue, ControlActions actions = {},
-                  std::vector<std::uint32_t> allowed = {}, LocalTime time = LocalTime{});
+                  std::vector<std::uint32_t> allowed = {}, LocalTime time = LocalTime{},
+                  ForceSource forces = ForceSource{});
   Intake(const Intake&) = delete;
   Intake& operator=(const Intake&) = delete;
 
@@ -51,8 +53,10 @@ class Intake {
   /// To be called often, with the socket drained: leases and this host's clock. `now`: monotonic
   /// [s].
   void tick(double now);
-  /// To all clients, at the end.
-  void say_goodbye(std::vector<Reply>& replies) const { control_.say_goodbye(replies); }
+  /// The question for forces, when it is due at `now` [s, monotonic].
+  void ask_for_forces(double now, std::vector<Reply>& replies);
+  /// To all clients and to who tells forces, at the end.
+  void say_goodbye(std::vector<Reply>& replies);
   /// To its clients: what has changed.
   void tell_changes(std::vector<Reply>& replies) const { control_.tell_changes(replies); }
 
@@ -83,13 +87,16 @@ class Intake {
   void refuse(const protocol::Message& message, const std::string& reason, const Visit& visit);
   void play(const protocol::Event& event, const Timing& timing);
   void leave(const Visit& visit);
-  void take_pong(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
+  void push(const protocol::Packet& packet, const protocol::Endpoint& from, double arrival);
+  void take_reply(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
   void ask_clock(Sender& sender, Visit& visit, Replies& replies);
   [[nodiscard]] protocol::SynthStatus status() const;
 
   CommandQueue& queue_;
   LocalTime time_;
   SenderTable senders_;
+  Forces forces_;
+  ForceQuestion force_question_;
   IntakeCounters counters_;  ///< but for those of the control port
   Control control_;
 };

@@ -19,9 +19,9 @@ constexpr std::size_t kBuffer = 65536;
 }  // namespace
 
 Receiver::Receiver(protocol::UdpSocket socket, CommandQueue& queue, ControlActions actions,
-                   std::vector<std::uint32_t> allowed)
+                   std::vector<std::uint32_t> allowed, ForceSource forces)
     : socket_(std::move(socket)),
-      intake_(queue, std::move(actions), std::move(allowed)),
+      intake_(queue, std::move(actions), std::move(allowed), LocalTime{}, std::move(forces)),
       buffer_(kBuffer),
       thread_([this] { run(); }) {}
 
@@ -45,6 +45,7 @@ void Receiver::run() {
       const std::lock_guard lock(mutex_);
       intake_.tick(protocol::monotonic_now());
       intake_.tell_changes(replies);
+      intake_.ask_for_forces(protocol::monotonic_now(), replies);
     }
     send(replies);
     dropped_by_kernel_ = socket_.dropped_by_kernel();

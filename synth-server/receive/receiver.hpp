@@ -15,9 +15,10 @@ namespace splash::synth {
 
 class Receiver {
  public:
-  /// `allowed`: hosts whose commands are obeyed besides this one's, in host byte order.
+  /// `allowed`: hosts whose commands are obeyed besides this one's, in host byte order. `forces`:
+  /// who is asked for them.
   Receiver(protocol::UdpSocket socket, CommandQueue& queue, ControlActions actions,
-           std::vector<std::uint32_t> allowed);
+           std::vector<std::uint32_t> allowed, ForceSource forces = ForceSource{});
   /// Says goodbye to the clients.
   ~Receiver();
   Receiver(const Receiver&) = delete;

@@ -46,6 +46,11 @@ struct Engine::State {
   LiveControls controls;
   Ensemble ensemble;
   EventQueue queue;
+  struct Pushed {
+    Push push;
+    std::int64_t sample = 0;
+  };
+  std::vector<Pushed> pushes;  ///< that wait for their cell
   Mix mix;
   std::vector<OutputGuard> guards;
   std::vector<char> idle;  ///< per channel: its guard is at rest
@@ -75,6 +80,7 @@ Engine::State::State(const Rig& rig, const EngineSettings& s)
     for (int c = 0; c < channel_count(output); ++c) guards.emplace_back(output, s.sample_rate, c);
   }
   idle.assign(guards.size(), 1);
+  pushes.reserve(kMostPushes);
 }
 
 void Engine::State::begin_cell() noexcept {
@@ -84,6 +90,11 @@ void Engine::State::begin_cell() noexcept {
   mix.impacts = controls.component(0);
   mix.bubbles = controls.component(1);
   mix.cavities = controls.component(2);
+  std::erase_if(pushes, [this](const Pushed& waiting) {
+    const bool is_due = waiting.sample < clock + kCell;
+    if (is_due) ensemble.press(waiting.push, clock);
+    return is_due;
+  });
 }
 
 /// `count` samples from the clock on, within one cell; `done`: samples of the block before them.
@@ -174,10 +185,15 @@ bool Engine::schedule(const TimedEvent& timed) noexcept {
   return true;
 }
 
+void Engine::push(const Push& push, std::int64_t sample) noexcept {
+  if (state_->pushes.size() < kMostPushes) state_->pushes.push_back({push, sample});
+}
+
 Engine::Overtaken Engine::catch_up(std::int64_t samples, std::int64_t late_window) noexcept {
   State& s = *state_;
   Overtaken overtaken;
   s.queue.advance(samples);
+  for (State::Pushed& waiting : s.pushes) waiting.sample -= samples;
   while (s.queue.due(s.clock - late_window)) {
     (void)s.queue.pop();
     ++overtaken.too_late;
@@ -210,6 +226,7 @@ std::int64_t Engine::clock() const noexcept {
 void Engine::clear() noexcept {
   state_->counts.cleared.add(state_->queue.size());
   state_->queue.clear();
+  state_->pushes.clear();
   state_->counts.scheduled.set(0);
   state_->ensemble.fade_all(state_->clock);
 }

@@ -11,6 +11,7 @@
 #include "synth-server/render/bubble_pool.hpp"
 #include "synth-server/render/control_box.hpp"
 #include "synth-server/render/counters.hpp"
+#include "synth-server/render/underfoot.hpp"
 #include "synth-server/voices/bubble_model.hpp"
 
 namespace splash::synth {
@@ -72,6 +73,11 @@ class Engine {
   /// False, and counted, when the event cannot be rendered or the queue is full. An event of the
   /// past starts with the next sample.
   bool schedule(const TimedEvent& timed) noexcept;
+
+  /// A body is pushed from the cell of `sample` on. For a while its events do not drive what is
+  /// under the foot. Of more than kMostPushes that wait the last are left out.
+  void push(const Push& push, std::int64_t sample) noexcept;
+  static constexpr std::size_t kMostPushes = 512;
 
   struct Overtaken {
     std::uint64_t late = 0;      ///< due before the next sample: they start with it

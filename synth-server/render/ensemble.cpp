@@ -13,6 +13,9 @@
 namespace splash::synth {
 namespace {
 
+/// A simulator that told a force tells the next one sooner, else it is gone [s].
+constexpr double kTold = 0.3;
+
 PoolSettings pool_settings(const Rig& rig, const EngineSettings& s, const Routing& routing) {
   return {s.instructions,   s.max_voices,       routing.max_routes(),
           routing.groups(), channel_count(rig), s.sample_rate};
@@ -48,17 +51,27 @@ void Ensemble::start(const TimedEvent& timed) noexcept {
   }
 }
 
+void Ensemble::press(const Push& push, std::int64_t sample) noexcept {
+  const auto body = static_cast<std::size_t>(push.body);
+  if (body >= told_.size()) return;
+  told_[body] = sample + std::llround(kTold * settings_.sample_rate);
+  const Routing::Reach reach = routing_.route({push.position, push.body, 0.0}, routes_);
+  underfoot_.press(settings_.sound.foot, push.rate, reached(reach));
+}
+
 template <class Event>
-void Ensemble::tread(const Event& event) noexcept {
+void Ensemble::tread(const Event& event, std::int64_t sample) noexcept {
   const FootSound& sound = settings_.sound.foot;
   if (sound.texture <= 0.0 && sound.wash <= 0.0) return;
+  const auto body = static_cast<std::size_t>(event.body);  // -1 becomes none of them
+  if (body < told_.size() && sample < told_[body]) return;
   const Routing::Reach reach = routing_.route({event.position, event.body, 0.0}, routes_);
   underfoot_.add(sound, force_rate(event), reached(reach));
 }
 
 Ensemble::Outcome Ensemble::start_kind(const protocol::Impact& impact,
                                        const TimedEvent& timed) noexcept {
-  tread(impact);
+  tread(impact, timed.sample);
   const ImpactSound& sound = settings_.sound.impact;
   const double speed =
       impact_speed(sound, static_cast<double>(impact.speed), static_cast<double>(impact.approach));
@@ -108,7 +121,7 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
 template <class BubbleOrCavity>
 Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
                                        const TimedEvent& timed) noexcept {
-  tread(event);
+  tread(event, timed.sample);
   constexpr bool kIsCavity = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
   const ToneSound& sound = kIsCavity ? settings_.sound.cavity : settings_.sound.bubble;
   const auto radius = static_cast<double>(event.radius);

@@ -3,6 +3,9 @@
 // all voices.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -31,6 +34,9 @@ class Ensemble {
   /// mixed. However many bubbles there are, impacts and cavities find a place.
   void start(const TimedEvent& timed) noexcept;
 
+  /// At the beginning of a cell, at `sample`: see Engine.
+  void press(const Push& push, std::int64_t sample) noexcept;
+
   /// At the beginning of a cell, at `sample`: see BubblePool.
   void limit(int most, std::int64_t sample) noexcept { bubbles_.limit(most, sample); }
 
@@ -58,9 +64,10 @@ class Ensemble {
   /// `cavity`: what the tone is, or null: a bubble.
   Outcome start_tone(const BubbleTone& tone, const Routing::Reach& reach,
                      const protocol::Cavity* cavity, std::int64_t sample) noexcept;
-  /// Lets the channels under the event's place feel its force, whatever becomes of its own sound.
+  /// Lets the channels under the event's place feel its force, whatever becomes of its own sound,
+  /// unless the simulator tells the force on its body.
   template <class Event>
-  void tread(const Event& event) noexcept;
+  void tread(const Event& event, std::int64_t sample) noexcept;
   /// The routes that were found for the event that is being started.
   [[nodiscard]] std::span<const Route> reached(const Routing::Reach& reach) const noexcept {
     return {routes_.data(), static_cast<std::size_t>(reach.routes)};
@@ -75,7 +82,9 @@ class Ensemble {
   Cloud cloud_;
   FineWater fine_;
   Underfoot underfoot_;
-  int starts_ = 0;  ///< in this cell
+  static constexpr std::size_t kBodies = 256;  ///< of a scene
+  std::array<std::int64_t, kBodies> told_{};   ///< until when their forces count as told
+  int starts_ = 0;                             ///< in this cell
   Counts counts_;
 };
 

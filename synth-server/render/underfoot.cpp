@@ -57,8 +57,8 @@ double force_rate(const protocol::Bubble& bubble) noexcept {
 }
 
 bool Underfoot::Envelope::end_cell() noexcept {
-  falling += added;
-  added = 0.0;
+  falling = std::max(falling + added, held);
+  added = held = 0.0;
   const bool lasts = std::max(falling, risen) > kSilent;
   if (!lasts) falling = risen = 0.0;
   return lasts;
@@ -94,7 +94,9 @@ void Underfoot::tune(const FootSound& sound) noexcept {
   }
 }
 
-void Underfoot::add(const FootSound& sound, double rate, std::span<const Route> routes) noexcept {
+template <class Drive>
+void Underfoot::drive(const FootSound& sound, double rate, std::span<const Route> routes,
+                      const Drive& drive) noexcept {
   if ((sound.texture <= 0.0 && sound.wash <= 0.0) || rate <= 0.0) return;
   tune(sound);
   const double felt = std::pow(rate / kUnit, sound.power);
@@ -102,9 +104,18 @@ void Underfoot::add(const FootSound& sound, double rate, std::span<const Route> 
     Channel& channel = channels_[static_cast<std::size_t>(route.channel)];
     if (!channel.is_felt) continue;
     const double square = std::pow(route.gain * felt, 2.0);
-    channel.texture.added += sound.texture * sound.texture * square;
-    channel.wash.added += sound.wash * sound.wash * square;
+    drive(channel.texture, sound.texture * sound.texture * square);
+    drive(channel.wash, sound.wash * sound.wash * square);
   }
+}
+
+void Underfoot::add(const FootSound& sound, double rate, std::span<const Route> routes) noexcept {
+  drive(sound, rate, routes, [](Envelope& envelope, double square) { envelope.added += square; });
+}
+
+void Underfoot::press(const FootSound& sound, double rate, std::span<const Route> routes) noexcept {
+  drive(sound, rate - sound.least, routes,
+        [](Envelope& envelope, double square) { envelope.held = std::max(envelope.held, square); });
 }
 
 void Underfoot::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
@@ -140,8 +151,8 @@ void Underfoot::end_cell() noexcept {
 
 void Underfoot::clear() noexcept {
   for (Channel& channel : channels_) {
-    channel.texture.falling = channel.texture.added = 0.0;
-    channel.wash.falling = channel.wash.added = 0.0;
+    channel.texture.falling = channel.texture.added = channel.texture.held = 0.0;
+    channel.wash.falling = channel.wash.added = channel.wash.held = 0.0;
   }
 }
 

@@ -9,6 +9,9 @@
 //   bubble: the water that closes around it, 4/3 pi rho r^3 at the speed u = sqrt(g r), within r/u.
 // Its texture has the amplitude  s = texture (|dF/dt| / 1 kN/s)^power  at first, and falls; so do
 // slow swells under it, the wash. Amplitudes of events add up by their squares.
+// Where the simulator tells the force on a body itself (/force), its change drives the texture in
+// place of that body's events: what it is over `least`, the solver's own noise, by the same law.
+// The amplitude is then held from one telling to the next, however often they come.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +27,13 @@
 #include "synth-server/voices/sound.hpp"
 
 namespace splash::synth {
+
+/// How fast the force on a body changes, as the simulator's forces say.
+struct Push {
+  protocol::Vec3 position;  ///< of the body [m]
+  std::int32_t body = 0;    ///< index in the scene
+  double rate = 0.0;        ///< |dF/dt| [N/s]
+};
 
 /// |dF/dt| of an event [N/s]; 0: none.
 [[nodiscard]] double force_rate(const protocol::Impact& impact) noexcept;
@@ -41,6 +51,8 @@ class Underfoot {
   /// The force on a body over these channels changes at this rate [N/s]; it is felt from the next
   /// cell on.
   void add(const FootSound& sound, double rate, std::span<const Route> routes) noexcept;
+  /// The same by the simulator's forces: not added up, but held.
+  void press(const FootSound& sound, double rate, std::span<const Route> routes) noexcept;
   /// Adds samples [from, to) of all channels; both within one cell.
   void mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept;
   void end_cell() noexcept;
@@ -51,6 +63,7 @@ class Underfoot {
   /// A noise's envelope, squared: what was added, decaying, and the same with its attack.
   struct Envelope {
     double added = 0.0;  ///< in this cell [full scale^2]
+    double held = 0.0;   ///< at least, from this cell on [full scale^2]
     double falling = 0.0;
     double risen = 0.0;
     [[nodiscard]] double next(double fall, double follow) noexcept {
@@ -69,6 +82,11 @@ class Underfoot {
     Noise noise;
   };
   void tune(const FootSound& sound) noexcept;
+  /// Calls `drive` with the envelopes of each channel that is felt and the squares of their
+  /// amplitudes.
+  template <class Drive>
+  void drive(const FootSound& sound, double rate, std::span<const Route> routes,
+             const Drive& drive) noexcept;
 
   double sample_rate_;
   std::vector<Channel> channels_;

@@ -69,6 +69,7 @@ struct FootSound {
   double wash = 0.0;             ///< amplitude of slow swells at 1 kN/s [m]
   double wash_frequency = 30.0;  ///< they are noise under this [Hz] ...
   double wash_release = 0.6;     ///< ... that falls with this time constant [s]
+  double least = 10.0;           ///< change of a told force that is the solver's own noise [N/s]
 };
 
 struct Sound {

@@ -87,6 +87,60 @@ TEST(Underfoot, IsFeltOnTheTilesUnderTheEventAlone) {
   EXPECT_GT(energy(out[3 * 6 + 2]), 0.0);
 }
 
+/// Forces every 6.25 ms and every 2 ms that change alike: the texture's amplitude is the law's.
+TEST(Underfoot, FollowsToldForcesByTheLawHoweverOftenTheyCome) {
+  auto settings = foot_settings(1e-4, 0.0);
+  settings.sound.foot.least = 50.0;
+  settings.sound.foot.power = 0.5;
+  const auto played = [&](double rate, int apart) {
+    Engine engine(open_rig(), settings);
+    constexpr int kFrames = 96000;
+    std::vector<float> out;
+    for (int at = 0; at < kFrames; at += apart) {
+      engine.push({{0.0F, 0.0F, 0.0F}, 0, rate}, at);
+      const auto more = render(engine, apart)[0];
+      out.insert(out.end(), more.begin(), more.end());
+    }
+    double sum = 0.0;
+    for (std::size_t n = kFrames / 4; n < kFrames; ++n) {
+      sum += static_cast<double>(out[n]) * static_cast<double>(out[n]);
+    }
+    return std::sqrt(sum / (0.75 * kFrames));
+  };
+  const double wanted = 1e-4 * std::sqrt(4.0) / open_rig().outputs[0].full_scale;
+  EXPECT_NEAR(played(4050.0, 96) / wanted, 1.0, 0.1);
+  // Within 300 samples it falls by 6 %, of which the mean is seen, and comes up again in 5 ms.
+  EXPECT_NEAR(played(4050.0, 300) / wanted, 1.0, 0.1);
+  EXPECT_EQ(played(50.0, 300), 0.0) << "no more than the solver's noise";
+}
+
+TEST(Underfoot, OfABodyWhoseForcesAreToldItsEventsDriveNothing) {
+  const auto settings = foot_settings(1e-4, 0.0);
+  const auto played = [&](int body, int at, bool told) {
+    Engine engine(open_rig(), settings);
+    if (told) engine.push({{0.0F, 0.0F, 0.0F}, 2, 0.0}, 0);
+    protocol::Impact event = impact(1.0F);
+    event.body = body;
+    engine.schedule({event, at});
+    return energy(render(engine, 48000)[0]);
+  };
+  EXPECT_LT(played(2, 4800, true), 1e-3 * played(2, 4800, false));
+  EXPECT_GT(played(3, 4800, true), 0.5 * played(3, 4800, false)) << "another body";
+  EXPECT_GT(played(2, 24000, true), 0.5 * played(2, 24000, false)) << "they come no more";
+}
+
+TEST(Underfoot, IsFeltUnderThePushedBodyAtItsMoment) {
+  const auto settings = foot_settings(1e-4, 0.0);
+  Engine engine(floor_rig(), settings);
+  engine.push({{0.305F * 2.5F, 0.305F * 3.5F, 0.1F}, 0, 1000.0}, 9600);
+  const Channels out = render(engine, 24000);
+  EXPECT_EQ(energy(out[0]), 0.0);
+  const auto& under = out[3 * 6 + 2];
+  EXPECT_GT(energy(under), 0.0);
+  for (std::size_t n = 0; n < 9600 - 64; ++n) ASSERT_EQ(under[n], 0.0F) << n;
+  EXPECT_GT(energy({under.begin() + 9600, under.begin() + 12000}), 0.1 * energy(under));
+}
+
 TEST(Underfoot, WashesBelowSixtyHertz) {
   const auto settings = foot_settings(0.0, 1e-3);
   Engine engine(open_rig(), settings);

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Both real programs: the synth asks the simulator for the forces on a body that is moved under
+// water, where no event happens, and lets them be felt.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <numbers>
+#include <thread>
+
+#include "protocol/time_tag.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/recording.hpp"
+#include "tests/system/small_scene.hpp"
+
+namespace splash::tests {
+namespace {
+
+/// A sound with nothing but the texture: all else is 50 dB down or more.
+class TextureAlone {
+ public:
+  TextureAlone() : path_(temporary_path("texture.yaml")) {
+    std::ofstream(path_) << "name: texture\nimpact: {amplitude: 0.000001}\nbubble: {gain_db: -60}\n"
+                            "cavity: {gain_db: -60}\nfoot: {texture: 0.001, power: 1}\n";
+  }
+  ~TextureAlone() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TextureAlone(const TextureAlone&) = delete;
+  TextureAlone& operator=(const TextureAlone&) = delete;
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// The body's height `seconds` long, swinging by `swing` [m] around the middle of the water.
+void move(Simulator& simulator, double seconds, float swing) {
+  const double start = protocol::monotonic_now();
+  for (double t = 0.0; t < seconds; t = protocol::monotonic_now() - start) {
+    protocol::BodyPose pose;
+    const double turn = 2.0 * std::numbers::pi * 2.5 * t;
+    pose.position = {0.0F, 0.0F, 0.1F + swing * static_cast<float>(std::sin(turn))};
+    simulator.send(protocol::encode(protocol::to_message(pose)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+double effective(const std::vector<float>& samples, std::size_t from, std::size_t to) {
+  double sum = 0.0;
+  to = std::min(to, samples.size());
+  for (std::size_t n = from; n < to; ++n)
+    sum += static_cast<double>(samples[n]) * static_cast<double>(samples[n]);
+  return from < to ? std::sqrt(sum / static_cast<double>(to - from)) : 0.0;
+}
+
+/// What a shoe feels of a body that rests in the water for a while and is then moved.
+struct Felt {
+  double at_rest = 0.0;
+  double moved = 0.0;
+};
+Felt felt(bool asks) {
+  const SmallScene scene(tracked());
+  const TextureAlone sound;
+  const std::string wav = temporary_path("texture.wav");
+  Simulator simulator({"--scene", scene.path()});
+  EXPECT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
+  move(simulator, 1.0, 0.0F);  // down into the water
+  Arguments arguments = {"--rig", rig_path("handheld.yaml"), "--sound", sound.path(), "--device",
+                         "null",  "--record-audio",          wav};
+  if (asks) {
+    arguments.insert(arguments.end(), {"--forces", protocol::to_string(simulator.endpoint())});
+  }
+  Synth synth(arguments);
+  const double rest = asks ? 2.8 : 1.0;  // [s]; it opens within two
+  constexpr double kMoved = 1.5;         // [s]
+  move(simulator, rest, 0.0F);
+  move(simulator, kMoved, 0.02F);
+  synth.process().signal(SIGTERM);
+  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  const Recording recording = read_recording(wav);
+  std::filesystem::remove(wav);
+  const auto& heard = recording.channels.at(0);
+  const auto sample = [](double seconds) { return static_cast<std::size_t>(seconds * 48000.0); };
+  return {effective(heard, sample(2.0), sample(rest - 0.1)),
+          effective(heard, sample(rest + 0.4), sample(rest + kMoved))};
+}
+
+TEST(Underfoot, FeelsTheForcesOfTheRealSimulatorWhenItAsks) {
+  const Felt with = felt(true);
+  const Felt without = felt(false);
+  std::cout << "at rest " << with.at_rest << ", moved " << with.moved << "; without forces "
+            << without.moved << " of full scale\n";
+  EXPECT_GT(with.moved, 0.01);
+  EXPECT_GT(with.moved, 5.0 * with.at_rest) << "follows how the force changes";
+  EXPECT_LT(without.moved, 0.1 * with.moved) << "nothing happens that is an event";
+}
+
+}  // namespace
+}  // namespace splash::tests
