@@ -135,13 +135,19 @@ TEST(Presets, MakeImpactsAsStrongAsTheSynthDoes) {
     const std::string preset = name;
     auto sound = synth::read_sound(kSource / "configs/sounds" / (preset + ".yaml")).sound;
     sound.foot.texture = sound.foot.wash = 0.0;
-    const double ratio =
-        energy(render_with_pd(
-            make_log(events), rig, kLong,
-            {"splash-preset " + preset, "splash-set-foot_texture 0", "splash-set-foot_wash 0"})) /
-        energy(render_with_synth(make_log(events), rig, kLong, sound));
+    double synths = 0.0;
+    constexpr int kSeeds = 4;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      synth::EngineSettings settings;
+      settings.sound = sound;
+      settings.seed = static_cast<std::uint64_t>(seed);
+      synths += energy(render_with_synth(make_log(events), rig, kLong, settings)) / kSeeds;
+    }
+    const std::vector<std::string> messages = {
+        "splash-preset " + preset, "splash-set-foot_texture 0", "splash-set-foot_wash 0"};
+    const double ratio = energy(render_with_pd(make_log(events), rig, kLong, messages)) / synths;
     std::cout << name << ", " << rig.rig << ": " << 10.0 * std::log10(ratio) << " dB\n";
-    // Noise 32 Hz wide: the means of thirty bursts each differ by 0.65 dB (sd), these by 0.16 dB.
+    // Noise 50 Hz wide for 12 s: Pd's mean has a standard deviation of 0.18 dB, theirs of 0.09 dB.
     EXPECT_NEAR(10.0 * std::log10(ratio), 0.0, 0.5);
   }
 }

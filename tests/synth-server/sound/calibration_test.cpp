@@ -43,8 +43,7 @@ struct Felt {
   std::uint64_t limited = 0;  ///< samples that the limiter turned down
 };
 
-Felt bursts(const Sound& sound, double speed, const Rig& rig = handheld()) {
-  constexpr int kBursts = 24;
+Felt bursts(const Sound& sound, double speed, const Rig& rig = handheld(), int count = 24) {
   constexpr int kApart = kRate;  // each has died away
   EngineSettings settings;
   settings.sample_rate = kRate;
@@ -56,7 +55,7 @@ Felt bursts(const Sound& sound, double speed, const Rig& rig = handheld()) {
   ThirdPowers mean{};
   double power = 0.0;
   constexpr auto kCount = static_cast<std::size_t>(kSensationWindow * kRate);
-  for (int burst = 0; burst < kBursts; ++burst) {
+  for (int burst = 0; burst < count; ++burst) {
     protocol::Impact impact;
     impact.id = burst;
     impact.speed = impact.approach = static_cast<float>(speed);
@@ -67,10 +66,10 @@ Felt bursts(const Sound& sound, double speed, const Rig& rig = handheld()) {
     }
     const auto window = std::span<const float>(out).first(kCount);
     const ThirdPowers powers = third_powers(window, kRate);
-    for (std::size_t third = 0; third < kThirds; ++third) mean[third] += powers[third] / kBursts;
+    for (std::size_t third = 0; third < kThirds; ++third) mean[third] += powers[third] / count;
     for (const float s : window) power += static_cast<double>(s) * static_cast<double>(s);
   }
-  return {10.0 * std::log10(power / kBursts / static_cast<double>(kCount) + 1e-30),
+  return {10.0 * std::log10(power / count / static_cast<double>(kCount) + 1e-30),
           sensation_level_db(mean, rig.outputs[0].threshold.level_db), engine.counters().limited};
 }
 
@@ -117,6 +116,18 @@ TEST(Calibration, CalibratedIsFeltEvenlyFromAGentleStepToABlow) {
     before = speed;
     last = felt.level_db;
   }
+}
+
+// One burst of noise 32 Hz wide has a standard deviation of some 3 dB, the mean of 400 of 0.15 dB.
+TEST(Calibration, CalibratedGoesFromJustFeltToStrongByTheMeanOfManyBursts) {
+  const Sound sound = shipped("calibrated");
+  const Felt slowest = bursts(sound, 0.05, handheld(), 400);
+  const Felt fastest = bursts(sound, 5.0, handheld(), 400);
+  print_row(0.05, slowest);
+  print_row(5.0, fastest);
+  EXPECT_NEAR(slowest.level_db, 6.0, 0.5);
+  EXPECT_NEAR(fastest.level_db, 36.0, 0.5);
+  EXPECT_EQ(fastest.limited, 0U);
 }
 
 // The level is found for whatever burst and transducer, not for the shipped ones alone.
