@@ -12,10 +12,13 @@ namespace splash::synth {
 namespace {
 
 /// All that can happen in a callback: events of every kind, late and early, floods beyond pool and
-/// queue, clearing, silence, xruns, odd block sizes, recording into a ring that overflows.
+/// queue, forces, clearing, silence, xruns, odd block sizes, recording into a ring that overflows.
 TEST(Realtime, TheCallbackDoesNothingForbidden) {
   const Rig rig = read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/tiles36.yaml");
-  Engine engine(rig, {});
+  EngineSettings settings;
+  settings.sound.cloud.coupling = 1.0;
+  settings.sound.foot.texture = settings.sound.foot.wash = 1e-4;
+  Engine engine(rig, settings);
   static CommandQueue queue;
   Recorder recorder(36, 48000, 4096, 0.1, [](const float* const*, int) {});
   Player player(engine, queue, &recorder, {48000.0, 4096, 2.0, false, {0.010, 0.050, 2.0}});
@@ -36,6 +39,13 @@ TEST(Realtime, TheCallbackDoesNothingForbidden) {
       if (event % 3 == 0) command.event = protocol::Impact{event, 0, 1.0F, 1.0F, place, 0.0F};
       if (event % 3 == 1) command.event = protocol::Bubble{event, 0, 0.01F, 0.1F, place, 0.0F};
       if (event % 3 == 2) command.event = protocol::Cavity{event, 0, 0.1F, 0.1F, place, 0.0F};
+      (void)queue.push(command);
+    }
+    for (int push = 0; push < (call % 100 == 9 ? 2000 : 2); ++push) {
+      Command command;
+      command.kind = Command::Kind::push;
+      command.moment = time + 0.02;
+      command.push = {{1.0F, 1.0F, 0.0F}, push % 256, 1e4};
       (void)queue.push(command);
     }
     Command command;

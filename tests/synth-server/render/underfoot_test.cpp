@@ -137,6 +137,10 @@ TEST(Underfoot, IsFeltUnderThePushedBodyAtItsMoment) {
   EXPECT_EQ(energy(out[0]), 0.0);
   const auto& under = out[3 * 6 + 2];
   EXPECT_GT(energy(under), 0.0);
+  // A tile's width away the weight is 1 - (0.305 / 0.4)^2 of that under it.
+  const double beside = energy(out[3 * 6 + 1]) + energy(out[3 * 6 + 3]) + energy(out[2 * 6 + 2]) +
+                        energy(out[4 * 6 + 2]);
+  EXPECT_NEAR(beside / 4.0 / energy(under), 0.175, 0.06);
   for (std::size_t n = 0; n < 9600 - 64; ++n) ASSERT_EQ(under[n], 0.0F) << n;
   EXPECT_GT(energy({under.begin() + 9600, under.begin() + 12000}), 0.1 * energy(under));
 }
