@@ -46,6 +46,7 @@ struct Row {
   bool required = false;
   std::vector<std::string> choices = {};  ///< of a text; empty: any
   std::string source = {};                ///< where the default comes from
+  bool live = false;                      ///< may change while the program runs
 };
 
 using Vector3 = std::array<double, 3>;

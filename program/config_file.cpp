@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <set>
+#include <string_view>
 
 #include "program/failure.hpp"
 #include "program/input_file.hpp"
@@ -68,6 +70,19 @@ std::string what_there_is(const std::string& wanted, const std::vector<fs::path>
          "There are: " + joined(names, " ");
 }
 
+/// What stands behind `description:` in a file, its own quotes left off.
+std::string description_in(const fs::path& path) {
+  constexpr std::string_view kKey = "description:";
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with(kKey)) continue;
+    const auto begin = line.find_first_not_of(" \"", kKey.size());
+    const auto end = line.find_last_not_of(" \"\r");
+    return begin == std::string::npos || end < begin ? "" : line.substr(begin, end + 1 - begin);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<fs::path> config_folders(const std::string& kind) {
@@ -88,6 +103,14 @@ std::optional<fs::path> named_config(const std::string& kind, const std::string&
     if (is_file(file)) return plain(file);
   }
   return std::nullopt;
+}
+
+std::vector<NamedConfig> list_configs(const std::string& kind) {
+  std::vector<NamedConfig> all;
+  for (const std::string& name : names_in(config_folders(kind))) {
+    if (const auto file = named_config(kind, name)) all.push_back({name, description_in(*file)});
+  }
+  return all;
 }
 
 fs::path find_config(const std::string& option, const std::string& kind, const fs::path& wanted) {

@@ -19,6 +19,14 @@ namespace splash::program {
 [[nodiscard]] std::optional<std::filesystem::path> named_config(const std::string& kind,
                                                                 const std::string& name);
 
+/// A configuration that is found by its name, and what it says of itself.
+struct NamedConfig {
+  std::string name;
+  std::string description;  ///< its line `description:`, or empty
+};
+/// All of a kind, by name; of those with the same name the one that counts.
+[[nodiscard]] std::vector<NamedConfig> list_configs(const std::string& kind);
+
 /// The file that `wanted` means: itself where it is a file or names a folder, else <wanted>.yaml in
 /// the first of config_folders() that has one. It can be read.
 /// Throws Failure (kExitNoInput): `option`, the cause, the nearest name and all names there are.

@@ -44,7 +44,7 @@ std::string describe(const std::vector<Row>& rows, const std::vector<std::string
     std::string fallback = i < defaults.size() ? cell(defaults[i]) : "";
     if (row.required) fallback = "required";
     out += "| `" + row.key + "` | " + row.unit + " | " + fallback + " | " + range_of(row) + " | " +
-           cell(row.meaning) + " | " + cell(row.source) + " |\n";
+           cell(row.meaning) + (row.live ? " *Live.*" : "") + " | " + cell(row.source) + " |\n";
   }
   return out;
 }

@@ -22,11 +22,12 @@ namespace {
 /// sd_watchdog_enabled(3) asks for half the period; twice that forgives a late turn.
 constexpr double kSignsPerPeriod = 4.0;
 
-std::string take_variable(const char* name) {
+/// A start may take so long [s].
+constexpr double kStart = 600.0;
+
+std::string variable(const char* name) {
   const char* value = std::getenv(name);
-  std::string text = value != nullptr ? value : "";
-  unsetenv(name);
-  return text;
+  return value != nullptr ? value : "";
 }
 
 std::optional<long long> number(const std::string& text) {
@@ -37,11 +38,14 @@ std::optional<long long> number(const std::string& text) {
 }
 
 /// [s]; 0 when nobody watches this process.
-double watchdog_period() {
-  const auto microseconds = number(take_variable("WATCHDOG_USEC"));
-  const std::string watched = take_variable("WATCHDOG_PID");
+double watchdog_period(const std::string& period, const std::string& watched) {
+  const auto microseconds = number(period);
   if (!watched.empty() && number(watched) != getpid()) return 0.0;
   return microseconds ? std::max(1e-6 * static_cast<double>(*microseconds), 0.0) : 0.0;
+}
+
+std::string watchdog_text(double seconds) {
+  return "WATCHDOG_USEC=" + std::to_string(std::llround(1e6 * seconds));
 }
 
 /// Monotonic clock now [s].
@@ -52,8 +56,13 @@ double now() {
 
 }  // namespace
 
-ServiceNotice::ServiceNotice() : address_(take_variable("NOTIFY_SOCKET")) {
-  period_ = watchdog_period() / kSignsPerPeriod;
+ServiceNotice::ServiceNotice() {
+  for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) {
+    taken_.push_back({name, variable(name)});
+    unsetenv(name);
+  }
+  address_ = taken_[0].value;
+  period_ = watchdog_period(taken_[1].value, taken_[2].value) / kSignsPerPeriod;
   if (address_.empty()) return;
   if (address_.front() == '@') address_.front() = '\0';
   socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -68,6 +77,7 @@ void ServiceNotice::starting(double seconds) {
 }
 
 void ServiceNotice::ready(const std::string& status) {
+  if (period_ > 0.0) send(watchdog_text(kSignsPerPeriod * period_));
   send("READY=1\nSTATUS=" + status);
 }
 
@@ -82,6 +92,13 @@ void ServiceNotice::alive() {
 
 void ServiceNotice::stopping() {
   send("STOPPING=1");
+}
+
+void ServiceNotice::beginning_anew() {
+  if (period_ > 0.0) send(watchdog_text(kStart));
+  for (const auto& [name, value] : taken_) {
+    if (!value.empty()) setenv(name, value.c_str(), 1);
+  }
 }
 
 void ServiceNotice::send(const std::string& text) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace splash::program {
 
@@ -30,10 +31,19 @@ class ServiceNotice {
   void alive();
   /// The program ends because it was asked to.
   void stopping();
+  /// The process begins anew (start_anew.hpp), which may take as long as a start: the watchdog
+  /// waits so long, and what the constructor took is in the environment again.
+  void beginning_anew();
 
  private:
   void send(const std::string& text) const;
 
+  /// As the environment had it.
+  struct Variable {
+    const char* name;
+    std::string value;
+  };
+  std::vector<Variable> taken_;
   std::string address_;  ///< of the socket; a leading 0 byte: in the abstract namespace
   int socket_ = -1;
   double period_ = 0.0;  ///< between two signs of life [s]; 0: nobody watches

@@ -176,6 +176,15 @@ constexpr ArgumentRow kGet[] = {text("name", "as in /set")};
 constexpr ArgumentRow kPreset[] = {
     text("name", "of a sound: one's own or a shipped one, no path"),
     {'f', "seconds", "s", 0, 600, "within which it goes there, 0.02 at least"}};
+constexpr ArgumentRow kParam[] = {
+    text("name", "live row of the scene, such as detect/bubble_speed"),
+    {'f', "value", "its own", -1e6, 1e6, "where it goes; the scene's table has its range"}};
+constexpr ArgumentRow kParamAsked[] = {text("name", "same; without a value it is asked for")};
+constexpr ArgumentRow kScene[] = {text("name", "of a scene: one's own or a shipped one, no path")};
+constexpr ArgumentRow kRig[] = {text("name", "of a rig: one's own or a shipped one, no path")};
+constexpr ArgumentRow kRigAt[] = {text("name", "same; empty: the one that it has"),
+                                  coordinate("x", "the scene's middle"), coordinate("y", "same"),
+                                  coordinate("z", "same, upwards")};
 constexpr ArgumentRow kPause[] = {{'i', "on", "1", 0, 1, "1: time stands still, 0: it goes on"}};
 constexpr ArgumentRow kTone[] = {{'i', "channel", "1", 0, kLastId, "from 1; 0 ends it"}};
 constexpr ArgumentRow kPing[] = {stamp("t0", "sender's clock when it sent the ping")};
@@ -185,7 +194,7 @@ constexpr ArgumentRow kDone[] = {
     {'i', "value", "1", -kLastInt - 1, kLastInt, "its result, if it has one", {}, true}};
 constexpr ArgumentRow kFail[] = {text("command", "address of the command"),
                                  text("reason", "why, and what is allowed; cut at 64 characters")};
-constexpr ArgumentRow kValue[] = {text("name", "as in /set"),
+constexpr ArgumentRow kValue[] = {text("name", "as in /set and /param"),
                                   {'f', "value", "its own", -1e6, 1e6, "where it goes, or is"}};
 constexpr ArgumentRow kSynced[] = {{'i', "id", "1", -kLastInt - 1, kLastInt, "as given to /sync"}};
 constexpr ArgumentRow kPong[] = {stamp("t0", "as given to /ping"),
@@ -278,6 +287,17 @@ constexpr auto kTable = std::to_array<AddressRow>({
      Direction::sim_alone,
      "The scene begins anew, water, bodies and their own motions; answered by /done",
      {}},
+    {"/param", Direction::sim_alone,
+     "Sets a live row of the scene from the next frame on; answered by /value", kParam},
+    {"/param", Direction::sim_alone, "Asks for such a row; answered by /value", kParamAsked},
+    {"/scene", Direction::sim_alone,
+     "Goes over to another scene: the program begins anew with it; answered by /done", kScene},
+    {"/rig", Direction::synth_alone,
+     "Goes over to another rig: the program begins anew with it; answered by /done", kRig},
+    {"/rig", Direction::synth_alone,
+     "The same, with the middle of a scene, where loudspeakers without a place are heard; answered "
+     "by /done",
+     kRigAt},
     {"/dumpOSC", Direction::to_both, "Prints incoming packets; answered by /done", kDumpOsc},
     {"/error", Direction::to_both, "Turns the report of failures on or off; answered by /done",
      kError},
@@ -286,7 +306,7 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/done", Direction::reply, "A command was carried out", kDone},
     {"/fail", Direction::reply, "A command was refused", kFail},
     {"/value", Direction::reply,
-     "Answers /set and /get, and tells clients of /notify what has changed", kValue},
+     "Answers /set, /get and /param, and tells clients of /notify what has changed", kValue},
     {"/synced", Direction::reply, "Answers /sync", kSynced},
     {"/pong", Direction::reply, "Answers /ping", kPong},
     {"/version.reply", Direction::reply, "Answers /version, laid out as scsynth's", kVersionReply},

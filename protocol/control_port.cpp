@@ -75,7 +75,8 @@ std::vector<std::string> ControlPort::missing() const {
   for (const AddressRow& row : address_table()) {
     const bool ours = row.direction == Direction::to_both || row.direction == alone;
     const std::string address(row.address);
-    if (ours && !commands_.contains(address)) missing.push_back(address);
+    const bool named = !missing.empty() && missing.back() == address;  // in a row of other types
+    if (ours && !named && !commands_.contains(address)) missing.push_back(address);
   }
   return missing;
 }

@@ -15,6 +15,7 @@
 #include "program/config_file.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
+#include "program/start_anew.hpp"
 #include "program/this_program.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
@@ -194,7 +195,11 @@ void serve(Server& server, program::ServiceNotice& service) {
     }
     return asked_to_end.load();
   });
-  service.stopping();
+  if (server.next_scene().empty()) {
+    service.stopping();
+  } else {
+    service.beginning_anew();
+  }
   const RunReport report = server.finish();
   std::printf("%s", summary(report).c_str());
   std::fflush(stdout);
@@ -306,20 +311,34 @@ class Start {
   LastWords last_words_;
 };
 
-void run(const Options& options) {
-  if (options.list_devices) return print_devices(options.device);
+/// What the program begins anew with, at the same ports; nothing: it ends.
+program::OptionValues next_of(const Server& server) {
+  const std::filesystem::path scene = server.next_scene();
+  if (scene.empty() || asked_to_end) return {};
+  program::OptionValues next = {{"--scene", scene.string()},
+                                {"--listen", protocol::to_string(server.local())}};
+  if (const auto shown = server.shown_at())
+    next.emplace_back("--show", protocol::to_string(*shown));
+  return next;
+}
+
+std::filesystem::path kernel_cache() {
+  return program::failing_with(program::kExitUnavailable, prepare_kernel_cache);
+}
+
+/// Until it is over.
+program::OptionValues simulate(const Options& options) {
   program::ServiceNotice service;
-  const auto cache_folder = [] {
-    return program::failing_with(program::kExitUnavailable, prepare_kernel_cache);
-  };
-  if (options.check_device >= 0) return check_device(options.check_device, cache_folder());
   const Scene scene = read_scene(program::find_config("--scene", "scenes", options.scene));
   require_use(options.tracker, scene);
-  if (options.check) return describe_scene(scene);
+  if (options.check) {
+    describe_scene(scene);
+    return {};
+  }
   say_what_digs(scene, options.tracker);
   require_free(options.listen);
   const double begin = protocol::monotonic_now();
-  Start start(options, scene, cache_folder());
+  Start start(options, scene, kernel_cache());
   const auto [device, simulation] = start.start(telling_how_it_settles(service));
   const bool compiled = start.end();
   Server server(options, *simulation, device->facts().name);
@@ -329,6 +348,18 @@ void run(const Options& options) {
                 protocol::to_string(server.local()));
   serve(server, service);
   start.renew_seal();
+  return next_of(server);
+}
+
+program::OptionValues run(const Options& options) {
+  if (options.list_devices) {
+    print_devices(options.device);
+  } else if (options.check_device >= 0) {
+    check_device(options.check_device, kernel_cache());
+  } else {
+    return simulate(options);
+  }
+  return {};
 }
 
 }  // namespace
@@ -339,7 +370,9 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
   std::signal(SIGXFSZ, SIG_IGN);  // nor does a file as long as it may be: that is a full disk
   try {
-    naming_opencl_errors([&chosen = *options] { run(chosen); });
+    const program::OptionValues next =
+        naming_opencl_errors([&chosen = *options] { return run(chosen); });
+    if (!next.empty()) program::start_anew(program::with_options({argv, argv + argc}, next));
     return program::kExitOk;
   } catch (const program::ConfigError& error) {
     std::cerr << error.what() << '\n';

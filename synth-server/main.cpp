@@ -10,6 +10,7 @@
 #include "program/config_file.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
+#include "program/start_anew.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
 #include "synth-server/options.hpp"
@@ -68,12 +69,15 @@ void reload_sound(const Options& options, Server& server) {
   }
 }
 
-/// Until a signal, /quit or the end of --duration. A second signal then ends the program at once.
-void play(const Options& options, Server& server, program::ServiceNotice& service) {
+/// Until a signal, a command or the end of --duration; says what to begin anew with. A second
+/// signal then ends the program at once.
+program::OptionValues play(const Options& options, Server& server,
+                           program::ServiceNotice& service) {
   const sigset_t signals = ending_signals();
   const bool hangs_up = at_terminal();
   const double start = protocol::monotonic_now();
   double next_line = start + 1.0;
+  program::OptionValues next;
   bool knows_scheduling = false;
   for (;;) {
     const int signal = await_signal(signals, hangs_up);
@@ -83,7 +87,10 @@ void play(const Options& options, Server& server, program::ServiceNotice& servic
     if (signal == SIGHUP) {
       server.reopen();
       reload_sound(options, server);
-    } else if (signal != 0 || server.asked_to_quit()) {
+    } else if (signal != 0) {
+      break;
+    } else if (server.asked_to_quit()) {
+      next = server.next();
       break;
     }
     if (options.duration > 0.0 && now - start >= options.duration) break;
@@ -94,8 +101,13 @@ void play(const Options& options, Server& server, program::ServiceNotice& servic
       std::fflush(stdout);
     }
   }
-  service.stopping();
+  if (next.empty()) {
+    service.stopping();
+  } else {
+    service.beginning_anew();
+  }
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  return next;
 }
 
 void print_devices(const std::string& api) {
@@ -124,23 +136,41 @@ sigset_t block_signals() {
   return all;
 }
 
-void run(Options options) {
-  if (options.list_devices) return print_devices(options.api);
+/// Until it is over; says what to begin anew with, at the same ports.
+program::OptionValues run_live(const Options& options, const Rig& rig,
+                               program::ServiceNotice& service) {
+  Server server(options, rig);
+  service.ready(rig.name + ", " + std::to_string(channel_count(rig)) + " channels, on " +
+                protocol::to_string(server.local()));
+  program::OptionValues next = play(options, server, service);
+  server.finish();
+  return next;
+}
+
+program::OptionValues run(Options options) {
+  if (options.list_devices) {
+    print_devices(options.api);
+    return {};
+  }
   program::ServiceNotice service;
   Rig rig = load_rig(options.rig);
   centre(rig, options.middle);
   const NamedSound sound = chosen_sound(options.sound);
   options.engine.sound = sound.sound;
   options.sound_name = sound.name;
-  if (!options.render.empty()) return render_log(options, rig);
+  if (!options.render.empty()) {
+    render_log(options, rig);
+    return {};
+  }
   const sigset_t signals = block_signals();
-  if (!options.test_tone.empty()) return play_test_tone(options, rig, signals);
-  if (options.sweep != 0) return measure(options, rig, signals);
-  Server server(options, rig);
-  service.ready(rig.name + ", " + std::to_string(channel_count(rig)) + " channels, on " +
-                protocol::to_string(server.local()));
-  play(options, server, service);
-  server.finish();
+  if (!options.test_tone.empty()) {
+    play_test_tone(options, rig, signals);
+  } else if (options.sweep != 0) {
+    measure(options, rig, signals);
+  } else {
+    return run_live(options, rig, service);
+  }
+  return {};
 }
 
 }  // namespace
@@ -151,7 +181,8 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
   std::signal(SIGXFSZ, SIG_IGN);  // nor does a file as long as it may be: that is a full disk
   try {
-    run(*options);
+    const program::OptionValues next = run(*options);
+    if (!next.empty()) program::start_anew(program::with_options({argv, argv + argc}, next));
     return program::kExitOk;
   } catch (const program::Failure& failure) {
     std::cerr << "synth-server: " << failure.what() << '\n';

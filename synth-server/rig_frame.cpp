@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "program/config_file.hpp"
 #include "protocol/time_tag.hpp"
 
 namespace splash::synth {
@@ -70,6 +71,16 @@ std::string describe_for_viewers(const Rig& rig, const Desk& desk, int sample_ra
                             {"logarithmic", knob.logarithmic},
                             {"unit", knob.unit},
                             {"meaning", knob.meaning}});
+  }
+  json["middle"] = nullptr;
+  for (const Output& output : rig.outputs) {
+    if (!output.has_place) json["middle"] = output.place;
+  }
+  for (const char* kind : {"rigs", "sounds"}) {
+    json[kind] = Json::array();
+    for (const auto& [name, description] : program::list_configs(kind)) {
+      json[kind].push_back({{"name", name}, {"description", description}});
+    }
   }
   // A name may have any bytes: those that are no UTF-8 are replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

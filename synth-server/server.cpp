@@ -9,10 +9,12 @@
 #include <thread>
 #include <utility>
 
+#include "program/config_file.hpp"
 #include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"
+#include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay/replay.hpp"
 #include "synth-server/replay_file.hpp"
 #include "synth-server/sound_choice.hpp"
@@ -29,6 +31,13 @@ constexpr auto kLongestFade = std::chrono::milliseconds(300);
 
 void log(const std::string& line) {
   std::fprintf(stderr, "synth-server: %s\n", line.c_str());
+}
+
+/// As --middle takes it.
+std::string middle_text(const std::array<double, 3>& middle) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%.6g,%.6g,%.6g", middle[0], middle[1], middle[2]);
+  return text;
 }
 
 EngineSettings engine_settings(const Options& options, int sample_rate) {
@@ -192,6 +201,7 @@ bool Server::alive() {
 }
 
 void Server::start_receiver(protocol::UdpSocket socket) {
+  listening_ = socket.local();
   // Called by the receiving thread, the queue's only producer.
   const auto push = [this](Command::Kind kind) {
     Command command;
@@ -216,6 +226,9 @@ void Server::start_receiver(protocol::UdpSocket socket) {
     command.share = ceiling_share(command.channel);
     return queue_.push(command) ? "" : "busy";
   };
+  actions.rig = [this](const std::string& name, const auto& middle) {
+    return go_over_to(name, middle);
+  };
   add_desk(actions);
   actions.print = log;
   receiver_ =
@@ -226,6 +239,39 @@ void Server::start_receiver(protocol::UdpSocket socket) {
 bool Server::has_foot() const {
   return desk_.get("foot/texture").value_or(0.0) > 0.0 ||
          desk_.get("foot/wash").value_or(0.0) > 0.0;
+}
+
+// What is recorded, and how long a run lasts, belong to one rig.
+std::string Server::go_over_to(const std::string& rig,
+                               const std::optional<std::array<double, 3>>& middle) {
+  if (recorder_ != nullptr || event_recorder_ != nullptr) {
+    return "this run records: it keeps its rig";
+  }
+  if (!options_.replay.empty()) return "this run replays a log: it keeps its rig";
+  if (options_.duration > 0.0) return "this run has --duration: it keeps its rig";
+  program::OptionValues next = {{"--listen", protocol::to_string(listening_)}};
+  if (monitor_ != nullptr) next.emplace_back("--show", protocol::to_string(monitor_->local()));
+  if (!rig.empty()) {
+    const auto file = program::named_config("rigs", rig);
+    if (!file) return "no rig is called so";
+    try {
+      static_cast<void>(read_rig(*file));
+    } catch (const std::exception& error) {
+      log("/rig " + rig + ": " + error.what());
+      return error.what();
+    }
+    next.emplace_back("--rig", file->string());
+  }
+  if (middle) next.emplace_back("--middle", middle_text(*middle));
+  const std::lock_guard lock(mutex_);
+  next_ = std::move(next);
+  quit_ = true;
+  return {};
+}
+
+program::OptionValues Server::next() const {
+  const std::lock_guard lock(mutex_);
+  return next_;
 }
 
 double Server::ceiling_share(int channel) const {

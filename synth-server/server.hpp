@@ -3,13 +3,16 @@
 // each other.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "program/start_anew.hpp"
 #include "protocol/event_log.hpp"
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"
@@ -39,6 +42,8 @@ class Server {
 
   /// Somebody sent /quit.
   [[nodiscard]] bool asked_to_quit() const noexcept { return quit_; }
+  /// What the program begins anew with; nothing: it ends.
+  [[nodiscard]] program::OptionValues next() const;
   /// One line on what is going on.
   [[nodiscard]] std::string state() const;
   /// Whether both sound and receiver have moved on since this was last asked.
@@ -86,6 +91,9 @@ class Server {
   /// Whether the sound, as it is now, has anything under the foot.
   [[nodiscard]] bool has_foot() const;
   void add_desk(ControlActions& actions);
+  /// Why another rig cannot be gone over to; empty: it is.
+  [[nodiscard]] std::string go_over_to(const std::string& rig,
+                                       const std::optional<std::array<double, 3>>& middle);
   void introduce() const;
   void warn_of_latency(const AudioFormat& format) const;
   void await_silence() const;
@@ -107,7 +115,9 @@ class Server {
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<EventRecorder> event_recorder_;
   std::unique_ptr<Monitor> monitor_;
-  mutable std::mutex mutex_;  ///< guards playing_; the audio thread never takes it
+  protocol::Endpoint listening_;
+  program::OptionValues next_;  ///< under mutex_
+  mutable std::mutex mutex_;    ///< guards playing_ and next_; the audio thread never takes it
   std::unique_ptr<Playing> playing_;
   std::uint64_t blocks_seen_ = 0;
   std::uint64_t turns_seen_ = 0;

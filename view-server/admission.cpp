@@ -18,10 +18,13 @@ struct Row {
 
 constexpr std::string_view kPose = "/body/pose";
 
-constexpr std::array<Row, 11> kAllowed = {{{"/body/grab", Way::sim},
+constexpr std::array<Row, 14> kAllowed = {{{"/body/grab", Way::sim},
                                            {kPose, Way::sim},
                                            {"/pause", Way::sim},
                                            {"/reset", Way::sim},
+                                           {"/param", Way::sim},
+                                           {"/scene", Way::sim},
+                                           {"/rig", Way::synth},
                                            {"/mute", Way::synth},
                                            {"/tone", Way::synth},
                                            {"/set", Way::synth},

@@ -22,8 +22,9 @@ constexpr int kWrite = 2;
 constexpr std::array<std::string_view, 8> kAttributes = {
     "FULL_PATH", "TYPE", "ACCESS", "RANGE", "VALUE", "DESCRIPTION", "UNIT", "CONTENTS"};
 /// Commands that a page may say, by the program that takes them (admission.cpp).
-constexpr std::array<std::string_view, 4> kToSim = {"/body/grab", "/body/pose", "/pause", "/reset"};
-constexpr std::array<std::string_view, 3> kToSynth = {"/mute", "/tone", "/preset"};
+constexpr std::array<std::string_view, 5> kToSim = {"/body/grab", "/body/pose", "/pause", "/reset",
+                                                    "/scene"};
+constexpr std::array<std::string_view, 4> kToSynth = {"/mute", "/tone", "/preset", "/rig"};
 /// Events; the simulator tells them.
 constexpr std::array<std::string_view, 3> kEvents = {"/impact", "/bubble", "/cavity"};
 
@@ -74,18 +75,17 @@ void add(Json& root, std::string_view program, const AddressRow& row, int access
 
 void add_commands(Json& root) {
   for (const AddressRow& row : protocol::address_table()) {
-    const bool named =
-        !row.arguments.empty() && row.address == "/body/pose" && row.arguments.front().type == 's';
-    if (named) continue;  // one address has one type
+    if (&row != protocol::find_address(row.address)) continue;  // one address has one type
     if (is_among(kToSim, row.address)) add(root, kSim, row, kWrite);
     if (is_among(kToSynth, row.address)) add(root, kSynth, row, kWrite);
     if (is_among(kEvents, row.address)) add(root, kSim, row, kRead);
   }
 }
 
-void add_rows(Json& root, const Known& known) {
-  for (const Known::Row& row : known.rows) {
-    Json& node = node_of(root, std::string(kSynth) + '/' + row.name);
+void add_rows(Json& root, std::string_view program, const std::vector<Known::Row>& rows,
+              const Known& known) {
+  for (const Known::Row& row : rows) {
+    Json& node = node_of(root, std::string(program) + '/' + row.name);
     const auto value = known.values.find(row.name);
     node["TYPE"] = "f";
     node["ACCESS"] = kRead | kWrite;
@@ -128,7 +128,8 @@ Json tree(const Known& known) {
   add_commands(root);
   add_status(root, kSim, "sim-server", known.sim);
   add_status(root, kSynth, "synth-server", known.synth);
-  add_rows(root, known);
+  add_rows(root, kSim, known.scene_rows, known);
+  add_rows(root, kSynth, known.rows, known);
   return root;
 }
 
@@ -173,23 +174,37 @@ std::optional<std::string> behind(std::string_view prefix, const std::string& ad
   return has ? std::optional(address.substr(prefix.size())) : std::nullopt;
 }
 
-}  // namespace
-
-void note_rig(std::string_view text, Known& known) {
-  known.rows.clear();
-  known.values.clear();
-  const Json rig = Json::parse(text, nullptr, false);
-  if (!rig.is_object() || !rig.contains("rows") || !rig["rows"].is_array()) return;
-  for (const Json& row : rig["rows"]) {
+/// Of a frame, those of one program, whose values are told anew.
+std::vector<Known::Row> read_rows(std::string_view text, std::map<std::string, double>& values) {
+  std::vector<Known::Row> rows;
+  const Json frame = Json::parse(text, nullptr, false);
+  if (!frame.is_object() || !frame.contains("rows") || !frame["rows"].is_array()) return rows;
+  for (const Json& row : frame["rows"]) {
     try {
       const auto name = row.at("name").get<std::string>();
-      known.rows.push_back({name, row.at("min").get<double>(), row.at("max").get<double>(),
-                            row.at("unit").get<std::string>(),
-                            row.at("meaning").get<std::string>()});
-      known.values[name] = row.at("value").get<double>();
+      rows.push_back({name, row.at("min").get<double>(), row.at("max").get<double>(),
+                      row.at("unit").get<std::string>(), row.at("meaning").get<std::string>()});
+      values[name] = row.at("value").get<double>();
     } catch (const Json::exception&) {  // a row of another kind says nothing here
     }
   }
+  return rows;
+}
+
+}  // namespace
+
+bool is_of_scene(std::string_view row) {
+  return row.starts_with("detect/");
+}
+
+void note_rig(std::string_view text, Known& known) {
+  std::erase_if(known.values, [](const auto& value) { return !is_of_scene(value.first); });
+  known.rows = read_rows(text, known.values);
+}
+
+void note_scene(std::string_view text, Known& known) {
+  std::erase_if(known.values, [](const auto& value) { return is_of_scene(value.first); });
+  known.scene_rows = read_rows(text, known.values);
 }
 
 Answer query(const Known& known, std::string_view path, std::string_view attribute, int port) {
@@ -205,26 +220,27 @@ Answer query(const Known& known, std::string_view path, std::string_view attribu
 }
 
 std::optional<protocol::Message> meant(const protocol::Message& message) {
-  if (const auto own = behind(kSim, message.address)) {
-    if (!is_among(kToSim, *own)) return std::nullopt;
+  const auto of_sim = behind(kSim, message.address);
+  const auto own = of_sim ? of_sim : behind(kSynth, message.address);
+  if (!own) return std::nullopt;
+  if (of_sim ? is_among(kToSim, *own) : is_among(kToSynth, *own)) {
     return protocol::Message{*own, message.arguments};
   }
-  const auto own = behind(kSynth, message.address);
-  if (!own) return std::nullopt;
-  if (is_among(kToSynth, *own)) return protocol::Message{*own, message.arguments};
-  if (message.arguments.size() != 1) return std::nullopt;
+  const std::string name = own->substr(1);
+  if (is_of_scene(name) != of_sim.has_value() || message.arguments.size() != 1) return std::nullopt;
   const auto* whole = std::get_if<std::int32_t>(&message.arguments.front());
   const auto* number = std::get_if<float>(&message.arguments.front());
   if (whole == nullptr && number == nullptr) return std::nullopt;
   const float value = number != nullptr ? *number : static_cast<float>(*whole);
-  return protocol::Message{"/set", {own->substr(1), value}};
+  return protocol::Message{of_sim ? "/param" : "/set", {name, value}};
 }
 
 std::string told_as(const protocol::Message& message) {
   if (is_among(kEvents, message.address)) return std::string(kSim) + message.address;
   if (message.address != "/value" || message.arguments.empty()) return {};
   const auto* name = std::get_if<std::string>(&message.arguments.front());
-  return name != nullptr ? std::string(kSynth) + '/' + *name : std::string();
+  if (name == nullptr) return {};
+  return std::string(is_of_scene(*name) ? kSim : kSynth) + '/' + *name;
 }
 
 }  // namespace splash::view

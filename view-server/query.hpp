@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // OSCQuery (proposal 1.0): what can be said to both programs, as a tree in JSON. /sim and /synth
 // stand before the programs' own addresses, and each row of the sound and of the rig is an address,
-// /synth/impact/q for what /set calls impact/q.
+// /synth/impact/q for what /set calls impact/q; so is each live row of the scene,
+// /sim/detect/bubble_speed for what /param calls detect/bubble_speed.
 #pragma once
 
 #include <map>
@@ -17,7 +18,7 @@ namespace splash::view {
 
 /// What the programs said of late.
 struct Known {
-  /// A number that /set takes; from the rig's frame.
+  /// A number that /set or /param takes; from the rig's or the scene's frame.
   struct Row {
     std::string name;
     double min = 0.0;
@@ -26,13 +27,19 @@ struct Known {
     std::string meaning;
   };
   std::vector<Row> rows = {};
-  std::map<std::string, double> values = {};    ///< of rows
+  std::vector<Row> scene_rows = {};
+  std::map<std::string, double> values = {};    ///< of both
   std::optional<protocol::Message> sim = {};    ///< /status.reply
   std::optional<protocol::Message> synth = {};  ///< same
 };
 
+/// Whether a row is the scene's, by its name; else it is the synth's.
+[[nodiscard]] bool is_of_scene(std::string_view row);
+
 /// The rows, and their values, of a frame of kind SPR1 from byte 16 on; none where it is no JSON.
 void note_rig(std::string_view text, Known& known);
+/// The same of a frame of kind SPC1.
+void note_scene(std::string_view text, Known& known);
 
 struct Answer {
   int status = 200;  ///< HTTP

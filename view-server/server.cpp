@@ -56,6 +56,12 @@ bool is_state(const protocol::ViewFrame& frame) {
          protocol::frame_kind(frame.data()) == protocol::kStateFrame;
 }
 
+/// Behind a frame's head.
+std::string_view text_of(const protocol::ViewFrame& frame) {
+  const std::size_t head = std::min(protocol::kFrameHead, frame.size());
+  return {reinterpret_cast<const char*>(frame.data()) + head, frame.size() - head};
+}
+
 tcp::acceptor listen_at(asio::io_context& context, const protocol::Endpoint& where) {
   try {
     return {context, tcp::endpoint(asio::ip::address_v4(where.address), where.port)};
@@ -287,6 +293,8 @@ class Server::Hub final : public PageOwner, public Host {
 
   void show(const SharedFrame& frame) {
     if (!is_state(*frame)) {
+      note_scene(text_of(*frame), known_);
+      std::erase_if(changed_, [](const auto& row) { return is_of_scene(row.first); });
       for (const auto& page : pages_) page->send(frame);
     } else {
       state_asked_ = false;
@@ -297,9 +305,8 @@ class Server::Hub final : public PageOwner, public Host {
   void hear(const SharedFrame& frame) {
     for (const auto& page : pages_) page->send(frame);
     if (protocol::frame_kind(frame->data()) == protocol::kRigFrame) {
-      const auto* text = reinterpret_cast<const char*>(frame->data()) + protocol::kFrameHead;
-      note_rig({text, frame->size() - protocol::kFrameHead}, known_);
-      changed_.clear();
+      note_rig(text_of(*frame), known_);
+      std::erase_if(changed_, [](const auto& row) { return !is_of_scene(row.first); });
     } else if (pages_.empty()) {
       sound_asked_ = false;
     } else {
@@ -409,7 +416,7 @@ class Server::Hub final : public PageOwner, public Host {
   bool looks_ = false;       ///< at the programs
   std::chrono::steady_clock::time_point looks_since_ = {};
   Known known_;
-  std::map<std::string, float> changed_;  ///< numbers of the rig since its frame
+  std::map<std::string, float> changed_;  ///< numbers of rig and scene since their frames
   bool state_asked_ = false;
   bool sound_asked_ = false;
   std::array<std::byte, protocol::kMaxDatagram + 1> packet_ = {};

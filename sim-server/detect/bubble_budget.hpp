@@ -12,6 +12,7 @@ class BubbleBudget {
 
   /// Whole bubbles that may be told at `time` [s].
   [[nodiscard]] int open(double time);
+  void set_rate(double rate) noexcept { rate_ = rate; }  ///< [1/s]
   /// So many were.
   void spend(int told) { left_ -= told; }
 

@@ -71,6 +71,12 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
   points_.id.write(fluid.device(), slots);
 }
 
+void Bubbles::set(const DetectSettings& settings) {
+  settings_ = settings;
+  mean_volume_ = mean_volume(settings);
+  budget_.set_rate(settings.bubbles_per_second);
+}
+
 void Bubbles::upload() {
   const std::size_t count = pool_.size();
   uploaded_.resize(3 * count);

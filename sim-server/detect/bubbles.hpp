@@ -68,6 +68,8 @@ class Bubbles {
   void renew(double time);
   /// All are gone, and all water was slow.
   void forget();
+  /// Other thresholds and sizes, from the next frame on.
+  void set(const DetectSettings& settings);
 
  private:
   void upload();

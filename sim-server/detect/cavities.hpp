@@ -28,6 +28,7 @@ class Cavities {
 
   /// Searches among the bubbles that were carried; before they are renewed.
   [[nodiscard]] std::vector<DetectedCavity> search(double time, Bubbles& bubbles);
+  void set(const DetectSettings& settings) { settings_ = settings; }
   /// Searches that were worth it so far.
   [[nodiscard]] std::uint64_t searches() const noexcept { return searches_; }
   /// Rounds of the longest search so far.

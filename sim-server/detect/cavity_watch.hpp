@@ -43,6 +43,7 @@ class CavityWatch {
                                                     const BodyAir::ReadWater& read_water);
   /// The water or the bodies jumped: nothing is taken for granted.
   void forget();
+  void set(const DetectSettings& settings) { settings_ = settings; }
   /// Frames in which the water was looked at so far.
   [[nodiscard]] std::uint64_t looks() const noexcept { return looks_; }
   [[nodiscard]] const NoCavity& none() const noexcept { return none_; }

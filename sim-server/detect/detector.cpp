@@ -130,6 +130,12 @@ void Detector::forget() {
   impacts_.forget();
 }
 
+void Detector::set(const DetectSettings& settings) {
+  bubbles_.set(settings);
+  if (cavities_) cavities_->set(settings);
+  impacts_.set(settings);
+}
+
 std::vector<Vector3> Detector::bubble_places() const {
   std::vector<Vector3> places;
   for (const PoolBubble& bubble : bubbles_.pool()) places.push_back(bubble.position);

@@ -45,6 +45,9 @@ class Detector {
   /// The water and the bodies jumped: bubbles are gone, and who is in the water is found out anew.
   void forget();
 
+  /// Other thresholds, from the next frame on; whether cavities are groups of bubbles stays.
+  void set(const DetectSettings& settings);
+
   [[nodiscard]] std::size_t bubbles_alive() const noexcept { return bubbles_.pool_size(); }
   /// Where they are [m].
   [[nodiscard]] std::vector<Vector3> bubble_places() const;

@@ -98,11 +98,14 @@ struct ImpactWatch::Meeting {
 
 ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
                          const SurfaceDistance& distance)
-    : faces_(std::move(faces)),
-      settings_(settings),
-      distance_(distance),
-      touching_(std::min(kTouching * distance.spacing(), settings.impact_release / 2.0)),
-      blows_(faces_.size()) {}
+    : faces_(std::move(faces)), distance_(distance), blows_(faces_.size()) {
+  set(settings);
+}
+
+void ImpactWatch::set(const DetectSettings& settings) {
+  settings_ = settings;
+  touching_ = std::min(kTouching * distance_.spacing(), settings.impact_release / 2.0);
+}
 
 void ImpactWatch::forget() {
   skin_.clear();

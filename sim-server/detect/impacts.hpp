@@ -47,6 +47,8 @@ class ImpactWatch {
 
   /// The next call is as the first.
   void forget();
+  /// Other thresholds, from the next call on.
+  void set(const DetectSettings& settings);
 
  private:
   /// Of a point of the skin.
@@ -88,7 +90,7 @@ class ImpactWatch {
   std::vector<double> faces_;
   DetectSettings settings_;
   SurfaceDistance distance_;
-  double touching_;  ///< nearer, skin and water touch [m]
+  double touching_ = 0.0;  ///< nearer, skin and water touch [m]
   std::vector<Blow> blows_;
   std::vector<Skin> skin_;
 };

@@ -44,6 +44,11 @@ struct ControlActions {
   std::function<std::string(std::int32_t body, bool on)> grab = {};
   std::function<void(bool)> pause = {};
   std::function<void()> reset = {};  ///< the scene
+  /// Sets a live row of the scene. Returns the reason why it did not; empty: it did.
+  std::function<std::string(const std::string& name, double value)> set = {};
+  std::function<std::optional<double>(const std::string& name)> get = {};
+  /// Goes over to a scene. Returns the reason why it does not; empty: it does.
+  std::function<std::string(const std::string& name)> scene = {};
   /// Returns the reason why the scene has no forces; empty: it has, and /notify 2 is obeyed.
   std::function<std::string()> no_forces = {};
   /// Returns the program's numbers; what the control port refused is added to them.
@@ -91,6 +96,9 @@ class ControlServer {
   [[nodiscard]] Outcome notify(const Message& message, const Visit& visit) const;
   [[nodiscard]] Outcome pause(const Message& message) const;
   [[nodiscard]] Outcome reset(const Message& message) const;
+
+  [[nodiscard]] Outcome param(const Message& message) const;
+  [[nodiscard]] Outcome scene(const Message& message) const;
 
   ControlActions actions_;
   Targets& targets_;

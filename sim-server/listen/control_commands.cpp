@@ -38,15 +38,15 @@ void ControlServer::add_commands() {
     return tile_pressure(message, visit);
   });
   port_.on("/status", [this](const Message&, const Visit&) { return status(); });
-  port_.on("/notify", [this](const Message& message, const Visit& visit) {
-    return notify(message, visit);
-  });
+  port_.on("/notify",
+           [this](const Message& message, const Visit& visit) { return notify(message, visit); });
   // Poses are taken at once and events are the synth's to hold: nothing is scheduled here.
-  port_.on("/clearSched", [](const Message& message, const Visit&) {
-    return protocol::done_unless({}, message);
-  });
+  port_.on("/clearSched",
+           [](const Message& message, const Visit&) { return protocol::done_unless({}, message); });
   port_.on("/pause", [this](const Message& message, const Visit&) { return pause(message); });
   port_.on("/reset", [this](const Message& message, const Visit&) { return reset(message); });
+  port_.on("/param", [this](const Message& message, const Visit&) { return param(message); });
+  port_.on("/scene", [this](const Message& message, const Visit&) { return scene(message); });
   port_.on_others([this](const Message& message, const Visit& visit) {
     return actions_.track && actions_.track(message, moment_of(visit));
   });
@@ -114,6 +114,28 @@ protocol::Outcome ControlServer::reset(const Message& message) const {
   if (!actions_.reset) return {.refused = "this program has no scene to begin anew"};
   actions_.reset();
   return protocol::done_unless({}, message);
+}
+
+protocol::Outcome ControlServer::param(const Message& message) const {
+  if (!actions_.set || !actions_.get) {
+    return {.refused = "this program has no scene whose rows can change"};
+  }
+  const auto& name = std::get<std::string>(message.arguments.front());
+  const float* value =
+      message.arguments.size() > 1 ? std::get_if<float>(&message.arguments[1]) : nullptr;
+  if (value != nullptr) {
+    std::string refused = actions_.set(name, static_cast<double>(*value));
+    if (!refused.empty()) return {.refused = std::move(refused)};
+  }
+  const std::optional<double> now = actions_.get(name);
+  if (!now) return {.refused = "no live row of the scene is called so"};
+  return {.reply = protocol::value_of(name, *now)};
+}
+
+protocol::Outcome ControlServer::scene(const Message& message) const {
+  if (!actions_.scene) return {.refused = "this program keeps its scene"};
+  return protocol::done_unless(actions_.scene(std::get<std::string>(message.arguments.front())),
+                               message);
 }
 
 }  // namespace splash::sim

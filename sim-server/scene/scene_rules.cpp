@@ -2,6 +2,7 @@
 #include "sim-server/scene/scene_rules.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -39,12 +40,27 @@ bool overlap(const WaterBlock& a, const WaterBlock& b) {
   return true;
 }
 
-void check_order(const ConfigMap& map, const std::string& low_key, double low,
-                 const std::string& high_key, double high) {
-  if (high > low) return;
-  throw map.error(
-      map.has(high_key) || !map.has(low_key) ? high_key : low_key,
-      high_key + " is " + text(high) + ", not above " + low_key + " (" + text(low) + ")");
+/// Two keys whose values stand in an order.
+struct Order {
+  const char* low_key;
+  double low;
+  const char* high_key;
+  double high;
+};
+
+std::array<Order, 4> orders_of(const DetectSettings& d) {
+  return {{{"radius_min", d.radius_min, "radius_max", d.radius_max},
+           {"epsilon_min", d.epsilon_min, "epsilon_max", d.epsilon_max},
+           {"cavity_bubbles_min", static_cast<double>(d.cavity_bubbles_min), "cavity_bubbles_max",
+            static_cast<double>(d.cavity_bubbles_max)},
+           {"cavity_radius_min", d.cavity_radius_min, "cavity_radius_max", d.cavity_radius_max}}};
+}
+
+/// Empty: it holds.
+std::string wrong(const Order& order) {
+  if (order.high > order.low) return {};
+  return std::string(order.high_key) + " is " + text(order.high) + ", not above " + order.low_key +
+         " (" + text(order.low) + ")";
 }
 
 }  // namespace
@@ -195,12 +211,19 @@ void check_place(const ConfigMap& body, const Vector3& place, const Tank& tank) 
 }
 
 void check_detect(const ConfigMap& map, const DetectSettings& d) {
-  check_order(map, "radius_min", d.radius_min, "radius_max", d.radius_max);
-  check_order(map, "epsilon_min", d.epsilon_min, "epsilon_max", d.epsilon_max);
-  check_order(map, "cavity_bubbles_min", d.cavity_bubbles_min, "cavity_bubbles_max",
-              d.cavity_bubbles_max);
-  check_order(map, "cavity_radius_min", d.cavity_radius_min, "cavity_radius_max",
-              d.cavity_radius_max);
+  for (const Order& order : orders_of(d)) {
+    const std::string reason = wrong(order);
+    if (reason.empty()) continue;
+    const bool high = map.has(order.high_key) || !map.has(order.low_key);
+    throw map.error(high ? order.high_key : order.low_key, reason);
+  }
+}
+
+std::string wrong_order(const DetectSettings& detect) {
+  for (const Order& order : orders_of(detect)) {
+    if (const std::string reason = wrong(order); !reason.empty()) return reason;
+  }
+  return {};
 }
 
 void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {

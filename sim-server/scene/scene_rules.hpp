@@ -29,7 +29,10 @@ void check_passivity(const program::ConfigMap& map, const MotionSettings& motion
                      double frame_rate);
 /// A free body must start between the tank's walls; a body with a prescribed motion need not.
 void check_place(const program::ConfigMap& body, const Vector3& place, const Tank& tank);
+/// Smallest values below largest ones.
 void check_detect(const program::ConfigMap& map, const DetectSettings& detect);
+/// What breaks that rule, as a sentence; empty: nothing.
+[[nodiscard]] std::string wrong_order(const DetectSettings& detect);
 /// Steps no longer than the solver's water stands, at a speed of sound that is given or on a grid.
 void check_time_step(const program::ConfigMap& map, const FluidSettings& fluid);
 /// Sound that is given is fast enough for the scene's depth and for what falls and flows in it.

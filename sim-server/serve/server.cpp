@@ -10,9 +10,11 @@
 #include <thread>
 #include <utility>
 
+#include "program/config_file.hpp"
 #include "program/failure.hpp"
 #include "program/write_error.hpp"
 #include "protocol/control.hpp"
+#include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/serve/run_report.hpp"
 
 namespace splash::sim {
@@ -107,6 +109,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       overload_({.has_gauges = gauges_.has_value()}),
       target_status_(options.targets, protocol::monotonic_now,
                      [](const std::string& line) { print_line("sim-server: " + line); }),
+      rows_(simulation.scene().detect),
       poses_(simulation,
              [this](const std::string& body, const std::string& reason) {
                targets_.tell(socket_,
@@ -124,6 +127,10 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
              .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
              .pause = [this](bool on) { paused_ = on; },
              .reset = [this] { begins_anew_ = true; },
+             .set = [this](const std::string& name,
+                           double value) { return rows_.set(name, value); },
+             .get = [this](const std::string& name) { return rows_.get(name); },
+             .scene = [this](const std::string& name) { return go_over_to(name); },
              .no_forces = [this] { return no_forces(simulation_); },
              .status =
                  [this] {
@@ -139,8 +146,31 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
   program::failing_with(program::kExitUnavailable, [&] {
     show_.emplace(
         protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow},
-        simulation_.scene(), simulation_.fluid());
+        simulation_.scene(), simulation_.fluid(), [this] { return rows_.rows(); });
   });
+}
+
+// What a run writes, and its length, belong to one scene.
+std::string Server::go_over_to(const std::string& scene) {
+  const bool writes = !(options_.record.empty() && options_.report.empty() &&
+                        options_.gauges.empty() && options_.vtk.empty());
+  if (writes) return "this run writes a file: it keeps its scene";
+  if (!options_.tracker.empty()) return "this run has --tracker: it keeps its scene";
+  if (options_.duration > 0.0) return "this run has --duration: it keeps its scene";
+  const auto file = program::named_config("scenes", scene);
+  if (!file) return "no scene is called so";
+  static_cast<void>(read_scene(*file));
+  {
+    const std::lock_guard lock(status_mutex_);
+    next_scene_ = *file;
+  }
+  quit_ = true;
+  return {};
+}
+
+std::filesystem::path Server::next_scene() const {
+  const std::lock_guard lock(status_mutex_);
+  return next_scene_;
 }
 
 bool Server::is_over() const {
@@ -156,6 +186,7 @@ void Server::run(const std::function<bool()>& ended) {
   note_vtk();
   while (!ended() && !is_over()) {
     if (begins_anew_.exchange(false)) simulation_.begin_anew();
+    take_rows();
     if (paused_) {
       stand_still();
       continue;
@@ -180,6 +211,15 @@ void Server::run(const std::function<bool()>& ended) {
     note_load(frame.seconds - before, computed - begin + end - due);
   }
   wall_seconds_ = protocol::monotonic_now() - started_;
+}
+
+void Server::take_rows() {
+  const auto change = rows_.take();
+  if (!change) return;
+  simulation_.set_detection(change->detect);
+  for (const LiveRow& row : change->rows) {
+    targets_.tell(socket_, protocol::encode(protocol::value_of(row.name, row.value)));
+  }
 }
 
 void Server::stand_still() {

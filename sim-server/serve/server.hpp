@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 #include "sim-server/listen/clock_answers.hpp"
 #include "sim-server/listen/control.hpp"
 #include "sim-server/options.hpp"
+#include "sim-server/scene/live_rows.hpp"
 #include "sim-server/send/event_sender.hpp"
 #include "sim-server/send/force_sender.hpp"
 #include "sim-server/send/target_status.hpp"
@@ -55,6 +57,8 @@ class Server {
   [[nodiscard]] std::optional<protocol::Endpoint> shown_at() const {
     return show_ ? std::optional(show_->local()) : std::nullopt;
   }
+  /// The scene to go over to, once run() is over; empty: the program ends.
+  [[nodiscard]] std::filesystem::path next_scene() const;
   /// Where poses and control are listened for.
   [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 
@@ -63,6 +67,8 @@ class Server {
   void say(const StepFault& step_fault);
   void send(const FrameResult& frame);
   void tell_forces(const FrameResult& frame);
+  /// What was set since the last frame holds from now on, and clients of /notify hear of it.
+  void take_rows();
   void show(const FrameResult& frame);
   /// One turn of a pause: peers hear that we are there, viewers may look around.
   void stand_still();
@@ -77,6 +83,8 @@ class Server {
   void keep_going(const std::function<void()>& write, const std::function<void()>& forget);
   void print_progress();
   [[nodiscard]] bool is_over() const;
+  /// Why another scene cannot be gone over to; empty: it is.
+  [[nodiscard]] std::string go_over_to(const std::string& scene);
 
   Options options_;
   Simulation& simulation_;
@@ -94,14 +102,16 @@ class Server {
   double next_gauges_ = 0.0;  ///< simulated time before which they are not read [s]
   TargetStatus target_status_;
   EventIds ids_;
+  LiveRows rows_;
   std::atomic<bool> quit_ = false;
   std::atomic<bool> paused_ = false;
   std::atomic<bool> begins_anew_ = false;
   PoseIntake poses_;
   RecentPace pace_;       ///< for /status
   RecentPace line_pace_;  ///< for the lines on the state
-  std::mutex status_mutex_;
+  mutable std::mutex status_mutex_;
   protocol::SimStatus status_;
+  std::filesystem::path next_scene_;  ///< under status_mutex_
   std::uint64_t turns_seen_ = 0;
   std::string unwritten_;      ///< why a file ends early; empty: none does
   double started_ = 0.0;       ///< monotonic [s]

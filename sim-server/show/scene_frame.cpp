@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "program/config_file.hpp"
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 
@@ -71,9 +72,28 @@ Json body_of(const BodySettings& body) {
           {"mesh", shape.mesh ? mesh_of(shape.mesh->surface) : Json()}};
 }
 
+/// Where a slider of even steps would spend few of them on what is mostly wanted.
+constexpr double kWide = 50.0;  ///< largest by smallest value
+
+Json row_of(const LiveRow& live) {
+  const program::Row& row = *live.row;
+  const double min = live.is_switch ? 0.0 : row.min;
+  const double max = live.is_switch ? 1.0 : row.max;
+  return {{"name", live.name},
+          {"min", min},
+          {"max", max},
+          {"value", live.value},
+          {"logarithmic", min > 0.0 && max / min > kWide},
+          {"power", min == 0.0 && max > 1.0 ? 3 : 1},
+          {"switch", live.is_switch},
+          {"unit", row.unit.empty() ? "1" : row.unit},
+          {"meaning", row.meaning}};
+}
+
 }  // namespace
 
-std::string describe_for_viewers(const Scene& scene, int particles, double spacing) {
+std::string describe_for_viewers(const Scene& scene, int particles, double spacing,
+                                 const std::vector<LiveRow>& rows) {
   Json json;
   json["scene"] = scene.name;
   json["description"] = scene.description;
@@ -91,13 +111,20 @@ std::string describe_for_viewers(const Scene& scene, int particles, double spaci
   }
   json["bodies"] = Json::array();
   for (const BodySettings& body : scene.bodies) json["bodies"].push_back(body_of(body));
+  json["rows"] = Json::array();
+  for (const LiveRow& row : rows) json["rows"].push_back(row_of(row));
+  json["scenes"] = Json::array();
+  for (const auto& [name, description] : program::list_configs("scenes")) {
+    json["scenes"].push_back({{"name", name}, {"description", description}});
+  }
   // A name may have any bytes: those that are no UTF-8 are replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-protocol::ViewFrame scene_frame(const Scene& scene, int particles, double spacing) {
+protocol::ViewFrame scene_frame(const Scene& scene, int particles, double spacing,
+                                const std::vector<LiveRow>& rows) {
   protocol::FrameWriter writer(protocol::kSceneFrame, protocol::unix_now());
-  writer.text(describe_for_viewers(scene, particles, spacing));
+  writer.text(describe_for_viewers(scene, particles, spacing, rows));
   return std::move(writer).take();
 }
 

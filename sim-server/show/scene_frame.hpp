@@ -3,15 +3,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "protocol/frame.hpp"
+#include "sim-server/scene/live_rows.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
 
-/// JSON. `particles`: of water, as there are; `spacing`: between them [m].
-[[nodiscard]] std::string describe_for_viewers(const Scene& scene, int particles, double spacing);
+/// JSON. `particles`: of water, as there are; `spacing`: between them [m]; `rows`: the live ones.
+[[nodiscard]] std::string describe_for_viewers(const Scene& scene, int particles, double spacing,
+                                               const std::vector<LiveRow>& rows = {});
 
-[[nodiscard]] protocol::ViewFrame scene_frame(const Scene& scene, int particles, double spacing);
+[[nodiscard]] protocol::ViewFrame scene_frame(const Scene& scene, int particles, double spacing,
+                                              const std::vector<LiveRow>& rows = {});
 
 }  // namespace splash::sim

@@ -14,9 +14,12 @@ constexpr double kPeriod = 1.0 / 60.0;
 
 }  // namespace
 
-Show::Show(const protocol::FrameStreamSettings& settings, const Scene& scene, const Fluid& fluid)
-    : stream_(settings, scene_frame(scene, fluid.params().count,
-                                    static_cast<double>(fluid.params().spacing))) {}
+Show::Show(const protocol::FrameStreamSettings& settings, const Scene& scene, const Fluid& fluid,
+           std::function<std::vector<LiveRow>()> rows)
+    : stream_(settings,
+              [scene, count = fluid.params().count,
+               spacing = static_cast<double>(fluid.params().spacing),
+               rows = std::move(rows)] { return scene_frame(scene, count, spacing, rows()); }) {}
 
 void Show::frame(double now, Fluid& fluid, const std::function<ShownState()>& state) {
   if (now < next_ || !stream_.wanted()) return;

@@ -3,17 +3,21 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "protocol/frame_stream.hpp"
 #include "sim-server/fluid/fluid.hpp"
+#include "sim-server/scene/live_rows.hpp"
 #include "sim-server/show/state_frame.hpp"
 
 namespace splash::sim {
 
 class Show {
  public:
-  /// Listens. Throws std::runtime_error that says what to do.
-  Show(const protocol::FrameStreamSettings& settings, const Scene& scene, const Fluid& fluid);
+  /// Listens; `rows` tells the scene's live ones, from any thread. Throws std::runtime_error that
+  /// says what to do.
+  Show(const protocol::FrameStreamSettings& settings, const Scene& scene, const Fluid& fluid,
+       std::function<std::vector<LiveRow>()> rows);
 
   /// Between two frames: shows what `state` tells and the water, if somebody waits for it. `now`:
   /// monotonic [s].

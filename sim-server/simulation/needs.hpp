@@ -45,6 +45,8 @@ class Needs {
   /// how many live.
   [[nodiscard]] FrameNeeds of_frame(const std::vector<BodyStep>& bodies, const FluidStats& last,
                                     double frame, bool driven, std::size_t bubbles);
+  /// Water slower than this makes no bubbles [m/s].
+  void set_bubble_speed(double speed) noexcept { bubble_speed_ = speed; }
   /// After a failure nothing is taken for granted.
   void forget() noexcept { known_ = false; }
 

@@ -105,6 +105,13 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   feel(false);
 }
 
+void Simulation::set_detection(const DetectSettings& settings) {
+  scene_.detect = settings;
+  detector_.set(settings);
+  cavity_watch_.set(settings);
+  needs_.set_bubble_speed(settings.bubble_speed);
+}
+
 // OpenCL on CPUs compiles a kernel when it first runs. On a machine's first start that takes
 // seconds, which nobody minds before time begins, and everybody in the midst of a splash.
 void Simulation::rehearse() {

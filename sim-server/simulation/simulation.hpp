@@ -76,6 +76,8 @@ class Simulation {
   void set_origin(double origin) noexcept { origin_ = origin; }
   /// Steps are this many times as long as the scene wants, from the next frame on [1].
   void set_stretch(double stretch) noexcept { stretch_ = stretch; }
+  /// Detection by other thresholds, from the next frame on; `cavity_by_count` stays.
+  void set_detection(const DetectSettings& settings);
   /// Goes on from `water`, which a simulation of the same scene had at `seconds`; bubbles are lost.
   void resume(const Snapshot& water, double seconds) {
     fluid_.restore(water);

@@ -66,6 +66,7 @@ void Control::add_commands() {
     return protocol::done_unless(actions_.tone ? actions_.tone(integer(message)) : kNothingPlays,
                                  message);
   });
+  port_.on("/rig", [this](const Message& message, const Visit&) { return rig(message); });
   port_.on("/preset", [this](const Message& message, const Visit&) {
     return protocol::done_unless(
         actions_.preset ? actions_.preset(name_in(message), number_in(message)) : kNothingPlays,
@@ -77,6 +78,19 @@ void Control::add_commands() {
     return refused.empty() ? value_of(message) : Outcome{.refused = refused};
   });
   port_.on("/get", [this](const Message& message, const Visit&) { return value_of(message); });
+}
+
+Outcome Control::rig(const Message& message) const {
+  if (!actions_.rig) return {.refused = "this program keeps its rig"};
+  const auto& arguments = message.arguments;
+  std::optional<std::array<double, 3>> middle;
+  if (arguments.size() > 3 && std::holds_alternative<float>(arguments[1])) {
+    middle.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      (*middle)[axis] = static_cast<double>(std::get<float>(arguments[axis + 1]));
+    }
+  }
+  return protocol::done_unless(actions_.rig(name_in(message), middle), message);
 }
 
 Outcome Control::value_of(const Message& message) const {

@@ -3,6 +3,7 @@
 // the commands that both programs have alike.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -36,6 +37,10 @@ struct ControlActions {
   std::function<std::vector<Value>(std::size_t)> changes = {};
   /// Plays a test tone on a channel, from 1, or none for 0. Returns the reason why it did not.
   std::function<std::string(int)> tone = {};
+  /// Goes over to a rig (empty: the one that it has) and to the middle of a scene [m], if one is
+  /// told. Returns the reason why it did not.
+  std::function<std::string(const std::string&, const std::optional<std::array<double, 3>>&)> rig =
+      {};
   std::function<void(const std::string& line)> print =
       {};  ///< for the lines of /dumpOSC and /error
 };
@@ -69,6 +74,7 @@ class Control {
 
   void add_commands();
   [[nodiscard]] protocol::Outcome notify(const protocol::Message& message, protocol::Visit& visit);
+  [[nodiscard]] protocol::Outcome rig(const protocol::Message& message) const;
   [[nodiscard]] protocol::Outcome value_of(const protocol::Message& message) const;
 
   ControlActions actions_;

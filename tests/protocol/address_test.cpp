@@ -94,12 +94,14 @@ TEST(AddressTable, OnlyCommandsMayBeFilledUp) {
         auto wrong = message;
         wrong.arguments.back() = other;
         EXPECT_FALSE(conforms(wrong, row)) << type_tags(wrong);
-        EXPECT_TRUE(violation(wrong)) << type_tags(wrong);
+        const bool sets = type_tags(wrong) == ",sf" && row.address == "/param";  // its other row
+        EXPECT_EQ(violation(wrong).has_value(), !sets) << type_tags(wrong);
       }
     }
   }
-  EXPECT_EQ(commands, 17) << "/notify /status /version /sync /clearSched /mute /set /get /preset "
-                             "/tone /pause /reset /body/grab /dumpOSC /error /quit /ping";
+  EXPECT_EQ(commands, 22) << "/notify /status /version /sync /clearSched /mute /set /get /preset "
+                             "/tone /pause /reset /body/grab /param (two) /scene /rig (two) "
+                             "/dumpOSC /error /quit /ping";
 }
 
 TEST(AddressTable, FillingDoesNotStandInForArguments) {

@@ -151,8 +151,8 @@ TEST_F(ControlPortTest, OffersOtherAddressesToTheProgram) {
 }
 
 TEST_F(ControlPortTest, KnowsWhichCommandsOfTheTableAreMissing) {
-  EXPECT_THAT(port_.missing(),
-              ElementsAre("/body/grab", "/notify", "/status", "/clearSched", "/reset"));
+  EXPECT_THAT(port_.missing(), ElementsAre("/body/grab", "/notify", "/status", "/clearSched",
+                                           "/reset", "/param", "/scene"));
   EXPECT_THROW(port_.on("/nosuch", {}), std::logic_error);
 }
 

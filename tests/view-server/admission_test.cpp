@@ -38,6 +38,10 @@ TEST(Admission, CommandsGoWhereTheyBelong) {
   EXPECT_EQ(way_of({"/tone", {7}}), Way::synth);
   EXPECT_EQ(way_of({"/pause", {1}}), Way::sim);
   EXPECT_EQ(way_of({"/reset", {}}), Way::sim);
+  EXPECT_EQ(way_of({"/param", {"detect/bubble_speed", 0.7F}}), Way::sim);
+  EXPECT_EQ(way_of({"/param", {"detect/bubble_speed"}}), Way::sim);
+  EXPECT_EQ(way_of({"/scene", {"pool"}}), Way::sim);
+  EXPECT_EQ(way_of({"/rig", {"tiles36"}}), Way::synth);
   EXPECT_EQ(way_of({"/clearSched", {}}), Way::both);
   EXPECT_EQ(way_of({"/ping", {protocol::TimeTag{5}}}), Way::here);
 }
@@ -58,7 +62,8 @@ TEST(Admission, EverythingElseStaysOut) {
     const bool allowed = name == "/body/grab" || name == "/body/pose" || name == "/mute" ||
                          name == "/set" || name == "/get" || name == "/preset" ||
                          name == "/clearSched" || name == "/pause" || name == "/reset" ||
-                         name == "/tone" || name == "/ping";
+                         name == "/tone" || name == "/ping" || name == "/param" ||
+                         name == "/scene" || name == "/rig";
     EXPECT_TRUE(allowed || way_of({name, {}}) == Way::refused) << name;
   }
   EXPECT_EQ(way_of({"/mute", {2}}), Way::refused) << "out of range";

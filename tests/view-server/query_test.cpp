@@ -27,6 +27,9 @@ Known known() {
                         {"name": "rig/floor/gain_db", "min": -60, "max": 60, "value": -6.5,
                          "unit": "dB", "meaning": "of all channels"}, {"name": 7}]})",
            all);
+  note_scene(R"({"rows": [{"name": "detect/bubble_speed", "min": 0, "max": 100, "value": 0.5,
+                           "unit": "m/s", "meaning": "slower ones make none"}]})",
+             all);
   protocol::SimStatus status;
   status.particles = 6960;
   all.sim = protocol::to_message(status);
@@ -63,7 +66,7 @@ TEST(Query, TheTreeIsWhole) {
   // Commands and events, the fields of both statuses, and the rows.
   const std::size_t fields =
       protocol::sim_status_fields().size() + protocol::synth_status_fields().size() - 2;
-  EXPECT_EQ(check(get("/"), ""), static_cast<int>(7 + 3 + fields + 2));
+  EXPECT_EQ(check(get("/"), ""), static_cast<int>(9 + 3 + fields + 3));
 }
 
 TEST(Query, ANumberHasItsRangeUnitAndValue) {
@@ -75,6 +78,9 @@ TEST(Query, ANumberHasItsRangeUnitAndValue) {
   EXPECT_EQ(node.at("DESCRIPTION"), "its sharpness");
   EXPECT_EQ(get("/synth/rig/floor/gain_db", "VALUE"), Json::parse(R"({"VALUE": [-6.5]})"));
   EXPECT_EQ(get("/sim/status/particles", "VALUE"), Json::parse(R"({"VALUE": [6960]})"));
+  EXPECT_EQ(get("/sim/detect/bubble_speed").at("RANGE"),
+            Json::parse(R"([{"MIN": 0.0, "MAX": 100.0}])"));
+  EXPECT_EQ(get("/sim/detect/bubble_speed").at("VALUE"), Json({0.5}));
   EXPECT_EQ(get("/sim/pause").at("RANGE"), Json::parse(R"([{"MIN": 0.0, "MAX": 1.0}])"));
 }
 
@@ -93,6 +99,11 @@ TEST(Query, TellsWhatItCanAndWhatItHasNot) {
 TEST(Query, WhatCanBeWrittenGoesWhereItBelongs) {
   EXPECT_EQ(meant({"/synth/impact/q", {7.0F}}), (protocol::Message{"/set", {"impact/q", 7.0F}}));
   EXPECT_EQ(meant({"/synth/impact/q", {7}}), (protocol::Message{"/set", {"impact/q", 7.0F}}));
+  EXPECT_EQ(meant({"/sim/detect/bubble_speed", {0.7F}}),
+            (protocol::Message{"/param", {"detect/bubble_speed", 0.7F}}));
+  EXPECT_FALSE(meant({"/synth/detect/bubble_speed", {0.7F}}));
+  EXPECT_FALSE(meant({"/sim/impact/q", {0.7F}}));
+  EXPECT_EQ(told_as({"/value", {"detect/bubble_speed", 0.7F}}), "/sim/detect/bubble_speed");
   EXPECT_EQ(meant({"/sim/pause", {1}}), (protocol::Message{"/pause", {1}}));
   EXPECT_FALSE(meant({"/pause", {1}}));
   EXPECT_FALSE(meant({"/sim/quit", {}}));

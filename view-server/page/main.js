@@ -50,6 +50,9 @@ let tilesFirst = 0;
 let muted = false;
 let alive = { sim: false, synth: false };
 let wantsPicture = false;
+let middle = null; // of the scene, as the synth has it; null: no loudspeaker depends on it
+let going = null; // the scene or rig that was chosen here and is not there yet
+let centres = false; // the synth is told the middle of the scene that was chosen here
 const words = new Words();
 const shown = []; // lag of events to the picture [s]
 
@@ -67,6 +70,8 @@ const link = new Link({
     grabs.bound(scene.tank);
     playout.clear();
     solids.build(scene);
+    panel.buildScene(scene);
+    settleRig();
     at('scene').textContent = scene.name;
     document.title = `${scene.name} - splash`;
   },
@@ -78,6 +83,8 @@ const link = new Link({
     const floor = rig.outputs.find(({ kind }) => kind === 'tiles');
     tiles = floor ? [floor.place[0], floor.place[1], floor.tile_size, floor.tiles[0]] : [0, 0, 1, 0];
     tilesFirst = floor?.first ?? 0;
+    middle = rig.middle;
+    if (going?.what === 'rig') going = null;
     panel.build(rig);
   },
   SPL1: (levels) => {
@@ -91,16 +98,30 @@ const link = new Link({
   osc: ({ address, values, time }) => {
     if (address === '/status.reply') words.note(values, performance.now() / 1000);
     else if (address === '/value') panel.value(values);
-    else if (address === '/fail') warn(`${values[0]}: ${values[1]}`);
+    else if (address === '/fail') refused(values);
     else if (address in EVENTS) happen(address, values, time);
   },
 });
 const sound = new Sound(link);
 const grabs = new Grabs(link);
-const panel = new Panel(at, link);
+const panel = new Panel(at, link, (what, name) => {
+  going = { what, name, since: performance.now() };
+  if (what === 'scene') centres = true;
+});
 const pointers = new Pointers(canvas, camera, solids, grabs);
 const gamepads = new Gamepads(camera, solids, grabs);
 const film = new Film(canvas, sound);
+
+/// Loudspeakers that name no place are heard around the middle of the scene that was chosen here.
+function settleRig() {
+  if (going?.what === 'scene') going = null;
+  if (!centres) return;
+  centres = false;
+  const { lower, upper } = world.tank;
+  const wanted = lower.map((x, i) => (x + upper[i]) / 2);
+  if (!middle || wanted.every((x, i) => Math.abs(x - middle[i]) < 1e-3)) return;
+  link.send('/rig', ',sfff', '', ...wanted);
+}
 
 /// Still water's height: that of nine tenths of the particles at the start.
 function setLevel(state) {
@@ -129,6 +150,16 @@ function happen(kind, values, bundle) {
   if (window.splash.events.length > 1000) window.splash.events.shift();
 }
 
+function refused([command, reason]) {
+  if (command === '/scene' || command === '/rig') {
+    going = null;
+    centres = false;
+    panel.scenes.reset();
+    panel.rigs.reset();
+  }
+  warn(`${command}: ${reason}`);
+}
+
 let warned = 0;
 function warn(text) {
   at('state').textContent = text;
@@ -146,9 +177,15 @@ function tellState() {
   pressed('pause', paused());
   if (performance.now() - warned < 4000) return;
   const { text, bad } = words.say({ open: link.isOpen, ...alive, muted, paused: paused(),
-    rests: !world || !playout.states.length, description: world?.description });
+    rests: !world || !playout.states.length, going, description: world?.description });
   if (at('state').textContent !== text) at('state').textContent = text;
   at('state').className = bad ? 'warning' : '';
+}
+
+/// [s]
+function latency() {
+  const picture = shown.length ? shown.reduce((a, b) => a + b) / shown.length : 0;
+  return { age: playout.age, picture, sound: sound.lag };
 }
 
 function tellFigures() {
@@ -157,7 +194,7 @@ function tellFigures() {
   const parts = [`${world.particles} particles`, `${rate.toFixed(0)} pictures/s`,
     `95 % of pictures younger than ${ms(playout.age)}`];
   if (sound.lag !== null) {
-    const picture = shown.length ? shown.reduce((a, b) => a + b) / shown.length : 0;
+    const { picture } = latency();
     parts.push(`event to picture ${ms(picture)}, to sound ${ms(sound.lag)}, apart ${
       ms(Math.abs(sound.lag - picture))}`);
   }
@@ -295,5 +332,5 @@ setInterval(() => {
 
 /// For tests and for whoever looks with the browser's tools.
 window.splash = { camera, solids, playout, sound, link, grabs, headset, events: [], peaks: () => peaks, alive: () => alive,
-  rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, share: () => share, world: () => world };
+  rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, latency, share: () => share, world: () => world };
 requestAnimationFrame(picture);

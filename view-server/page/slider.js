@@ -25,7 +25,8 @@ export class Switch {
 }
 
 export class Slider {
-  /// `row`: {name, min, max, value, logarithmic, unit, meaning}; `set` takes what a person chose.
+  /// `row`: {name, min, max, value, logarithmic, power, unit, meaning}; `set` takes what a person
+  /// chose. With a power the slider is fine near the smallest value.
   constructor(row, title, set) {
     Object.assign(this, { row, set, waiting: null });
     this.label = document.createElement('label');
@@ -43,7 +44,11 @@ export class Slider {
   get value() {
     const { min, max, logarithmic } = this.row;
     const share = +this.input.value / STEPS;
-    return logarithmic ? min * (max / min) ** share : min + share * (max - min);
+    return logarithmic ? min * (max / min) ** share : min + share ** this.power * (max - min);
+  }
+
+  get power() {
+    return this.row.power ?? 1;
   }
 
   chosen() {
@@ -66,7 +71,7 @@ export class Slider {
     if (this.waiting !== null) return;
     const { min, max, logarithmic } = this.row;
     const share = logarithmic ? Math.log(value / min) / Math.log(max / min)
-      : (value - min) / (max - min);
+      : ((value - min) / (max - min)) ** (1 / this.power);
     this.input.value = Math.round(STEPS * share);
     this.tell(value);
   }

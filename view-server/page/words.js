@@ -13,6 +13,7 @@ const GROWS = [
   ['synth-server', 5, (n) => `${n} packets were lost on the way to the synth`],
   ['synth-server', 3, (n) => `${n} events came too late and sounded at once`],
 ];
+const PATIENCE = 300; // [s] with a scene that was chosen: its kernels may have to be compiled
 const PACE = 11; // simulated seconds in a second
 
 export class Words {
@@ -38,9 +39,12 @@ export class Words {
   }
 
   /// {text, bad}
-  say({ open, sim, synth, rests, paused, muted, description }) {
+  say({ open, sim, synth, rests, paused, muted, going, description }) {
     const bad = (text) => ({ text, bad: true });
     if (!open) return bad('view-server does not answer; connecting again');
+    if (going && performance.now() - going.since < 1000 * PATIENCE) {
+      return { text: `The ${going.what} ${going.name} is being made ready`, bad: false };
+    }
     if (!sim && !synth) return bad('Neither simulator nor synth answers: are they started with --show?');
     if (!sim) return bad('No simulator: it has ended, or was not started with --show');
     if (rests) return { text: 'The water comes to rest', bad: false };
