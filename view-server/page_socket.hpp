@@ -58,15 +58,14 @@ class Page : public std::enable_shared_from_this<Page> {
   }
   /// A page that does not take what it got loses this.
   void send(const SharedFrame& bytes, Content content = Content::bytes) {
-    if (ended_ || waiting_.size() >= kQueueMax) return;
-    waiting_.push_back({bytes, content});
-    if (waiting_.size() == 1) write();
+    if (waiting_.size() < kQueueMax) put(bytes, content);
   }
+  /// However much waits: a page asks for the next one when it has drawn this.
   void send_state(const SharedFrame& frame) {
     if (!wants_state()) return;
     wants_state_ = false;
     state_waits_ = true;
-    send(frame, Content::state);
+    put(frame, Content::state);
   }
   [[nodiscard]] bool watches() const noexcept { return watches_; }
   /// It asked, and what it asked for before is on its way.
@@ -85,6 +84,11 @@ class Page : public std::enable_shared_from_this<Page> {
     Content content = Content::bytes;
   };
 
+  void put(const SharedFrame& bytes, Content content) {
+    if (ended_) return;
+    waiting_.push_back({bytes, content});
+    if (waiting_.size() == 1) write();
+  }
   void read() {
     socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
       if (error) return self->end();

@@ -190,6 +190,25 @@ TEST_F(ViewServer, APageThatDoesNotReadHasOneStateWaiting) {
   EXPECT_TRUE(water_.wanted());
 }
 
+// Else it would wait for ever, for it asks again when it has drawn one.
+TEST_F(ViewServer, AStateReachesAPageForWhomMuchElseWaits) {
+  const auto page = open();
+  const std::string large(1 << 16, 's');
+  for (int turns = 0, sent = 0; turns < 1000 && sent < 100; ++turns) {
+    if (sound_.wanted()) {
+      sound_.offer(frame_of(protocol::kSoundFrame, large));
+      ++sent;
+    }
+    usleep(2000);
+  }
+  page->say(message(2, ""));
+  for (int i = 0; i < 1000 && !water_.wanted(); ++i) usleep(5000);
+  ASSERT_TRUE(water_.wanted());
+  water_.offer(frame_of(protocol::kStateFrame, "this state."));
+  usleep(100'000);
+  EXPECT_NE(page->hear("this state.").find("SPS1"), std::string::npos);
+}
+
 TEST_F(ViewServer, CommandsReachTheProgramsAndWhatWasGrabbedIsLetGo) {
   {
     const auto page = open();
