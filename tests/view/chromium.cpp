@@ -70,7 +70,7 @@ bool Chromium::is_there() {
   return !found().empty();
 }
 
-Chromium::Chromium(const std::string& url)
+Chromium::Chromium(const std::string& window)
     : folder_(temporary_path("chromium-" + std::to_string(++browsers))) {
   fs::create_directories(folder_);
   to_ = fifo(folder_ + "/to");
@@ -79,14 +79,13 @@ Chromium::Chromium(const std::string& url)
       "/bin/sh", "-c", R"(exec "$@" 3<"$0/to" 4>"$0/from")", folder_, found(), "--headless=new",
       "--no-sandbox", "--disable-dev-shm-usage", "--remote-debugging-pipe",
       "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-      "--autoplay-policy=no-user-gesture-required", "--window-size=720,480",
+      "--autoplay-policy=no-user-gesture-required", "--window-size=" + window,
       "--user-data-dir=" + folder_ + "/profile", "--no-first-run", "--disable-extensions",
       "--disable-background-networking", "about:blank"});
   const Json target = call("Target.createTarget", {{"url", "about:blank"}});
   session_ = call("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}})
                  .at("sessionId");
   for (const char* domain : {"Page.enable", "Runtime.enable", "Log.enable"}) call(domain);
-  call("Page.navigate", {{"url", url}});
 }
 
 Chromium::~Chromium() {

@@ -18,8 +18,9 @@ class Chromium {
 
   /// Whether there is one.
   [[nodiscard]] static bool is_there();
-  /// Opens the page. Throws std::runtime_error when that fails.
-  explicit Chromium(const std::string& url);
+  /// Starts it with a window of so many CSS pixels and no page. Throws std::runtime_error when that
+  /// fails.
+  explicit Chromium(const std::string& window = "720,480");
   ~Chromium();
   Chromium(const Chromium&) = delete;
   Chromium& operator=(const Chromium&) = delete;

@@ -3,122 +3,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <fstream>
-#include <memory>
-#include <optional>
-#include <thread>
+#include <filesystem>
 
-#include "protocol/time_tag.hpp"
+#include "protocol/control.hpp"
 #include "tests/support/frame_viewer.hpp"
 #include "tests/support/process_use.hpp"
-#include "tests/support/programs.hpp"
-#include "tests/system/small_scene.hpp"
-#include "tests/view/chromium.hpp"
+#include "tests/support/recording.hpp"
+#include "tests/view/stage.hpp"
 
 namespace splash::tests {
 namespace {
 
-using Json = nlohmann::json;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kTimeout = 60.0;  ///< [s]
 constexpr std::uint32_t kGrabbed = 4;
-
-/// Still, high above the water.
-constexpr const char* kWaits = "{kind: script, keyframes: [{time: 0.0, position: [0, 0, 0.35]}]}";
-
-constexpr const char* kRig = R"(name: four
-description: four tiles under the small scene
-outputs:
-  - name: floor
-    kind: tiles
-    band: {low: 20, high: 750}
-    tiles: {origin: [-0.2, -0.2, 0.0], columns: 2, rows: 2, size: 0.2, reach: 0.4}
-    full_scale: 0.01
-    ceiling: 0.9
-)";
-
-/// Where a program that was started with --show lets viewers in.
-std::string shown_at(ChildProcess& process) {
-  EXPECT_TRUE(process.wait_for_text("viewers: ")) << process.output();
-  const std::string text = process.output();
-  const auto begin = text.find("viewers: ") + 9;
-  return text.substr(begin, text.find('\n', begin) - begin);
-}
-
-/// Programs and browser; all ports stay when one of them is started again.
-class Stage {
- public:
-  explicit Stage(const std::string& motion, const std::string& query = "?share=0.5")
-      : scene_(motion), rig_(temporary_path("four.yaml")) {
-    std::ofstream(rig_) << kRig;
-    start_synth("127.0.0.1:0", "127.0.0.1:0");
-    start_simulator("127.0.0.1:0", "127.0.0.1:0");
-    start_view("127.0.0.1:0");
-    browser_ = std::make_unique<Chromium>("http://" + at(*view_) + "/" + query);
-    EXPECT_TRUE(browser_->wait_for("window.splash && splash.pictures() > 2", kTimeout)) << words();
-    // Only the picture is to be seen in pictures.
-    browser_->evaluate(
-        "for (const one of document.querySelectorAll('header, #hint, nav, #panel, footer')) "
-        "one.style.visibility = 'hidden'");
-  }
-
-  void start_synth(const std::string& listen, const std::string& show) {
-    synth_ = std::make_unique<Synth>(
-        Arguments{"--rig", rig_, "--device", "null", "--listen", listen, "--show", show});
-    synth_show_ = shown_at(synth_->process());
-  }
-  void start_simulator(const std::string& listen, const std::string& show) {
-    simulator_ = std::make_unique<Simulator>(Arguments{"--scene", scene_.path(), "--listen", listen,
-                                                       "--show", show, "--target", at(*synth_)});
-    sim_show_ = shown_at(simulator_->process());
-  }
-  void start_view(const std::string& listen) {
-    view_ = std::make_unique<Daemon>(
-        "view-server",
-        Arguments{"--listen", listen, "--sim", at(*simulator_), "--synth", at(*synth_),
-                  "--sim-show", sim_show_, "--synth-show", synth_show_});
-  }
-  [[nodiscard]] static std::string at(const Daemon& daemon) {
-    return protocol::to_string(daemon.endpoint());
-  }
-  [[nodiscard]] Chromium& browser() { return *browser_; }
-  [[nodiscard]] Synth& synth() { return *synth_; }
-  [[nodiscard]] Simulator& simulator() { return *simulator_; }
-  [[nodiscard]] Daemon& view() { return *view_; }
-  [[nodiscard]] const std::string& sim_show() const { return sim_show_; }
-  [[nodiscard]] const std::string& synth_show() const { return synth_show_; }
-  /// What the page says of the programs.
-  [[nodiscard]] std::string words() {
-    return browser_->evaluate("document.getElementById('state').textContent").get<std::string>();
-  }
-  /// Where places of the scene are in the picture [CSS pixels].
-  Json seen(const Json& places) {
-    return browser_->evaluate(R"js((async (places) => {
-      const { transform } = await import('/vector.js');
-      const { both } = splash.camera.matrices();
-      return places.map((place) => {
-        const [x, y] = transform(both, place);
-        return [(0.5 + 0.5 * x) * innerWidth, (0.5 - 0.5 * y) * innerHeight];
-      });
-    }))js" + ("(" + places.dump() + ")"));
-  }
-
- private:
-  SmallScene scene_;
-  std::string rig_;
-  std::string synth_show_;
-  std::string sim_show_;
-  std::unique_ptr<Synth> synth_;
-  std::unique_ptr<Simulator> simulator_;
-  std::unique_ptr<Daemon> view_;
-  std::unique_ptr<Chromium> browser_;
-};
 
 class Page : public testing::Test {
  protected:
@@ -126,11 +27,6 @@ class Page : public testing::Test {
     if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
   }
 };
-
-/// Water is turquoise, the ground is grey.
-double turquoise(const Json& colour) {
-  return colour[1].get<double>() - colour[0].get<double>();
-}
 
 TEST_F(Page, TheWaterIsWhereItIsAndMoves) {
   Stage stage(plunging());
@@ -187,32 +83,11 @@ TEST_F(Page, ATapSoundsATileWhichIsLit) {
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
-/// Moves the mouse from one place to another within so many seconds, a hundred times a second.
-void drag(Chromium& browser, const Json& from, const Json& to, double seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  for (double share = 0.0; share < 1.0;) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
-    share = std::min(gone.count() / seconds, 1.0);
-    const auto between = [&](int axis) {
-      return from[axis].get<double>() + share * (to[axis].get<double>() - from[axis].get<double>());
-    };
-    browser.mouse_on("mouseMoved", between(0), between(1));
-  }
-}
-
 TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
-  Stage stage(kWaits, "?points");
+  const std::string wav = temporary_path("dragged.wav");
+  Stage stage(kWaits, "?points", "720,480", wav);
   Chromium& browser = stage.browser();
-  // A way of 0.3 m in the plane that faces the eye.
-  const Json way = browser.evaluate(R"((async () => {
-    const { add, cross, scale } = await import('/vector.js');
-    const { camera } = splash;
-    const right = cross(camera.forward, [0, 0, 1]).map((x) => x / Math.cos(camera.elevation));
-    const up = cross(right, camera.forward);
-    return [[0, 0, 0.35], add([0, 0, 0.35], scale(up, -0.3))];
-  })())");
-  const Json seen = stage.seen(way);
+  const Json seen = stage.way_down();
   browser.mouse("mouseMoved", seen[0][0], seen[0][1]);
   browser.mouse("mousePressed", seen[0][0], seen[0][1]);
   EXPECT_TRUE(browser.evaluate("splash.grabs.holds(0)"));
@@ -245,6 +120,14 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
   EXPECT_TRUE(becomes(false)) << "still grabbed, though the page is gone";
   for (int i = 0; i < 300 && body().second < 0.34F; ++i) sleep(0.02);
   EXPECT_NEAR(body().second, 0.35F, 0.01F) << "back on its own way";
+  stage.synth().process().signal(SIGTERM);
+  EXPECT_EQ(stage.synth().process().wait_for_end(), 0) << stage.synth().process().output();
+  float peak = 0.0F;
+  for (const auto& channel : read_recording(wav).channels) {
+    for (const float sample : channel) peak = std::max(peak, std::abs(sample));
+  }
+  EXPECT_GT(peak, 1e-4F) << "nothing else sounded";
+  std::filesystem::remove(wav);
 }
 
 /// A headset that the page is made to believe in: one eye that sees what the camera sees, and one
@@ -325,6 +208,52 @@ TEST_F(Page, PausesAndBeginsAnew) {
   browser.evaluate("document.getElementById('pause').click()");
   EXPECT_TRUE(browser.wait_for(
       "splash.playout.states.at(-1).simulated > " + std::to_string(then + 0.2), 20.0));
+  EXPECT_THAT(browser.errors(), IsEmpty());
+}
+
+TEST_F(Page, ItsPanelShapesTheDetection) {
+  Stage stage(plunging(), "?points");
+  Chromium& browser = stage.browser();
+  const std::string slider = R"([...document.querySelectorAll('#detection label')]
+    .find((one) => one.textContent.startsWith('impact speed')))";
+  EXPECT_EQ(browser.evaluate("document.querySelectorAll('#detection label').length"), 20);
+  browser.evaluate("{ const input = " + slider +
+                   ".querySelector('input'); input.value = 1000;"
+                   " input.dispatchEvent(new Event('input')); }");
+  for (int i = 0; i < 100; ++i) {
+    if (stage.simulator().ask({"/param", {"detect/impact_speed"}}, "/value") ==
+        protocol::value_of("detect/impact_speed", 10.0)) {
+      break;
+    }
+    sleep(0.1);
+  }
+  EXPECT_EQ(stage.simulator().ask({"/param", {"detect/impact_speed"}}, "/value"),
+            protocol::value_of("detect/impact_speed", 10.0));
+  // What somebody else sets is shown.
+  static_cast<void>(stage.simulator().ask({"/param", {"detect/impact_speed", 0.0F}}, "/value"));
+  EXPECT_TRUE(browser.wait_for(slider + ".querySelector('input').value === '0'", 10.0));
+  EXPECT_THAT(browser.errors(), IsEmpty());
+}
+
+TEST_F(Page, GoesOverToAnotherSceneAndRig) {
+  Stage stage(kWaits, "?points");
+  Chromium& browser = stage.browser();
+  const auto choose = [&](const std::string& list, const std::string& name) {
+    browser.evaluate("{ const list = document.getElementById('" + list + "'); list.value = '" +
+                     name + "'; list.dispatchEvent(new Event('change')); }");
+  };
+  choose("rigs", "stereo");
+  EXPECT_TRUE(browser.wait_for("splash.alive().synth && splash.peaks()?.length === 2", kTimeout))
+      << stage.words();
+  choose("scenes", "plunge");
+  EXPECT_TRUE(
+      browser.wait_for("document.getElementById('state').textContent.includes('made ready')", 10.0))
+      << stage.words();
+  EXPECT_TRUE(browser.wait_for("splash.world().name === 'plunge' && splash.pictures() > 2", 180.0))
+      << stage.words();
+  EXPECT_EQ(browser.evaluate("document.getElementById('scenes').value"), "plunge");
+  EXPECT_TRUE(browser.wait_for(
+      "splash.playout.states.length > 1 && splash.alive().synth && splash.alive().sim", kTimeout));
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 

@@ -69,7 +69,9 @@ class Poses : public testing::Test {
 // A hand at 0.5 m/s of which the browser tells in heaps of three, 8 ms between them, each heap when
 // its last has come.
 TEST_F(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
-  Chromium browser("http://" + protocol::to_string(server_.local()) + "/vector.js");
+  Chromium browser;
+  browser.call("Page.navigate",
+               {{"url", "http://" + protocol::to_string(server_.local()) + "/vector.js"}});
   browser.evaluate(R"((async () => {
     const { Link } = await import('/link.js');
     const { Grabs } = await import('/grab.js');

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// A headset as another project emulates it, which knows the standard and not us: iwer (npm),
+// fetched for this test alone. $SPLASH_IWER may name a copy of iwer.min.js.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/support/child_process.hpp"
+#include "tests/view/stage.hpp"
+
+namespace splash::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::IsEmpty;
+
+constexpr const char* kPackage = "iwer@2.5.0";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Its script, for browsers; empty: it cannot be had.
+std::string iwer() {
+  if (const char* own = std::getenv("SPLASH_IWER")) return text_of(own);
+  const fs::path folder = temporary_path("iwer");
+  fs::create_directories(folder);
+  ChildProcess npm({"sh", "-c",
+                    "cd '" + folder.string() + "' && npm pack " + kPackage +
+                        " && tar xzf iwer-*.tgz package/build/iwer.min.js"});
+  std::string text;
+  if (npm.wait(60.0) == 0) text = text_of(folder / "package/build/iwer.min.js");
+  fs::remove_all(folder);
+  return text;
+}
+
+/// Before the page's own scripts: a headset with two controllers.
+constexpr const char* kWear = R"js(
+(() => {
+  window.device = new IWER.XRDevice(IWER.metaQuest3);
+  device.installRuntime({ forceInstall: true });
+  device.position.set(0, 1.35, 0);
+  window.hand = device.controllers.right;
+})();
+)js";
+
+TEST(Iwer, AControllerHoldsABodyAndMovesIt) {
+  if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+  const std::string script = iwer();
+  if (script.empty()) GTEST_SKIP() << "npm cannot fetch " << kPackage;
+  Stage stage(kWaits, "?points");
+  Chromium& browser = stage.browser();
+  browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", script + ';' + kWear}});
+  stage.load("?share=0.4");
+  ASSERT_TRUE(browser.wait_for("!document.getElementById('headset').hidden", 10.0));
+  browser.evaluate("document.getElementById('headset').click()");
+  ASSERT_TRUE(browser.wait_for("splash.headset.session", 10.0)) << stage.words();
+  // The disc as WebXR sees it: 0.35 m over the tank's lower side, which stands on a table.
+  browser.evaluate("hand.position.set(0, 0.75 + 0.35, -0.35 - 0.2)");
+  browser.evaluate(
+      "new Promise((done) => device.activeSession?.requestAnimationFrame(done) ?? "
+      "splash.headset.session.requestAnimationFrame(() => done()))");
+  browser.evaluate("hand.updateButtonValue('trigger', 1)");
+  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", 10.0));
+  browser.evaluate("hand.position.set(0.08, 0.75 + 0.30, -0.35 - 0.2 + 0.03)");
+  // To the right is to the right, up is up, and towards the viewer is the scene's -y.
+  EXPECT_TRUE(browser.wait_for(R"js((() => {
+    const [x, y, z] = splash.playout.states.at(-1).bodies[0].place;
+    return Math.hypot(x - 0.08, y + 0.03, z - 0.30) < 0.01;
+  })())js",
+                               30.0))
+      << browser.evaluate("splash.playout.states.at(-1).bodies[0].place").dump();
+  EXPECT_EQ(browser.evaluate("splash.playout.states.at(-1).bodies[0].flags & 4"), 4);
+  browser.evaluate("hand.updateButtonValue('trigger', 0)");
+  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", 10.0));
+  EXPECT_THAT(browser.errors(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace splash::tests
