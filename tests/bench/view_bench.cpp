@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// How old pictures are when they are shown, and how far apart picture and sound of the same event
+// are: all three programs on this machine, the page in Chromium without a screen, which draws
+// points, since software is slow at water. Prints what the page measures of itself.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "protocol/udp_socket.hpp"
+#include "tests/support/process_use.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/view/chromium.hpp"
+
+namespace {
+
+using namespace splash;
+using namespace splash::tests;
+
+struct Settings {
+  std::vector<std::string> scenes = {"basin", "pool"};
+  int seconds = 20;  ///< of looking [s]
+  std::string window = "480,320";
+  std::string query = "?points";
+};
+
+std::string shown_at(ChildProcess& process) {
+  if (!process.wait_for_text("viewers: ")) throw std::runtime_error(process.output());
+  const std::string said = process.output();
+  const auto begin = said.find("viewers: ") + 9;
+  return said.substr(begin, said.find('\n', begin) - begin);
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0.0 : values[values.size() / 2];
+}
+
+void look(const std::string& scene, const Settings& settings) {
+  Synth synth({"--rig", "stereo", "--device", "null", "--show", "127.0.0.1:0"});
+  Simulator simulator({"--scene", scene, "--show", "127.0.0.1:0", "--target",
+                       protocol::to_string(synth.endpoint())});
+  Daemon view("view-server",
+              {"--sim", protocol::to_string(simulator.endpoint()), "--synth",
+               protocol::to_string(synth.endpoint()), "--sim-show", shown_at(simulator.process()),
+               "--synth-show", shown_at(synth.process())});
+  Chromium browser(settings.window);
+  browser.call("Page.navigate",
+               {{"url", "http://" + protocol::to_string(view.endpoint()) + "/" + settings.query}});
+  if (!browser.wait_for("window.splash && splash.pictures() > 2", 120.0)) {
+    throw std::runtime_error("the page shows nothing of " + scene);
+  }
+  browser.evaluate("document.getElementById('sound').click()");
+  if (!browser.wait_for("splash.sound.lag !== null", 60.0)) {
+    throw std::runtime_error("the page hears nothing of " + scene);
+  }
+  sleep(5.0);  // both have settled
+  std::vector<double> age;
+  std::vector<double> picture;
+  std::vector<double> sound;
+  std::vector<double> apart;
+  const double before = browser.evaluate("splash.pictures()");
+  for (int second = 0; second < settings.seconds; ++second) {
+    sleep(1.0);
+    const auto now = browser.evaluate("splash.latency()");
+    age.push_back(now.at("age"));
+    picture.push_back(now.at("picture"));
+    sound.push_back(now.at("sound"));
+    apart.push_back(std::abs(picture.back() - sound.back()));
+  }
+  const double pictures = browser.evaluate("splash.pictures()").get<double>() - before;
+  const auto ms = [](const std::vector<double>& values) { return 1e3 * median(values); };
+  std::printf("%-8s %10.1f %10.1f %14.1f %12.1f %10.1f %10.1f\n", scene.c_str(),
+              pictures / settings.seconds, ms(age), ms(picture), ms(sound), ms(apart),
+              1e3 * *std::max_element(apart.begin(), apart.end()));
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  CLI::App app("How old pictures are, and how far from the sound.", "bench-view");
+  app.add_option("--scene", settings.scenes, "Scenes (repeatable)")->capture_default_str();
+  app.add_option("--seconds", settings.seconds, "Of looking, of each scene")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--window", settings.window, "The browser's, in pixels")->capture_default_str();
+  app.add_option("--query", settings.query, "Of the page's address: ?points or ?share=0.5")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (!Chromium::is_there())
+      throw std::runtime_error("there is no chromium: apt-get install chromium");
+    std::printf(
+        "scene    pictures/s  95 %% age  event-picture  event-sound      apart  most apart\n"
+        "                         [ms]           [ms]         [ms]       [ms]        [ms]\n");
+    for (const std::string& scene : settings.scenes) look(scene, settings);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "bench-view: " << error.what() << '\n';
+    return 1;
+  }
+}
