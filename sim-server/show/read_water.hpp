@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The water's particles as viewers and files get them.
+// What viewers and files are shown of the water, as the device holds it.
 #pragma once
 
 #include "sim-server/fluid/fluid.hpp"
