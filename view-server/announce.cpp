@@ -22,7 +22,7 @@ std::string found() {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string file = folder + '/' + kProgram;
+    std::string file = folder + '/' + kProgram;
     if (access(file.c_str(), X_OK) == 0) return file;
   }
   return {};

@@ -293,7 +293,7 @@ void Server::tell_forces(const FrameResult& frame) {
 
 void Server::show(const FrameResult& frame) {
   if (!show_) return;
-  show_->frame(protocol::monotonic_now(), simulation_.fluid(), [&] {
+  show_->frame(protocol::monotonic_now(), frame.seconds, simulation_.fluid(), [&] {
     const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
     return ShownState{.moment = pacer_.unix_origin() + frame.seconds + latency,
                       .seconds = frame.seconds,

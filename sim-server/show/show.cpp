@@ -11,6 +11,8 @@ namespace {
 
 /// No screen shows more [s].
 constexpr double kPeriod = 1.0 / 60.0;
+/// So long a viewer of slow or standing water waits for simulated time to go on [s].
+constexpr double kPatience = 0.1;
 
 }  // namespace
 
@@ -21,9 +23,12 @@ Show::Show(const protocol::FrameStreamSettings& settings, const Scene& scene, co
                spacing = static_cast<double>(fluid.params().spacing),
                rows = std::move(rows)] { return scene_frame(scene, count, spacing, rows()); }) {}
 
-void Show::frame(double now, Fluid& fluid, const std::function<ShownState()>& state) {
-  if (now < next_ || !stream_.wanted()) return;
+void Show::frame(double now, double seconds, Fluid& fluid,
+                 const std::function<ShownState()>& state) {
+  const bool soon = seconds > last_ && seconds < last_ + kPeriod && now < next_ + kPatience;
+  if (now < next_ || soon || !stream_.wanted()) return;
   next_ = now + kPeriod;
+  last_ = seconds;
   read_water(fluid, water_);
   stream_.offer(state_frame(water_, state()));
   ++shown_;

@@ -19,9 +19,9 @@ class Show {
   Show(const protocol::FrameStreamSettings& settings, const Scene& scene, const Fluid& fluid,
        std::function<std::vector<LiveRow>()> rows);
 
-  /// Between two frames: shows what `state` tells and the water, if somebody waits for it. `now`:
-  /// monotonic [s].
-  void frame(double now, Fluid& fluid, const std::function<ShownState()>& state);
+  /// Between two frames: shows what `state` tells and the water, if somebody waits for it, 60 times
+  /// a second and a simulated second at most. `now`: monotonic [s]; `seconds`: simulated [s].
+  void frame(double now, double seconds, Fluid& fluid, const std::function<ShownState()>& state);
 
   /// So often the water was read back.
   [[nodiscard]] std::uint64_t shown() const noexcept { return shown_; }
@@ -30,7 +30,8 @@ class Show {
  private:
   protocol::FrameStream stream_;
   ShownWater water_;
-  double next_ = 0.0;  ///< monotonic [s]
+  double next_ = 0.0;   ///< monotonic [s]
+  double last_ = -1.0;  ///< simulated time that was shown [s]
   std::uint64_t shown_ = 0;
 };
 
