@@ -54,7 +54,7 @@ TEST(Iwer, AControllerHoldsABodyAndMovesIt) {
   if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
   const std::string script = iwer();
   if (script.empty()) GTEST_SKIP() << "npm cannot fetch " << kPackage;
-  Stage stage(kWaits, "?points");
+  Stage stage(kWaits, "?points", "240,180");
   Chromium& browser = stage.browser();
   browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", script + ';' + kWear}});
   stage.load("?share=0.4");
