@@ -226,7 +226,7 @@ Options parse(int argc, char** argv) {
       ->check(CLI::Range(1.0, 1e12))
       ->capture_default_str();
   app.add_option("--target", options.only,
-                 "only these: gate packet intake log scene rig mesh tracker readers");
+                 "only these: gate packet intake log scene rig mesh tracker tuio pressure readers");
   app.add_option("--seed", options.seed, "of the mutations")->capture_default_str();
   app.add_option("--jobs", options.jobs, "targets at once")->check(CLI::Range(1, 256));
   app.add_option("--out", options.out, "corpora and findings go here")->capture_default_str();

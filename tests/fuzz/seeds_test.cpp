@@ -17,9 +17,10 @@ namespace {
 
 /// Mutants of each target, a million in all: most where an input takes microseconds.
 int mutants(const std::string& target) {
-  if (target == "gate") return 700000;
+  if (target == "gate") return 640000;
   if (target == "packet") return 270000;
   if (target == "tracker") return 60000;
+  if (target == "tuio" || target == "pressure") return 30000;
   return target == "scene" || target == "rig" ? 3000 : 12000;
 }
 
@@ -136,7 +137,7 @@ std::string name_of(const testing::TestParamInfo<std::string>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Readers, Fuzz,
                          testing::Values("gate", "packet", "intake", "log", "scene", "rig", "mesh",
-                                         "tracker"),
+                                         "tracker", "tuio", "pressure"),
                          name_of);
 
 }  // namespace

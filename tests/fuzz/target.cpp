@@ -31,7 +31,7 @@ const std::vector<Target>& targets() {
   static const fs::path kOsc = here("osc.dict");
   static const fs::path kYaml = here("yaml.dict");
   static const std::vector<Target> kTargets = {
-      {"gate", try_gate, 1600, {here("seeds/packet")}, kOsc, 0.40},
+      {"gate", try_gate, 1600, {here("seeds/packet")}, kOsc, 0.30},
       {"packet", try_packet, 1600, {here("seeds/packet")}, kOsc, 0.25},
       {"intake", try_intake, 3000, {here("seeds/intake")}, kOsc, 0.05},
       {"log", try_log, 4000, {here("seeds/log")}, kOsc, 0.10},
@@ -39,6 +39,8 @@ const std::vector<Target>& targets() {
       {"rig", try_rig, 3000, {here("seeds/rig"), configs("rigs")}, kYaml, 0.05},
       {"mesh", try_mesh, 3000, {here("seeds/mesh")}, here("mesh.dict"), 0.05},
       {"tracker", try_tracker, 1600, {here("seeds/tracker")}, kOsc, 0.05},
+      {"tuio", try_tuio, 3000, {here("seeds/tuio")}, kOsc, 0.05},
+      {"pressure", try_pressure, 3000, {here("seeds/pressure")}, kOsc, 0.05},
   };
   return kTargets;
 }

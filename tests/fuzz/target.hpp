@@ -29,14 +29,16 @@ inline void promise(bool holds, const std::string& what) {
 
 /// Each returns whether the input was accepted; refusing it is as right as accepting it. Throws
 /// Broken, or whatever escaped the reader.
-bool try_gate(Bytes input);     ///< gate() alone
-bool try_packet(Bytes input);   ///< both readers of packets, and what becomes of their messages
-bool try_intake(Bytes input);   ///< datagrams in a row through the synth's whole receiving side
-bool try_log(Bytes input);      ///< event logs
-bool try_scene(Bytes input);    ///< scene files
-bool try_rig(Bytes input);      ///< rig files
-bool try_mesh(Bytes input);     ///< triangle meshes, of either format
-bool try_tracker(Bytes input);  ///< datagrams of trackers, through every preset
+bool try_gate(Bytes input);      ///< gate() alone
+bool try_packet(Bytes input);    ///< both readers of packets, and what becomes of their messages
+bool try_intake(Bytes input);    ///< datagrams in a row through the synth's whole receiving side
+bool try_log(Bytes input);       ///< event logs
+bool try_scene(Bytes input);     ///< scene files
+bool try_rig(Bytes input);       ///< rig files
+bool try_mesh(Bytes input);      ///< triangle meshes, of either format
+bool try_tracker(Bytes input);   ///< datagrams of trackers, through every preset
+bool try_tuio(Bytes input);      ///< datagrams of touched surfaces in a row, to the feet they move
+bool try_pressure(Bytes input);  ///< datagrams of a floor that feels weight, likewise
 
 struct Target {
   std::string name;
