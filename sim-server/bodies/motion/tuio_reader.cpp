@@ -107,7 +107,8 @@ std::optional<TuioFrame> TuioReader::take(const protocol::Message& message, doub
   speaking_[message.address].clear();
   const std::int32_t number = whole_at(message, 1).value_or(-1);
   const bool again = number < 0;  // a frame said once more has no number
-  const bool anew = source->last - number > kRestart || arrival - source->arrival > kSilence;
+  const std::int64_t back = std::int64_t{source->last} - number;
+  const bool anew = back > kRestart || arrival - source->arrival > kSilence;
   const std::map<std::int32_t, TuioCursor> changed = std::exchange(source->changed, {});
   if (!again && !anew && number <= source->last) return std::nullopt;
   if (!again) source->last = number;
