@@ -30,7 +30,7 @@ class HungBodies {
  private:
   struct Hung {
     std::size_t free = 0;  ///< index among the free bodies
-    FreeBody body;
+    FreeBody body = {};
     const Tether* tether = nullptr;
   };
   std::size_t free_count_ = 0;

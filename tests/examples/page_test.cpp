@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every program of examples/README.md, as it stands there: one hears an impact that it is told of,
 // the other moves a body where the page says.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +23,6 @@ namespace splash::tests {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 const std::string kSource = SPLASH_SOURCE_DIR;
 constexpr double kLowest = 0.65 - 0.003 * 99;  ///< where the page moves the hand to [m]
@@ -64,7 +62,7 @@ struct Program {
 };
 
 std::string write(Program& program, const std::string& name, const std::string& text) {
-  const std::string path = temporary_path(name);
+  std::string path = temporary_path(name);
   std::ofstream(path) << text;
   program.files.push_back(path);
   return path;
