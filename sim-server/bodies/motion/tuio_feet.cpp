@@ -9,6 +9,9 @@
 namespace splash::sim {
 namespace {
 
+/// A source that says nothing for so long has gone: the feet that were its cursors are free [s].
+constexpr double kSilence = 3.0;
+
 /// In the scene's axes, before its room is turned.
 Vector3 along(const TrackerSource& source, const Vector3& theirs) {
   Vector3 ours;
@@ -50,11 +53,11 @@ bool TuioFeet::take(const protocol::Message& message, double arrival, const Give
     return foot.settings.address == message.address;
   });
   if (!wanted) return false;
-  if (const auto frame = reader_.take(message, arrival)) follow(*frame, give);
+  if (const auto frame = reader_.take(message, arrival)) follow(*frame, arrival, give);
   return true;
 }
 
-void TuioFeet::follow(const TuioFrame& frame, const GiveTouch& give) {
+void TuioFeet::follow(const TuioFrame& frame, double arrival, const GiveTouch& give) {
   const auto is_of = [&](const Foot& foot) {
     return foot.cursor && std::get<0>(*foot.cursor) == frame.address &&
            std::get<1>(*foot.cursor) == frame.source;
@@ -73,7 +76,8 @@ void TuioFeet::follow(const TuioFrame& frame, const GiveTouch& give) {
         its = &foot;
         break;
       }
-      const bool may = !foot.cursor && foot.settings.address == frame.address &&
+      const bool free = !foot.cursor || arrival - foot.heard > kSilence;
+      const bool may = free && foot.settings.address == frame.address &&
                        (foot.settings.name.empty() || foot.settings.name == frame.source);
       if (!may) continue;
       Vector3 way = place_of(foot, cursor) - foot.last;
@@ -84,6 +88,7 @@ void TuioFeet::follow(const TuioFrame& frame, const GiveTouch& give) {
     }
     if (its == nullptr) continue;  // more cursors than feet
     its->cursor = name;
+    its->heard = arrival;
     its->last = place_of(*its, cursor);
     give({its->settings.body, true, its->last, rotation_of(*its, cursor)});
   }

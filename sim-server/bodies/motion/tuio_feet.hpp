@@ -30,12 +30,13 @@ class TuioFeet {
     Quaternion rest = {0.0, 0.0, 0.0, 1.0};
     Vector3 last = {};                ///< where it stands, or stood [m]
     std::optional<Name> cursor = {};  ///< that it is
+    double heard = 0.0;               ///< when its source last said that this lives [s]
   };
 
   [[nodiscard]] Vector3 place_of(const Foot& foot, const TuioCursor& cursor) const;
   [[nodiscard]] std::optional<Quaternion> rotation_of(const Foot& foot,
                                                       const TuioCursor& cursor) const;
-  void follow(const TuioFrame& frame, const GiveTouch& give);
+  void follow(const TuioFrame& frame, double arrival, const GiveTouch& give);
 
   Vector3 room_ = {0.0, 0.0, 0.0};  ///< the surface's origin in the scene [m]
   Quaternion turn_ = {0.0, 0.0, 0.0, 1.0};

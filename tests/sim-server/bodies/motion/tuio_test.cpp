@@ -171,6 +171,17 @@ TEST(Tuio, ASenderMayBeStartedAnew) {
   EXPECT_EQ(surface.told, 2) << "after a while any number is the next";
 }
 
+TEST(Tuio, ASourceThatHasGoneLeavesItsFeetToOthers) {
+  Surface surface;
+  surface.take(frame_of({{1, 0.2F, 0.5F}}, {1}, 1, "one"));
+  surface.take(frame_of({{1, 0.7F, 0.5F}}, {1}, 1, "two"));
+  EXPECT_TRUE(surface.now[0].down && surface.now[1].down);
+  surface.take(frame_of({{1, 0.5F, 0.5F}}, {1}, 1, "three"), 2.0);
+  EXPECT_EQ(surface.told, 0) << "both feet stand";
+  surface.take(frame_of({{2, 0.5F, 0.5F}}, {2}, 2, "three"), 10.0);
+  EXPECT_EQ(surface.told, 1) << "nobody has spoken for them since";
+}
+
 TEST(Tuio, SourcesAreKeptApart) {
   Surface surface;
   surface.take(frame_of({{4, 0.1F, 0.6F}}, {4}, 900, "one"));
