@@ -75,7 +75,7 @@ TEST(Beneath, AFootFeelsTheSameBands) {
                                0.305F * (static_cast<float>(i / 6 % 6) + 0.5F), 0.0F};
     protocol::Impact impact{i, 0, 1.2F, 0.4F + 0.01F * static_cast<float>(i), place, 0.0F};
     if (i % 2 == 0) {  // told by the simulator
-      impact.momentum = 0.5F;
+      impact.momentum = 5.0F;
       impact.rise = 0.01F;
     }
     events.push_back({0.05 * i, impact});
@@ -87,14 +87,14 @@ TEST(Beneath, AFootFeelsTheSameBands) {
   sound.bubble.gain_db = -60.0;
   sound.foot.texture = 2e-4;
   sound.foot.wash = 1e-3;
-  sound.foot.q = 1.0;
+  sound.foot.q = 4.0;
   sound.foot.wash_frequency = 40.0;
   compare(
       make_log(events), kTiles, 320000, sound,
       {"splash-set-impact_amplitude 0.000001", "splash-set-impact_gain_db 3",
        "splash-set-bubble_gain_db -60", "splash-set-foot_texture 0.0002",
-       "splash-set-foot_wash 0.001", "splash-set-foot_q 1", "splash-set-foot_wash_frequency 40"},
-      {{20.0, 45.0}, {100.0, 200.0}, {200.0, 600.0}}, 0.7);
+       "splash-set-foot_wash 0.001", "splash-set-foot_q 4", "splash-set-foot_wash_frequency 40"},
+      {{20.0, 45.0}, {100.0, 145.0}, {150.0, 400.0}}, 0.7);
 }
 
 }  // namespace
