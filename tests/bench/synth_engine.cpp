@@ -209,6 +209,8 @@ double measure_flood(bool everything) {
   if (everything) {
     settings.sound.cloud.coupling = 1.0;
     settings.sound.fine.amount = 1.0;
+    settings.sound.foot.texture = settings.sound.foot.wash = 1e-4;
+    settings.sound.bubble.place = settings.sound.cavity.place = 1.0;
     settings.sound.bubble.gain_db = -6.0;
   }
   Engine engine(rig_of(kTiles, 1.0), settings);
