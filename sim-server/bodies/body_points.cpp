@@ -67,13 +67,19 @@ Vector3 carried_to_skin(const Shape& shape, const Lattice& lattice, const Vector
   const double ry = shape.size[1] / 2.0;
   const double rz = shape.size[2] / 2.0;
   const double across = std::hypot(place[0] / rx, place[1] / ry);
-  if (shape.kind == ShapeKind::mesh) return shape.mesh->distance.nearest(place).place;
-  if (shape.kind == ShapeKind::box) return carried_to_face(shape, lattice, place, layer);
-  if (shape.kind == ShapeKind::cylinder) {
-    const bool at_rim = (1.0 - across) * rx < lattice.step[0];
-    const double scale = at_rim && across > 0.0 ? 1.0 / across : 1.0;
-    const Vector3 face = carried_to_face(shape, lattice, place, layer);
-    return {scale * place[0], scale * place[1], face[2]};
+  switch (shape.kind) {
+    case ShapeKind::mesh:
+      return shape.mesh->distance.nearest(place).place;
+    case ShapeKind::box:
+      return carried_to_face(shape, lattice, place, layer);
+    case ShapeKind::cylinder: {
+      const bool at_rim = (1.0 - across) * rx < lattice.step[0];
+      const double scale = at_rim && across > 0.0 ? 1.0 / across : 1.0;
+      const Vector3 face = carried_to_face(shape, lattice, place, layer);
+      return {scale * place[0], scale * place[1], face[2]};
+    }
+    case ShapeKind::sphere:
+      break;
   }
   const double radius = std::hypot(across, place[2] / rz);
   if (radius <= 0.0) return {0.0, 0.0, -rz};

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 
@@ -18,7 +19,7 @@ double longest_contact_step(const std::vector<BodySettings>& bodies, double grav
     if (body.shape.kind == ShapeKind::mesh) continue;  // they go through all others
     ++meet;
     free = free || is_free(body);
-    if (body.shape.kind == ShapeKind::sphere) continue;  // as round as it can be
+    if (!has_edges(body.shape)) continue;  // as round as it can be
     const Vector3& size = body.shape.size;
     const double least = 0.5 * std::min({size[0], size[1], size[2]});
     rounding = std::min(rounding, static_cast<double>(SPLASH_ROUNDED) * least);

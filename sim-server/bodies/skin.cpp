@@ -21,22 +21,6 @@ Vector3 normalised(const Vector3& v) {
   return size > 0.0 ? (1.0 / size) * v : Vector3{0.0, 0.0, 1.0};
 }
 
-/// A place on the surface of the cube from -1 to 1, carried to that of the shape.
-Vector3 carried(const Shape& shape, const Vector3& cube) {
-  Vector3 place = cube;
-  if (shape.kind == ShapeKind::sphere) place = normalised(cube);
-  if (shape.kind == ShapeKind::cylinder) {
-    const double around = std::hypot(cube[0], cube[1]);
-    const double reach = std::max(std::abs(cube[0]), std::abs(cube[1]));
-    const double scale = around > 0.0 ? reach / around : 1.0;
-    place = {scale * cube[0], scale * cube[1], cube[2]};
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) place[axis] *= shape.size[axis] / 2.0;
-  // A curved sole squeezes what is above it.
-  place[2] += rocker_rise(shape, place[0]) * (1.0 - cube[2]) / 2.0;
-  return place;
-}
-
 /// One face of the cube as a grid of points; each quadrilateral gives a quarter to its corners.
 void add_face(const Shape& shape, std::size_t axis, double side, double spacing, int owner,
               std::vector<SkinPoint>& skin) {
@@ -54,7 +38,7 @@ void add_face(const Shape& shape, std::size_t axis, double side, double spacing,
       cube[axis] = side;
       cube[a] = 2.0 * i / across - 1.0;
       cube[b] = 2.0 * j / along - 1.0;
-      points.push_back({carried(shape, cube), {0.0, 0.0, 0.0}, 0.0, owner});
+      points.push_back({from_cube(shape, cube), {0.0, 0.0, 0.0}, 0.0, owner});
     }
   }
   const std::size_t row = static_cast<std::size_t>(across) + 1;

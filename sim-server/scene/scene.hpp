@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "sim-server/scene/body_form.h"
+
 namespace splash::sim {
 
 using Vector3 = std::array<double, 3>;
@@ -94,8 +96,6 @@ struct Flow {
   int mode = 1;                        ///< standing_wave: half waves in the tank's length [1]
   double speed = 0.1;                  ///< vortex: the largest [m/s]
 };
-
-enum class ShapeKind { box, sphere, cylinder, mesh };
 
 struct MeshSolid;
 

@@ -69,11 +69,9 @@ Shape read_mesh_shape(const ConfigMap& map, double spacing, BodySettings& body) 
 }
 
 Shape read_shape(const ConfigMap& map) {
-  static const std::map<std::string, ShapeKind> kKinds = {
-      {"box", ShapeKind::box}, {"sphere", ShapeKind::sphere}, {"cylinder", ShapeKind::cylinder}};
   ShapeEntry entry;
   map.read(shape_fields(), {}, entry);
-  entry.kind = kKinds.at(entry.kind_name);
+  entry.kind = shape_kind(entry.kind_name);
   check_shape(map, entry);
   return entry;
 }

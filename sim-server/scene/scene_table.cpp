@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/scene/scene_table.hpp"
 
+#include "sim-server/scene/shape.hpp"
+
 namespace splash::sim {
 
 const Fields<Scene>& scene_fields() {
@@ -91,10 +93,7 @@ const Fields<BodySettings>& body_fields() {
 const Fields<ShapeEntry>& shape_fields() {
   using S = ShapeEntry;
   static const Fields<S> kFields = {
-      {{.key = "kind",
-        .unit = "",
-        .meaning = "The form.",
-        .choices = {"box", "sphere", "cylinder"}},
+      {{.key = "kind", .unit = "", .meaning = "The form.", .choices = shape_names()},
        &S::kind_name},
       {{.key = "size",
         .unit = "m",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -29,6 +30,27 @@ double cylinder_distance(double radius, double half_length, const Vector3& point
 }
 
 }  // namespace
+
+namespace {
+
+#define SPLASH_NAME(name, in_kernels) #name,
+constexpr const char* kNames[] = {SPLASH_BODY_FORMS(SPLASH_NAME)};
+#undef SPLASH_NAME
+
+}  // namespace
+
+const char* name_of(ShapeKind kind) {
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::vector<std::string> shape_names() {
+  return {std::begin(kNames), std::begin(kNames) + static_cast<int>(ShapeKind::mesh)};
+}
+
+ShapeKind shape_kind(const std::string& name) {
+  const std::vector<std::string> names = shape_names();
+  return static_cast<ShapeKind>(std::find(names.begin(), names.end(), name) - names.begin());
+}
 
 double rocker_rise(const Shape& shape, double x) {
   if (shape.kind != ShapeKind::box || shape.rocker <= 0.0) return 0.0;
@@ -68,6 +90,43 @@ bool is_inside(const Shape& shape, const Vector3& place) {
   }
   return std::abs(place[0]) <= rx && std::abs(place[1]) <= ry && place[2] <= rz &&
          place[2] >= -rz + rocker_rise(shape, place[0]);
+}
+
+Vector3 from_cube(const Shape& shape, const Vector3& cube) {
+  Vector3 place = cube;
+  switch (shape.kind) {
+    case ShapeKind::sphere: {
+      const double size = length(cube);
+      place = size > 0.0 ? (1.0 / size) * cube : Vector3{0.0, 0.0, 1.0};
+      break;
+    }
+    case ShapeKind::cylinder: {
+      const double around = std::hypot(cube[0], cube[1]);
+      const double reach = std::max(std::abs(cube[0]), std::abs(cube[1]));
+      const double scale = around > 0.0 ? reach / around : 1.0;
+      place = {scale * cube[0], scale * cube[1], cube[2]};
+      break;
+    }
+    case ShapeKind::box:
+    case ShapeKind::mesh:
+      break;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) place[axis] *= shape.size[axis] / 2.0;
+  // A curved sole squeezes what is above it.
+  place[2] += rocker_rise(shape, place[0]) * (1.0 - cube[2]) / 2.0;
+  return place;
+}
+
+bool has_edges(const Shape& shape) {
+  switch (shape.kind) {
+    case ShapeKind::box:
+    case ShapeKind::cylinder:
+    case ShapeKind::mesh:
+      return true;
+    case ShapeKind::sphere:
+      break;
+  }
+  return false;
 }
 
 double volume_of(const Shape& shape) {

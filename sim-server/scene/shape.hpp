@@ -3,9 +3,20 @@
 // (bodies/body_points.hpp) and what kernels know of them (fluid/boundary/outline.h).
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
+
+/// What scene files and viewers call them.
+[[nodiscard]] const char* name_of(ShapeKind kind);
+
+/// Of those that a scene file may name: all but meshes, which are files.
+[[nodiscard]] std::vector<std::string> shape_names();
+/// One of these.
+[[nodiscard]] ShapeKind shape_kind(const std::string& name);
 
 /// Height of a box's underside above its flat middle at `x` of the body's frame [m]: nothing over
 /// the flat share of its length, then a parabola that reaches the rocker at either end.
@@ -17,6 +28,13 @@ namespace splash::sim {
 
 /// Whether a place in body axes is inside the shape, a rocker left out [m].
 [[nodiscard]] bool is_inside(const Shape& shape, const Vector3& place);
+
+/// A place on the surface of the cube from -1 to 1, carried to that of the shape [m]; not of a
+/// mesh.
+[[nodiscard]] Vector3 from_cube(const Shape& shape, const Vector3& cube);
+
+/// Whether it has edges or corners that could hit another body's surface.
+[[nodiscard]] bool has_edges(const Shape& shape);
 
 /// Volume of the shape, without a rocker's [m3].
 [[nodiscard]] double volume_of(const Shape& shape);

@@ -7,25 +7,12 @@
 #include "program/config_file.hpp"
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
+#include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* name_of(ShapeKind kind) {
-  switch (kind) {
-    case ShapeKind::box:
-      return "box";
-    case ShapeKind::sphere:
-      return "sphere";
-    case ShapeKind::cylinder:
-      return "cylinder";
-    case ShapeKind::mesh:
-      break;
-  }
-  return "mesh";
-}
 
 const char* name_of(MotionKind kind) {
   switch (kind) {

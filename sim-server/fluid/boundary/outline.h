@@ -63,7 +63,15 @@ static BodyFace face_of_box(BodyShape s, lanes x, lanes y, lanes z) {
 
 static BodyFace face_of(BodyShape s, global const float* meshes, lanes x, lanes y, lanes z) {
   if (is_mesh(s)) return face_of_mesh(s, meshes, x, y, z);
-  return s.kind == SPLASH_BOX ? face_of_box(s, x, y, z) : face_of_round(s, x, y, z);
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+    case SPLASH_MESH:  // built without
+      break;
+    case SPLASH_SPHERE:
+    case SPLASH_CYLINDER:
+      return face_of_round(s, x, y, z);
+  }
+  return face_of_box(s, x, y, z);
 }
 
 // Height of a curved sole above the underside of its flat middle (see rocker_rise).
@@ -72,26 +80,32 @@ static float sole_rise(BodyShape s, float x) {
   return s.rocker * curved * curved;
 }
 
-// Depth below the nearest face, zero or less outside [m]; `out`: that face's outward normal.
-static float depth_inside(BodyShape s, global const float* meshes, float3 at, float3* out) {
-  if (is_mesh(s)) return depth_in_mesh(s, meshes, at, out);
-  if (s.kind == SPLASH_SPHERE) {
-    const float r = length(at);
-    *out = r > 0.0f ? at / r : (float3)(0.0f, 0.0f, 1.0f);
-    return s.half_x - r;
-  }
-  const float top = s.half_z - at.z;
-  const float under = at.z + s.half_z - (s.kind == SPLASH_BOX ? sole_rise(s, at.x) : 0.0f);
-  float depth = fmin(top, under);
+static float depth_in_sphere(BodyShape s, float3 at, float3* out) {
+  const float r = length(at);
+  *out = r > 0.0f ? at / r : (float3)(0.0f, 0.0f, 1.0f);
+  return s.half_x - r;
+}
+
+// Below the upper end, or above the lower one, which is higher by `rise`.
+static float depth_of_ends(BodyShape s, float z, float rise, float3* out) {
+  const float top = s.half_z - z;
+  const float under = z + s.half_z - rise;
   *out = (float3)(0.0f, 0.0f, top < under ? 1.0f : -1.0f);
-  if (s.kind == SPLASH_CYLINDER) {
-    const float r = length(at.xy);
-    if (s.half_x - r < depth) {
-      depth = s.half_x - r;
-      *out = r > 0.0f ? (float3)(at.xy / r, 0.0f) : (float3)(1.0f, 0.0f, 0.0f);
-    }
-    return depth;
+  return fmin(top, under);
+}
+
+static float depth_in_cylinder(BodyShape s, float3 at, float3* out) {
+  float depth = depth_of_ends(s, at.z, 0.0f, out);
+  const float r = length(at.xy);
+  if (s.half_x - r < depth) {
+    depth = s.half_x - r;
+    *out = r > 0.0f ? (float3)(at.xy / r, 0.0f) : (float3)(1.0f, 0.0f, 0.0f);
   }
+  return depth;
+}
+
+static float depth_in_box(BodyShape s, float3 at, float3* out) {
+  float depth = depth_of_ends(s, at.z, sole_rise(s, at.x), out);
   if (s.half_x - fabs(at.x) < depth) {
     depth = s.half_x - fabs(at.x);
     *out = (float3)(at.x < 0.0f ? -1.0f : 1.0f, 0.0f, 0.0f);
@@ -103,34 +117,53 @@ static float depth_inside(BodyShape s, global const float* meshes, float3 at, fl
   return depth;
 }
 
+// Depth below the nearest face, zero or less outside [m]; `out`: that face's outward normal.
+static float depth_inside(BodyShape s, global const float* meshes, float3 at, float3* out) {
+  if (is_mesh(s)) return depth_in_mesh(s, meshes, at, out);
+  switch (form_of(s)) {
+    case SPLASH_SPHERE:
+      return depth_in_sphere(s, at, out);
+    case SPLASH_CYLINDER:
+      return depth_in_cylinder(s, at, out);
+    case SPLASH_BOX:
+    case SPLASH_MESH:  // built without
+      break;
+  }
+  return depth_in_box(s, at, out);
+}
+
 // How far the outline reaches from its centre along each axis of the world [m].
 static float3 reach_along_axes(BodyShape s, BodyStep b) {
-  if (s.kind == SPLASH_SPHERE) return (float3)(s.half_x);
   const float3 z = out_of_body(b, (float3)(0.0f, 0.0f, 1.0f));
-  if (s.kind == SPLASH_CYLINDER) {
-    return s.half_z * fabs(z) + s.half_x * sqrt(fmax(1.0f - z * z, 0.0f));
+  switch (form_of(s)) {
+    case SPLASH_SPHERE:
+      return (float3)(s.half_x);
+    case SPLASH_CYLINDER:
+      return s.half_z * fabs(z) + s.half_x * sqrt(fmax(1.0f - z * z, 0.0f));
+    case SPLASH_BOX:
+    case SPLASH_MESH:  // the box around it
+      break;
   }
   const float3 x = out_of_body(b, (float3)(1.0f, 0.0f, 0.0f));
   const float3 y = out_of_body(b, (float3)(0.0f, 1.0f, 0.0f));
   return s.half_x * fabs(x) + s.half_y * fabs(y) + s.half_z * fabs(z);
 }
 
-// Levers, in the world, of the points that a wall with this normal can meet; their number.
-static int contact_points(BodyShape s, global const float* meshes, BodyStep b, float3 normal,
-                          float3* lever) {
-  if (is_mesh(s)) return mesh_contact_points(s, meshes, b, normal, lever);
-  if (s.kind == SPLASH_SPHERE) {
-    lever[0] = -s.half_x * normal;
-    return 1;
+// How far it reaches from its centre in any direction, at most, if along the axes so far [m].
+static float farthest_reach(BodyShape s, float3 along_axes) {
+  return s.kind == SPLASH_SPHERE ? s.half_x : length(along_axes);
+}
+
+static int box_contact_points(BodyShape s, BodyStep b, float3* lever) {
+  for (int k = 0; k < 8; ++k) {
+    lever[k] = out_of_body(b, (float3)(k & 1 ? s.half_x : -s.half_x, k & 2 ? s.half_y : -s.half_y,
+                                       k & 4 ? s.half_z : -s.half_z));
   }
-  if (s.kind == SPLASH_BOX) {
-    for (int k = 0; k < 8; ++k) {
-      lever[k] = out_of_body(b, (float3)(k & 1 ? s.half_x : -s.half_x, k & 2 ? s.half_y : -s.half_y,
-                                         k & 4 ? s.half_z : -s.half_z));
-    }
-    return 8;
-  }
-  // A cylinder: on either rim the point nearest to the wall and three at right angles.
+  return 8;
+}
+
+// On either rim the point nearest to the wall and three at right angles.
+static int cylinder_contact_points(BodyShape s, BodyStep b, float3 normal, float3* lever) {
   const float3 own = into_body(b, normal);
   const float across = length(own.xy);
   const float2 down = across > 1.0e-4f ? -own.xy / across : (float2)(1.0f, 0.0f);
@@ -140,4 +173,21 @@ static int contact_points(BodyShape s, global const float* meshes, BodyStep b, f
     lever[k] = out_of_body(b, (float3)(at, k & 4 ? s.half_z : -s.half_z));
   }
   return 8;
+}
+
+// Levers, in the world, of the points that a wall with this normal can meet; their number.
+static int contact_points(BodyShape s, global const float* meshes, BodyStep b, float3 normal,
+                          float3* lever) {
+  if (is_mesh(s)) return mesh_contact_points(s, meshes, b, normal, lever);
+  switch (form_of(s)) {
+    case SPLASH_SPHERE:
+      lever[0] = -s.half_x * normal;
+      return 1;
+    case SPLASH_CYLINDER:
+      return cylinder_contact_points(s, b, normal, lever);
+    case SPLASH_BOX:
+    case SPLASH_MESH:  // built without
+      break;
+  }
+  return box_contact_points(s, b, lever);
 }

@@ -10,6 +10,8 @@
 #include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/params/smoothing.h"
 
+static BodyForm form_of(BodyShape s) { return (BodyForm)s.kind; }
+
 static bool is_mesh(BodyShape s) { return HAS_MESH && s.kind == SPLASH_MESH; }
 
 static float mesh_distance(BodyShape s, global const float* meshes, float3 at, float3* gradient) {

@@ -10,11 +10,6 @@
 namespace splash::sim {
 namespace {
 
-static_assert(SPLASH_BOX == static_cast<int>(ShapeKind::box) &&
-              SPLASH_SPHERE == static_cast<int>(ShapeKind::sphere) &&
-              SPLASH_CYLINDER == static_cast<int>(ShapeKind::cylinder) &&
-              SPLASH_MESH == static_cast<int>(ShapeKind::mesh));
-
 float as_float(double value) {
   return static_cast<float>(value);
 }

@@ -40,7 +40,7 @@ static void note_reach(BodyShape s, float support, BodyStep* b) {
   b->upper_x = b->px + grown.x;
   b->upper_y = b->py + grown.y;
   b->upper_z = b->pz + grown.z;
-  const float far = s.kind == SPLASH_SPHERE ? s.half_x : length(extent);
+  const float far = farthest_reach(s, extent);
   b->speed =
       length((float3)(b->vx, b->vy, b->vz)) + far * length((float3)(b->wx, b->wy, b->wz));
 }

@@ -27,8 +27,17 @@ static float outline_distance(BodyShape s, BodyStep b, float3 at, float3* normal
   return first_lane(face.distance);
 }
 
+// Meshes are not met (body_contact.h): they have no corners and edges here.
+
 static float rounding_of(BodyShape s) {
-  if (s.kind == SPLASH_SPHERE) return s.half_x;
+  switch (form_of(s)) {
+    case SPLASH_SPHERE:
+      return s.half_x;
+    case SPLASH_BOX:
+    case SPLASH_CYLINDER:
+    case SPLASH_MESH:
+      break;
+  }
   return SPLASH_ROUNDED * fmin(s.half_z, fmin(s.half_x, s.half_y));
 }
 
@@ -39,7 +48,16 @@ static float3 core_of(BodyShape s) {
 
 // Corners of a box, places on the rims of a cylinder, in the body's own axes.
 static int corner_count(BodyShape s) {
-  return s.kind == SPLASH_BOX ? 8 : s.kind == SPLASH_CYLINDER ? 2 * RIM_PLACES : 0;
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      return 8;
+    case SPLASH_CYLINDER:
+      return 2 * RIM_PLACES;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  return 0;
 }
 
 static float3 rim_place(BodyShape s, bool upper, float angle) {
@@ -48,32 +66,58 @@ static float3 rim_place(BodyShape s, bool upper, float angle) {
 }
 
 static float3 corner_of(BodyShape s, int k) {
-  if (s.kind == SPLASH_CYLINDER) {
-    return rim_place(s, k >= RIM_PLACES, (k % RIM_PLACES) * (6.2831853f / RIM_PLACES));
+  switch (form_of(s)) {
+    case SPLASH_CYLINDER:
+      return rim_place(s, k >= RIM_PLACES, (k % RIM_PLACES) * (6.2831853f / RIM_PLACES));
+    case SPLASH_BOX:
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
   }
   return core_of(s) * (float3)(k & 1 ? 1.0f : -1.0f, k & 2 ? 1.0f : -1.0f, k & 4 ? 1.0f : -1.0f);
 }
 
 // Edges of a box, arcs of a cylinder's rims, and what is round about: an axis.
 static int edge_count(BodyShape s) {
-  return s.kind == SPLASH_BOX ? 12 : s.kind == SPLASH_CYLINDER ? 2 * RIM_PLACES + 1 : 1;
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      return 12;
+    case SPLASH_CYLINDER:
+      return 2 * RIM_PLACES + 1;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  return 1;
+}
+
+static float3 on_edge_of_box(BodyShape s, int k, float part) {
+  const float along = 2.0f * part - 1.0f;
+  const float a = k & 1 ? 1.0f : -1.0f, b = k & 2 ? 1.0f : -1.0f;
+  if (k < 4) return core_of(s) * (float3)(along, a, b);
+  if (k < 8) return core_of(s) * (float3)(a, along, b);
+  return core_of(s) * (float3)(a, b, along);
 }
 
 // Place at `part` (0 to 1) of edge `k`, and how far the surface is from there.
 static float3 on_edge(BodyShape s, int k, float part, float* radius) {
-  *radius = rounding_of(s);
-  if (s.kind == SPLASH_BOX) {
-    const float along = 2.0f * part - 1.0f;
-    const float a = k & 1 ? 1.0f : -1.0f, b = k & 2 ? 1.0f : -1.0f;
-    if (k < 4) return core_of(s) * (float3)(along, a, b);
-    if (k < 8) return core_of(s) * (float3)(a, along, b);
-    return core_of(s) * (float3)(a, b, along);
-  }
-  if (s.kind == SPLASH_CYLINDER && k < 2 * RIM_PLACES) {
-    return rim_place(s, k >= RIM_PLACES, (k % RIM_PLACES + part) * (6.2831853f / RIM_PLACES));
+  float reach = 0.0f;  // of the axis
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      *radius = rounding_of(s);
+      return on_edge_of_box(s, k, part);
+    case SPLASH_CYLINDER:
+      *radius = rounding_of(s);
+      if (k < 2 * RIM_PLACES) {
+        return rim_place(s, k >= RIM_PLACES, (k % RIM_PLACES + part) * (6.2831853f / RIM_PLACES));
+      }
+      reach = core_of(s).z;
+      break;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
   }
   *radius = s.half_x;
-  const float reach = s.kind == SPLASH_CYLINDER ? core_of(s).z : 0.0f;
   return (float3)(0.0f, 0.0f, (2.0f * part - 1.0f) * reach);
 }
 
@@ -94,11 +138,18 @@ static float edge_distance(const Pairing* m, int k, float part, float3* at, floa
   return gap;
 }
 
-// How far the middle of an edge is from its farthest place, at most [m].
+// How far the middle of an edge is from its farthest place, at most [m]; 0: it is one place.
 static float half_of_edge(BodyShape s, int k) {
-  if (s.kind == SPLASH_BOX) return k < 4 ? s.half_x : k < 8 ? s.half_y : s.half_z;
-  if (s.kind == SPLASH_SPHERE) return 0.0f;
-  return k < 2 * RIM_PLACES ? s.half_x * (3.1415927f / RIM_PLACES) : s.half_z;
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      return k < 4 ? s.half_x : k < 8 ? s.half_y : s.half_z;
+    case SPLASH_CYLINDER:
+      return k < 2 * RIM_PLACES ? s.half_x * (3.1415927f / RIM_PLACES) : s.half_z;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  return 0.0f;
 }
 
 // The part of an edge at which the other is nearest.
@@ -133,7 +184,7 @@ static bool least_on_edge(const Pairing* m, int k, float reach, float* gap, floa
   const float ends = fmin(edge_distance(m, k, 0.0f, at, normal),
                           edge_distance(m, k, 1.0f, at, normal));
   *gap = edge_distance(m, k, nearest_part(m, k), at, normal);
-  return m->shape.kind == SPLASH_SPHERE || *gap < ends - NOT_AN_END * half_edge;
+  return half_edge == 0.0f || *gap < ends - NOT_AN_END * half_edge;
 }
 
 static float corner_distance(const Pairing* m, int k, float3* at, float3* normal) {

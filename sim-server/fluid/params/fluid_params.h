@@ -4,6 +4,7 @@
 #define SPLASH_FLUID_PARAMS_H
 
 #include "sim-server/device/shared_struct.h"
+#include "sim-server/scene/body_form.h"
 
 #define SPLASH_MAX_WALLS 8
 #define SPLASH_SLICES 4  // of each cell along x, by which points are sorted (neighbours/grid.h)
@@ -96,14 +97,9 @@ SPLASH_SHARED_STRUCT(BodyStep, 22 * 4)
 // Radius of edges and corners of bodies (free_bodies/outline_gap.h) [least half size].
 #define SPLASH_ROUNDED 0.02f
 
-#define SPLASH_BOX 0
-#define SPLASH_SPHERE 1
-#define SPLASH_CYLINDER 2
-#define SPLASH_MESH 3
-
 // The outline of a body in its own axes.
 typedef struct {
-  int kind;                      // SPLASH_BOX, SPLASH_SPHERE, SPLASH_CYLINDER (along z) or _MESH
+  int kind;                      // a BodyForm
   float half_x, half_y, half_z;  // how far it reaches from its origin, either way [m]
   float rocker;                  // the sole of a box curves up at both x ends by this [m]
   float flat;                    // share of its length, in the middle, that does not curve [1]
