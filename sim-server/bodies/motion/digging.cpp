@@ -123,11 +123,31 @@ Digging deepest_digging(const Scene& scene, std::size_t body,
   return deepest;
 }
 
+namespace {
+
+/// Whether where such a body goes is known before time begins.
+bool is_known_ahead(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::script:
+    case MotionKind::csv:
+    case MotionKind::trc:
+      return true;
+    case MotionKind::fixed:
+    case MotionKind::osc:
+    case MotionKind::touch:
+    case MotionKind::pressure:
+    case MotionKind::free:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::string> digging_notices(const Scene& scene, const std::filesystem::path& tracker) {
   std::vector<std::string> notices;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const MotionKind kind = scene.bodies[b].motion.kind;
-    if (kind != MotionKind::script && kind != MotionKind::csv && kind != MotionKind::trc) continue;
+    if (!is_known_ahead(scene.bodies[b].motion.kind)) continue;
     const std::string text = notice(scene, b, tracker);
     if (!text.empty()) notices.push_back(text);
   }
