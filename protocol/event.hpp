@@ -2,6 +2,7 @@
 // The only vocabulary both servers share: what happened in the water, in SI units.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <variant>
 
@@ -51,7 +52,10 @@ struct Cavity {
   bool operator==(const Cavity&) const = default;
 };
 
+/// All kinds. What depends on the kind visits this, or is a list that is held against its length:
+/// the compiler finds what lacks a new one.
 using Event = std::variant<Impact, Bubble, Cavity>;
+inline constexpr std::size_t kEventKinds = std::variant_size_v<Event>;
 
 /// Bubbles come in floods, impacts and cavities do not: places are kept for those.
 [[nodiscard]] inline bool is_bubble(const Event& event) noexcept {
@@ -65,9 +69,20 @@ struct ByKind {
   T bubbles{};
   T cavities{};
   [[nodiscard]] T& of(const Event& event) noexcept {
-    if (std::holds_alternative<Impact>(event)) return impacts;
-    return is_bubble(event) ? bubbles : cavities;
+    return std::visit([this](const auto& kind) -> T& { return of_kind(kind); }, event);
   }
+  /// Calls `visit` with the plural of each kind's name, and what is there for it.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    visit("impacts", impacts);
+    visit("bubbles", bubbles);
+    visit("cavities", cavities);
+  }
+
+ private:
+  [[nodiscard]] T& of_kind(const Impact& /*event*/) noexcept { return impacts; }
+  [[nodiscard]] T& of_kind(const Bubble& /*event*/) noexcept { return bubbles; }
+  [[nodiscard]] T& of_kind(const Cavity& /*event*/) noexcept { return cavities; }
 };
 
 /// Opens each bundle: who speaks, which bundle this is, how long until its time.

@@ -2,6 +2,9 @@
 // The order of each message's arguments, written once for both ways; their types and ranges are
 // the address table's.
 #include <cmath>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "protocol/address.hpp"
 #include "protocol/message.hpp"
@@ -67,14 +70,17 @@ void visit_arguments(Record& r, Visit visit) {
   if constexpr (std::is_same_v<Plain, Impact>) {
     visit_all(visit, r.id, r.body, r.speed, r.approach, r.position.x, r.position.y, r.position.z,
               r.offset_ms, r.momentum, r.rise);
-  } else if constexpr (std::is_same_v<Plain, Frame>) {
-    visit_all(visit, r.session, r.sequence, r.step, r.delay_ms);
-  } else if constexpr (std::is_same_v<Plain, BodyPose>) {
-    visit_all(visit, r.body, r.position.x, r.position.y, r.position.z, r.qx, r.qy, r.qz, r.qw);
-  } else {
+  } else if constexpr (std::is_same_v<Plain, Bubble>) {
     visit_all(visit, r.id, r.body, r.radius, r.epsilon, r.position.x, r.position.y, r.position.z,
               r.offset_ms);
-    if constexpr (std::is_same_v<Plain, Cavity>) visit_all(visit, r.life);
+  } else if constexpr (std::is_same_v<Plain, Cavity>) {
+    visit_all(visit, r.id, r.body, r.radius, r.epsilon, r.position.x, r.position.y, r.position.z,
+              r.offset_ms, r.life);
+  } else if constexpr (std::is_same_v<Plain, Frame>) {
+    visit_all(visit, r.session, r.sequence, r.step, r.delay_ms);
+  } else {
+    static_assert(std::is_same_v<Plain, BodyPose>, "a message without an order of arguments");
+    visit_all(visit, r.body, r.position.x, r.position.y, r.position.z, r.qx, r.qy, r.qz, r.qw);
   }
 }
 
@@ -95,17 +101,26 @@ std::optional<Record> take(const Message& message) {
   return record;
 }
 
+/// As the kind whose address it has.
+template <std::size_t... kinds>
+std::optional<Event> take_any(const Message& message, std::index_sequence<kinds...> /*all*/) {
+  std::optional<Event> event;
+  const auto try_kind = [&](auto kind) {
+    if (message.address != address_of(kind)) return false;
+    if (const auto taken = take<decltype(kind)>(message)) event = *taken;
+    return true;
+  };
+  static_cast<void>((try_kind(std::variant_alternative_t<kinds, Event>()) || ...));
+  return event;
+}
+
+template <std::size_t... kinds>
+bool is_any(std::string_view address, std::index_sequence<kinds...> /*all*/) {
+  return ((address == address_of(std::variant_alternative_t<kinds, Event>())) || ...);
+}
+
 }  // namespace
 
-Message to_message(const Impact& impact) {
-  return give(impact);
-}
-Message to_message(const Bubble& bubble) {
-  return give(bubble);
-}
-Message to_message(const Cavity& cavity) {
-  return give(cavity);
-}
 Message to_message(const Frame& frame) {
   return give(frame);
 }
@@ -118,10 +133,11 @@ Message to_message(const Event& event) {
 }
 
 std::optional<Event> to_event(const Message& message) {
-  if (const auto impact = take<Impact>(message)) return *impact;
-  if (const auto bubble = take<Bubble>(message)) return *bubble;
-  if (const auto cavity = take<Cavity>(message)) return *cavity;
-  return std::nullopt;
+  return take_any(message, std::make_index_sequence<kEventKinds>());
+}
+
+bool is_event(std::string_view address) {
+  return is_any(address, std::make_index_sequence<kEventKinds>());
 }
 
 std::optional<Frame> to_frame(const Message& message) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -48,13 +49,12 @@ struct DecodeResult {
 
 /// Events and frames as messages, and back. `nullopt`: another address, wrong types, or a value
 /// outside the ranges of the address table.
-[[nodiscard]] Message to_message(const Impact& impact);
-[[nodiscard]] Message to_message(const Bubble& bubble);
-[[nodiscard]] Message to_message(const Cavity& cavity);
 [[nodiscard]] Message to_message(const Event& event);
 [[nodiscard]] Message to_message(const Frame& frame);
 [[nodiscard]] Message to_message(const BodyPose& pose);
 [[nodiscard]] std::optional<Event> to_event(const Message& message);
+/// Whether events have this address.
+[[nodiscard]] bool is_event(std::string_view address);
 [[nodiscard]] std::optional<Frame> to_frame(const Message& message);
 [[nodiscard]] std::optional<BodyPose> to_body_pose(const Message& message);
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "program/nearest_name.hpp"
+#include "protocol/event.hpp"
 #include "synth-server/output/rig_rows.hpp"
 #include "synth-server/render/live_controls.hpp"
 #include "synth-server/sound/sound_rows.hpp"
@@ -55,6 +56,7 @@ std::vector<Knob> knobs_of(const Rig& rig) {
   add_rows("fine", fine_fields(), sound.fine, sound, knobs);
   add_rows("foot", foot_fields(), sound.foot, sound, knobs);
   constexpr std::array kComponents = {"impact", "bubble", "cavity"};
+  static_assert(kComponents.size() == protocol::kEventKinds);
   for (std::size_t c = 0; c < kComponents.size(); ++c) {
     knobs[ControlLayout::mute(c)] = switch_called(kComponents[c], kMuteKey);
     knobs[ControlLayout::solo(c)] = switch_called(kComponents[c], kSoloKey);

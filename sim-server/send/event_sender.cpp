@@ -146,11 +146,7 @@ void EventSender::drop_invalid(double frame_seconds, std::vector<TimedEvent>& ev
 }
 
 void EventSender::count(const std::vector<TimedEvent>& events) {
-  for (const auto& timed : events) {
-    counts_.impacts += std::holds_alternative<protocol::Impact>(timed.event) ? 1U : 0U;
-    counts_.bubbles += std::holds_alternative<protocol::Bubble>(timed.event) ? 1U : 0U;
-    counts_.cavities += std::holds_alternative<protocol::Cavity>(timed.event) ? 1U : 0U;
-  }
+  for (const auto& timed : events) ++counts_.events.of(timed.event);
 }
 
 void EventSender::transmit(double time, const std::vector<protocol::Message>& messages) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "protocol/event.hpp"
 #include "protocol/event_log.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
@@ -33,9 +34,7 @@ struct FrameTime {
 struct SendCounts {
   std::uint64_t bundles = 0;  ///< with events; a frame may take several
   std::uint64_t heartbeats = 0;
-  std::uint64_t impacts = 0;
-  std::uint64_t bubbles = 0;
-  std::uint64_t cavities = 0;
+  protocol::ByKind<std::uint64_t> events;
   std::uint64_t invalid = 0;      ///< events outside the address table's ranges, not sent
   std::uint64_t overdue = 0;      ///< events whose moment had passed when they were sent
   double most_overdue = 0.0;      ///< the longest such delay [s]

@@ -36,7 +36,7 @@ std::vector<TimedEvent> number_events(const Detections& found, const Simulation&
   std::vector<TimedEvent> events;
   for (const DetectedImpact& impact : found.impacts) {
     protocol::Impact event;
-    event.id = next(ids.impact);
+    event.id = next(ids.impacts);
     event.body = impact.body;
     event.speed = static_cast<float>(impact.speed);
     event.approach = static_cast<float>(impact.approach);
@@ -47,10 +47,10 @@ std::vector<TimedEvent> number_events(const Detections& found, const Simulation&
   }
   for (const DetectedBubble& bubble : found.bubbles) {
     events.push_back(
-        {as_bubble<protocol::Bubble>(bubble, simulation, ids.bubble), bubble.time + latency});
+        {as_bubble<protocol::Bubble>(bubble, simulation, ids.bubbles), bubble.time + latency});
   }
   for (const DetectedCavity& cavity : found.cavities) {
-    auto event = as_bubble<protocol::Cavity>(cavity, simulation, ids.cavity);
+    auto event = as_bubble<protocol::Cavity>(cavity, simulation, ids.cavities);
     if (cavity.body >= 0) event.body = cavity.body;
     event.life = static_cast<float>(cavity.life);
     events.push_back({event, cavity.time + latency});

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "protocol/event.hpp"
 #include "sim-server/detect/detection.hpp"
 #include "sim-server/send/split.hpp"
 
@@ -12,12 +13,8 @@ namespace splash::sim {
 
 class Simulation;
 
-/// Counts the events of a session, by kind.
-struct EventIds {
-  int impact = 0;
-  int bubble = 0;
-  int cavity = 0;
-};
+/// Counts the events of a session.
+using EventIds = protocol::ByKind<int>;
 
 /// Impacts sound when the surfaces meet; bubbles and cavities `latency` seconds after they
 /// happened, which hides how long it took to find them.

@@ -111,9 +111,7 @@ std::string to_json(const RunReport& report) {
   json["maximum_density_error"] = finite_or_null(report.maximum_density_error);
   json["iterations"] = {{"divergence", iterations_of(report.divergence_solve)},
                         {"density", iterations_of(report.density_solve)}};
-  json["events"] = {{"impacts", report.events.impacts},
-                    {"bubbles", report.events.bubbles},
-                    {"cavities", report.events.cavities}};
+  report.events.each([&](const char* kind, std::uint64_t count) { json["events"][kind] = count; });
   json["no_cavity"] = by_name(report.no_cavity);
   json["air"] = {{"entrapped_litres", finite_or_null(kLitres * report.air.entrapped)},
                  {"told_litres", finite_or_null(kLitres * report.air.told)},
@@ -184,8 +182,10 @@ std::string summary(const RunReport& report) {
     text << "density " << density.mean() << ", at most " << density.most << "; given up "
          << divergence.given_up + density.given_up << '\n';
   }
-  text << "events    " << report.events.impacts << " impacts, " << report.events.bubbles
-       << " bubbles, " << report.events.cavities << " cavities";
+  const char* before = "events    ";
+  report.events.each([&](const char* kind, std::uint64_t count) {
+    text << std::exchange(before, ", ") << count << ' ' << kind;
+  });
   put_counts("; impacts without one:", report.no_cavity, text);
   text << '\n';
   text << "air       " << kLitres * report.air.entrapped << " l entrapped, "

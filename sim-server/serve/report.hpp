@@ -9,13 +9,9 @@
 #include <utility>
 #include <vector>
 
-namespace splash::sim {
+#include "protocol/event.hpp"
 
-struct EventTotals {
-  std::uint64_t impacts = 0;
-  std::uint64_t bubbles = 0;
-  std::uint64_t cavities = 0;
-};
+namespace splash::sim {
 
 /// What one kind of solve of the divergence-free solver took.
 struct SolveTotals {
@@ -53,7 +49,7 @@ struct RunReport {
   double maximum_density_error = 0.0;  ///< same [1]
   SolveTotals divergence_solve;
   SolveTotals density_solve;
-  EventTotals events;
+  protocol::ByKind<std::uint64_t> events;
   NamedCounts no_cavity;  ///< impacts that none followed, by reason
   AirReport air;
   std::uint64_t invalid_events = 0;    ///< outside the wire's ranges, not sent

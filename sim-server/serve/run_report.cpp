@@ -71,7 +71,7 @@ RunReport report_on(const Simulation& simulation, const SendCounts& sent, const 
   put_air(simulation.totals(), simulation.particles(), report);
   put_cavities(simulation.totals().no_cavity, report);
   put_skips(simulation.totals(), report);
-  report.events = {sent.impacts, sent.bubbles, sent.cavities};
+  report.events = sent.events;
   report.invalid_events = sent.invalid;
   report.overdue_events = sent.overdue;
   report.behind = paced.behind;

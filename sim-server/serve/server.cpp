@@ -351,7 +351,7 @@ void Server::reopen() {
 }
 
 void Server::note_status(const FrameResult& frame) {
-  const SendCounts& sent = sender_.counts();
+  const protocol::ByKind<std::uint64_t>& sent = sender_.counts().events;
   const RunTotals& totals = simulation_.totals();
   const SkipTotals& skipped = totals.skipped;
   const double now = protocol::monotonic_now();
@@ -398,12 +398,12 @@ void Server::note_vtk() {
 void Server::print_progress() {
   const double now = protocol::monotonic_now();
   next_line_ = now + kLinePeriod;
-  const SendCounts& sent = sender_.counts();
-  std::printf(
-      "%7.1f s  %6.0f steps/s  real time x %.2f  impacts %llu  bubbles %llu  cavities %llu\n",
-      simulation_.seconds(), line_pace_.steps_per_second(), line_pace_.real_time_factor(),
-      static_cast<unsigned long long>(sent.impacts), static_cast<unsigned long long>(sent.bubbles),
-      static_cast<unsigned long long>(sent.cavities));
+  std::printf("%7.1f s  %6.0f steps/s  real time x %.2f", simulation_.seconds(),
+              line_pace_.steps_per_second(), line_pace_.real_time_factor());
+  sender_.counts().events.each([](const char* kind, std::uint64_t count) {
+    std::printf("  %s %llu", kind, static_cast<unsigned long long>(count));
+  });
+  std::printf("\n");
   std::fflush(stdout);
 }
 

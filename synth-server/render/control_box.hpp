@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/event.hpp"
 #include "synth-server/voices/sound.hpp"
 
 namespace splash::synth {
@@ -22,7 +23,7 @@ struct ControlLayout {
 
   enum OutputNumber : std::size_t { gain_db, ceiling, output_mute, output_solo, output_numbers };
   enum ChannelNumber : std::size_t { trim_db, channel_mute, channel_solo, channel_numbers };
-  static constexpr std::size_t kComponents = 3;
+  static constexpr std::size_t kComponents = protocol::kEventKinds;
 
   [[nodiscard]] static std::size_t mute(std::size_t component) noexcept {
     return kSoundNumbers + 2 * component;

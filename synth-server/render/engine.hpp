@@ -23,6 +23,7 @@ enum Component : unsigned {
   kCavities = 4U,
   kAllComponents = kImpacts | kBubbles | kCavities,
 };
+static_assert(kAllComponents == (1U << protocol::kEventKinds) - 1U);
 
 /// An event and the absolute sample of the engine's clock at which it starts.
 struct TimedEvent {

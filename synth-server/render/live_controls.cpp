@@ -123,6 +123,7 @@ void LiveControls::show() noexcept {
 
   const double component_solo = loudest(Layout::kComponents, Layout::solo);
   const std::array gains = {sound_.impact.gain_db, sound_.bubble.gain_db, sound_.cavity.gain_db};
+  static_assert(gains.size() == Layout::kComponents);
   for (std::size_t c = 0; c < gains.size(); ++c) {
     go_to(components_[c],
           gain_of(gains[c]) * heard(Layout::mute(c), Layout::solo(c), component_solo));

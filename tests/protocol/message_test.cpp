@@ -6,7 +6,10 @@
 
 #include <limits>
 #include <stdexcept>
+#include <utility>
+#include <variant>
 
+#include "protocol/address.hpp"
 #include "protocol/limits.hpp"
 #include "tests/protocol/raw_packet.hpp"
 
@@ -18,6 +21,31 @@ const Bubble kBubble{42, -1, 0.0031F, 0.05F, {-1.0F, 2.0F, 0.0F}, 0.0F};
 const Cavity kCavity{7, 0, 0.05F, 0.1F, {0.0F, 0.0F, 0.2F}, 9.0F, 0.15F};
 const Frame kFrame{123456, 16777215, 77, 12.5F};
 const BodyPose kPose{3, {1.0F, 2.0F, 3.0F}, 0.0F, 0.6F, 0.0F, 0.8F};
+
+void expect_whole(const Message& message) {
+  const auto* row = find_address(message.address);
+  ASSERT_NE(row, nullptr) << message.address;
+  EXPECT_EQ(message.arguments.size(), row->arguments.size()) << message.address;
+}
+
+template <std::size_t... kinds>
+void expect_whole_events(std::index_sequence<kinds...> /*all*/) {
+  const auto expect = [](const Event& event) {
+    const Message message = to_message(event);
+    expect_whole(message);
+    EXPECT_TRUE(is_event(message.address));
+  };
+  (expect(std::variant_alternative_t<kinds, Event>()), ...);
+}
+
+// What has a row and no member, or the other way round, would be lost on the way.
+TEST(Messages, HaveTheArgumentsOfTheirRow) {
+  expect_whole_events(std::make_index_sequence<kEventKinds>());
+  expect_whole(to_message(kFrame));
+  expect_whole(to_message(kPose));
+  EXPECT_FALSE(is_event("/frame"));
+  EXPECT_FALSE(is_event("/impacts"));
+}
 
 TEST(Encode, BytesOfAnImpact) {
   const Raw expected = padded("/impact") + padded(",iiffffffff") + word(1) + word(2) +
