@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
 namespace {
@@ -40,6 +43,18 @@ TEST(SceneFrame, TellsOfEveryShippedScene) {
     }
   }
   EXPECT_GE(scenes, 9);
+}
+
+// The page draws each form by its name.
+TEST(SceneFrame, HasFormsThatThePageDraws) {
+  std::ifstream file(std::filesystem::path(SPLASH_SOURCE_DIR) / "view-server/page/shapes.js");
+  const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::size_t list = page.find("const carry = {");
+  ASSERT_NE(list, std::string::npos);
+  const std::string drawn = page.substr(list, page.find('}', list) - list);
+  for (const std::string& name : shape_names()) {
+    EXPECT_THAT(drawn, ::testing::ContainsRegex("[{ ]" + name + "[:, ]")) << name;
+  }
 }
 
 TEST(SceneFrame, IsJsonBehindTheHead) {
