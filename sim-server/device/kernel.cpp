@@ -126,20 +126,22 @@ Kernel::Told Kernel::meet(const KernelArg& arg) const {
     throw std::logic_error("the parameter " + name + " of the kernel " + name_ + " is " +
                            found->type + ", and was given " + type);
   }
-  return {arg.name_, arg.type_, static_cast<std::size_t>(found - parameters_.begin())};
+  return {arg.name_, arg.type_, arg.memory_ != nullptr,
+          static_cast<std::size_t>(found - parameters_.begin())};
 }
 
 void Kernel::set(std::span<const KernelArg> args) {
   for (const KernelArg& arg : args) {
+    const bool is_buffer = arg.memory_ != nullptr;
     if (place_ >= told_.size() || told_[place_].name != arg.name_ ||
-        told_[place_].type != arg.type_) {
+        told_[place_].type != arg.type_ || told_[place_].is_buffer != is_buffer) {
       is_new_ = true;
       told_.resize(std::max(told_.size(), place_ + 1));
       told_[place_] = meet(arg);
     }
     const std::size_t index = told_[place_++].parameter;
     Setting& setting = settings_[index];
-    if (arg.memory_ != nullptr) {
+    if (is_buffer) {
       if (setting.is_set && setting.memory() == (*arg.memory_)()) continue;
       kernel_.setArg(static_cast<cl_uint>(index), *arg.memory_);
       setting.memory = *arg.memory_;

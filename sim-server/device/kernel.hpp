@@ -129,6 +129,7 @@ class Kernel {
   struct Told {
     const char* name = nullptr;
     const char* type = nullptr;
+    bool is_buffer = false;
     std::size_t parameter = 0;
   };
 

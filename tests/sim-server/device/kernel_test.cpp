@@ -101,6 +101,16 @@ TEST_F(Arguments, OfAnotherTypeAreRefused) {
       ThrowsMessage<std::logic_error>(HasSubstr("is float*, and was given float")));
 }
 
+// A launch that differs from the one before in this alone.
+TEST_F(Arguments, OfANumberWhereABufferWasAreRefused) {
+  run({{"count", 3}, {"rise", 2.0F}, {"x", x_}, {"shift", shift_}, {"y", y_}});
+  EXPECT_THAT(
+      [&] {
+        run({{"count", 3}, {"rise", 2.0F}, {"x", 1.0F}, {"shift", shift_}, {"y", y_}});
+      },
+      ThrowsMessage<std::logic_error>(HasSubstr("is float*, and was given float")));
+}
+
 TEST_F(Arguments, AreAllThereAndOnce) {
   for (int again = 0; again < 2; ++again) {
     EXPECT_THAT(
