@@ -160,7 +160,7 @@ part_kernels() {
 
 part_validation() { run_tests "$1" "$2" 'validation:*'; }
 
-part_scenes() { attend "$1" "$2" "$bin/bench-scenes" --seconds 1 --runs 2 "$out/scenes.csv"; }
+part_scenes() { attend "$1" "$2" "$bin/bench-scenes" --seconds 1 --runs 2 --out "$out/scenes"; }
 
 part_determinism() { run_tests "$1" "$2" 'stress_test:*Repeats.*'; }
 

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The three engines on the same logs: what of the difference to synth-server's own rendering falls
-// into which band, for scsynth (non-real-time) and for Pd (offline). Prints a table; with a
-// folder's name, also writes crosscheck.csv and the chart crosscheck.png.
-#include <CLI/CLI.hpp>
+// into which band, for scsynth (non-real-time) and for Pd (offline).
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "synth-server/figure/gnuplot.hpp"
 #include "synth-server/output/band_filter.hpp"
+#include "tests/bench/plot.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/pd-patches/rendering.hpp"
 #include "tests/supercollider/comparison.hpp"
 
@@ -93,67 +89,44 @@ double level(double part, double whole) {
   return 10.0 * std::log10(std::max(part, 1e-30) / std::max(whole, 1e-30));
 }
 
-void print(const std::vector<Comparison>& all) {
-  std::printf("residual over signal [dB], bands from their lower end [Hz]\n\n%-8s %-7s", "engine",
-              "scene");
-  for (std::size_t band = 0; band < kBands; ++band) std::printf(" %7.0f", kEdges[band]);
-  std::printf("   largest sample\n");
+void report(bench::Bench& bench, const std::vector<Comparison>& all) {
+  bench::Row head = {"engine", "scene", "largest sample [dB]"};
+  for (std::size_t band = 0; band < kBands; ++band) {
+    head.push_back("from " + bench::number(kEdges[band]) + " Hz");
+  }
+  auto table = bench.table("crosscheck.csv", head);
+  bench::Plot plot(bench.out() / "crosscheck.png", 1000, 600);
+  std::string curves;
   for (const Comparison& c : all) {
-    std::printf("%-8s %-7s", c.engine.c_str(), c.scene.c_str());
+    bench::Row row = {c.engine, c.scene, bench::number(c.worst)};
+    std::vector<double> x;
+    std::vector<double> y;
     for (std::size_t band = 0; band < kBands; ++band) {
-      std::printf(" %7.1f", level(c.residual[band], c.signal[band]));
+      x.push_back(kEdges[band]);
+      y.push_back(level(c.residual[band], c.signal[band]));
+      row.push_back(bench::number(y.back()));
     }
-    std::printf(" %8.1f\n", c.worst);
+    table.add(row);
+    curves += (curves.empty() ? "" : ", ") + plot.data(x, y) + " with linespoints title '" +
+              c.engine + ", " + c.scene + '\'';
   }
-}
-
-void draw(const std::vector<Comparison>& all, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  const auto csv = folder / "crosscheck.csv";
-  std::ofstream table(csv);
-  table << "engine,scene,from_hz,residual_db\n";
-  for (const Comparison& c : all) {
-    for (std::size_t band = 0; band < kBands; ++band) {
-      table << c.engine << ',' << c.scene << ',' << kEdges[band] << ','
-            << level(c.residual[band], c.signal[band]) << '\n';
-    }
-  }
-  table.close();
-  const auto script = folder / "crosscheck.gp";
-  std::ofstream plot(script);
-  plot << "set terminal pngcairo size 1000,600 font 'Sans,11'\nset datafile separator ','\n"
-       << "set output '" << (folder / "crosscheck.png").string() << "'\n"
-       << "set logscale x 2\nset xtics (20,40,80,160,320,640,1280)\nset yrange [-140:0]\n"
-       << "set xlabel 'band, from [Hz]'\nset ylabel 'residual over signal [dB]'\nset key outside\n"
-       << "set title 'The same log by three engines: difference to synth-server'\nplot ";
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    plot << (i == 0 ? "" : ", ") << '\'' << csv.string() << "' using (strcol(1) eq '"
-         << all[i].engine << "' && strcol(2) eq '" << all[i].scene
-         << "' ? $3 : NaN):4 with linespoints title '" << all[i].engine << ", " << all[i].scene
-         << '\'';
-  }
-  plot << '\n';
-  plot.close();
-  synth::run_gnuplot(script);
-  std::filesystem::remove(script);
-  std::filesystem::remove(folder / "crosscheck.log");
+  bench.tell(
+      "What of the difference to synth-server falls into which band, over the signal in it [dB]; "
+      "the largest sample over the peak.");
+  bench.tell(table.text());
+  plot.script() << "set logscale x 2\nset xtics (20,40,80,160,320,640,1280)\nset yrange [-140:0]\n"
+                << "set xlabel 'band, from [Hz]'\nset ylabel 'residual over signal [dB]'\n"
+                << "set key outside\nplot " << curves << '\n';
+  plot.draw();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::filesystem::path folder;
-  CLI::App app("Renders logs with synth-server, scsynth and Pd and compares them.",
-               "bench-crosscheck");
-  app.add_option("folder", folder, "Where tables and charts go");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    const auto all = compare_all();
-    print(all);
-    if (!folder.empty()) draw(all, folder);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "bench-crosscheck: " << error.what() << '\n';
-    return 70;
-  }
+  bench::Bench bench("crosscheck", "accuracy.md", "The sound by three engines",
+                     "Renders logs with synth-server, scsynth and Pd and compares them.");
+  return bench.run(argc, argv, [&] {
+    report(bench, compare_all());
+    return true;
+  });
 }

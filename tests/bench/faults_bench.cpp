@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Both programs killed many times, started in any order, and the JACK server killed under the
-// synth: who lives, and how soon it is as before. Prints a table, and one line for each thing that
-// went wrong; with a file name, also writes the recoveries as CSV.
+// synth: who lives, and how soon it is as before. A row each, and a line for each thing that went
+// wrong; recoveries.csv has every recovery.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "protocol/time_tag.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/synth-server/live/jack_capture.hpp"
@@ -32,7 +30,6 @@ struct Settings {
   int starts = 20;
   int jack = 20;
   unsigned seed = 1;
-  std::string csv;
 };
 
 constexpr double kTimeout = 30.0;  ///< [s]
@@ -97,18 +94,18 @@ double largest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-class Report {
+class Faults {
  public:
-  explicit Report(const std::string& csv) : csv_(csv) {
-    if (csv_) csv_ << "what,seconds\n";
+  explicit Faults(bench::Bench& bench)
+      : table_(bench.table("faults.csv", {"what", "rounds", "survived", "median [s]", "most [s]"})),
+        recoveries_(bench.out() / "recoveries.csv") {
+    recoveries_ << "what,seconds\n";
   }
 
-  void add(const char* what, int rounds, const Kills& kills) {
-    std::printf("%-28s %3d rounds, %3d survived, first event after %.2f s, at most %.2f s\n", what,
-                rounds, kills.survived, middle(kills.recovery), largest(kills.recovery));
+  void add(const std::string& what, int rounds, const Kills& kills) {
+    add(what + ", first event", rounds, kills.survived, kills.recovery);
     for (const auto& text : kills.complaints) std::printf("  WRONG: %s\n", text.c_str());
     wrong_ += static_cast<int>(kills.complaints.size()) + (rounds - kills.survived);
-    note(what, kills.recovery);
     if (kills.slew_limit == 0.0) return;
     std::printf("  largest step %.4f of full scale per sample, the rig's slew limit is %.4f\n",
                 kills.largest_step, kills.slew_limit);
@@ -116,57 +113,54 @@ class Report {
   }
 
   void add(const JackDeaths& deaths) {
-    std::printf(
-        "%-28s %3zu rounds, loss seen after %.2f s, at most %.2f s; playing %.2f s after it is "
-        "back, at most %.2f s; %.1f %% of a core meanwhile, at most %.1f %%\n",
-        "jackd killed", deaths.seen.size(), middle(deaths.seen), largest(deaths.seen),
-        middle(deaths.back), largest(deaths.back), 100.0 * middle(deaths.waited),
-        100.0 * largest(deaths.waited));
-    note("jack seen", deaths.seen);
-    note("jack back", deaths.back);
+    const auto rounds = static_cast<int>(deaths.seen.size());
+    add("jackd killed, loss seen", rounds, rounds, deaths.seen);
+    add("jackd back, playing", rounds, rounds, deaths.back);
+    std::printf("  without it %.1f %% of a core, at most %.1f %%\n", 100.0 * middle(deaths.waited),
+                100.0 * largest(deaths.waited));
   }
 
+  [[nodiscard]] std::string text() const { return table_.text(); }
   [[nodiscard]] int wrong() const noexcept { return wrong_; }
 
  private:
-  void note(const char* what, const std::vector<double>& seconds) {
-    for (const double value : seconds) csv_ << what << ',' << value << '\n';
+  void add(const std::string& what, int rounds, int survived, const std::vector<double>& seconds) {
+    table_.add({what, std::to_string(rounds), std::to_string(survived),
+                bench::number(middle(seconds)), bench::number(largest(seconds))});
+    for (const double value : seconds) recoveries_ << what << ',' << value << '\n';
   }
 
-  std::ofstream csv_;
+  bench::Table table_;
+  std::ofstream recoveries_;
   int wrong_ = 0;
 };
 
-int bench(const Settings& settings) {
+bool run(bench::Bench& bench, const Settings& settings) {
   std::mt19937 random(settings.seed);
-  Report report(settings.csv);
-  report.add("kill -9 of the simulator", settings.kills,
+  Faults faults(bench);
+  faults.add("kill -9 of the simulator", settings.kills,
              kill_simulators(settings.kills, random, counter("simulators", settings.kills)));
-  report.add("kill -9 of the synth", settings.kills,
+  faults.add("kill -9 of the synth", settings.kills,
              kill_synths(settings.kills, random, counter("synths", settings.kills)));
-  report.add("started in any order", settings.starts,
+  faults.add("started in any order", settings.starts,
              start_in_any_order(settings.starts, random, counter("starts", settings.starts)));
-  if (settings.jack > 0) report.add(kill_jack(settings.jack));
-  std::printf(report.wrong() == 0 ? "all well\n" : "%d things went wrong\n", report.wrong());
-  return report.wrong() == 0 ? 0 : 1;
+  if (settings.jack > 0) faults.add(kill_jack(settings.jack));
+  std::printf(faults.wrong() == 0 ? "all well\n" : "%d things went wrong\n", faults.wrong());
+  bench.tell(faults.text());
+  bench.tell(std::to_string(faults.wrong()) + " things went wrong.");
+  return faults.wrong() == 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Settings settings;
-  CLI::App app("Kills the programs and their sound server, and says how they take it.",
-               "./splash bench faults --");
+  bench::Bench bench("faults", "robustness.md", "Programs and their sound server killed",
+                     "Kills the programs and their sound server, and says how they take it.");
+  CLI::App& app = bench.options();
   app.add_option("--kills", settings.kills, "Of each program")->capture_default_str();
   app.add_option("--starts", settings.starts, "In either order")->capture_default_str();
   app.add_option("--jack", settings.jack, "Kills of jackd")->capture_default_str();
   app.add_option("--seed", settings.seed, "Of the moments")->capture_default_str();
-  app.add_option("csv", settings.csv, "File for the recoveries");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return bench(settings);
-  } catch (const std::exception& error) {
-    std::cerr << "bench-faults: " << error.what() << '\n';
-    return 70;
-  }
+  return bench.run(argc, argv, [&] { return run(bench, settings); });
 }

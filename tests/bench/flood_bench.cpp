@@ -4,12 +4,10 @@
 // commands through the queue into its audio thread. Nothing may be lost
 // but what the kernel dropped and says so; memory stays; afterwards all is as before. Ends with 1
 // when any of it is not so.
-#include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <random>
 #include <string>
 #include <thread>
@@ -19,6 +17,7 @@
 #include "protocol/limits.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/synth-server/receive/queue_run.hpp"
@@ -73,10 +72,11 @@ class Pace {
   std::uint64_t done_ = 0;
 };
 
-class Bench {
+class Flood {
  public:
-  Bench()
-      : synth_({"--rig", std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml", "--device",
+  explicit Flood(bench::Bench& bench)
+      : bench_(bench),
+        synth_({"--rig", std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml", "--device",
                 "null"}) {
     for (int i = 0; i < 50; ++i) say({bubble(0, 0.004F)});  // all that it allocates, it has
     settle();
@@ -107,11 +107,11 @@ class Bench {
     const auto after = status();
     const long growth = resident(synth_.process().id()) - memory;
     const auto lost = after.lost - before.lost;
-    std::printf(
-        "  %.0f/s; refused %llu; events sent %llu, taken %llu, bundles lost %llu; memory "
-        "%+ld KiB\n",
-        pace.rate(), n(after.refused - before.refused), n(events), n(after.events - before.events),
-        n(lost), growth);
+    tell(
+        "%.0f random datagrams at %.0f a second, %llu refused; %llu true events, %llu taken, %llu "
+        "bundles lost by the kernel; memory %+ld KiB",
+        datagrams, pace.rate(), n(after.refused - before.refused), n(events),
+        n(after.events - before.events), n(lost), growth);
     check(after.events - before.events + lost == events, "an event was lost that was not counted");
     check(growth <= kGrowth, "memory grew");
   }
@@ -149,11 +149,11 @@ class Bench {
     const auto taken = after.events - before.events;
     const auto dropped = after.dropped - before.dropped;
     const long growth = resident(synth_.process().id()) - memory;
-    std::printf(
-        "  %.0f events/s; bundles sent %llu, lost %llu; events taken %llu, dropped or not "
-        "played %llu; voices at most %llu, level %.3f; memory %+ld KiB\n",
-        rate, n(bundles), n(lost), n(taken), n(dropped), n(voices), static_cast<double>(level),
-        growth);
+    tell(
+        "%.0f events a second for %.0f s: %llu bundles, %llu lost; %llu events taken, %llu dropped "
+        "or not played; at most %llu voices, level %.3f; memory %+ld KiB",
+        rate, seconds, n(bundles), n(lost), n(taken), n(dropped), n(voices),
+        static_cast<double>(level), growth);
     check(voices <= kMostVoices, "more voices than the pools have");
     check(level <= 0.9F, "louder than the ceiling");
     check(growth <= kGrowth, "memory grew");
@@ -209,8 +209,8 @@ class Bench {
                after.late == before.late;
       before = after;
     }
-    std::printf("  after it: an event sent %.3f s later was played as ever; %.1f s are wanted\n",
-                sent, kWanted);
+    tell("After it an event sent %.3f s later was played as ever; %.1f s are wanted", sent,
+         kWanted);
     check(sent < kTimeout, "after the storm no event is played as before");
   }
 
@@ -231,10 +231,19 @@ class Bench {
 
   void check(bool holds, const char* wrong) {
     if (holds) return;
-    std::printf("  WRONG: %s\n", wrong);
+    tell("WRONG: %s", wrong);
     right_ = false;
   }
 
+  template <class... Values>
+  void tell(const char* format, Values... values) {
+    std::array<char, 512> line{};
+    std::snprintf(line.data(), line.size(), format, values...);
+    std::printf("  %s\n", line.data());
+    bench_.tell(std::string(line.data()) + '.');
+  }
+
+  bench::Bench& bench_;
   tests::Synth synth_;
   protocol::UdpSocket socket_{protocol::Endpoint{}};
   std::int32_t sequence_ = 0;
@@ -242,7 +251,7 @@ class Bench {
 };
 
 /// True when all came in order, in ten portions.
-bool run_commands(double commands) {
+bool run_commands(bench::Bench& bench, double commands) {
   constexpr int kPortions = 10;
   std::printf("queue: %.0f commands from thread to thread\n", commands);
   std::uint64_t wrong = 0;
@@ -251,8 +260,11 @@ bool run_commands(double commands) {
     const auto report = synth::run_queue(static_cast<std::uint64_t>(commands / kPortions));
     wrong += report.wrong;
   }
-  std::printf("  %.2g/s, %llu lost, torn or out of order\n",
-              commands / (protocol::monotonic_now() - start),
+  const double rate = commands / (protocol::monotonic_now() - start);
+  bench.tell(bench::number(commands) + " commands through the queue into the audio thread at " +
+             bench::number(rate) + " a second: " + std::to_string(wrong) +
+             " lost, torn or out of order.");
+  std::printf("  %.2g/s, %llu lost, torn or out of order\n", rate,
               static_cast<unsigned long long>(wrong));
   return wrong == 0;
 }
@@ -261,20 +273,21 @@ bool run_commands(double commands) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("The synth under floods");
-  app.add_option("--datagrams", options.datagrams, "random ones")->capture_default_str();
-  app.add_option("--storm-seconds", options.storm_seconds, "of 100,000 events each")
+  bench::Bench bench("flood", "robustness.md", "The synth under floods", "The synth under floods");
+  bench.options()
+      .add_option("--datagrams", options.datagrams, "random ones")
       ->capture_default_str();
-  app.add_option("--commands", options.commands, "through the queue")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    Bench bench;
-    bench.flood(options.datagrams);
-    bench.storm(options.storm_seconds);
-    const bool right = bench.right();
-    return run_commands(options.commands) && right ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::cerr << "bench-flood: " << error.what() << '\n';
-    return 70;
-  }
+  bench.options()
+      .add_option("--storm-seconds", options.storm_seconds, "of 100,000 events each")
+      ->capture_default_str();
+  bench.options()
+      .add_option("--commands", options.commands, "through the queue")
+      ->capture_default_str();
+  return bench.run(argc, argv, [&] {
+    Flood flood(bench);
+    flood.flood(options.datagrams);
+    flood.storm(options.storm_seconds);
+    const bool right = flood.right();
+    return run_commands(bench, options.commands) && right;
+  });
 }

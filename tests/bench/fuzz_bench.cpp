@@ -5,14 +5,11 @@
 // folder, each input a file. Ends with 1 when anything was found.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
-#include <iostream>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -20,6 +17,7 @@
 
 #include "protocol/time_tag.hpp"
 #include "tests/bench/fuzz_readers.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/child_process.hpp"
 
@@ -37,7 +35,7 @@ struct Options {
   std::vector<std::string> only;
   unsigned seed = 1;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
-  fs::path out = "out/fuzz";
+  fs::path out;  ///< corpora and findings
 };
 
 struct Result {
@@ -200,28 +198,46 @@ void build_fuzzers(unsigned jobs) {
 }
 
 /// True when nothing was found.
-bool report(const std::vector<Result>& results) {
-  std::uint64_t inputs = 0;
+bool report(bench::Bench& bench, const std::vector<Result>& results) {
+  auto table = bench.table("fuzz.csv", {"target", "inputs", "per second", "corpus", "findings",
+                                        "stalls", "first finding"});
   int findings = 0;
-  std::printf("\n%-8s %12s %10s %8s %8s %8s\n", "target", "inputs", "per s", "corpus", "findings",
-              "stalls");
   for (const Result& result : results) {
-    std::printf("%-8s %12llu %10.0f %8llu %8d %8d  %s\n", result.name.c_str(),
-                static_cast<unsigned long long>(result.inputs),
-                static_cast<double>(result.inputs) / std::max(result.seconds, 1e-3),
-                static_cast<unsigned long long>(result.corpus), result.findings, result.stalls,
-                result.first.c_str());
-    inputs += result.inputs;
+    table.add({result.name, std::to_string(result.inputs),
+               bench::number(static_cast<double>(result.inputs) / std::max(result.seconds, 1e-3)),
+               std::to_string(result.corpus), std::to_string(result.findings),
+               std::to_string(result.stalls), result.first});
     findings += result.findings;
   }
-  std::printf("%-8s %12llu %10s %8s %8d\n", "all", static_cast<unsigned long long>(inputs), "", "",
-              findings);
+  bench.tell(table.text());
   return findings == 0;
 }
 
-Options parse(int argc, char** argv) {
+bool run(bench::Bench& bench, Options options) {
+  options.out = bench.out();
+  bool right = true;
+  if (options.only != std::vector<std::string>{"readers"}) {
+    build_fuzzers(options.jobs);
+    right = report(bench, fuzz_all(options));
+  }
+  if (wanted(options, "readers")) {
+    const auto inputs = static_cast<std::uint64_t>(0.1 * options.inputs);
+    const bool alike = bench::compare_readers(inputs);
+    bench.tell("Of " + std::to_string(inputs) + " packets, oscpack, liblo and our decoder read " +
+               (alike ? "each alike." : "some differently."));
+    right = alike && right;
+  }
+  std::printf(right ? "nothing was found\n" : "findings lie in %s\n", options.out.c_str());
+  return right;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Fuzzes what reads packets, logs, scenes and rigs");
+  bench::Bench bench("fuzz", "robustness.md", "What reads packets and files, fuzzed",
+                     "Fuzzes what reads packets, logs, scenes and rigs");
+  CLI::App& app = bench.options();
   app.add_option("--inputs", options.inputs, "inputs over all targets together")
       ->check(CLI::Range(1.0, 1e12))
       ->capture_default_str();
@@ -229,35 +245,5 @@ Options parse(int argc, char** argv) {
                  "only these: gate packet intake log scene rig mesh tracker tuio pressure readers");
   app.add_option("--seed", options.seed, "of the mutations")->capture_default_str();
   app.add_option("--jobs", options.jobs, "targets at once")->check(CLI::Range(1, 256));
-  app.add_option("--out", options.out, "corpora and findings go here")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
-  return options;
-}
-
-int run(const Options& options) {
-  bool right = true;
-  if (options.only != std::vector<std::string>{"readers"}) {
-    build_fuzzers(options.jobs);
-    right = report(fuzz_all(options));
-  }
-  if (wanted(options, "readers")) {
-    right = bench::compare_readers(static_cast<std::uint64_t>(0.1 * options.inputs)) && right;
-  }
-  std::printf(right ? "nothing was found\n" : "findings lie in %s\n", options.out.c_str());
-  return right ? 0 : 1;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << "bench-fuzz: " << error.what() << '\n';
-    return 70;
-  }
+  return bench.run(argc, argv, [&] { return run(bench, options); });
 }

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 // How long from sending an event to its first sample: the real synth-server on a JACK server
 // without a device, over loopback, at several periods. The sample's time is that of JACK's cycle
-// plus its place in it; a sound card adds the playback latency of its own that JACK reports. Prints
-// a table; with a folder's name, also writes latency.csv and the histogram latency.png.
+// plus its place in it; a sound card adds the playback latency of its own that JACK reports.
 #include <jack/jack.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -24,7 +20,8 @@
 
 #include "protocol/message.hpp"
 #include "protocol/udp_socket.hpp"
-#include "synth-server/figure/gnuplot.hpp"
+#include "tests/bench/plot.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/process_use.hpp"
 
@@ -213,75 +210,71 @@ Result measure(int period, const Mode& mode, bool realtime) {
   return match(sent, recorder);
 }
 
-void draw(const std::filesystem::path& folder, const std::vector<int>& periods,
-          const std::vector<Mode>& modes) {
-  const auto script = folder / "latency.gp";
-  const std::string csv = (folder / "latency.csv").string();
-  std::ofstream out(script);
-  out << "set terminal pngcairo size 1000,800 font 'Sans,11'\nset output '"
-      << (folder / "latency.png").string() << "'\n"
-      << "set datafile separator ','\nset multiplot layout " << modes.size() << ",1\n"
-      << "set style fill solid 0.6\nset xrange [0:8]\nset xlabel 'from sending to sample [ms]'\n"
-      << "set ylabel 'events'\nwidth = 0.1\nbin(x) = width * (floor(x / width) + 0.5)\n";
-  for (const Mode& mode : modes) {
-    out << "set title '" << mode.name << "'\nplot ";
-    for (std::size_t i = 0; i < periods.size(); ++i) {
-      out << (i == 0 ? "" : ", ") << "'" << csv << "' using (strcol(1) eq '" << periods[i]
-          << "' && strcol(2) eq '" << mode.name << "' ? bin($3) : NaN):(1) smooth frequency "
-          << "with boxes title '" << periods[i] << " frames'";
+/// How many events took how long, a curve for each period.
+void draw(const std::filesystem::path& png, const std::vector<Mode>& modes,
+          const std::vector<std::vector<Result>>& results, const std::vector<int>& periods) {
+  constexpr double kBin = 0.1;  // [ms]
+  constexpr std::size_t kBins = 80;
+  bench::Plot plot(png, 1000, 800);
+  std::vector<std::string> panels;
+  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+    std::string curves;
+    for (std::size_t k = 0; k < periods.size(); ++k) {
+      std::vector<double> x(kBins);
+      std::vector<double> y(kBins, 0.0);
+      for (std::size_t bin = 0; bin < kBins; ++bin) x[bin] = kBin * static_cast<double>(bin);
+      for (const double latency : results[mode][k].latencies) {
+        y[std::min(kBins - 1, static_cast<std::size_t>(1e3 * latency / kBin))] += 1.0;
+      }
+      curves += (curves.empty() ? "" : ", ") + plot.data(x, y) + " with steps linewidth 1.6 " +
+                "linecolor rgb '" + bench::colour(k) + "' title '" + std::to_string(periods[k]) +
+                " frames'";
     }
-    out << '\n';
+    panels.push_back("set title '" + modes[mode].name + "'\nplot " + curves + '\n');
   }
-  out.close();
-  synth::run_gnuplot(script);
-  std::filesystem::remove(script);
-  std::filesystem::remove(folder / "latency.log");
+  plot.script() << "set multiplot layout " << modes.size() << ",1\nset ylabel 'events'\n"
+                << "set xlabel 'from sending to sample [ms]'\n";
+  for (const std::string& panel : panels) plot.script() << panel;
+  plot.script() << "unset multiplot\n";
+  plot.draw();
 }
 
-void bench(const std::filesystem::path& folder, bool realtime) {
+void run(bench::Bench& bench, bool realtime) {
   const std::vector<int> periods{64, 128, 256};
-  const std::vector<Mode> modes{{"without a time", false}, {"time tag of now", true}};
-  std::ofstream csv;
-  if (!folder.empty()) {
-    std::filesystem::create_directories(folder);
-    csv.open(folder / "latency.csv");
-    csv << "frames,mode,latency_ms\n";
-  }
-  std::printf("%d events each over loopback; JACK without a device at %d Hz, %s\n\n", kEvents,
-              kRate, realtime ? "at real-time priority" : "no realtime");
-  std::printf("frames  sent with         median     5 %%    95 %%     max  [ms]  unheard  xruns\n");
-  for (const int period : periods) {
-    for (const Mode& mode : modes) {
-      const Result r = measure(period, mode, realtime);
+  const std::vector<Mode> modes{{"no time tag", false}, {"time tag of now", true}};
+  const std::string what = std::to_string(kEvents) + " events each over loopback; JACK without a " +
+                           "device at " + std::to_string(kRate) + " Hz" +
+                           (realtime ? ", at real-time priority." : ".");
+  std::printf("%s\n", what.c_str());
+  auto table = bench.table("latency.csv", {"sent with", "frames", "median [ms]", "5 % [ms]",
+                                           "95 % [ms]", "most [ms]", "unheard", "xruns"});
+  std::vector<std::vector<Result>> results(modes.size());
+  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+    for (const int period : periods) {
+      const Result r = measure(period, modes[mode], realtime);
       if (r.latencies.empty()) throw std::runtime_error("no event was heard");
-      std::printf("%6d  %-15s  %7.2f %7.2f %7.2f %7.2f        %7d  %5d\n", period,
-                  mode.name.c_str(), 1e3 * r.quantile(0.5), 1e3 * r.quantile(0.05),
-                  1e3 * r.quantile(0.95), 1e3 * r.latencies.back(), r.unheard, r.xruns);
-      std::fflush(stdout);
-      for (const double latency : r.latencies) {
-        if (csv) csv << period << ',' << mode.name << ',' << 1e3 * latency << '\n';
-      }
+      table.add({modes[mode].name, std::to_string(period), bench::number(1e3 * r.quantile(0.5)),
+                 bench::number(1e3 * r.quantile(0.05)), bench::number(1e3 * r.quantile(0.95)),
+                 bench::number(1e3 * r.latencies.back()), std::to_string(r.unheard),
+                 std::to_string(r.xruns)});
+      results[mode].push_back(r);
     }
   }
-  csv.close();
-  if (!folder.empty()) draw(folder, periods, modes);
+  bench.tell(what);
+  bench.tell(table.text());
+  draw(bench.out() / "latency.png", modes, results, periods);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::filesystem::path folder;
+  bench::Bench bench("latency", "performance.md", "From an event to its sample",
+                     "Measures how long an event takes to its first sample.");
   bool realtime = false;
-  CLI::App app("Measures how long an event takes to its first sample.", "bench-latency");
-  app.add_option("folder", folder, "Where latency.csv and latency.png go");
-  app.add_flag("--realtime", realtime,
-               "JACK at real-time priority, which not everybody may ask for");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    bench(folder, realtime);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "bench-latency: " << error.what() << '\n';
-    return 70;
-  }
+  bench.options().add_flag("--realtime", realtime,
+                           "JACK at real-time priority, which not everybody may ask for");
+  return bench.run(argc, argv, [&] {
+    run(bench, realtime);
+    return true;
+  });
 }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 // ./splash bench link: all 45 cells of loss, duplication and reordering over a link with jitter and
-// an outage, each with several seeds. Prints a line per cell and ends with 1 when a rule was
-// broken.
-#include <CLI/CLI.hpp>
+// an outage, each with several seeds. A row per cell; ends with 1 when a rule was broken.
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
-#include <iostream>
 
+#include "tests/bench/report.hpp"
 #include "tests/network/link_run.hpp"
 
 namespace {
@@ -37,12 +33,19 @@ Sum of(const LinkReport& one) {
           one.events, one.late,         one.too_late};
 }
 
-void print(const char* name, const Sum& sum) {
-  const auto n = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
-  std::printf("%-22s %5llu %9llu %8llu %8llu %8llu %9llu %8llu %8llu %6llu\n", name, n(sum.runs),
-              n(sum.sent), n(sum.lost), n(sum.duplicates), n(sum.reordered), n(sum.events),
-              n(sum.late), n(sum.too_late), n(sum.wrong));
-  std::fflush(stdout);
+std::vector<std::string> counts(const Sum& sum) {
+  std::vector<std::string> row;
+  for (const std::uint64_t count : {sum.runs, sum.sent, sum.lost, sum.duplicates, sum.reordered,
+                                    sum.events, sum.late, sum.too_late, sum.wrong}) {
+    row.push_back(std::to_string(count));
+  }
+  return row;
+}
+
+void add(splash::bench::Table& table, const std::string& name, const Sum& sum) {
+  std::vector<std::string> row = counts(sum);
+  row.insert(row.begin(), name);
+  table.add(row);
 }
 
 Sum run_cell(double loss, double duplication, double reordering, std::uint32_t seeds) {
@@ -54,39 +57,38 @@ Sum run_cell(double loss, double duplication, double reordering, std::uint32_t s
       std::printf("  seed %u: %s\n", seed, line.c_str());
     }
   }
-  char name[64];
-  std::snprintf(name, sizeof name, "%4.0f %6.0f %9.0f", 100.0 * loss, 100.0 * duplication,
-                100.0 * reordering);
-  print(name, sum);
   return sum;
 }
 
-int run(std::uint32_t seeds) {
-  std::printf("%-22s %5s %9s %8s %8s %8s %9s %8s %8s %6s\n", "loss dup. reordered %", "runs",
-              "bundles", "lost", "doubles", "reorder.", "events", "late", "dropped", "wrong");
+bool run(splash::bench::Bench& bench, std::uint32_t seeds) {
+  auto table =
+      bench.table("link.csv", {"lost, doubled, reordered [%]", "runs", "bundles", "lost", "doubles",
+                               "reordered", "events", "late", "dropped", "wrong"});
   Sum all;
   for (const double loss : kLosses) {
     for (const double duplication : kDuplications) {
       for (const double reordering : kReorderings) {
-        all.add(run_cell(loss, duplication, reordering, seeds));
+        const Sum cell = run_cell(loss, duplication, reordering, seeds);
+        add(table,
+            splash::bench::number(100.0 * loss) + ", " +
+                splash::bench::number(100.0 * duplication) + ", " +
+                splash::bench::number(100.0 * reordering),
+            cell);
+        all.add(cell);
       }
     }
   }
-  print("all", all);
-  return all.wrong == 0 ? 0 : 1;
+  add(table, "all", all);
+  bench.tell(table.text());
+  return all.wrong == 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   std::uint32_t seeds = 10;
-  CLI::App app("The wire over a bad link, every cell of the grid");
-  app.add_option("--seeds", seeds, "runs of each cell")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(seeds);
-  } catch (const std::exception& error) {
-    std::cerr << "bench-link: " << error.what() << '\n';
-    return 70;
-  }
+  splash::bench::Bench bench("link", "robustness.md", "The wire over a bad link",
+                             "The wire over a bad link, every cell of the grid");
+  bench.options().add_option("--seeds", seeds, "runs of each cell")->capture_default_str();
+  return bench.run(argc, argv, [&] { return run(bench, seeds); });
 }

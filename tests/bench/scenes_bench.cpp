@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 // How fast the built-in scenes run on this machine, beside the paper's rates: water, bodies and
-// detectors, without waiting for the clock and without a receiver. Prints a table; with a file
-// name, also writes it as CSV. Runs of a scene must end in the same bits, and none may go wrong.
-#include <CLI/CLI.hpp>
+// detectors, without waiting for the clock and without a receiver. Runs of a scene must end in the
+// same bits, and none may go wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +13,7 @@
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace {
@@ -28,7 +25,6 @@ struct Options {
   std::vector<std::string> scenes;
   double seconds = 5.0;  ///< of each run, simulated
   int runs = 3;
-  std::filesystem::path csv;
 };
 
 struct Case {
@@ -97,14 +93,17 @@ Result measure(Device& device, const Scene& scene, const Options& options) {
   return result;
 }
 
-void print(const Case& item, const Result& r) {
-  const std::string paper =
-      item.paper_rate > 0.0 ? std::to_string(std::lround(item.paper_rate)) : "-";
-  std::printf("%-9s %9d  %7.0f  %7s  %11.2f  %11.2f  mean %.2f %%, max %.1f %%%s%s\n",
-              item.scene.c_str(), r.particles, r.steps_per_second, paper.c_str(),
-              r.real_time_factor, 1e-6 * r.steps_per_second * r.particles, 100.0 * r.mean_error,
-              100.0 * r.max_error, r.broken.empty() ? "" : "  WRONG: ", r.broken.c_str());
-  std::fflush(stdout);
+bench::Row row(const Case& item, const Result& r) {
+  const auto rounded = [](double value) { return std::to_string(std::lround(value)); };
+  return {item.scene,
+          std::to_string(r.particles),
+          rounded(r.steps_per_second),
+          item.paper_rate > 0.0 ? rounded(item.paper_rate) : "",
+          bench::number(r.real_time_factor),
+          bench::number(1e-6 * r.steps_per_second * r.particles),
+          bench::number(100.0 * r.mean_error),
+          bench::number(100.0 * r.max_error),
+          r.broken};
 }
 
 bool is_wanted(const Case& item, const Options& options) {
@@ -113,26 +112,27 @@ bool is_wanted(const Case& item, const Options& options) {
 }
 
 /// Whether nothing went wrong.
-bool bench(const Options& options) {
+bool run(bench::Bench& bench, const Options& options) {
   Device device;
-  std::printf("device: %s\n", describe(device.facts()).c_str());
-  std::printf("median of %d runs of %g s, water, bodies and detectors, nobody listening\n\n",
-              options.runs, options.seconds);
-  std::printf("scene     particles  steps/s  paper's  real time x  M updates/s  density error\n");
-  std::ofstream file(options.csv);
-  if (file) file << "scene,particles,steps_per_second,real_time_factor,mean_density_error\n";
+  bench.set_device(describe(device.facts()));
+  char what[128];
+  std::snprintf(what, sizeof what,
+                "Median of %d runs of %g s; water, bodies and detectors, nobody listening.",
+                options.runs, options.seconds);
+  std::printf("%s\n\n", what);
+  auto table = bench.table("scenes.csv",
+                           {"scene", "particles", "steps/s", "paper's", "real-time factor",
+                            "million updates/s", "mean density error [%]", "largest [%]", "wrong"});
   bool sound = true;
   for (const Case& item : cases()) {
     if (!is_wanted(item, options)) continue;
     const auto path = tests::source_folder() / "configs" / "scenes" / (item.scene + ".yaml");
     const Result r = measure(device, read_scene(path), options);
     sound = sound && r.broken.empty();
-    print(item, r);
-    if (file) {
-      file << item.scene << ',' << r.particles << ',' << r.steps_per_second << ','
-           << r.real_time_factor << ',' << r.mean_error << std::endl;
-    }
+    table.add(row(item, r));
   }
+  bench.tell(what);
+  bench.tell(table.text());
   return sound;
 }
 
@@ -140,10 +140,11 @@ bool bench(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("How fast the built-in scenes run.", "bench-scenes");
+  bench::Bench bench("scenes", "performance.md", "The built-in scenes",
+                     "How fast the built-in scenes run.");
   std::vector<std::string> names;
   for (const Case& item : cases()) names.push_back(item.scene);
-  app.add_option("csv", options.csv, "Also writes the table to this file");
+  CLI::App& app = bench.options();
   app.add_option("--scene", options.scenes, "Only this scene (repeatable)")
       ->check(CLI::IsMember(names));
   app.add_option("--seconds", options.seconds, "Of each run, simulated")
@@ -152,11 +153,5 @@ int main(int argc, char** argv) {
   app.add_option("--runs", options.runs, "Of each scene")
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return bench(options) ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::cerr << "bench-scenes: " << error.what() << '\n';
-    return 70;
-  }
+  return bench.run(argc, argv, [&] { return run(bench, options); });
 }

@@ -2,19 +2,17 @@
 // Both real programs in real time for as long as one likes, scene after scene on its rig, over a
 // network that loses datagrams, with a kill of one of them now and then: memory, missed heartbeats,
 // lost bundles and exits, a line every half minute and a verdict at the end.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <memory>
 #include <random>
 #include <string>
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/support/lossy_relay.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
@@ -62,7 +60,7 @@ class Soak {
     start_simulator();
   }
 
-  int run() {
+  bool run(bench::Bench& bench) {
     const double start = protocol::monotonic_now();
     double line = start + kLineSeconds;
     double scene = start + 60.0 * settings_.scene_minutes;
@@ -84,7 +82,7 @@ class Soak {
         print(now - start);
       }
     }
-    return verdict();
+    return verdict(bench);
   }
 
  private:
@@ -174,7 +172,7 @@ class Soak {
     std::fflush(stdout);
   }
 
-  int verdict() {
+  bool verdict(bench::Bench& bench) {
     take_counts();
     for (Daemon* daemon :
          {static_cast<Daemon*>(simulator_.get()), static_cast<Daemon*>(synth_.get())}) {
@@ -182,18 +180,24 @@ class Soak {
       if (daemon->process().wait_for_end() != 0) ++unplanned_;
     }
     const long departures = number_before(synth_->process().output(), "departures");
-    std::printf(
-        "\nevents %llu, bundles lost %llu, late %llu, dropped %llu\n"
-        "datagrams that the network lost on their way to the synth: %llu\n"
-        "departures the last synth saw %ld, planned %ld\n"
-        "memory after the first minute of a life: simulator +%.1f MiB, synth +%.1f MiB\n"
-        "unplanned exits: %d\n",
-        static_cast<unsigned long long>(events_), static_cast<unsigned long long>(lost_),
-        static_cast<unsigned long long>(late_), static_cast<unsigned long long>(dropped_),
-        static_cast<unsigned long long>(link_->lost()), departures, planned_,
-        static_cast<double>(simulator_memory_.growth()) / 1024.0,
-        static_cast<double>(synth_memory_.growth()) / 1024.0, unplanned_);
-    return unplanned_ == 0 ? 0 : 1;
+    const auto count = [](auto value) { return std::to_string(value); };
+    const auto mebibytes = [](const Memory& memory) {
+      return bench::number(static_cast<double>(memory.growth()) / 1024.0, 2);
+    };
+    auto table = bench.table("soak.csv", {"what", "count"});
+    table.add({"minutes", bench::number(settings_.minutes)});
+    table.add({"events", count(events_)});
+    table.add({"bundles lost", count(lost_)});
+    table.add({"datagrams that the network lost", count(link_->lost())});
+    table.add({"late", count(late_)});
+    table.add({"dropped", count(dropped_)});
+    table.add({"departures the last synth saw", count(departures)});
+    table.add({"departures planned", count(planned_)});
+    table.add({"growth of the simulator [MiB]", mebibytes(simulator_memory_)});
+    table.add({"growth of the synth [MiB]", mebibytes(synth_memory_)});
+    table.add({"unplanned exits", count(unplanned_)});
+    bench.tell(table.text());
+    return unplanned_ == 0;
   }
 
   Settings settings_;
@@ -218,8 +222,9 @@ class Soak {
 
 int main(int argc, char** argv) {
   Settings settings;
-  CLI::App app("Runs both programs for a long time and kills one now and then.",
-               "./splash bench soak --");
+  bench::Bench bench("soak", "robustness.md", "Both programs for long",
+                     "Runs both programs for a long time and kills one now and then.");
+  CLI::App& app = bench.options();
   app.add_option("--minutes", settings.minutes, "Of the whole")->capture_default_str();
   app.add_option("--scene-minutes", settings.scene_minutes, "Then the next scene")
       ->capture_default_str();
@@ -230,11 +235,5 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", settings.seed, "Of who is killed, and what is lost")
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return Soak(settings).run();
-  } catch (const std::exception& error) {
-    std::cerr << "bench-soak: " << error.what() << '\n';
-    return 70;
-  }
+  return bench.run(argc, argv, [&] { return Soak(settings).run(bench); });
 }

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The stability suite: every trial with both solvers at three resolutions, at the default time step
 // and at twice that; faults at a hundred places; where it ends, as maps; and endurance.
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <concepts>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iomanip>
-#include <iostream>
+#include <string>
+#include <vector>
 
-#include "protocol/time_tag.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/stress/endurance.hpp"
 #include "tests/stress/faults.hpp"
 #include "tests/stress/stability_map.hpp"
 #include "tests/stress/trial.hpp"
-#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -23,7 +20,6 @@ using namespace splash::stress;
 using sim::PressureKind;
 
 struct Options {
-  std::filesystem::path out = tests::source_folder() / "out" / "stability";
   std::vector<std::string> parts;
   std::vector<int> groups;
   std::vector<double> spacings = {0.05, 0.035, 0.025};
@@ -49,11 +45,21 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string whole(std::integral auto count) {
+  return std::to_string(count);
+}
+
+std::string passed(int failed, int done) {
+  return whole(done - failed) + " of " + whole(done) + " passed.";
+}
+
 /// Returns how many did not pass.
-int run_trials(sim::Device& device, const Options& options) {
-  std::ofstream csv(options.out / "trials.csv");
-  csv << "group,trial,solver,spacing,factor,particles,steps,fastest,mean_excess,max_excess,events,"
-         "retried,calmed,resets,least_step,calm,drift,inside,broken\n";
+int run_trials(bench::Bench& bench, sim::Device& device, const Options& options) {
+  using bench::number;
+  auto table = bench.table(
+      "trials.csv", {"trial", "group", "solver", "spacing [m]", "factor", "particles", "steps",
+                     "fastest [m/s]", "mean_excess", "max_excess", "events", "retried", "calmed",
+                     "resets", "least_step", "calm [m/s]", "drift [m]", "inside", "broken"});
   int failed = 0;
   int done = 0;
   for (const Trial& trial : all_trials()) {
@@ -66,32 +72,25 @@ int run_trials(sim::Device& device, const Options& options) {
         if (spacing < trial.finest) continue;
         for (const double factor : options.factors) {
           const Verdict v = run_trial(device, trial, {solver, spacing, factor});
-          csv << trial.group << ',' << std::quoted(trial.name) << ',' << name_of(solver) << ','
-              << spacing << ',' << factor << ',' << v.particles << ',' << v.steps << ','
-              << v.fastest << ',' << v.mean_excess << ',' << v.max_excess << ',' << v.events << ','
-              << v.retried << ',' << v.calmed << ',' << v.resets << ',' << v.least_step << ','
-              << v.calm << ',' << v.drift << ',' << v.inside << ',' << join(v.broken) << '\n'
-              << std::flush;
+          table.add({trial.name, whole(trial.group), name_of(solver), number(spacing),
+                     number(factor), whole(v.particles), whole(v.steps), number(v.fastest),
+                     number(v.mean_excess), number(v.max_excess), whole(v.events), whole(v.retried),
+                     whole(v.calmed), whole(v.resets), number(v.least_step), number(v.calm),
+                     number(v.drift), number(v.inside), join(v.broken)});
           ++done;
           failed += !v.passes();
-          std::printf("%4d  %2d %-34s %-4s %5.3f m x%.1f  %6.2f m/s %5.1f %%  again %2llu  %s\n",
-                      done, trial.group, trial.name.c_str(), name_of(solver), spacing, factor,
-                      v.fastest, 100.0 * v.mean_excess, static_cast<unsigned long long>(v.retried),
-                      v.passes() ? "passed" : join(v.broken).c_str());
           if (!v.passes() && !v.step_fault.empty()) std::printf("      %s\n", v.step_fault.c_str());
-          std::fflush(stdout);
         }
       }
     }
   }
-  std::printf("trials: %d of %d passed: %s\n", done - failed, done,
-              (options.out / "trials.csv").c_str());
+  bench.tell("Trials at the spacings and steps asked for, both solvers: " + passed(failed, done));
   return failed;
 }
 
-int run_injections(sim::Device& device, const Options& options) {
-  std::ofstream csv(options.out / "faults.csv");
-  csv << "water,fault,places,seen,told,longest,finite\n";
+int run_injections(bench::Bench& bench, sim::Device& device, const Options& options) {
+  auto table = bench.table("faults.csv", {"fault", "water", "places", "seen", "events told",
+                                          "ill for at most [s]", "finite"});
   int failed = 0;
   int total = 0;
   for (const Water& water : all_waters()) {
@@ -111,29 +110,30 @@ int run_injections(sim::Device& device, const Options& options) {
         failed += !o.passes();
       }
       total += static_cast<int>(outcomes.size());
-      csv << name << ',' << injection.name << ',' << outcomes.size() << ',' << seen << ',' << told
-          << ',' << longest << ',' << finite << '\n'
-          << std::flush;
-      std::printf("%-26s %-36s seen %d of %zu, told %zu, ill for %.3f s at most\n", name.c_str(),
-                  injection.name.c_str(), seen, outcomes.size(), told, longest);
-      std::fflush(stdout);
+      table.add({injection.name, name, whole(outcomes.size()), whole(seen), whole(told),
+                 bench::number(longest), finite ? "yes" : "NO"});
     }
   }
-  std::printf("faults: %d of %d passed\n", total - failed, total);
+  bench.tell("Faults put into the water: " + passed(failed, total));
+  bench.tell(table.text());
   return failed;
 }
 
-int bench(const Options& options) {
-  std::filesystem::create_directories(options.out);
+bool run(bench::Bench& bench, const Options& options) {
   sim::Device device(options.device);
-  std::printf("device: %s\n", describe(device.facts()).c_str());
+  bench.set_device(describe(device.facts()));
   int failed = 0;
-  if (wants(options, "faults")) failed += run_injections(device, options);
-  if (wants(options, "trials")) failed += run_trials(device, options);
-  if (wants(options, "maps")) draw_maps(device, options.out);
-  if (wants(options, "endurance")) failed += endure(device, options.endurance, options.out);
+  if (wants(options, "faults")) failed += run_injections(bench, device, options);
+  if (wants(options, "trials")) failed += run_trials(bench, device, options);
+  if (wants(options, "maps")) draw_maps(device, bench.out());
+  if (wants(options, "endurance")) {
+    const int lost = endure(device, options.endurance, bench.out());
+    bench.tell("Endurance, " + whole(options.endurance.steps) + " steps of each scene: " +
+               (lost == 0 ? "nothing lost, no reset, memory flat." : whole(lost) + " failed."));
+    failed += lost;
+  }
   std::printf("%s\n", failed == 0 ? "all passed" : (std::to_string(failed) + " failed").c_str());
-  return failed == 0 ? 0 : 1;
+  return failed == 0;
 }
 
 void add_endurance(CLI::App& app, Options& options) {
@@ -153,8 +153,9 @@ void add_endurance(CLI::App& app, Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("What the water survives: faults, trials, maps of where it ends, endurance.",
-               "bench-stability");
+  bench::Bench bench("stability", "robustness.md", "What the water survives",
+                     "What the water survives: faults, trials, maps of where it ends, endurance.");
+  CLI::App& app = bench.options();
   app.add_option("--part", options.parts,
                  "Only this part (repeatable): faults trials maps endurance")
       ->check(CLI::IsMember({"faults", "trials", "maps", "endurance"}));
@@ -168,14 +169,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--places", options.places, "Of each fault")->check(CLI::Range(1, 100000));
   add_endurance(app, options);
-  app.add_option("--out", options.out, "Folder for CSV and pictures")->capture_default_str();
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
-  CLI11_PARSE(app, argc, argv);
-  if (options.divergence_free) options.endurance.solver = PressureKind::divergence_free;
-  try {
-    return bench(options);
-  } catch (const std::exception& error) {
-    std::cerr << "bench-stability: " << error.what() << '\n';
-    return 70;
-  }
+  return bench.run(argc, argv, [&] {
+    if (options.divergence_free) options.endurance.solver = PressureKind::divergence_free;
+    return run(bench, options);
+  });
 }

@@ -1,137 +1,156 @@
 // SPDX-License-Identifier: MIT
-// How many bubbles at what cost: the synth's engine beside scsynth and Pd, all in one run. Prints
-// tables and writes CSV and PNG.
-#include <CLI/CLI.hpp>
+// How many bubbles at what cost: the synth's engine beside scsynth and Pd, all in one run.
 #include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iostream>
 #include <string>
+#include <vector>
 
-#include "synth-server/figure/gnuplot.hpp"
 #include "synth-server/voices/pack_kernels.hpp"
-#include "tests/bench/synth_charts.hpp"
+#include "tests/bench/plot.hpp"
+#include "tests/bench/report.hpp"
+#include "tests/bench/synth_engine.hpp"
+#include "tests/bench/synth_peers.hpp"
+#include "tests/bench/synth_timing.hpp"
 
 namespace {
 
 using namespace splash::bench;
 
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown processor";
+std::string whole(double value) {
+  return std::to_string(static_cast<long long>(value));
 }
 
-void print(const EngineCase& c) {
-  std::printf(
-      "%-9s %7d voices %4d channels (%.1f per voice) blocks of %4d: %6.1f %% of a core,"
-      " %7.0f voices would fill it\n",
-      c.instructions.c_str(), c.voices, c.tiles > 0 ? c.tiles * c.tiles : 1, c.routes, c.block,
-      100.0 * c.cost, c.voices_per_core());
+std::string percent(double share) {
+  return number(100.0 * share);
 }
 
-void add(std::vector<EngineCase>& list, EngineCase wanted) {
-  list.push_back(measure_engine(std::move(wanted)));
-  print(list.back());
+int channels(int tiles) {
+  return tiles > 0 ? tiles * tiles : 1;
 }
 
-void measure_capacity(SynthFigures& figures) {
-  std::printf("\nThe engine: events, pool, voices, mix, filters, limiters\n");
+/// Of one core, on one channel and on 36.
+struct Capacity {
+  std::string instructions;
+  EngineCase mono, spread;
+};
+
+std::vector<Capacity> measure_capacity(Bench& bench) {
+  auto table = bench.table(
+      "capacity.csv", {"instruction set", "one channel [% of a core]", "36 channels [%]", "ratio",
+                       "voices that fill a core", "on 36 channels"});
+  std::vector<Capacity> all;
   for (const std::string& set : instruction_sets()) {
-    for (const int tiles : {0, 6}) add(figures.capacity, {set, 16384, tiles, 64});
+    all.push_back({set, measure_engine({set, 16384, 0, 64}), measure_engine({set, 16384, 6, 64})});
+    const auto& [name, mono, spread] = all.back();
+    table.add({name, percent(mono.cost), percent(spread.cost), number(spread.cost / mono.cost),
+               whole(mono.voices_per_core()), whole(spread.voices_per_core())});
   }
+  bench.tell(
+      "16,384 voices through the whole engine at 44.1 kHz, in blocks of 64, processor time:");
+  bench.tell(table.text());
+  return all;
 }
 
-void measure_floods() {
-  std::printf(
-      "\n10,000 bubbles a second on 36 channels: %.1f %% of a core, with everything %.1f %%",
-      100.0 * measure_flood(false), 100.0 * measure_flood(true));
-  std::printf("; pitches in clouds alone %.1f %%\n", 100.0 * measure_clouds());
+void measure_floods(Bench& bench) {
+  constexpr int kRuns = 5;
+  const auto middle = [](bool everything) {
+    std::vector<double> costs;
+    for (int run = 0; run < kRuns; ++run) costs.push_back(measure_flood(everything));
+    return percent(median(costs));
+  };
+  const std::string text = "10,000 bubbles a second on 36 channels up to 20 kHz: " + middle(false) +
+                           " % of a core, with coupled clouds, fine water and a gain " +
+                           middle(true) + " %; pitches in clouds alone " +
+                           percent(measure_clouds()) + " %.";
+  std::printf("\n%s\n", text.c_str());
+  bench.tell(text);
 }
 
-void measure_engines(SynthFigures& figures) {
+void measure_onsets_of_all(Bench& bench) {
+  auto table = bench.table("onsets.csv",
+                           {"instruction set", "onsets/s, one channel", "onsets/s, 36 channels"});
+  for (const std::string& set : instruction_sets()) {
+    table.add({set, whole(measure_onsets(set, 0).onsets), whole(measure_onsets(set, 6).onsets)});
+  }
+  bench.tell("Bubbles of 10 to 300 ms (60 dB) that one core starts and plays:");
+  bench.tell(table.text());
+}
+
+/// Cost against voices, channels and block.
+void measure_engines(Bench& bench) {
+  std::vector<std::vector<EngineCase>> sweeps(3);
   for (const int voices : {256, 1024, 4096, 16384, 65536}) {
-    add(figures.by_voices, {"best", voices, 0, 64});
+    sweeps[0].push_back(measure_engine({"best", voices, 0, 64}));
   }
-  for (const int tiles : {0, 2, 4, 6, 8, 12}) add(figures.by_channels, {"best", 16384, tiles, 64});
+  for (const int tiles : {0, 2, 4, 6, 8, 12}) {
+    sweeps[1].push_back(measure_engine({"best", 16384, tiles, 64}));
+  }
   for (const int block : {16, 32, 64, 100, 128, 256, 1024}) {
-    add(figures.by_block, {"best", 16384, 0, block});
+    sweeps[2].push_back(measure_engine({"best", 16384, 0, block}));
   }
-  std::printf("\nOnsets: bubbles of 10 to 300 ms (60 dB)\n");
-  for (const std::string& set : instruction_sets()) {
-    for (const int tiles : {0, 6}) {
-      figures.onsets.push_back(measure_onsets(set, tiles));
-      std::printf("%-9s %2d channels: %8.0f per second and core\n", set.c_str(),
-                  tiles > 0 ? tiles * tiles : 1, figures.onsets.back().onsets);
+  auto table = bench.table("engine.csv",
+                           {"voices", "channels", "block", "channels per voice", "of a core [%]"});
+  Plot plot(bench.out() / "engine.png", 1500, 500);
+  std::vector<std::string> blocks;
+  for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (const EngineCase& c : sweeps[sweep]) {
+      const double by[] = {c.voices + 0.0, channels(c.tiles) + 0.0, c.block + 0.0};
+      x.push_back(by[sweep]);
+      y.push_back(100.0 * c.cost);
+      table.add({whole(c.voices), whole(channels(c.tiles)), whole(c.block), number(c.routes),
+                 percent(c.cost)});
     }
+    blocks.push_back(plot.data(x, y));
   }
+  plot.script() << "unset key\nset multiplot layout 1,3\nset logscale x 2\nset logscale y\n"
+                   "set ylabel 'of one core [%]'\nset xtics 1,4\n"
+                << "set xlabel 'voices (one channel)'\nplot " << blocks[0] << " with linespoints\n"
+                << "unset logscale y\nset yrange [0:*]\nset xtics autofreq\n"
+                << "set xlabel 'channels (16384 voices)'\nplot " << blocks[1]
+                << " with linespoints\nset xlabel 'block [frames] (16384 voices, one channel)'\n"
+                << "plot " << blocks[2] << " with linespoints\nunset multiplot\n";
+  plot.draw();
+  std::printf("%s\n", (bench.out() / "engine.png").c_str());
 }
 
-void measure_peers(SynthFigures& figures) {
-  std::printf("\nOthers (44.1 kHz, one channel, one core; error of a bubble of 5 mm)\n");
+void measure_peers(Bench& bench, const std::vector<Capacity>& ours) {
+  auto table = bench.table("peers.csv", {"engine", "voices", "onsets/s", "error at 5 mm [dB]",
+                                         "ours carries so many times its voices"});
   const splash::synth::ScratchFolder scratch;
   for (const auto& measure : {measure_scsynth, measure_pd}) {
     try {
-      figures.peers.push_back(measure(scratch.path()));
-      const Peer& peer = figures.peers.back();
-      std::printf("%-10s %7.0f voices, %7.0f onsets per second, error %.1f dB\n", peer.name.c_str(),
-                  peer.voices, peer.onsets, peer.error_db);
+      const Peer peer = measure(scratch.path());
+      std::string times;
+      for (const Capacity& c : ours) {
+        times += (times.empty() ? "" : ", ") + number(c.mono.voices_per_core() / peer.voices) +
+                 " (" + c.instructions + ")";
+      }
+      table.add({peer.name, whole(peer.voices), whole(peer.onsets), number(peer.error_db), times});
     } catch (const std::exception& error) {
       std::printf("left out: %s\n", error.what());
     }
   }
-}
-
-void print_ratios(const SynthFigures& figures) {
-  std::printf("\n");
-  for (std::size_t i = 0; i + 1 < figures.capacity.size(); i += 2) {
-    const EngineCase& mono = figures.capacity[i];
-    const EngineCase& spread = figures.capacity[i + 1];
-    std::printf("%s: %d channels cost %.2f times one", mono.instructions.c_str(),
-                spread.tiles * spread.tiles, spread.cost / mono.cost);
-    for (const Peer& peer : figures.peers) {
-      std::printf("; %.1f times %s", mono.voices_per_core() / peer.voices, peer.name.c_str());
-    }
-    std::printf("\n");
-  }
+  bench.tell("Others, one channel, one core:");
+  bench.tell(table.text());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::filesystem::path folder = "out/bench-synth";
-  CLI::App app("Measures the synth beside scsynth and Pd.", "bench-synth");
-  app.add_option("--out", folder, "Where tables and charts go")->capture_default_str();
+  Bench bench("synth", "performance.md", "The synth", "Measures the synth beside scsynth and Pd.");
   bool only_capacity = false;
-  app.add_flag("--capacity", only_capacity,
-               "Only what a core carries on one channel and on 36: some seconds");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    std::filesystem::create_directories(folder);
-    std::printf("%s; best instruction set: %s\n", processor().c_str(),
-                name_of(splash::synth::InstructionSet::best));
-    SynthFigures figures;
-    if (only_capacity) {
-      measure_capacity(figures);
-      measure_floods();
-      print_ratios(figures);
-      return 0;
-    }
-    measure_capacity(figures);
-    measure_floods();
-    measure_engines(figures);
-    measure_peers(figures);
-    print_ratios(figures);
-    write_tables(figures, folder);
-    draw_chart(figures, folder);
-    std::printf("\ntables and charts: %s\n", folder.c_str());
-  } catch (const std::exception& error) {
-    std::cerr << "bench-synth: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  bench.options().add_flag("--capacity", only_capacity,
+                           "Only what a core carries on one channel and on 36: some seconds");
+  return bench.run(argc, argv, [&] {
+    std::printf("best instruction set: %s\n", name_of(splash::synth::InstructionSet::best));
+    const std::vector<Capacity> ours = measure_capacity(bench);
+    measure_floods(bench);
+    if (only_capacity) return true;
+    measure_onsets_of_all(bench);
+    measure_peers(bench, ours);
+    measure_engines(bench);
+    return true;
+  });
 }

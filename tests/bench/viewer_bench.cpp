@@ -7,18 +7,16 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "protocol/time_tag.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/support/programs.hpp"
 
 namespace {
@@ -108,7 +106,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void compare(const std::string& scene, const Settings& settings) {
+void compare(bench::Table& table, const std::string& scene, const Settings& settings) {
   std::vector<double> cpu;
   std::vector<double> factor;
   std::vector<double> alone;
@@ -123,17 +121,19 @@ void compare(const std::string& scene, const Settings& settings) {
     frames += with.frames;
     unasked += without.frames;
   }
-  std::printf("%-8s %8.2f %10.1f %10.1f %9.1f %9ld\n", scene.c_str(), median(alone),
-              100.0 * (median(factor) - 1.0), 100.0 * (median(cpu) - 1.0),
-              static_cast<double>(frames) / (settings.rounds * settings.seconds), unasked);
-  std::fflush(stdout);
+  table.add({scene, bench::number(median(alone)), bench::number(100.0 * (median(factor) - 1.0)),
+             bench::number(100.0 * (median(cpu) - 1.0)),
+             bench::number(static_cast<double>(frames) / (settings.rounds * settings.seconds)),
+             std::to_string(unasked)});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Settings settings;
-  CLI::App app("What a viewer costs the simulator.", "bench-viewer");
+  bench::Bench bench("viewer", "performance.md", "What a viewer costs",
+                     "What a viewer costs the simulator.");
+  CLI::App& app = bench.options();
   app.add_option("--scene", settings.scenes, "Scenes (repeatable)")->capture_default_str();
   app.add_option("--rounds", settings.rounds, "Of a run without and one with a viewer")
       ->check(CLI::Range(1, 1000))
@@ -141,13 +141,11 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", settings.seconds, "Simulated, of each run")
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    std::printf("scene      factor  factor %%  processor %%  frames/s  unasked\n");
-    for (const std::string& scene : settings.scenes) compare(scene, settings);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "bench-viewer: " << error.what() << '\n';
-    return 1;
-  }
+  return bench.run(argc, argv, [&] {
+    auto table = bench.table("viewer.csv", {"scene", "real-time factor without", "with one [%]",
+                                            "processor [%]", "frames/s", "unasked"});
+    for (const std::string& scene : settings.scenes) compare(table, scene, settings);
+    bench.tell(table.text());
+    return true;
+  });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The README speaks of commands, options and files that exist.
+// The README and docs/ speak of commands, options and files that exist.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,13 +11,16 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/tables.hpp"
 #include "tests/house/shell.hpp"
 
 namespace splash::house {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::Contains;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::string read_text(const fs::path& path) {
@@ -67,7 +70,7 @@ std::vector<std::string> missing_from(const std::set<std::string>& wanted,
 void expect_options_known(const std::string& program) {
   const std::string help =
       run_command(std::string(SPLASH_BINARY_DIR) + "/" + program + " --help").output;
-  ASSERT_THAT(help, testing::HasSubstr("--help")) << program << " is not built";
+  ASSERT_THAT(help, HasSubstr("--help")) << program << " is not built";
   EXPECT_THAT(missing_from(options_given_to(program, readme()), options_in(help)), IsEmpty());
 }
 
@@ -104,6 +107,29 @@ TEST(Readme, FilesItNamesExist) {
   EXPECT_THAT(missing, IsEmpty());
 }
 
+/// What `docs/FILE` says to be written by is a benchmark that writes that file.
+TEST(Docs, AreWrittenByBenchmarksThatExist) {
+  static const std::regex kBench(R"(\./splash bench ([a-z]+))");
+  const fs::path root = SPLASH_SOURCE_DIR;
+  for (const char* doc : {"performance.md", "accuracy.md", "robustness.md"}) {
+    const std::set<std::string> named = matches(read_text(root / "docs" / doc), kBench);
+    EXPECT_FALSE(named.empty()) << doc;
+    for (const std::string& name : named) {
+      const std::string source = read_text(root / "tests/bench" / (name + "_bench.cpp"));
+      EXPECT_THAT(source, HasSubstr("\"" + std::string(doc) + '"')) << doc << ": bench " << name;
+    }
+  }
+}
+
+TEST(Docs, KeepTheSectionsOfOtherBenchmarks) {
+  const std::string one = bench::with_section("# Figures\n", "one", "1\n");
+  EXPECT_EQ(one, "# Figures\n\n<!-- bench one -->\n1\n<!-- end of bench one -->\n");
+  const std::string two = bench::with_section(one, "two", "2\n");
+  EXPECT_EQ(bench::with_section(bench::with_section(two, "one", "3\n"), "one", "1\n"), two);
+  EXPECT_THAT(bench::with_section(two, "one", "3\n"),
+              AllOf(HasSubstr("\n3\n"), HasSubstr("\n2\n")));
+}
+
 TEST(Readme, TreeNamesEveryRoom) {
   const std::string text = readme();
   std::vector<std::string> missing;
@@ -117,13 +143,6 @@ TEST(Readme, TreeNamesEveryRoom) {
     }
   }
   EXPECT_THAT(missing, IsEmpty());
-}
-
-TEST(Readme, ChecksSeeWhatIsWrong) {
-  EXPECT_THAT(options_given_to("synth-server", "x\nsynth-server --rig a --nonsense 3\n"),
-              testing::ElementsAre("--nonsense", "--rig"));
-  EXPECT_THAT(missing_from({"--nonsense", "--rig"}, options_in("  --rig FILE  what")),
-              testing::ElementsAre("--nonsense"));
 }
 
 }  // namespace

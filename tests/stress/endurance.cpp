@@ -12,6 +12,7 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/bench/tables.hpp"
 #include "tests/stress/piece.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -141,20 +142,6 @@ bool sound(const Piece& p) {
          p.growth <= kPages + kGrowth * p.hours;
 }
 
-void tell(const std::string& name, int particles, const Piece& p, bool whole) {
-  std::printf(
-      "\r%-8s %6d particles, %lld steps, %.0f s simulated, %lld events: again %lld, given up %lld, "
-      "resets %lld, lost %lld, memory %+.2f MiB, files %+lld  %s\n",
-      name.c_str(), particles, static_cast<long long>(p.steps), p.simulated,
-      static_cast<long long>(p.events), static_cast<long long>(p.again),
-      static_cast<long long>(p.given_up), static_cast<long long>(p.resets),
-      static_cast<long long>(p.lost), p.growth, static_cast<long long>(p.opened),
-      !sound(p) ? "FAILED"
-      : whole   ? "passed"
-                : "sound so far");
-  std::fflush(stdout);
-}
-
 }  // namespace
 
 std::vector<std::string> built_in_scenes() {
@@ -187,20 +174,22 @@ int endure(sim::Device& device, const Endurance& wanted, const std::filesystem::
   const std::filesystem::path folder = out / "endurance";
   std::filesystem::create_directories(folder);
   const std::string variant = variant_of(wanted);
-  std::ofstream csv(out / ("endurance-" + variant + ".csv"));
-  csv << "scene,particles,steps,simulated,wall,events,again,given_up,resets,lost,"
-         "memory_growth_mib,opened\n";
+  bench::Table table({"scene", "particles", "steps", "simulated [s]", "wall [s]", "events", "again",
+                      "given up", "resets", "lost", "memory [MiB]", "files opened", "verdict"},
+                     out / ("endurance-" + variant + ".csv"));
   const double end = wanted.minutes > 0.0 ? protocol::monotonic_now() + 60.0 * wanted.minutes : 0.0;
   int failed = 0;
   for (const std::string& name : wanted.scenes.empty() ? built_in_scenes() : wanted.scenes) {
     Run run(device, name, wanted, folder / (name + "-" + variant));
     const Piece& p = run.go_on(end);
     failed += !sound(p);
-    csv << name << ',' << run.particles() << ',' << p.steps << ',' << p.simulated << ',' << p.wall
-        << ',' << p.events << ',' << p.again << ',' << p.given_up << ',' << p.resets << ','
-        << p.lost << ',' << p.growth << ',' << p.opened << '\n'
-        << std::flush;
-    tell(name, run.particles(), p, p.steps >= wanted.steps);
+    const char* const so_far = p.steps >= wanted.steps ? "passed" : "sound so far";
+    std::printf("\r");
+    table.add({name, std::to_string(run.particles()), std::to_string(p.steps),
+               bench::number(p.simulated), bench::number(p.wall), std::to_string(p.events),
+               std::to_string(p.again), std::to_string(p.given_up), std::to_string(p.resets),
+               std::to_string(p.lost), bench::number(p.growth), std::to_string(p.opened),
+               sound(p) ? so_far : "FAILED"});
   }
   return failed;
 }

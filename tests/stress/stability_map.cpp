@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
-#include "synth-server/figure/gnuplot.hpp"
+#include "tests/bench/plot.hpp"
+#include "tests/bench/tables.hpp"
 
 namespace splash::stress {
 namespace {
@@ -39,19 +39,6 @@ struct Map {
   std::vector<Cell> cells;
 };
 
-void write(const Map& map, const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out << map.x_label << ',' << map.y_label
-      << ",grade,fastest,mean_excess,max_excess,retried,calmed,resets\n";
-  for (const Cell& c : map.cells) {
-    const Verdict& v = c.verdict;
-    out << c.x << ',' << c.y << ',' << static_cast<int>(grade_of(v)) << ',' << v.fastest << ','
-        << v.mean_excess << ',' << v.max_excess << ',' << v.retried << ',' << v.calmed << ','
-        << v.resets << '\n';
-  }
-  if (!out) throw std::runtime_error("cannot write " + file.string());
-}
-
 std::vector<double> values(const Map& map, double Cell::*axis) {
   std::vector<double> all;
   for (const Cell& cell : map.cells) all.push_back(cell.*axis);
@@ -70,41 +57,27 @@ std::string tics(const std::vector<double>& all) {
   return "(" + text + ")";
 }
 
-/// Colours that people with colour blindness tell apart: Okabe and Ito 2008.
-constexpr const char* kSetup = R"gp(
-set terminal pngcairo size 900,600 enhanced font "DejaVu Sans,13" background "#ffffff"
-set encoding utf8
-set palette maxcolors 4 defined (0 "#009e73", 1 "#f0e442", 2 "#e69f00", 3 "#d55e00")
-set cbrange [-0.5:3.5]
-set cbtics ("sound" 0, "rough" 1, "again" 2, "given up" 3)
-set tics nomirror out scale 0.6
-)gp";
-
 void draw(const Map& map, const std::filesystem::path& file) {
   const std::vector<double> xs = values(map, &Cell::x);
   const std::vector<double> ys = values(map, &Cell::y);
-  const synth::ScratchFolder folder;
-  const std::filesystem::path script = folder.path() / "map.gp";
-  const std::filesystem::path data = folder.path() / "map.dat";
-  std::ofstream points(data);
   const auto index = [](const std::vector<double>& all, double value) {
     return std::find(all.begin(), all.end(), value) - all.begin();
   };
-  for (const Cell& c : map.cells) {
-    points << index(xs, c.x) << ' ' << index(ys, c.y) << ' '
-           << static_cast<int>(grade_of(c.verdict)) << '\n';
-  }
-  points.close();
-  std::ofstream out(script);
-  out << kSetup << "set output \"" << std::filesystem::absolute(file).string() << "\"\n"
+  bench::Plot plot(file, 900, 600);
+  std::ostream& out = plot.script();
+  out << "set palette maxcolors 4 defined (0 \"#009e73\", 1 \"#f0e442\", 2 \"#e69f00\", 3 "
+         "\"#d55e00\")\nset cbrange [-0.5:3.5]\n"
+         "set cbtics (\"sound\" 0, \"rough\" 1, \"again\" 2, \"given up\" 3)\n"
       << "set title \"" << map.title << "\"\nset xlabel \"" << map.x_label << "\"\nset ylabel \""
       << map.y_label << "\"\nset xtics " << tics(xs) << "\nset ytics " << tics(ys)
       << "\nset xrange [-0.5:" << static_cast<double>(xs.size()) - 0.5
-      << "]\nset yrange [-0.5:" << static_cast<double>(ys.size()) - 0.5 << "]\nplot \""
-      << data.string() << "\" with image notitle\n";
-  out.close();
-  if (!points || !out) throw std::runtime_error("cannot write " + script.string());
-  synth::run_gnuplot(script);
+      << "]\nset yrange [-0.5:" << static_cast<double>(ys.size()) - 0.5 << "]\n$map << EOD\n";
+  for (const Cell& c : map.cells) {
+    out << index(xs, c.x) << ' ' << index(ys, c.y) << ' ' << static_cast<int>(grade_of(c.verdict))
+        << '\n';
+  }
+  out << "EOD\nplot $map with image notitle\n";
+  plot.draw();
 }
 
 const Trial& named(const std::vector<Trial>& all, const std::string& name) {
@@ -192,7 +165,16 @@ const char* name_of(sim::PressureKind solver) noexcept {
 
 void draw_maps(sim::Device& device, const std::filesystem::path& out) {
   const auto leave = [&](const Map& map) {
-    write(map, out / ("map-" + map.name + ".csv"));
+    bench::Table table({map.x_label, map.y_label, "grade", "fastest", "mean_excess", "max_excess",
+                        "retried", "calmed", "resets"},
+                       out / ("map-" + map.name + ".csv"));
+    for (const Cell& c : map.cells) {
+      const Verdict& v = c.verdict;
+      table.add({bench::number(c.x), bench::number(c.y),
+                 std::to_string(static_cast<int>(grade_of(v))), bench::number(v.fastest),
+                 bench::number(v.mean_excess), bench::number(v.max_excess),
+                 std::to_string(v.retried), std::to_string(v.calmed), std::to_string(v.resets)});
+    }
     draw(map, out / ("map-" + map.name + ".png"));
     std::printf("map: %s\n", (out / ("map-" + map.name + ".png")).c_str());
   };

@@ -7,18 +7,12 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "synth-server/figure/gnuplot.hpp"
-#include "tests/validation/picture.hpp"
+#include "tests/bench/plot.hpp"
+#include "tests/bench/tables.hpp"
 
 namespace splash::validation {
 
 namespace {
-
-std::string text(double value) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.3g", value);
-  return digits;
-}
 
 std::string resolution(const Result& result) {
   char digits[64];
@@ -29,56 +23,78 @@ std::string resolution(const Result& result) {
 
 std::string gate(const Figure& figure) {
   if (!figure.has_gate()) return "";
-  if (figure.lowest == 0.0) return "<= " + text(figure.highest);
-  if (figure.lowest == -figure.highest) return "+-" + text(figure.highest);
-  return text(figure.lowest) + " .. " + text(figure.highest);
+  if (figure.lowest == 0.0) return "<= " + bench::number(figure.highest);
+  if (figure.lowest == -figure.highest) return "+-" + bench::number(figure.highest);
+  return bench::number(figure.lowest) + " .. " + bench::number(figure.highest);
 }
 
-/// The results of one case, in their order.
-std::vector<const Result*> of_case(const std::vector<Result>& results, const Case& item) {
-  std::vector<const Result*> mine;
-  for (const Result& result : results) {
-    if (result.item == &item) mine.push_back(&result);
-  }
-  return mine;
-}
-
-void write_table(std::ostream& out, const std::vector<const Result*>& results) {
+std::string table(const std::vector<const Result*>& results) {
   const Case& item = *results.front()->item;
-  out << "## " << item.name << ": " << item.title << "\n\n| figure | unit | wanted |";
-  for (const Result* result : results) out << ' ' << resolution(*result) << " |";
-  out << "\n| --- | --- | --- |";
-  for (std::size_t k = 0; k < results.size(); ++k) out << " --- |";
+  bench::Row head = {"figure", "unit", "wanted"};
+  for (const Result* result : results) head.push_back(resolution(*result));
+  std::vector<bench::Row> rows = {head};
   for (std::size_t k = 0; k < results.front()->outcome.figures.size(); ++k) {
     const Figure& first = results.front()->outcome.figures[k];
-    out << "\n| " << first.name << " | " << first.unit << " | " << gate(first) << " |";
+    bench::Row row = {first.name, first.unit, gate(first)};
     for (const Result* result : results) {
       const Figure& figure = result->outcome.figures[k];
-      const bool missed = figure.has_gate() && !figure.passes();
-      out << ' ' << (missed ? "**" : "") << text(figure.value) << (missed ? "**" : "") << " |";
+      const std::string mark = figure.has_gate() && !figure.passes() ? "**" : "";
+      row.push_back(mark + bench::number(figure.value) + mark);
     }
+    rows.push_back(row);
   }
-  const auto row = [&](const std::string& name, const std::string& unit, auto value) {
-    out << "\n| " << name << " | " << unit << " | |";
-    for (const Result* result : results) out << ' ' << text(value(*result)) << " |";
+  const auto add = [&](const std::string& name, const std::string& unit, auto value) {
+    bench::Row row = {name, unit, ""};
+    for (const Result* result : results) row.push_back(bench::number(value(*result)));
+    rows.push_back(row);
   };
-  row("particles, thousands", "1", [](const Result& r) { return 1e-3 * r.particles; });
-  row("simulated", "s", [](const Result& r) { return r.simulated; });
-  row("run time, settling and gauges included", "s", [](const Result& r) { return r.all.wall; });
-  row("processor time of it", "s", [](const Result& r) { return r.all.processor; });
-  out << "\n\n";
+  add("particles, thousands", "1", [](const Result& r) { return 1e-3 * r.particles; });
+  add("simulated", "s", [](const Result& r) { return r.simulated; });
+  add("run time", "s", [](const Result& r) { return r.all.wall; });
+  add("processor time", "s", [](const Result& r) { return r.all.processor; });
+  return "### " + item.name + ": " + item.title + "\n\n" + bench::markdown(rows) + "\n";
 }
 
+/// The results that there are, case by case.
+std::vector<std::vector<const Result*>> by_case(const std::vector<Result>& results) {
+  std::vector<std::vector<const Result*>> cases;
+  for (const Result& result : results) {
+    if (cases.empty() || cases.back().front()->item != result.item) cases.emplace_back();
+    cases.back().push_back(&result);
+  }
+  return cases;
+}
+
+/// What was measured or is known, and the runs at each resolution.
 void draw_case(const std::filesystem::path& folder, const std::vector<const Result*>& results) {
-  std::vector<Curve> curves;
+  const Case& item = *results.front()->item;
+  bench::Plot plot(folder / (item.name + ".png"), 1000, 640);
+  plot.script() << "set key at screen 0.5, 0.02 bottom center horizontal maxrows 2 noenhanced \\\n"
+                << "  textcolor rgb ink samplen 2\nset bmargin 7\n"
+                << "set title \"" << item.title << "\" noenhanced textcolor rgb ink\n"
+                << "set xlabel \"" << item.x_label << "\" noenhanced textcolor rgb ink\n"
+                << "set ylabel \"" << item.y_label << "\" noenhanced textcolor rgb ink\n";
+  std::string curves;
+  std::size_t number = 0;
+  const auto add = [&](const Curve& curve, const std::string& title, const std::string& style) {
+    curves += (curves.empty() ? "" : ", ") + plot.data(curve.x, curve.y) + " with " + style +
+              " title \"" + title + '"';
+  };
   for (const Result* result : results) {
-    for (Curve curve : result->outcome.curves) {
-      curve.title += resolution(*result);
-      curves.push_back(std::move(curve));
+    for (const Curve& curve : result->outcome.curves) {
+      add(curve, curve.title + resolution(*result),
+          std::string("lines linewidth 1.6 linecolor rgb \"") + bench::colour(number++) + '"');
     }
   }
-  const Case& item = *results.front()->item;
-  draw(folder / (item.name + ".png"), item, curves);
+  for (const Curve& curve : item.reference()) {
+    // Few points are a line or marks as measured; many are a line.
+    const bool marks = curve.x.size() > 2 && curve.x.size() < 60;
+    add(curve, curve.title,
+        marks ? "points pointtype 7 pointsize 0.8 linecolor rgb \"#000000\""
+              : "lines dashtype 2 linecolor rgb \"#000000\"");
+  }
+  plot.script() << "plot " << curves << '\n';
+  plot.draw();
 }
 
 void write_figures(const std::filesystem::path& path, const std::vector<Result>& results) {
@@ -122,11 +138,18 @@ Result run_case(sim::Device& device, const Case& item, const Setting& setting,
     result.mean_density_error = run.totals.mean_excess_sum /
                                 static_cast<double>(std::max<std::int64_t>(run.totals.frames, 1));
     if (!series_folder.empty()) {
-      run.gauges.write(series_folder / (scene + "-" + text(1e3 * setting.spacing) + "mm.csv"));
+      run.gauges.write(series_folder /
+                       (scene + "-" + bench::number(1e3 * setting.spacing) + "mm.csv"));
     }
   }
   result.outcome = item.evaluate(runs);
   return result;
+}
+
+std::string tables(const std::vector<Result>& results) {
+  std::string text;
+  for (const auto& mine : by_case(results)) text += table(mine);
+  return text;
 }
 
 void write_report(const std::filesystem::path& folder, const std::string& device,
@@ -135,13 +158,12 @@ void write_report(const std::filesystem::path& folder, const std::string& device
   out << "# Validation\n\nDevice: " << device
       << ". Bold: outside the range that is wanted. dp is the particle spacing; no parameter but "
          "it differs from the shipped defaults.\n\n";
-  for (const Case& item : all_cases()) {
-    const auto mine = of_case(results, item);
-    if (mine.empty()) continue;
-    write_table(out, mine);
+  for (const auto& mine : by_case(results)) {
+    out << table(mine);
+    const std::string& name = mine.front()->item->name;
     try {
       draw_case(folder, mine);
-      out << "![" << item.name << "](" << item.name << ".png)\n\n";
+      out << "![" << name << "](" << name << ".png)\n\n";
     } catch (const synth::GnuplotError& error) {
       out << "No picture: " << error.what() << ".\n\n";
     }

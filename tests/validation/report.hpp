@@ -29,6 +29,9 @@ struct Result {
                               const std::filesystem::path& series_folder,
                               const std::function<void(double)>& progress = {});
 
+/// What each case gave, at all resolutions, and its run time: Markdown.
+[[nodiscard]] std::string tables(const std::vector<Result>& results);
+
 /// Writes report.md, figures.csv and a picture per case into `folder`. Throws std::runtime_error.
 void write_report(const std::filesystem::path& folder, const std::string& device,
                   const std::vector<Result>& results);

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/report.hpp"
+
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/support/source_folder.hpp"
+
+namespace splash::bench {
+namespace {
+
+std::string first_line(const std::string& command) {
+  std::array<char, 256> line{};
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  if (!pipe || std::fgets(line.data(), line.size(), pipe.get()) == nullptr) return {};
+  std::string text = line.data();
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
+}
+
+std::string commit() {
+  const std::string told =
+      first_line("git -C '" + tests::source_folder().string() + "' describe --always --dirty 2>&1");
+  return told.empty() || told.starts_with("fatal") ? "of no known commit" : "commit " + told;
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d", std::gmtime(&now));
+  return text.data();
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown processor";
+}
+
+/// Programs that ran or waited, on average over the last minute.
+std::string load() {
+  double mean = 0.0;
+  std::ifstream("/proc/loadavg") >> mean;
+  return number(mean, 2);
+}
+
+std::string read(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+Bench::Bench(std::string name, std::string doc, std::string title, const std::string& what)
+    : name_(std::move(name)),
+      doc_(std::move(doc)),
+      title_(std::move(title)),
+      out_(tests::source_folder() / "out" / name_),
+      app_(what, "bench-" + name_) {
+  app_.add_option("--out", out_, "Folder for tables and pictures")->capture_default_str();
+  app_.add_flag("--write-docs", to_docs_, "Writes its section of docs/" + doc_ + ", too");
+}
+
+int Bench::run(int argc, char** argv, const std::function<bool()>& measure) {
+  CLI11_PARSE(app_, argc, argv);
+  command_ = "./splash bench " + name_;
+  for (int k = 1; k < argc; ++k) command_ += std::string(k == 1 ? " -- " : " ") + argv[k];
+  try {
+    std::filesystem::create_directories(out_);
+    const std::string begun = load();
+    const bool right = measure();
+    if (to_docs_) write_docs(begun);
+    return right ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "bench-" << name_ << ": " << error.what() << '\n';
+    return 70;
+  }
+}
+
+void Bench::set_device(const std::string& description) {
+  device_ = description;
+  std::printf("device: %s\n", device_.c_str());
+}
+
+Table Bench::table(const std::string& file, Row head) const {
+  return Table(std::move(head), out_ / file);
+}
+
+void Bench::write_docs(const std::string& begun) const {
+  const std::filesystem::path path = tests::source_folder() / "docs" / doc_;
+  std::string section = "## " + title_ + "\n\n`" + command_ + "`, " + today() + ", " + commit() +
+                        ", " + processor() + " (" +
+                        std::to_string(std::thread::hardware_concurrency()) + " cores)";
+  if (!device_.empty()) section += ", " + device_;
+  section += "; load " + begun + " before, " + load() + " after.\n\n" + section_.str();
+  const std::string updated = with_section(read(path), name_, section);
+  std::ofstream file(path);
+  file << updated;
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+  std::printf("written: %s\n", path.c_str());
+}
+
+}  // namespace splash::bench
