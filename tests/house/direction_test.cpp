@@ -58,70 +58,9 @@ TEST(Direction, ServersNeverKnowEachOther) {
                           HasSubstr("may not know sim-server/scene/scene.hpp")));
 }
 
-TEST(Direction, ProtocolKnowsProgramAlone) {
-  EXPECT_THAT(complaint("protocol", "program/write_error.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("program", "protocol/limits.hpp"), HasSubstr("may not know"));
-  EXPECT_THAT(complaint("protocol", "sim-server/scene/scene.hpp"), HasSubstr("may not know"));
-  EXPECT_THAT(complaint("protocol", "protocol/event.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("protocol", "oscpack/osc/OscTypes.h"), HasSubstr("may not use"));
-}
-
-TEST(Direction, RenderingKnowsEventsVoicesAndOutputOnly) {
-  EXPECT_THAT(complaint("synth-server/render", "protocol/event.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("synth-server/render", "synth-server/voices/bubble_tone.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("synth-server/render", "protocol/udp_socket.hpp"),
-              HasSubstr("may not know"));
-  EXPECT_THAT(complaint("synth-server/render", "protocol/event_log.hpp"),
-              HasSubstr("may not know"));
-  EXPECT_THAT(complaint("synth-server/replay", "protocol/event_log.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("synth-server/render", "synth-server/audio/rtaudio_device.hpp"),
-              HasSubstr("may not know"));
-  EXPECT_THAT(complaint("synth-server/voices", "mutex"), HasSubstr("audio callback"));
-  EXPECT_THAT(complaint("synth-server/voices", "sys/socket.h"), HasSubstr("audio callback"));
-  EXPECT_THAT(complaint("synth-server/audio", "mutex"), IsEmpty());
-}
-
-TEST(Direction, FluidDoesNotKnowWhatIsFoundInIt) {
-  EXPECT_THAT(complaint("sim-server/detect", "sim-server/fluid/fluid.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("sim-server/fluid", "sim-server/detect/bubbles.hpp"),
-              HasSubstr("may not know"));
-  EXPECT_THAT(complaint("sim-server/bodies", "sim-server/fluid/params/smoothing.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("sim-server/bodies", "sim-server/fluid/fluid.hpp"),
-              HasSubstr("may not know"));
-  EXPECT_THAT(complaint("sim-server/send", "sim-server/fluid/fluid.hpp"),
-              HasSubstr("may not know"));
-}
-
-TEST(Direction, StagesKnowThoseBeforeThem) {
-  EXPECT_THAT(complaint("sim-server/fluid/boundary", "sim-server/fluid/neighbours/near.h"),
-              IsEmpty());
-  EXPECT_THAT(complaint("sim-server/fluid/neighbours", "sim-server/fluid/boundary/walls.h"),
-              HasSubstr("may not know"));
-  EXPECT_THAT(complaint("sim-server/detect", "sim-server/fluid/boundary/walls.h"), IsEmpty());
-}
-
-TEST(Direction, TheAudioThreadKnowsNoSocket) {
-  EXPECT_THAT(complaint("synth-server/play", "protocol/event.hpp"), IsEmpty());
-  EXPECT_THAT(complaint("synth-server/play", "protocol/udp_socket.hpp"), HasSubstr("may not know"));
-  EXPECT_THAT(complaint("synth-server/play", "synth-server/receive/intake.hpp"),
-              HasSubstr("may not know"));
-  EXPECT_THAT(complaint("synth-server/receive", "synth-server/play/command_queue.hpp"), IsEmpty());
-}
-
 TEST(Direction, FolderWithoutRowIsRefused) {
   EXPECT_THAT(complaint("sim-server/attic", "vector"), HasSubstr("has no row"));
   EXPECT_THAT(complaint("sim-server/fluid/attic", "vector"), HasSubstr("has no row"));
-}
-
-TEST(Direction, ReadsLinksOfEveryKindOfCall) {
-  const SourceFile fluid{"sim-server/fluid/CMakeLists.txt",
-                         {"splash_library(sim_fluid SOURCES a.cpp", "  LINK sim_device m)"}};
-  const SourceFile device{"sim-server/device/CMakeLists.txt",
-                          {"splash_library(sim_device SOURCES b.cpp)", "# LINK sim_fluid",
-                           "target_link_libraries(sim_device PRIVATE sim_fluid)"}};
-  EXPECT_THAT(targets_of({fluid, device}).at("sim_fluid").links, ElementsAre("sim_device", "m"));
-  EXPECT_THAT(link_complaints({fluid, device}),
-              ElementsAre("sim_device: sim-server/device may not link sim-server/fluid"));
 }
 
 }  // namespace
