@@ -110,7 +110,7 @@ LOG
   EXPECT_EQ(sound.exit_code, 0) << sound.output;
   EXPECT_THAT(sound.output, AllOf(HasSubstr("skipped: room/Some.Case: no such thing here\n"),
                                   HasSubstr("skipped: other_test: it replaces malloc\n"),
-                                  HasSubstr("\n0 reports of sanitizers\n2 tests run, 0 failed")));
+                                  HasSubstr("\n0 reports of sanitizers\n4 tests run, 0 failed")));
   write_program("build/faulty", "");
   const CommandResult faulty = launch("test --preset tsan");
   EXPECT_EQ(faulty.exit_code, 1);
