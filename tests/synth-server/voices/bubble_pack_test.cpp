@@ -6,16 +6,38 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
 #include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/pack_kernels.hpp"
 #include "synth-server/voices/paper_bubble.hpp"
-#include "tests/synth-server/voices/packs.hpp"
 
 namespace splash::synth {
 namespace {
+
+/// A pack and its samples.
+class PackPlayer {
+ public:
+  explicit PackPlayer(const PackKernels& kernels) : kernels_(kernels) {}
+
+  void seat(std::size_t lane, const BubbleTone& tone, double rate, int ahead) {
+    set_lane(pack_, lane, tone, rate, ahead);
+  }
+  void render(int from, int to) {
+    kernels_.turn(pack_, from, to, &rows_[static_cast<std::size_t>(from) * kPackVoices]);
+  }
+  [[nodiscard]] double at(std::size_t lane, int n) const {
+    return rows_[static_cast<std::size_t>(n) * kPackVoices + lane];
+  }
+
+ private:
+  PackKernels kernels_;
+  BubblePack pack_{};
+  alignas(64) std::array<double, kRows> rows_{};
+};
 
 constexpr double kEpsilon = 0.05;
 constexpr ToneSound kIntegrated{.rise = kIntegratedRise};
