@@ -15,7 +15,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim-server/device/cache_leftovers.hpp"
 #include "sim-server/device/cache_seal.hpp"
 
 namespace splash::sim {

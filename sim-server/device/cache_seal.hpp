@@ -4,7 +4,10 @@
 // next start holds it.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <string_view>
+#include <vector>
 
 namespace splash::sim {
 
@@ -39,5 +42,26 @@ class CacheSeal {
   std::filesystem::path mark_;  ///< of work going on; left behind by who dies, and in doubt
   bool in_doubt_ = false;
 };
+
+// How PoCL lays out its cache: two capital letters / the rest of the source's hash / program.bc,
+// kernels/.../*.so.
+
+/// A file of each program that PoCL touches at every start that asks for it.
+constexpr std::string_view kLastAccessed = "last_accessed";
+/// How the names of drafts begin: PoCL leaves one, empty, at every start.
+constexpr std::string_view kDraft = "tempfile_";
+
+/// The folders of compiled programs, relative to PoCL's cache `folder`.
+[[nodiscard]] std::vector<std::filesystem::path> programs_in(const std::filesystem::path& folder);
+
+// PoCL never takes anything out of its cache, and each start leaves an empty draft behind.
+
+/// Programs that no start asked for in so long are removed. They are of versions and scenes of
+/// then; if one comes back after all, it is compiled in some seconds.
+constexpr std::chrono::days kProgramKept{30};
+
+/// Removes from `folder` the drafts that PoCL left and the programs that nobody used in
+/// `kProgramKept`. Nobody else may be using the folder. Returns how many programs were removed.
+int remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace splash::sim
