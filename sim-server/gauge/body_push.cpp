@@ -8,7 +8,6 @@
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
-
 namespace {
 
 /// On the body's point by particle i, r [m] away [N].
@@ -73,6 +72,17 @@ void PlacedBody::each_push(
       }
     }
   }
+}
+
+BodyForce body_force(const WaterState& water, std::span<const BodyPoint> points, int owner,
+                     const BodyState& state) {
+  BodyForce total;
+  PlacedBody(water, points, owner, state)
+      .each_push(water, [&](std::size_t i, const PlacedPoint&, const Vector3& force) {
+        total.force = total.force + force;
+        total.torque = total.torque + cross(water.position[i] - state.position, force);
+      });
+  return total;
 }
 
 }  // namespace splash::sim

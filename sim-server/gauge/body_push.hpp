@@ -4,7 +4,7 @@
 // particle's place. R and its gradient: fluid/boundary/body_image.h; of a particle between two
 // bodies each gets the part of its own points.
 //   f_ib = m rho0 V_b (p_i / rho_i^2 (R_i grad W_ib + W_ib grad R_i) - pi_ib grad W_ib)
-//   pi_ib = (10 nu v.x + alpha c0 h min(v.x, 0)) / (rho0 (r^2 + 0.01 h^2)), h = H / 2
+//   pi_ib = (10 nu v.x + alpha c0 h min(v.x, 0)) / (rho0 (r^2 + 0.01 h^2)), h = 0.4 H
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim-server/bodies/body_points.hpp"
+#include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/bodies/motion/motion.hpp"
 #include "sim-server/gauge/water_state.hpp"
 
@@ -49,5 +50,10 @@ class PlacedBody {
   Cell first_ = {};
   Cell last_ = {};
 };
+
+/// The force of the water on a body: the sum of what it does to the body's points. `water` has
+/// pressures; `points`: of all bodies, those of `owner` count; `state`: that body's.
+[[nodiscard]] BodyForce body_force(const WaterState& water, std::span<const BodyPoint> points,
+                                   int owner, const BodyState& state);
 
 }  // namespace splash::sim

@@ -11,7 +11,7 @@
 
 #include "sim-server/bodies/skin.hpp"
 #include "sim-server/device/device.hpp"
-#include "sim-server/gauge/body_force.hpp"
+#include "sim-server/gauge/body_push.hpp"
 #include "sim-server/gauge/film_force.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The force on a body: of one pair by hand, and the weight of the water it displaces.
-#include "sim-server/gauge/body_force.hpp"
+#include "sim-server/gauge/body_push.hpp"
 
 #include <gtest/gtest.h>
 

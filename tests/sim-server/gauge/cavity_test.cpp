@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hollows of known volume: closed, open through a chimney, with a body in them.
-#include "sim-server/gauge/cavity.hpp"
+#include "sim-server/gauge/sensors.hpp"
 
 #include <gtest/gtest.h>
 

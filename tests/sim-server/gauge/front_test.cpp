@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fronts of columns whose edge is known.
-#include "sim-server/gauge/front.hpp"
+#include "sim-server/gauge/sensors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Water heights of lattices whose height is known, in the open, at walls and in corners.
-#include "sim-server/gauge/height.hpp"
+#include "sim-server/gauge/sensors.hpp"
 
 #include <gtest/gtest.h>
 

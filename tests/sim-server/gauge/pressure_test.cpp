@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pressures read out of fields that are known.
-#include "sim-server/gauge/pressure.hpp"
+#include "sim-server/gauge/sensors.hpp"
 
 #include <gtest/gtest.h>
 

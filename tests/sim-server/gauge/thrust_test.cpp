@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim-server/device/device.hpp"
-#include "sim-server/gauge/body_force.hpp"
+#include "sim-server/gauge/body_push.hpp"
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"

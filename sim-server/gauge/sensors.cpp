@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/gauge/height.hpp"
+#include "sim-server/gauge/sensors.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "sim-server/fluid/air/air_cells.hpp"
 #include "sim-server/fluid/params/smoothing.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
-
 namespace {
 
 /// Steps per particle spacing; the crossing between two is found by a straight line.
@@ -66,6 +68,57 @@ Height water_height(std::span<const Vector3> points, const WaterState& water, do
     c = next;
   }
   return height;
+}
+
+double front_position(const WaterState& water, std::size_t axis, double sign, double width) {
+  std::vector<double> ahead;  // sign * coordinate, the farthest first
+  ahead.reserve(water.position.size());
+  for (const Vector3& x : water.position) ahead.push_back(sign * x[axis]);
+  std::sort(ahead.begin(), ahead.end(), std::greater<>());
+  const auto wanted =
+      static_cast<std::size_t>(std::max(std::ceil(0.5 * width / water.spacing), 1.0));
+  for (std::size_t first = 0; first + wanted <= ahead.size(); ++first) {
+    if (ahead[first] - ahead[first + wanted - 1] > water.spacing) continue;
+    return sign * (ahead[first] + water.spacing / 2.0);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+namespace {
+
+/// Colour below which a point counts as dry. On a flat surface it is 0.5, at a wall as much.
+constexpr double kDry = 0.1;
+
+}  // namespace
+
+double pressure_at(const WaterState& water, const Vector3& place) {
+  double weight = 0.0;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < water.position.size(); ++j) {
+    const Vector3 from = place - water.position[j];
+    const double r2 = dot(from, from);
+    if (r2 >= water.support * water.support) continue;
+    const double w = kernel_value(std::sqrt(r2), water.support);
+    weight += w;
+    sum +=
+        w * (water.pressure[j] + water.rest_density * dot(water.field_at(water.position[j]), from));
+  }
+  if (water.volume() * weight < kDry) return 0.0;
+  return std::max(sum / weight, 0.0);
+}
+
+Cavity find_cavity(std::span<const Vector3> points, const WaterState& water, const Vector3& lower,
+                   const Vector3& upper, const std::function<bool(const Vector3&)>& solid) {
+  AirCells cells(lower, upper, water.spacing, water.support);
+  for (const Vector3& point : points) cells.add(point, water.volume());
+  cells.fill(solid);
+  Cavity cavity;
+  cavity.open = cells.open();
+  for (const double pocket : cells.pockets()) {
+    cavity.enclosed += pocket;
+    cavity.pocket = std::max(cavity.pocket, pocket);
+  }
+  return cavity;
 }
 
 }  // namespace splash::sim
