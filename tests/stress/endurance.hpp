@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim-server/device/device.hpp"
+#include "sim-server/fluid/fluid.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::stress {
@@ -31,5 +32,27 @@ struct Endurance {
 /// is compared with that after the first tenth of a call.
 [[nodiscard]] int endure(sim::Device& device, const Endurance& wanted,
                          const std::filesystem::path& out);
+
+// What a long run has done so far, kept in a file, so that the next call goes on from there.
+
+struct Piece {
+  std::int64_t steps = 0;
+  double simulated = 0.0;   ///< [s]
+  double wall = 0.0;        ///< [s]
+  double growth = 0.0;      ///< of memory, in the piece where it grew most [MiB]
+  double hours = 0.0;       ///< that this piece took
+  std::int64_t opened = 0;  ///< file descriptors more at a piece's end than after its first tenth
+  std::int64_t lost = 0;    ///< particles
+  std::int64_t again = 0;   ///< frames computed again
+  std::int64_t given_up = 0;
+  std::int64_t resets = 0;
+  std::int64_t events = 0;
+  sim::Snapshot water;
+};
+
+/// False if there is none.
+[[nodiscard]] bool read_piece(const std::filesystem::path& file, Piece& piece);
+/// Whole or not at all.
+void write_piece(const std::filesystem::path& file, const Piece& piece);
 
 }  // namespace splash::stress

@@ -62,4 +62,17 @@ struct Verdict {
 [[nodiscard]] Verdict run_trial(sim::Device& device, const Trial& trial, const Settings& settings,
                                 double seconds = 0.0);
 
+// Where the particles are: all of them in the tank, none in a body, as high in the mean as they
+// were.
+
+/// Every particle is there once, has finite numbers and is not behind a wall of the tank.
+[[nodiscard]] bool nobody_lost(sim::Simulation& simulation);
+
+/// How deep below a body's surface the deepest particle is, with the bodies where they are now [m];
+/// 0: none is in any.
+[[nodiscard]] double deepest_inside(sim::Simulation& simulation);
+
+/// Of all particles [m].
+[[nodiscard]] double mean_height(sim::Simulation& simulation);
+
 }  // namespace splash::stress
