@@ -45,10 +45,10 @@ double excess_draught(const Shape& shape, const Quaternion& turn) {
   Simulation simulation(device, scene, {});
   double height = 0.0;
   int count = 0;
-  while (simulation.seconds() < 4.0) {
+  while (simulation.seconds() < 2.5) {
     const FrameResult frame = simulation.advance();
     EXPECT_FALSE(frame.step_fault) << describe(*frame.step_fault);
-    if (simulation.seconds() < 3.0) continue;
+    if (simulation.seconds() < 1.5) continue;
     height += simulation.bodies().state(0, simulation.seconds()).position[2];
     ++count;
   }

@@ -28,7 +28,7 @@ TEST(SlowDevice, StepsStretchThenTimeRunsSlowerAndNoBacklogGrows) {
   });
   Options options;
   options.listen = protocol::parse_endpoint("127.0.0.1:0", 0);
-  options.duration = 1.5;
+  options.duration = 0.7;
   testing::internal::CaptureStderr();
   Server server(options, simulation, "slow");
   server.run([] { return false; });
