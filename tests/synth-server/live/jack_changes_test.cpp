@@ -61,17 +61,13 @@ TEST(JackChanges, OfThePeriodAreFollowed) {
   const JackServer server(server_name("period"), 4, kPeriod);
   tests::Synth synth(arguments());
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("blocks of 512"));
-  for (const int period : {1024, 256}) {
-    JackServer::set_period(period);
-    ASSERT_TRUE(synth.process().wait_for_text(
-        "plays, blocks of " + std::to_string(period) + " at 48000 Hz", kTimeout))
-        << synth.process().output();
-    ASSERT_TRUE(synth.process().running());
-  }
+  JackServer::set_period(1024);  // more than it had: what was made for 512 is too small
+  ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of 1024 at 48000 Hz", kTimeout))
+      << synth.process().output();
   expect_both_shoes(synth);
   synth.process().signal(SIGTERM);
   EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
-  EXPECT_THAT(synth.process().output(), testing::HasSubstr("2 device losses"));
+  EXPECT_THAT(synth.process().output(), testing::HasSubstr("1 device losses"));
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("not played: 0 too late"));
 }
 
