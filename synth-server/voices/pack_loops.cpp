@@ -101,7 +101,8 @@ template <int kPacks>
     for (int k = 0; k < kPacks; ++k) {
       const double* const from_lane = packs.feeds[first + k]->gains + lane;
       for (int part = 0; part < kParts; ++part) {
-        gains[k][part] = *reinterpret_cast<const Vector*>(&from_lane[part * kSumLanes]);
+        gains[k][part] =
+            *reinterpret_cast<const Vector*>(&from_lane[std::ptrdiff_t{part} * kSumLanes]);
       }
     }
 #pragma GCC unroll kSamplesAtOnce
@@ -162,7 +163,7 @@ template <int... I>
   }
   for (int width = 1; width < kLanes; width *= 2) {
     Vector shuffled[kLanes];
-    for (int i = 0; i < kLanes / 2; ++i) {
+    for (std::ptrdiff_t i = 0; i < kLanes / 2; ++i) {
       interleave(rows[i], rows[i + kLanes / 2], shuffled[2 * i], shuffled[2 * i + 1],
                  std::make_integer_sequence<int, kLanes>{});
     }
