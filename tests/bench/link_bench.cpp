@@ -79,7 +79,12 @@ bool run(splash::bench::Bench& bench, std::uint32_t seeds) {
     }
   }
   add(table, "all", all);
-  bench.tell(table.text());
+  bench.tell(std::to_string(all.runs) + " runs: " + std::to_string(all.sent) + " bundles sent, " +
+             std::to_string(all.lost) + " lost, " + std::to_string(all.duplicates) + " doubled, " +
+             std::to_string(all.reordered) + " reordered; " + std::to_string(all.events) +
+             " events came, " + std::to_string(all.late) + " of them late and played at once, " +
+             std::to_string(all.too_late) + " too late and dropped. " + std::to_string(all.wrong) +
+             " rules were broken.");
   return all.wrong == 0;
 }
 

@@ -114,8 +114,8 @@ int run_injections(bench::Bench& bench, sim::Device& device, const Options& opti
                  bench::number(longest), finite ? "yes" : "NO"});
     }
   }
-  bench.tell("Faults put into the water: " + passed(failed, total));
-  bench.tell(table.text());
+  bench.tell("Faults put into the water, " + whole(injections().size()) + " kinds, " +
+             whole(options.places) + " places each, both solvers: " + passed(failed, total));
   return failed;
 }
 
