@@ -28,7 +28,8 @@ Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector
   params_.capacity = sorted_.stride;
   params_buffer_ = Buffer<FluidParams>(device_, std::span<const FluidParams>(&params_, 1));
   build_kernels(boundary, outlines);
-  solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_), parts_.bodies);
+  solver_ = make_pressure_solver(device_, params_, kernel_defines(parts_),
+                                 parts_.bodies || parts_.slope || parts_.piston);
 }
 
 void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodies) {
@@ -81,6 +82,7 @@ void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
 
 void Fluid::let_go(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin) {
   boundary_.let_go(device_, bodies);
+  solver_->let_go(device_, bodies.size());
   free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies, skin);
 }
 

@@ -109,6 +109,11 @@ class Fluid {
   [[nodiscard]] Snapshot snapshot();
   void restore(const Snapshot& snapshot);
 
+  /// What the last step's pressures did to each body (PressureSolver::press).
+  [[nodiscard]] std::vector<Press> press() {
+    return solver_->press(device_, static_cast<std::size_t>(boundary_.body_count()));
+  }
+
   /// For solvers: accelerations from the present pressure_term() and the given velocities.
   void compute_acceleration(const Step& step, const Buffer<float>& velocity);
   /// Moves the state on as the accelerations say.

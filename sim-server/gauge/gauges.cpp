@@ -66,6 +66,10 @@ std::vector<BodyState> states_at(double seconds, const Bodies& bodies) {
 BodyForce force_on(std::size_t body, double seconds, const Scene& scene, const WaterState& water,
                    const Bodies& bodies) {
   const std::vector<BodyState> states = states_at(seconds, bodies);
+  if (!water.press.empty()) {
+    const Press& press = water.press[body];
+    return {press.force, press.torque - cross(states[body].position, press.force)};
+  }
   const auto owner = static_cast<int>(body);
   const BodyForce pushes = body_force(water, bodies.points(), owner, states[body]);
   const auto skin = film_skin(scene.bodies[body].shape, owner, water.spacing);
@@ -143,6 +147,7 @@ std::vector<double> Gauges::read(double seconds, Fluid& fluid, const Bodies& bod
   WaterState water = read_water(fluid, true);
   if (!wall_push_) wall_push_.emplace(fluid);
   water.wall_push = wall_push_->read(fluid, now);
+  water.press = fluid.press();
   return read(seconds, water, bodies);
 }
 

@@ -36,8 +36,7 @@ Fields<F> method_fields() {
                    "divergence_free, the demand that nothing compresses (sim-server/fluid/README "
                    "says which suits what); grid_projected, the same demand, made of a grid, so "
                    "that waves and vortices last "
-                   "(sim-server/fluid/pressure/grid_projected/README): not with free bodies, a "
-                   "slope or a wave maker.",
+                   "(sim-server/fluid/pressure/grid_projected/README).",
         .choices = {"weakly_compressible", "divergence_free", "grid_projected"},
         .source = "Monaghan 2005; Bender & Koschier 2017; Raveendran, Wojtan & Turk 2011"},
        &F::solver_name},

@@ -320,7 +320,6 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   scene.fluid = read_fluid(fluid);
   check_resolution(fluid, scene);
   read_bodies(map, scene);
-  check_solver(fluid, scene);
   check_sound(fluid, scene);
   if (const auto gauges = map.optional_child("gauges")) {
     scene.gauges = read_gauges(*gauges, scene);

@@ -287,25 +287,6 @@ void check_sound(const ConfigMap& fluid, const Scene& scene) {
           "sixteenth denser. Twice as much is what a scene gets that leaves it out");
 }
 
-std::string solver_lacks(const Scene& scene) {
-  if (scene.fluid.solver != PressureKind::grid_projected) return {};
-  const std::string cannot = "grid_projected cannot do ";
-  const auto free = std::count_if(scene.bodies.begin(), scene.bodies.end(), is_free);
-  if (free > 0) {
-    return cannot + "bodies that the water moves yet, and this scene has " + std::to_string(free);
-  }
-  if (scene.slope.present) return cannot + "a slope yet, and this scene has one";
-  if (scene.wave_maker.present) return cannot + "a wave maker yet, and this scene has one";
-  return {};
-}
-
-void check_solver(const ConfigMap& fluid, const Scene& scene) {
-  const std::string lack = solver_lacks(scene);
-  if (lack.empty()) return;
-  throw fluid.error("solver", lack + "; take weakly_compressible or divergence_free, or leave " +
-                                  "that out of the scene");
-}
-
 void check_resolution(const ConfigMap& fluid, const Scene& scene) {
   if (fluid.has("spacing") == fluid.has("particles")) {
     throw fluid.error(fluid.has("spacing") ? "spacing" : "particles",

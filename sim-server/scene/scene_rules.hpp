@@ -38,10 +38,6 @@ void check_time_step(const program::ConfigMap& map, const FluidSettings& fluid);
 /// Sound that is given is fast enough for the scene's depth and for what falls and flows in it.
 /// `scene` has its bodies.
 void check_sound(const program::ConfigMap& fluid, const Scene& scene);
-/// What the scene has that its solver cannot do, as half a sentence; empty: nothing.
-[[nodiscard]] std::string solver_lacks(const Scene& scene);
-/// Nothing of that. `scene` has its bodies.
-void check_solver(const program::ConfigMap& fluid, const Scene& scene);
 /// Spacing or particles, one of them; a number of particles that can be simulated.
 void check_resolution(const program::ConfigMap& fluid, const Scene& scene);
 

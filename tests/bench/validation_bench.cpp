@@ -6,7 +6,6 @@
 #include <map>
 
 #include "protocol/time_tag.hpp"
-#include "sim-server/scene/scene_rules.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/validation/report.hpp"
 
@@ -59,16 +58,6 @@ std::string described(const Setting& setting) {
   return text;
 }
 
-/// What the solver cannot do that the case needs, or nothing.
-std::string lacking(const Case& item, sim::PressureKind solver) {
-  for (const std::string& name : item.scenes) {
-    sim::Scene scene = scene_named(name);
-    scene.fluid.solver = solver;
-    if (const std::string lack = sim::solver_lacks(scene); !lack.empty()) return lack;
-  }
-  return {};
-}
-
 void run(bench::Bench& bench, const Options& options) {
   std::vector<const Case*> wanted;
   for (const std::string& name : options.cases) wanted.push_back(&case_named(name));
@@ -80,10 +69,6 @@ void run(bench::Bench& bench, const Options& options) {
   bench.set_device(describe(device.facts()) + described(options.setting));
   std::vector<Result> results;
   for (const Case* item : wanted) {
-    if (const std::string lack = lacking(*item, options.setting.solver); !lack.empty()) {
-      std::printf("%-18s is left out: %s\n", item->name.c_str(), lack.c_str());
-      continue;
-    }
     const auto count =
         std::min(static_cast<std::size_t>(std::max(options.resolutions, 1)), item->spacings.size());
     for (std::size_t k = 0; k < count; ++k) {

@@ -82,17 +82,6 @@ kernel void weigh_water(constant FluidParams* p, int k, global const SolveState*
   }
 }
 
-// M, with spins as speeds at the body's lever.
-static void add_body(FreeBody f, BodyStep b, float* a) {
-  const float3 axes[3] = {(float3)(1.0f, 0.0f, 0.0f), (float3)(0.0f, 1.0f, 0.0f),
-                          (float3)(0.0f, 0.0f, 1.0f)};
-  for (int r = 0; r < 3; ++r) {
-    a[SIX_AT(r, r)] += f.mass;
-    const float3 column = inertia_times(f, b, axes[r]) / (f.size * f.size);
-    for (int c = 0; c <= r; ++c) a[SIX_AT(r + 3, c + 3)] += dot(column, axes[c]);
-  }
-}
-
 static void add_tug(Tug tug, float size, float* sum) {
   vstore3(vload3(0, sum) + tug.push, 0, sum);
   vstore3(vload3(1, sum) + tug.turn / size, 1, sum);
@@ -136,7 +125,7 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
   for (int e = 0; films && e < 6; ++e) {
     sum[e] += falling * film[6 * item + e] / (e < 3 ? 1.0f : f.size);
   }
-  add_body(f, b, sum + 6);
+  add_inertia(f, b, sum + 6);
   const bool tied = f.spring > 0.0f && falling > 0.0f;
   Tug tug = {(float3)(0.0f), (float3)(0.0f), 0.0f, 0.0f};
   if (tied) {

@@ -69,6 +69,9 @@ class FreeBodies {
   /// Once the queue is finished: one for each, after the last step.
   [[nodiscard]] std::vector<FreeBodyEnd> ends() const;
   [[nodiscard]] const std::vector<FreeBody>& bodies() const noexcept { return list_; }
+  [[nodiscard]] const Buffer<FreeBody>& on_device() const noexcept { return bodies_; }
+  /// What the water gave each in this step so far, its momentum and angular momentum.
+  [[nodiscard]] const Buffer<float>& felt() const noexcept { return felt_; }
   [[nodiscard]] Films& films() noexcept { return films_; }
 
  private:

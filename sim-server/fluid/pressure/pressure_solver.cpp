@@ -40,12 +40,12 @@ const Buffer<float>& PressureSolver::response(const Fluid& fluid) const {
 
 std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
                                                      const std::vector<std::string>& defines,
-                                                     bool bodies) {
+                                                     bool solids) {
   if (params.solver == SPLASH_DIVERGENCE_FREE) {
     return std::make_unique<DivergenceFree>(device, params, defines);
   }
   if (params.solver == SPLASH_GRID_PROJECTED) {
-    return std::make_unique<GridProjected>(device, params, defines, bodies);
+    return std::make_unique<GridProjected>(device, params, defines, solids);
   }
   return std::make_unique<WeaklyCompressible>();
 }

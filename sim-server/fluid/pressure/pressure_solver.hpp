@@ -13,6 +13,7 @@
 #include "sim-server/device/device.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/step.hpp"
+#include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
 
@@ -32,6 +33,12 @@ struct SolverWork {
   SolveWork density;
 };
 
+/// Of the water on a body; the torque about the world's origin.
+struct Press {
+  Vector3 force = {0.0, 0.0, 0.0};   ///< [N]
+  Vector3 torque = {0.0, 0.0, 0.0};  ///< [N m]
+};
+
 class PressureSolver {
  public:
   PressureSolver() = default;
@@ -39,6 +46,8 @@ class PressureSolver {
   PressureSolver& operator=(const PressureSolver&) = delete;
   virtual ~PressureSolver() = default;
 
+  /// From now on the water moves so many bodies.
+  virtual void let_go(Device& /*device*/, std::size_t /*count*/) {}
   /// After density: leaves in Fluid::pressure_term() what is known before the step is solved, or,
   /// where its length is 0, for whoever wants to read it.
   virtual void recall_pressure(Fluid& fluid, const Step& step) = 0;
@@ -52,6 +61,11 @@ class PressureSolver {
   /// Of each particle in the step that accelerate() was for: what a change of its density by a body
   /// answers to (free_bodies/body_reach.h); its density where a state equation makes the pressure.
   [[nodiscard]] virtual const Buffer<float>& response(const Fluid& fluid) const;
+  /// What the last step's pressures did to each of so many bodies, where they are not the
+  /// particles'; empty: they are. Waits.
+  [[nodiscard]] virtual std::vector<Press> press(Device& /*device*/, std::size_t /*bodies*/) {
+    return {};
+  }
 
   /// Enqueues the read of the work done; work() tells it once the queue is finished.
   virtual void enqueue_work(Device& device) = 0;
@@ -68,10 +82,10 @@ class PressureSolver {
   virtual void note_recalled(Device& /*device*/) {}
 };
 
-/// The one that `params` ask for, its kernels built with `defines`; `bodies`: the scene may have
-/// some.
+/// The one that `params` ask for, its kernels built with `defines`; `solids`: the scene may have
+/// bodies, a slope or a wave maker.
 [[nodiscard]] std::unique_ptr<PressureSolver> make_pressure_solver(
     Device& device, const FluidParams& params, const std::vector<std::string>& defines,
-    bool bodies);
+    bool solids);
 
 }  // namespace splash::sim

@@ -76,13 +76,17 @@ const Kernels kPairs = {"compute_acceleration", "integrate"};
 const Kernels kSolve = {
     "correct_pressure",       "push_by_pressure",    "measure_response", "recall_pressure",
     "begin_divergence_solve", "begin_density_solve", "end_solves",       "judge_solve"};
-const Kernels kGrid = {"cut_cells",      "fill_beside_bodies", "find_deviation", "gather_faces",
-                       "gather_again",   "move_particles",     "project_faces",  "sample_pressure",
-                       "solve_pressure", "find_spacing",       "push_faces",     "lay_system"};
+const Kernels kGrid = {"cut_cells",       "open_faces",     "fill_beside_solids", "find_deviation",
+                       "gather_faces",    "gather_again",   "move_particles",     "project_faces",
+                       "sample_pressure", "solve_pressure", "find_spacing",       "push_faces",
+                       "lay_system",      "let_fall",       "grip_water",         "push_bodies"};
 /// Of a scene with bodies that the water moves.
 const Kernels kFree = {"reach_bodies", "measure_rims",  "press_films", "sum_films",
                        "weigh_water",  "answer_bodies", "carry_water", "keep_out_of_free",
                        "move_bodies",  "sum_pushes"};
+/// Of one whose water needs no films: what is pushed is asked for, too.
+const Kernels kCarried = {"reach_bodies",     "weigh_water", "answer_bodies", "carry_water",
+                          "keep_out_of_free", "move_bodies", "sum_pushes"};
 const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_density",
                          "integrate",     "compute_acceleration", "touch_water",
                          "spawn_bubbles", "carry_bubbles",        "seed_cavities",
@@ -96,8 +100,8 @@ const std::vector<Watched> kWatched = {
      join({kRuns, kStep, kPairs})},
     {"divergence_free", "sim_fluid_two_steps 16 1 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kSolve})},
-    {"grid_projected", "sim_fluid_two_steps 16 2 0", "Oclgrind: 251 particles",
-     join({kRuns, kStep, kGrid})},
+    {"grid_projected", "sim_fluid_two_steps 16 2 1", "Oclgrind: 251 particles",
+     join({kRuns, kStep, kGrid, kCarried})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kFree})},
     {"scalar_free_bodies", "sim_fluid_two_steps 1 0 1", "Oclgrind: 251 particles",

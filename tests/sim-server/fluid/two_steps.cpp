@@ -2,8 +2,7 @@
 // Two steps, or more, of a small fluid with walls, slope, piston and bodies, a third of it in a
 // pinned particles, and two in which it may sleep: every kernel once, small enough for an OpenCL
 // interpreter. Arguments: particles per vector (1, 8 or 16), the solver (0: weakly compressible, 1:
-// divergence free, 2: grid projected, in a plain box), whether the water moves the bodies (1), and
-// how many steps.
+// divergence free, 2: grid projected), whether the water moves the bodies (1), and how many steps.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -36,11 +35,9 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
   water.particles = random_places(230, {0, 0, 0}, {0.4, 0.4, 0.14}, 51);
   for (int i = 0; i < 21; ++i) water.particles.push_back({0.2, 0.1 + 0.01 * i, 0.3});
   water.scene.fluid.solver = solver;
-  if (solver != PressureKind::grid_projected) {
-    water.scene.slope = {true, 0.2, 0.3};
-    water.scene.wave_maker = {true, 0.1, 2.0};
-    water.piston = {0.01, 0.2};
-  }
+  water.scene.slope = {true, 0.2, 0.3};
+  water.scene.wave_maker = {true, 0.1, 2.0};
+  water.piston = {0.01, 0.2};
   water.start(device);
   std::optional<BodyPushes> pushes;
   if (free) {

@@ -5,6 +5,7 @@
 
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 namespace {
@@ -46,7 +47,7 @@ double filter_rate(double spacing) {
 }
 
 GridProjected::GridProjected(Device& device, const FluidParams& params,
-                             const std::vector<std::string>& defines, bool bodies)
+                             const std::vector<std::string>& defines, bool solids)
     : grid_(lay_mac_grid(params)),
       part_(static_cast<double>(params.way) / kGridWay),
       particles_(static_cast<std::size_t>(params.count)),
@@ -64,10 +65,16 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
       pressure_(device, room_),
       wet_(device, room_),
       most_(device, 1),
-      bodies_(bodies),
-      gap_(device, bodies ? 3 * room_ : 1),
-      space_(device, bodies ? room_ : 1),
-      owner_(device, bodies ? room_ : 1),
+      solids_(solids),
+      gap_(device, solids ? 3 * room_ : 1),
+      upper_(device, solids ? 3 * room_ : 1),
+      space_(device, solids ? room_ : 1),
+      owner_(device, solids ? room_ : 1),
+      seen_space_(device, solids ? room_ : 1),
+      filled_(device, solids ? room_ : 1),
+      no_body_(device, 1),
+      grip_(device, 1),
+      stopped_(device, 1),
       link_(device, 3 * room_),
       open_(device, room_),
       damped_(device, room_),
@@ -85,7 +92,11 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
   gather_again_ = Kernel(program, "gather_again");
   find_deviation_ = Kernel(program, "find_deviation", group);
   cut_cells_ = Kernel(program, "cut_cells", 16);
-  fill_beside_bodies_ = Kernel(program, "fill_beside_bodies");
+  open_faces_ = Kernel(program, "open_faces");
+  fill_beside_solids_ = Kernel(program, "fill_beside_solids");
+  let_fall_ = Kernel(program, "let_fall", 1);
+  grip_water_ = Kernel(program, "grip_water");
+  push_bodies_ = Kernel(program, "push_bodies", solvers(device));
   push_faces_ = Kernel(program, "push_faces");
   lay_system_ = Kernel(program, "lay_system");
   solve_pressure_ = Kernel(program, "solve_pressure", solvers(device));
@@ -93,6 +104,11 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
   find_spacing_ = Kernel(program, "find_spacing", group);
   move_particles_ = Kernel(program, "move_particles", group);
   sample_pressure_ = Kernel(program, "sample_pressure", group);
+}
+
+void GridProjected::let_go(Device& device, std::size_t count) {
+  grip_ = Buffer<float>(device, 6 * room_);
+  stopped_ = Buffer<float>(device, SPLASH_KEPT_FLOATS * count);
 }
 
 void GridProjected::recall_pressure(Fluid& fluid, const Step& step) {
@@ -117,7 +133,7 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
                       deviation_.memory());
   gather_again_.run(queue, strips_, params, grid_buffer_.memory(), cells, places,
                     deviation_.memory(), weight_.memory(), seen_.memory());
-  if (bodies_) place_bodies(fluid, step);
+  if (solids_) place_solids(fluid, step);
   solve(fluid, step);
   const double sound = kSpacingWay * static_cast<double>(fluid.params().support) / step.dt;
   const double slower = sound / static_cast<double>(fluid.params().sound_speed);
@@ -130,37 +146,75 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
                     fluid.acceleration().memory(), fluid.moving().memory());
 }
 
-void GridProjected::place_bodies(Fluid& fluid, const Step& step) {
+void GridProjected::place_solids(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
   const Boundary& boundary = fluid.boundary();
   cut_cells_.run(queue, cells_, params, grid_buffer_.memory(), boundary.shapes().memory(),
                  boundary.meshes().memory(), boundary.steps().memory(), step.first_body,
-                 boundary.body_count(), gap_.memory(), space_.memory(), owner_.memory());
-  fill_beside_bodies_.run(queue, cells_, params, grid_buffer_.memory(), boundary.steps().memory(),
-                          step.first_body, boundary.body_count(), space_.memory(), fill_.memory());
+                 boundary.body_count(), as_float(step.piston), gap_.memory(), upper_.memory(),
+                 space_.memory(), owner_.memory());
+  open_faces_.run(queue, cells_, params, grid_buffer_.memory(), owner_.memory(), upper_.memory(),
+                  space_.memory(), gap_.memory(), seen_space_.memory());
+  fill_beside_solids_.run(queue, cells_, grid_buffer_.memory(), gap_.memory(), space_.memory(),
+                          seen_space_.memory(), fill_.memory(), filled_.memory());
+}
+
+int GridProjected::free_count(Fluid& fluid) const {
+  const FreeBodies* bodies = fluid.free_bodies();
+  return bodies == nullptr ? 0 : static_cast<int>(bodies->bodies().size());
+}
+
+const Buffer<FreeBody>& GridProjected::frees(Fluid& fluid) const {
+  const FreeBodies* bodies = fluid.free_bodies();
+  return bodies == nullptr ? no_body_ : bodies->on_device();
+}
+
+void GridProjected::let_fall(Fluid& fluid, const Step& step) {
+  const int count = free_count(fluid);
+  let_fall_.run(fluid.device().queue(), static_cast<std::size_t>(count),
+                fluid.params_buffer().memory(), as_float(step.dt), count, frees(fluid).memory(),
+                fluid.boundary().steps().memory(), step.first_body, stopped_.memory());
+}
+
+void GridProjected::push_bodies(Fluid& fluid, const Step& step) {
+  push_bodies_.run_teams(fluid.device().queue(), 1, fluid.params_buffer().memory(),
+                         grid_buffer_.memory(), free_count(fluid), frees(fluid).memory(),
+                         fluid.boundary().steps().memory(), step.first_body, owner_.memory(),
+                         grip_.memory(), found_.memory(), stopped_.memory(),
+                         fluid.free_bodies()->felt().memory());
 }
 
 void GridProjected::solve(Fluid& fluid, const Step& step) {
   const float dt = as_float(step.dt);
   cl::CommandQueue& queue = fluid.device().queue();
   const cl::Buffer& params = fluid.params_buffer().memory();
+  const cl::Buffer& bodies = fluid.boundary().steps().memory();
   const auto room = static_cast<int>(room_);
+  const int free = free_count(fluid);
+  const cl::Buffer& fill = (solids_ ? filled_ : fill_).memory();
   push_faces_.run(queue, cells_, params, grid_buffer_.memory(), dt, mean_.memory(),
                   weight_.memory(), change_.memory());
   most_.enqueue_clear(fluid.device());
-  lay_system_.run(
-      queue, cells_, params, grid_buffer_.memory(), dt, fluid.boundary().steps().memory(),
-      step.first_body, gap_.memory(), space_.memory(), owner_.memory(), fill_.memory(),
-      change_.memory(), pressure_.memory(), room, link_.memory(), open_.memory(), x_.memory(),
-      b_.memory(), r_.memory(), found_.memory(), way_.memory(), wet_.memory(), most_.memory());
-  solve_pressure_.run_teams(queue, 1, grid_buffer_.memory(), kIterations, room, most_.memory(),
-                            link_.memory(), open_.memory(), damped_.memory(), x_.memory(),
-                            b_.memory(), r_.memory(), found_.memory(), way_.memory(),
-                            along_.memory(), state_.memory());
-  project_faces_.run(queue, cells_, params, grid_buffer_.memory(), dt, gap_.memory(),
-                     space_.memory(), fill_.memory(), mean_.memory(), weight_.memory(),
-                     found_.memory(), wet_.memory(), change_.memory(), pressure_.memory());
+  if (free > 0) let_fall(fluid, step);
+  lay_system_.run(queue, cells_, params, grid_buffer_.memory(), dt, bodies, step.first_body,
+                  as_float(step.piston_speed), gap_.memory(), owner_.memory(), fill,
+                  change_.memory(), pressure_.memory(), room, link_.memory(), open_.memory(),
+                  x_.memory(), b_.memory(), r_.memory(), found_.memory(), way_.memory(),
+                  wet_.memory(), most_.memory());
+  if (free > 0) {
+    grip_water_.run(queue, cells_, grid_buffer_.memory(), free, frees(fluid).memory(), bodies,
+                    step.first_body, gap_.memory(), owner_.memory(), wet_.memory(), grip_.memory());
+  }
+  solve_pressure_.run_teams(queue, 1, params, grid_buffer_.memory(), kIterations, room, free,
+                            frees(fluid).memory(), bodies, step.first_body, owner_.memory(),
+                            grip_.memory(), most_.memory(), link_.memory(), open_.memory(),
+                            damped_.memory(), x_.memory(), b_.memory(), r_.memory(),
+                            found_.memory(), way_.memory(), along_.memory(), state_.memory());
+  if (free > 0) push_bodies(fluid, step);
+  project_faces_.run(queue, cells_, params, grid_buffer_.memory(), dt, gap_.memory(), fill,
+                     mean_.memory(), weight_.memory(), found_.memory(), wet_.memory(),
+                     change_.memory(), pressure_.memory());
 }
 
 void GridProjected::move(Fluid& fluid, const Step& step) {
@@ -177,6 +231,48 @@ void GridProjected::move(Fluid& fluid, const Step& step) {
 
 const Buffer<float>& GridProjected::carried(const Fluid& /*fluid*/) const {
   return carried_;
+}
+
+// As coupling.h does it for those that the water moves: - p V K.
+std::vector<Press> GridProjected::press(Device& device, std::size_t bodies) {
+  std::vector<Press> all(bodies);
+  if (!solids_) return all;
+  const MacLevel& l = grid_.level[0];
+  const auto cells = static_cast<std::size_t>(l.cells);
+  const std::vector<float> gap = gap_.read(device, 3 * cells);
+  const std::vector<float> pressure = pressure_.read(device, cells);
+  const std::vector<int> owner = owner_.read(device, cells);
+  const std::array<std::size_t, 3> step = {1, static_cast<std::size_t>(l.row),
+                                           static_cast<std::size_t>(l.layer)};
+  const Vector3 lower = {static_cast<double>(grid_.x), static_cast<double>(grid_.y),
+                         static_cast<double>(grid_.z)};
+  const Vector3 edge = {static_cast<double>(grid_.hx), static_cast<double>(grid_.hy),
+                        static_cast<double>(grid_.hz)};
+  for (std::size_t c = step[2]; c + step[2] < cells; ++c) {
+    if (owner[c] < 0 || static_cast<std::size_t>(owner[c]) >= bodies || pressure[c] == 0.0F) {
+      continue;
+    }
+    Press& press = all[static_cast<std::size_t>(owner[c])];
+    const std::array<std::size_t, 3> at = {c % step[1], c / step[1] % (step[2] / step[1]),
+                                           c / step[2]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double area = edge[0] * edge[1] * edge[2] / edge[axis];
+      const std::size_t face = axis * cells + c;
+      for (const std::size_t side : {0U, 1U}) {
+        Vector3 place;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double off = k == axis ? static_cast<double>(side) : 0.5;
+          place[k] = lower[k] + (static_cast<double>(at[k]) - 1.0 + off) * edge[k];
+        }
+        Vector3 force = {0.0, 0.0, 0.0};
+        force[axis] = (side == 0U ? 1.0 : -1.0) * area * static_cast<double>(pressure[c]) *
+                      static_cast<double>(gap[face + side * step[axis]]);
+        press.force = press.force + force;
+        press.torque = press.torque + cross(place, force);
+      }
+    }
+  }
+  return all;
 }
 
 void GridProjected::enqueue_work(Device& device) {
@@ -200,6 +296,7 @@ std::vector<float> GridProjected::pressure(Device& /*device*/) {
 void GridProjected::restore_pressure(Device& device, const std::vector<float>& /*pressure*/) {
   pressure_.enqueue_clear(device);
   wet_.enqueue_clear(device);
+  stopped_.enqueue_clear(device);
   note_recalled(device);
 }
 

@@ -31,20 +31,22 @@ inline constexpr double kSpacingKick = 0.05;
 
 class GridProjected : public PressureSolver {
  public:
-  /// `bodies`: the scene has some.
+  /// `solids`: the scene may have bodies, a slope or a wave maker.
   GridProjected(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
-                bool bodies);
+                bool solids);
 
+  void let_go(Device& device, std::size_t count) override;
   /// Where a step follows nobody asks: pressure_term() stays the state equation's, for spacing.
   void recall_pressure(Fluid& fluid, const Step& step) override;
   void accelerate(Fluid& fluid, const Step& step) override;
   void move(Fluid& fluid, const Step& step) override;
   [[nodiscard]] const Buffer<float>& carried(const Fluid& fluid) const override;
+  [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) override;
   void enqueue_work(Device& device) override;
   [[nodiscard]] SolverWork work() const override;
   void forget_work(Device& device) override;
   [[nodiscard]] std::vector<cl::Buffer> kept() const override {
-    return {pressure_.memory(), wet_.memory()};
+    return {pressure_.memory(), wet_.memory(), stopped_.memory()};
   }
   /// Nothing of it is by particle: after restore_pressure a solve begins from no pressure.
   [[nodiscard]] std::vector<float> pressure(Device& device) override;
@@ -55,7 +57,7 @@ class GridProjected : public PressureSolver {
   [[nodiscard]] const MacGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] const Buffer<float>& mean() const noexcept { return mean_; }
   [[nodiscard]] const Buffer<float>& weight() const noexcept { return weight_; }
-  [[nodiscard]] const Buffer<float>& fill() const noexcept { return fill_; }
+  [[nodiscard]] const Buffer<float>& fill() const noexcept { return solids_ ? filled_ : fill_; }
   [[nodiscard]] const Buffer<float>& deviation() const noexcept { return deviation_; }
   [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_; }
   [[nodiscard]] const Buffer<float>& change() const noexcept { return change_; }
@@ -65,8 +67,15 @@ class GridProjected : public PressureSolver {
 
  private:
   /// What they leave open of the grid.
-  void place_bodies(Fluid& fluid, const Step& step);
+  void place_solids(Fluid& fluid, const Step& step);
+  /// Free bodies as they would be without water.
+  void let_fall(Fluid& fluid, const Step& step);
   void solve(Fluid& fluid, const Step& step);
+  /// What the water does to them.
+  void push_bodies(Fluid& fluid, const Step& step);
+  /// Those of the water, none before it lets them go.
+  [[nodiscard]] int free_count(Fluid& fluid) const;
+  [[nodiscard]] const Buffer<FreeBody>& frees(Fluid& fluid) const;
 
   MacGrid grid_;
   double part_;  ///< of the default step's length, by the scene's factor [1]
@@ -87,11 +96,19 @@ class GridProjected : public PressureSolver {
   Buffer<float> wet_;        ///< 1 where a cell holds water
   Buffer<int> most_;
 
-  // Of bodies; of one element where there are none (kernels/bodies.cl).
-  bool bodies_;
-  Buffer<float> gap_;    ///< open part of faces [1]
-  Buffer<float> space_;  ///< open part of cells [1]
-  Buffer<int> owner_;    ///< body that cuts a cell, -1: none
+  // Of solids; of one element where there are none (solids.cl).
+  bool solids_;
+  Buffer<float> gap_;         ///< open part around faces [1]
+  Buffer<float> upper_;       ///< of the upper half of cells along each axis [1]
+  Buffer<float> space_;       ///< of cells [1]
+  Buffer<int> owner_;         ///< whose a cell is (room.h)
+  Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
+  Buffer<float> filled_;      ///< of cells, by their open part [1]
+
+  // Of free bodies (coupling.h), once there are some.
+  Buffer<FreeBody> no_body_;
+  Buffer<float> grip_;
+  Buffer<float> stopped_;
 
   // The solve's, over all levels; the last three over the finest.
   Buffer<float> link_;
@@ -111,7 +128,11 @@ class GridProjected : public PressureSolver {
   Kernel gather_again_;
   Kernel find_deviation_;
   Kernel cut_cells_;
-  Kernel fill_beside_bodies_;
+  Kernel open_faces_;
+  Kernel fill_beside_solids_;
+  Kernel let_fall_;
+  Kernel grip_water_;
+  Kernel push_bodies_;
   Kernel push_faces_;
   Kernel lay_system_;
   Kernel solve_pressure_;

@@ -7,6 +7,7 @@
 #define SPLASH_MAC_GRID_H
 
 #define SPLASH_MAC_LEVELS 12
+#define SPLASH_KEPT_FLOATS 16  // of each free body, from step to step (coupling.h)
 
 #ifdef __cplusplus
 namespace splash::sim {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Faces beside water get what the pressures do to them, walls stop: what the step changed at each
-// face is left in `pushed`, or MAC_UNKNOWN where there is no water, or a body closes the face. Then
+// face is left in `pushed`, or MAC_UNKNOWN where there is no water, or a solid closes the face. Then
 // the pressures of cells with water are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"
@@ -20,10 +20,10 @@ static float growth(global const float* fill, global const float* wet, global co
 
 
 kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt,
-                          global const float* gap, global const float* space,
-                          global const float* fill, global const float* mean,
-                          global const float* weight, global const float* found,
-                          global const float* wet, global float* pushed, global float* pressure) {
+                          global const float* gap, global const float* fill,
+                          global const float* mean, global const float* weight,
+                          global const float* found, global const float* wet,
+                          global float* pushed, global float* pressure) {
   const int4 at = cell_of(g, get_global_id(0));
   if (at.w == 0) return;
   const MacLevel l = g->level[0];
@@ -34,8 +34,7 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     const int below = c - step[axis], face = axis * l.cells + c;
     const bool wall = is_wall(l, at, axis);
     float change = MAC_UNKNOWN;
-    const bool open = wall || (wet[c] + wet[below] > 0.0f && open_of(gap, face) > 0.0f &&
-                               has_room(space, c) && has_room(space, below));
+    const bool open = open_of(gap, face) > 0.0f && (wall || wet[c] + wet[below] > 0.0f);
     if (weight[face] > MAC_LIGHT && open) {
       change = pushed[face] - mean[face];
       if (!wall) change -= growth(fill, wet, found, c, below) * inverse[axis];

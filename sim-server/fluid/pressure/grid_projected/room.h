@@ -1,28 +1,50 @@
 // SPDX-License-Identifier: MIT
-// What bodies leave open of faces and cells, and how fast they go there.
+// What solids leave open of faces and cells, and how fast they go there. Solids are bodies, a slope
+// and the wave maker's piston; the tank's own walls are where the grid ends.
 
 #include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define LEAST_ROOM 0.05f  // cells with less open volume hold no water [1]
+#define HAS_SOLIDS (HAS_BODIES || HAS_SLOPE || HAS_PISTON)
 
-// What bodies leave open of a face or a cell, where there are any.
-static float open_of(global const float* part, int c) { return HAS_BODIES ? part[c] : 1.0f; }
+// Whose a cell is: of the body with this number, or of one of these.
+#define OF_NOBODY -1
+#define OF_SLOPE -2
+#define OF_PISTON -3
 
-// Whether a cell has room for water or air: if not, nothing moves towards it.
-static bool has_room(global const float* space, int c) {
-  return open_of(space, c) > LEAST_ROOM;
+// What solids leave open of a face, where there are any.
+static float open_of(global const float* gap, int face) { return HAS_SOLIDS ? gap[face] : 1.0f; }
+
+// Whether any face of cell `c` is open.
+static bool is_open(const MacLevel l, global const float* gap, int c) {
+  if (!HAS_SOLIDS) return true;
+  const int step[3] = {1, l.row, l.layer};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int face = axis * l.cells + c;
+    if (gap[face] + gap[face + step[axis]] > 0.0f) return true;
+  }
+  return false;
 }
 
-// Velocity of a body at the lower face of a cell along an axis, or the one above it, along that.
-static float body_at_face(constant MacGrid* g, BodyStep b, int4 at, int axis) {
+// Middle of the lower face of a cell along an axis.
+static float3 face_middle(constant MacGrid* g, int4 at, int axis) {
   const float middle = 0.5f;
-  const float3 face = (float3)(g->x + (at.x + (axis == 0 ? 0.0f : middle)) * g->hx,
-                               g->y + (at.y + (axis == 1 ? 0.0f : middle)) * g->hy,
-                               g->z + (at.z + (axis == 2 ? 0.0f : middle)) * g->hz);
-  const float3 v = (float3)(b.vx, b.vy, b.vz) +
-                   cross((float3)(b.wx, b.wy, b.wz), face - (float3)(b.px, b.py, b.pz));
+  return (float3)(g->x + (at.x + (axis == 0 ? 0.0f : middle)) * g->hx,
+                  g->y + (at.y + (axis == 1 ? 0.0f : middle)) * g->hy,
+                  g->z + (at.z + (axis == 2 ? 0.0f : middle)) * g->hz);
+}
+
+// Velocity of a solid there, along the axis.
+static float solid_at_face(constant MacGrid* g, global const BodyStep* bodies, int owner,
+                           float piston_speed, int4 at, int axis) {
+  if (owner == OF_PISTON) return axis == 0 ? piston_speed : 0.0f;
+  if (owner < 0) return 0.0f;
+  const BodyStep b = bodies[owner];
+  const float3 arm = face_middle(g, at, axis) - (float3)(b.px, b.py, b.pz);
+  const float3 v = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm) +
+                   b.grows / size_of(b) * arm;
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }

@@ -3,25 +3,14 @@
 // for the host, none is enqueued that is not needed, and sums have a fixed order.
 
 #include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+#include "sim-server/fluid/pressure/grid_projected/coupling.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/multigrid.h"
 
 #define SOLVED 1e-4f  // what may be left of the demand [1]
-
-// Sum over all items, for each of them.
-static float of_all(float mine, local float* parts) {
-#if TEAM > 1
-  TOGETHER();
-  parts[get_local_id(0)] = mine;
-  TOGETHER();
-  float sum = 0.0f;
-  for (int item = 0; item < ITEMS; ++item) sum += parts[item];
-  return sum;
-#else
-  return mine;
-#endif
-}
 
 static float product(const MacLevel l, int end, global const float* a, global const float* b,
                      local float* parts) {
@@ -31,15 +20,20 @@ static float product(const MacLevel l, int end, global const float* a, global co
 }
 
 // `found`: where f begins and where it is left. `way`, `along`: the direction and A of it. What is
-// left of the demand is the finest level's b. `most`: as lay_system left it.
-kernel void solve_pressure(constant MacGrid* g, int iterations, int room, global const int* most,
-                           global float* link, global float* open, global float* damped,
-                           global float* x, global float* b, global float* r,
-                           global float* found, global float* way, global float* along,
-                           global SolveState* state) {
+// left of the demand is the finest level's b. `most`: as lay_system left it. `bodies`: those of
+// this step, of which `frees` are free.
+kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int iterations, int room,
+                           int free_count, constant FreeBody* frees, global BodyStep* bodies,
+                           int first_body, global const int* owner, global const float* grip,
+                           global const int* most, global float* link, global float* open,
+                           global float* damped, global float* x, global float* b,
+                           global float* r, global float* found, global float* way,
+                           global float* along, global SolveState* state) {
   local float parts[JUDGES];
   const Levels s = {{link, link + room, link + 2 * room}, open, damped, x, b, r};
   const MacLevel l = g->level[0];
+  const Coupling all = {free_count, frees, bodies + first_body, owner, grip,
+                        p->rest_density * g->hx * g->hy * g->hz};
   const int last = *most;
   const int end = end_of(g, 0, last);
   coarsen(g, &s);
@@ -47,6 +41,7 @@ kernel void solve_pressure(constant MacGrid* g, int iterations, int room, global
   EACH_VECTOR(c, l, end) {
     STORE(LOAD(b, c) - times(&s, l, found, c), b, c);
   }
+  if (HAS_BODIES) add_bodies(g, &all, -1.0f, found, parts, b);
   TOGETHER();
   const float goal = SOLVED * SOLVED * whole;
   float rest = product(l, end, b, b, parts);
@@ -68,7 +63,8 @@ kernel void solve_pressure(constant MacGrid* g, int iterations, int room, global
       STORE(a, along, c);
       bends += a * LOAD(way, c);
     }
-    const float bend = of_all(total(bends), parts);
+    float bend = of_all(total(bends), parts);
+    if (HAS_BODIES) bend += add_bodies(g, &all, 1.0f, way, parts, along);
     if (!(bend > 0.0f)) break;
     const float far = now / bend;
     lanes left = 0.0f;

@@ -58,31 +58,29 @@ static bool is_inner(const MacLevel l, global const float* fill, int4 at) {
   return true;
 }
 
-static bool holds_water(global const float* fill, global const float* space, int c) {
-  return fill[c] > MAC_FULL && has_room(space, c);
-}
+static bool holds_water(global const float* fill, int c) { return fill[c] > MAC_FULL; }
 
 // Row by row the system A f = b: `link`, 1 / h^2 between a cell and the one below it along an axis
 // where both hold water, by the open part of the face; `open`, what its surface adds to the
 // diagonal; `start`: f of the pressures that were. `wet`: 1 where a cell holds water. `most`: the
-// largest number of a cell with water. Of a cell that a body cuts, what flows out of its open faces
-// and what the body takes of it is its flow relative to the body, out of the same faces. What the
+// largest number of a cell with water. Of a cell beside a solid, what flows out of its open faces
+// and what the solid takes of it is its flow relative to the solid, out of the same faces. What the
 // solve works with begins at zero.
 kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
-                       global const BodyStep* bodies, int first_body, global const float* gap,
-                       global const float* space, global const int* owner,
+                       global const BodyStep* bodies, int first_body, float piston_speed,
+                       global const float* gap, global const int* owner,
                        global const float* fill, global const float* pushed,
                        global const float* pressure, int room, global float* link,
-                       global float* open, global float* x, global float* right, global float* rest,
-                       global float* start, global float* way, global float* wet,
-                       global int* most) {
+                       global float* open, global float* x, global float* right,
+                       global float* rest, global float* start, global float* way,
+                       global float* wet, global int* most) {
   const int4 at = cell_of(g, get_global_id(0));
   if (at.w == 0) return;
   const MacLevel l = g->level[0];
   const int c = number_of(l, at);
   const bool inside = at.x < l.nx && at.y < l.ny && at.z < l.nz;
-  const bool fluid = inside && holds_water(fill, space, c);
-  const bool cut = HAS_BODIES && fluid && owner[c] >= 0;
+  const bool fluid = inside && holds_water(fill, c) && is_open(l, gap, c);
+  const bool cut = HAS_SOLIDS && fluid && owner[c] != OF_NOBODY;
   const int step[3] = {1, l.row, l.layer};
   const float inverse[3] = {g->ix, g->iy, g->iz};
   const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
@@ -95,24 +93,25 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
       const float low = open_of(gap, face), high = open_of(gap, face + step[axis]);
       const bool closed_above = axis < 2 && here[axis] == count[axis] - 1;
       if (here[axis] > 0) {
-        if (holds_water(fill, space, below)) {
+        if (holds_water(fill, below)) {
           between = each * low;
-        } else if (has_room(space, below)) {
+        } else {
           surface += each * low / way_to_surface(fill[c], fill[below]);
         }
       }
       if (!closed_above) {
-        if (holds_water(fill, space, above)) {
+        if (holds_water(fill, above)) {
           links += each * high;
-        } else if (has_room(space, above)) {
+        } else {
           surface += each * high / way_to_surface(fill[c], fill[above]);
         }
       }
       float in = pushed[face], out = pushed[face + step[axis]];
       if (cut) {
-        const BodyStep body = bodies[first_body + owner[c]];
-        in -= body_at_face(g, body, at, axis);
-        out -= body_at_face(g, body, at + (int4)(axis == 0, axis == 1, axis == 2, 0), axis);
+        global const BodyStep* now = bodies + first_body;
+        const int4 next = at + (int4)(axis == 0, axis == 1, axis == 2, 0);
+        in -= solid_at_face(g, now, owner[c], piston_speed, at, axis);
+        out -= solid_at_face(g, now, owner[c], piston_speed, next, axis);
       }
       b -= (high * out - low * in) * inverse[axis];
       links += between;

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// Where solids are in the grid: how much they leave open of the volume around each face, half a
+// cell to either side (Batty, Bertails & Bridson 2007), and of each cell, by the distances of
+// places half a cell apart from the nearest outline. Between these they are taken as linear, so a
+// flat face is where it is, and what a body displaces is its volume. A cell that a solid cuts is as
+// full as its water fills what the hat sees of open space around it.
+
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_face.h"
+#include "sim-server/fluid/boundary/walls.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/room.h"
+
+#define LEAST_SEEN 1e-4f  // cells that see less open space are full of nothing [1]
+#define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
+
+// Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
+static float open_tetrahedron(float a, float b, float c, float d) {
+  const int closed = (a <= 0.0f) + (b <= 0.0f) + (c <= 0.0f) + (d <= 0.0f);
+  if (closed == 0) return 1.0f;
+  if (closed == 4) return 0.0f;
+  float s[4] = {a, b, c, d};  // the open ones first
+  for (int k = 0, next = 0; k < 4; ++k) {
+    if (s[k] <= 0.0f) continue;
+    const float swap = s[next];
+    s[next++] = s[k];
+    s[k] = swap;
+  }
+  if (closed == 3) return s[0] * s[0] * s[0] / ((s[0] - s[1]) * (s[0] - s[2]) * (s[0] - s[3]));
+  if (closed == 1) {
+    return 1.0f - s[3] * s[3] * s[3] / ((s[3] - s[0]) * (s[3] - s[1]) * (s[3] - s[2]));
+  }
+  const float ab = s[0] * s[1], cd = s[2] * s[3], open = s[0] + s[1];
+  return (ab * ab - (s[2] + s[3]) * ab * open + cd * (open * open - ab)) /
+         ((s[0] - s[2]) * (s[0] - s[3]) * (s[1] - s[2]) * (s[1] - s[3]));
+}
+
+// Of a box, from the distances of its eight corners, x first: six tetrahedra around the diagonal
+// from the first to the last (Kuhn 1960).
+static float open_box(const float* d) {
+  float low = d[0], high = d[0];
+  for (int k = 1; k < 8; ++k) {
+    low = fmin(low, d[k]);
+    high = fmax(high, d[k]);
+  }
+  if (low > 0.0f) return 1.0f;
+  if (high <= 0.0f) return 0.0f;
+  return (open_tetrahedron(d[0], d[1], d[3], d[7]) + open_tetrahedron(d[0], d[1], d[5], d[7]) +
+          open_tetrahedron(d[0], d[2], d[3], d[7]) + open_tetrahedron(d[0], d[2], d[6], d[7]) +
+          open_tetrahedron(d[0], d[4], d[5], d[7]) + open_tetrahedron(d[0], d[4], d[6], d[7])) /
+         6.0f;
+}
+
+// Corners of one of the eight boxes that 27 places, x first, make; the first is the middle's.
+static void corners_of(const float* d, int box, float* corner) {
+  const int x = box & 1 ? 1 : -1, y = box & 2 ? 3 : -3, z = box & 4 ? 9 : -9;
+  for (int k = 0; k < 8; ++k) {
+    corner[k] = d[13 + (k & 1 ? x : 0) + (k & 2 ? y : 0) + (k & 4 ? z : 0)];
+  }
+}
+
+// How far the nearest solid is, and whose it is.
+static lanes solid_distance(constant FluidParams* p, constant BodyShape* shapes,
+                            global const float* meshes, global const BodyStep* bodies,
+                            int first_body, int body_count, float piston, lanes x, lanes y,
+                            lanes z, lanes* owner) {
+  const BodyFace face =
+      nearest_face(shapes, meshes, bodies, first_body, body_count, x, y, z);
+  lanes distance = face.distance;
+  *owner = body_count > 0 ? face.owner : (lanes)(OF_NOBODY);
+  if (has_slope(p)) {
+    const lanes above = wall_distance(p, p->slope, x, y, z, piston);
+    *owner = select(*owner, (lanes)(OF_SLOPE), above < distance);
+    distance = fmin(distance, above);
+  }
+  if (HAS_PISTON && p->piston >= 0) {
+    const lanes before = wall_distance(p, p->piston, x, y, z, piston);
+    *owner = select(*owner, (lanes)(OF_PISTON), before < distance);
+    distance = fmin(distance, before);
+  }
+  return distance;
+}
+
+// Whether any solid may be in a box or those around it.
+static bool solids_near(constant FluidParams* p, global const BodyStep* bodies, int first_body,
+                        int body_count, float piston, float3 lower, float3 upper) {
+  if (bodies_near_box(bodies, first_body, body_count, lower, upper)) return true;
+  const float3 middle = 0.5f * (lower + upper);
+  const float far = 1.5f * length(upper - lower);  // its neighbours' corners
+  for (int turn = 0; turn < 2; ++turn) {
+    const int k = turn ? p->piston : p->slope;
+    if (!(turn ? HAS_PISTON : HAS_SLOPE) || k < 0) continue;
+    if (first_lane(wall_distance(p, k, middle.x, middle.y, middle.z, piston)) < far) return true;
+  }
+  return false;
+}
+
+// Where solids are, as kernels are told.
+typedef struct {
+  constant BodyShape* shapes;
+  global const float* meshes;
+  global const BodyStep* bodies;
+  int first, count;
+  float piston;
+} Solids;
+
+// Distances of 27 places in a box from its `lower` corner on, `apart` from each other, x first.
+// Whose the middle is.
+static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, float3 apart,
+                       float* distance) {
+  int owner = OF_NOBODY;
+  for (int first = 0; first < 27; first += LANES) {
+    float place[3][LANES];
+    for (int lane = 0; lane < LANES; ++lane) {
+      const int k = min(first + lane, 26);
+      place[0][lane] = lower.x + (k % 3) * apart.x;
+      place[1][lane] = lower.y + (k / 3 % 3) * apart.y;
+      place[2][lane] = lower.z + (k / 9) * apart.z;
+    }
+    lanes whose;
+    const lanes far = solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, s->count,
+                                     s->piston, LOAD(place[0], 0), LOAD(place[1], 0),
+                                     LOAD(place[2], 0), &whose);
+    float part[LANES], owners[LANES];
+    STORE(far, part, 0);
+    STORE(whose, owners, 0);
+    for (int lane = 0; lane < LANES && first + lane < 27; ++lane) {
+      distance[first + lane] = part[lane];
+      if (first + lane == 13) owner = (int)owners[lane];
+    }
+  }
+  return owner;
+}
+
+// Of an eighth of a cell with these corners: by its own eighths, and what that changed goes on to
+// where it would end (Richardson).
+static float open_eighth(constant FluidParams* p, const Solids* s, float3 lower, float3 edge,
+                         const float* corner) {
+  const float whole = open_box(corner);
+  if (!(whole > 0.0f && whole < 1.0f)) return whole;
+  float d[27], sum = 0.0f;
+  measure_box(p, s, lower, 0.5f * edge, d);
+  for (int k = 0; k < 8; ++k) {
+    float part[8];
+    corners_of(d, k, part);
+    sum += 0.125f * open_box(part);
+  }
+  return clamp(sum + (sum - whole) / 3.0f, 0.0f, 1.0f);
+}
+
+// Of the area of a side of a cell: lower (0) or upper (2) along an axis.
+static float open_side(const float* d, int axis, int side) {
+  const int step[3] = {1, 3, 9};
+  const int a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
+  float sum = 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    const int first = side * step[axis] + (k & 1 ? a : 0) + (k & 2 ? b : 0);
+    const float flat[8] = {d[first], d[first + a], d[first + b], d[first + a + b],
+                           d[first], d[first + a], d[first + b], d[first + a + b]};
+    sum += 0.25f * open_box(flat);
+  }
+  return sum;
+}
+
+// Open parts of each cell's halves along the axes, the lower and the `upper` ones, at the tank's
+// walls of their area, and of all of it, `room`. `owner`: whose it is.
+kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
+                      global const float* meshes, global const BodyStep* bodies, int first_body,
+                      int body_count, float piston, global float* lower, global float* upper,
+                      global float* room, global int* owner) {
+  const int4 at = cell_of(g, get_global_id(0));
+  if (at.w == 0) return;
+  const MacLevel l = g->level[0];
+  const int c = number_of(l, at);
+  for (int axis = 0; axis < 3; ++axis) lower[axis * l.cells + c] = upper[axis * l.cells + c] = 1.0f;
+  room[c] = 1.0f;
+  owner[c] = OF_NOBODY;
+  const float3 low = (float3)(g->x + at.x * g->hx, g->y + at.y * g->hy, g->z + at.z * g->hz);
+  const float3 high = low + (float3)(g->hx, g->hy, g->hz);
+  if (!solids_near(p, bodies, first_body, body_count, piston, low, high)) return;
+  const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
+  const float3 edge = 0.5f * (float3)(g->hx, g->hy, g->hz);
+  float d[27];
+  const int whose = measure_box(p, &solids, low, edge, d);
+  if (d[13] < g->hx + g->hy + g->hz) owner[c] = whose;
+  float nearest = d[0];
+  for (int k = 1; k < 27; ++k) nearest = fmin(nearest, d[k]);
+  if (nearest > 0.0f) return;
+  float of_half[6] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, sum = 0.0f;
+  for (int k = 0; k < 8; ++k) {
+    const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+    float corner[8];
+    corners_of(d, k, corner);
+    const float3 from = low + edge * (float3)(x, y, z);
+    const float open = 0.25f * open_eighth(p, &solids, from, edge, corner);
+    of_half[x] += open;
+    of_half[2 + y] += open;
+    of_half[4 + z] += open;
+    sum += 0.5f * open;
+  }
+  const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int face = axis * l.cells + c;
+    lower[face] = here[axis] == 0 ? open_side(d, axis, 0) : of_half[2 * axis];
+    upper[face] = here[axis] == count[axis] - 1 ? open_side(d, axis, 2) : of_half[2 * axis + 1];
+  }
+  room[c] = sum;
+}
+
+// What the hat of a cell's middle sees of open space: 3/4 of its weight is in the cell itself along
+// each axis, an eighth on either side.
+static float room_seen(const MacLevel l, global const float* room, int4 at) {
+  float sum = 0.0f;
+  for (int k = 0; k < 27; ++k) {
+    const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
+    const int4 there = (int4)(clamp(at.x + x, 0, l.nx - 1), clamp(at.y + y, 0, l.ny - 1),
+                              clamp(at.z + z, 0, l.nz - 1), 1);
+    const float part = (x ? 0.125f : 0.75f) * (y ? 0.125f : 0.75f) * (z ? 0.125f : 0.75f);
+    sum += part * room[number_of(l, there)];
+  }
+  return sum;
+}
+
+// From halves to faces: `gap` begins as the lower ones. Of the tank's faces it is the area that is
+// open, and the piston's wall is behind it. `seen`: of open space, by each cell's hat.
+kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global const int* owner,
+                       global const float* upper, global const float* room, global float* gap,
+                       global float* seen) {
+  const int4 at = cell_of(g, get_global_id(0));
+  if (at.w == 0) return;
+  const MacLevel l = g->level[0];
+  const int c = number_of(l, at);
+  const int step[3] = {1, l.row, l.layer};
+  const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int face = axis * l.cells + c;
+    float open = gap[face];
+    if (here[axis] == count[axis]) open = upper[face - step[axis]];
+    if (here[axis] > 0 && here[axis] < count[axis]) {
+      open = 0.5f * (open + upper[face - step[axis]]);
+    }
+    if (HAS_PISTON && p->piston >= 0 && axis == 0 && at.x == 0) open = 0.0f;
+    gap[face] = open < LEAST_GAP ? 0.0f : open;
+  }
+  const bool inside = at.x < l.nx && at.y < l.ny && at.z < l.nz;
+  seen[c] = inside && owner[c] != OF_NOBODY ? room_seen(l, room, at) : 1.0f;
+}
+
+// How full cells are beside solids. The less open space a cell has, the more it counts what is
+// behind its open faces: in a gap where no particle fits there may be water.
+kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
+                               global const float* room, global const float* seen,
+                               global const float* fill, global float* filled) {
+  const int4 at = cell_of(g, get_global_id(0));
+  const MacLevel l = g->level[0];
+  if (at.w == 0) return;
+  const int c = number_of(l, at);
+  const int step[3] = {1, l.row, l.layer};
+  const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
+  float water = room[c] * fill[c], space = room[c] * seen[c];
+  if (room[c] < 1.0f) {
+    const float closed = (1.0f - room[c]) * (1.0f - room[c]);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int side = 0; side < 2; ++side) {
+        const int there = here[axis] + 2 * side - 1, cell = c + (2 * side - 1) * step[axis];
+        if (there < 0 || there >= count[axis]) continue;
+        const float share =
+            closed * room[cell] * gap[axis * l.cells + c + side * step[axis]];
+        water += share * fill[cell];
+        space += share * seen[cell];
+      }
+    }
+  }
+  filled[c] = space > LEAST_SEEN ? water / space : 0.0f;
+}

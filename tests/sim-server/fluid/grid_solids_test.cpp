@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// Solids in the grid-projected water: what they displace is their volume, free bodies begin to move
+// as their added mass says and float as Archimedes says, and what lies on the floor is borne, too.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
+#include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/rotation.hpp"
+#include "sim-server/start/settle.hpp"
+#include "tests/sim-server/fluid/free_float.hpp"
+#include "tests/sim-server/fluid/grid_projected_reference.hpp"
+#include "tests/sim-server/fluid/small_water.hpp"
+
+namespace splash::sim {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kDensity = 998.0;
+
+const GridProjected& solver_of(const Fluid& fluid) {
+  return dynamic_cast<const GridProjected&>(fluid.solver());
+}
+
+std::vector<double> read(Device& device, const Buffer<float>& buffer, std::size_t count) {
+  const std::vector<float> values = buffer.read(device, count);
+  return {values.begin(), values.end()};
+}
+
+/// A body that stays where it is.
+Water with_solid(double spacing, const Vector3& tank, double depth, const Shape& shape,
+                 const BodyState& place) {
+  Scene scene = tank_scene(spacing, tank, depth);
+  scene.fluid.solver = PressureKind::grid_projected;
+  BodySettings body;
+  body.name = "solid";
+  body.shape = shape;
+  body.rest.position = place.position;
+  body.rest.rotation = place.rotation;
+  scene.bodies = {body};
+  Water water;
+  water.scene = scene;
+  const std::vector<Keyframe> poses = {body.rest};
+  water.particles = initial_particles(scene, poses);
+  water.motions = {[place](double) { return place; }};
+  return water;
+}
+
+/// What the faces along each axis, and the cells, say of the volume of the solids in them [m3].
+struct Displaced {
+  Vector3 by_faces = {0.0, 0.0, 0.0};
+  double by_cells = 0.0;
+  double borne = 0.0;  ///< what pressures push them up with [N]
+};
+
+Displaced displaced(Device& device, const Fluid& fluid) {
+  const GridProjected& solver = solver_of(fluid);
+  const MacGrid& grid = solver.grid();
+  const MacLevel& level = grid.level[0];
+  const MacReference reference(grid);
+  const auto cells = static_cast<std::size_t>(level.cells);
+  const std::vector<double> gap = read(device, solver.gap(), 3 * cells);
+  const std::vector<double> space = read(device, solver.space(), cells);
+  const std::vector<double> pressure = read(device, solver.pressures(), cells);
+  const double area = static_cast<double>(grid.hx) * static_cast<double>(grid.hy);
+  const double volume = area * static_cast<double>(grid.hz);
+  const std::array<int, 3> step = {1, level.row, level.layer};
+  Displaced sum;
+  for (int k = 0; k < level.nz; ++k) {
+    for (int j = 0; j < level.ny; ++j) {
+      for (int i = 0; i < level.nx; ++i) {
+        const auto c = static_cast<std::size_t>(reference.number(i, j, k));
+        sum.by_cells += volume * (1.0 - space[c]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          sum.by_faces[axis] += volume * (1.0 - gap[axis * cells + c]);
+        }
+        const double low = gap[2 * cells + c];
+        const double high = gap[2 * cells + c + static_cast<std::size_t>(step[2])];
+        sum.borne += area * pressure[c] * (low - high);
+      }
+    }
+  }
+  return sum;
+}
+
+TEST(GridSolids, DisplaceTheirVolume) {
+  Device device;
+  const Vector3 tank = {0.3, 0.3, 0.3};
+  const Vector3 middle = {0.161, 0.147, 0.142};
+  const Quaternion askew = from_turn({0.4, -0.7, 0.3});
+  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}, 0.0, 0.0};
+  const Shape box = {ShapeKind::box, {0.13, 0.09, 0.07}, 0.0, 0.0};
+  const auto expect = [&](const Shape& shape, const Quaternion& turn, double volume,
+                          double within) {
+    Water water = with_solid(0.015, tank, 0.1, shape, {middle, turn});
+    water.start(device);
+    water.step(1.0e-3);
+    const Displaced by = displaced(device, *water.fluid);
+    for (const double of_faces : by.by_faces) EXPECT_NEAR(of_faces / volume, 1.0, within);
+    EXPECT_NEAR(by.by_cells / volume, 1.0, within);
+  };
+  expect(ball, {0.0, 0.0, 0.0, 1.0}, std::numbers::pi * std::pow(0.12, 3) / 6.0, 0.02);
+  expect(box, {0.0, 0.0, 0.0, 1.0}, 0.13 * 0.09 * 0.07, 0.03);
+  expect(box, askew, 0.13 * 0.09 * 0.07, 0.03);
+}
+
+/// Lying on the floor, too: nothing but its weight keeps it there.
+TEST(GridSolids, AreBorneByTheWeightOfWhatTheyDisplace) {
+  Device device;
+  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}, 0.0, 0.0};
+  const double volume = std::numbers::pi * std::pow(0.12, 3) / 6.0;
+  for (const double height : {0.142, 0.061}) {
+    Water water = with_solid(0.015, {0.3, 0.3, 0.5}, 0.3, ball, {{0.161, 0.147, height}, {}});
+    water.start(device);
+    settle(*water.fluid, water.bodies->at(0.0), 0.0, 0.5, 1.0e-2);
+    for (int k = 0; k < 50; ++k) water.step(1.0e-2);
+    const Displaced by = displaced(device, *water.fluid);
+    std::printf("at %.3f m: %.4f of the weight\n", height,
+                by.borne / (kDensity * kGravity * volume));
+    EXPECT_NEAR(by.borne / (kDensity * kGravity * volume), 1.0, 0.05) << height;
+    EXPECT_LT(water.fluid->stats().speed, 0.03 * std::sqrt(kGravity * 0.3));
+  }
+}
+
+class GridBodies : public ::testing::TestWithParam<double> {};
+
+/// From rest under water: (rho_b - rho) g = (rho_b + rho / 2) a, walls and surface add little.
+TEST_P(GridBodies, BeginAsTheirAddedMassSays) {
+  Device device;
+  const double density = GetParam();
+  FreeFloat world;
+  world.scene = tank_scene(0.02, {0.6, 0.6, 0.8}, 0.6);
+  world.scene.fluid.solver = PressureKind::grid_projected;
+  world.add({ShapeKind::sphere, {0.16, 0.16, 0.16}, 0.0, 0.0}, density,
+            {{0.31, 0.29, 0.3}, {0, 0, 0, 1}, {}, {}});
+  world.start(device);
+  world.dt = 2.0e-3;
+  world.run(world.dt);
+  const double found = world.state(0).velocity[2] / world.dt;
+  const double wanted = -kGravity * (density - kDensity) / (density + 0.5 * kDensity);
+  std::printf("%.0f kg/m3: %.3f m/s2, by theory %.3f\n", density, found, wanted);
+  EXPECT_NEAR(found / wanted, 1.0, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Densities, GridBodies, ::testing::Values(20.0, 500.0, 2000.0));
+
+TEST(GridSolids, ABoxFloatsAsDeepAsItIsHeavy) {
+  Device device;
+  constexpr double kSide = 0.16;
+  constexpr double kHeight = 0.12;
+  FreeFloat world;
+  world.scene = tank_scene(0.02, {0.4, 0.4, 0.5}, 0.2);
+  world.scene.fluid.solver = PressureKind::grid_projected;
+  world.add({ShapeKind::box, {kSide, kSide, kHeight}, 0.0, 0.0}, 0.5 * kDensity,
+            {{0.2, 0.2, 0.217}, {0, 0, 0, 1}, {}, {}});
+  world.start(device);
+  world.dt = 1.0e-2;
+  world.run(3.0);
+  double height = 0.0;
+  for (int k = 0; k < 100; ++k) {
+    world.run(world.dt);
+    height += world.state(0).position[2] / 100.0;
+  }
+  const double water = static_cast<double>(world.fluid->params().count) * std::pow(0.02, 3);
+  const double level = (water + 0.5 * kSide * kSide * kHeight) / (0.4 * 0.4);
+  const double draft = level - (height - 0.5 * kHeight);
+  std::printf("draft %.4f m of %.4f\n", draft, 0.5 * kHeight);
+  EXPECT_NEAR(draft, 0.5 * kHeight, 0.005);
+  EXPECT_LT(world.fluid->stats().speed, 0.05 * std::sqrt(kGravity * 0.2));
+}
+
+/// On a beach, the water's edge included.
+TEST(GridSolids, WaterOnASlopeStaysStill) {
+  Device device;
+  Scene scene = tank_scene(0.02, {1.0, 0.2, 0.4}, 0.2);
+  scene.fluid.solver = PressureKind::grid_projected;
+  scene.slope = {true, 0.4, 0.5};
+  Water water = fill(scene, PressureKind::grid_projected);
+  water.start(device);
+  let_settle(water);
+  for (int k = 0; k < 100; ++k) water.step(1.0e-2);
+  std::printf("fastest %.4f of sqrt(gH)\n", water.fluid->stats().speed / std::sqrt(kGravity * 0.2));
+  EXPECT_LT(water.fluid->stats().speed, 0.02 * std::sqrt(kGravity * 0.2));
+}
+
+/// A piston that goes slowly lifts the level as it takes room.
+TEST(GridSolids, APistonLiftsTheWater) {
+  Device device;
+  constexpr double kSpeed = 0.02;
+  Scene scene = tank_scene(0.02, {0.4, 0.2, 0.4}, 0.2);
+  scene.fluid.solver = PressureKind::grid_projected;
+  scene.wave_maker = {true, 0.1, 2.0};
+  Water water = fill(scene, PressureKind::grid_projected);
+  water.start(device);
+  let_settle(water);
+  const auto mean_height = [&] {
+    const Snapshot now = water.fluid->snapshot();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < now.id.size(); ++i) {
+      sum += vector_of(*water.fluid, now.position, i)[2];
+    }
+    return sum / static_cast<double>(now.id.size());
+  };
+  const double before = mean_height();
+  for (int k = 0; k < 300; ++k) {
+    water.piston.offset += 1.0e-2 * kSpeed;
+    water.piston.speed = kSpeed;
+    water.step(1.0e-2);
+  }
+  const double gone = water.piston.offset;
+  water.piston.speed = 0.0;
+  for (int k = 0; k < 100; ++k) water.step(1.0e-2);
+  const double risen = mean_height() / before;
+  std::printf("piston at %.3f m: mean height times %.4f, by volume %.4f\n", gone, risen,
+              0.4 / (0.4 - gone));
+  EXPECT_NEAR(risen, 0.4 / (0.4 - gone), 0.02);
+}
+
+}  // namespace
+}  // namespace splash::sim
