@@ -110,6 +110,9 @@ int main(int argc, char** argv) {
   app.add_option("--solver", options.setting.solver,
                  "Instead of the default: weakly_compressible, divergence_free or grid_projected")
       ->transform(CLI::CheckedTransformer(solvers));
+  app.add_option("--time-step-factor", options.setting.time_step_factor,
+                 "Steps so much longer than the default ones")
+      ->check(CLI::Range(0.05, 4.0));
   return bench.run(argc, argv, [&] {
     run(bench, options);
     return true;

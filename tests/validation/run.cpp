@@ -3,6 +3,7 @@
 #include "tests/support/source_folder.hpp"
 
 #include <sys/resource.h>
+#include <iostream>
 
 #include <algorithm>
 
@@ -69,7 +70,9 @@ Run run_scene(sim::Device& device, const std::string& name, const Setting& setti
   sample();
   while (simulation.seconds() < seconds) {
     const Effort before = effort_now();
-    static_cast<void>(simulation.advance());
+    const sim::FrameResult frame = simulation.advance();
+    // What was put back or begun anew is no figure of the water's.
+    if (frame.step_fault) std::cerr << name << ": " << describe(*frame.step_fault) << '\n';
     add_since(before, run.steps_alone);
     sample();
     if (progress) progress(simulation.seconds() / seconds);
