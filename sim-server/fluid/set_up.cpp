@@ -157,7 +157,8 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.wave_speed = static_cast<float>(longest_wave(scene));
   p.tolerance = static_cast<float>(scene.fluid.tolerance);
   const bool on_grid = scene.fluid.solver == PressureKind::grid_projected;
-  p.way = static_cast<float>((on_grid ? kGridWay : kWay) * step_factor(scene.fluid));
+  const double factor = step_factor(scene.fluid);
+  p.way = static_cast<float>(on_grid ? kGridWay * std::min(factor, kMostWay) : kWay * factor);
   const auto walls = tank_walls(scene);
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);

@@ -38,7 +38,7 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
     const double way = kGridWay * static_cast<double>(params.spacing) / std::max(speed, 1.0e-9);
     // It knows no artificial viscosity.
     const double water = h * h / std::max(static_cast<double>(params.viscous) / 10.0, 1.0e-12);
-    return std::min(factor * std::min(way, kLongest), kViscous * water);
+    return std::min({std::min(factor, kMostWay) * way, factor * kLongest, kViscous * water});
   }
   const double sound = static_cast<double>(params.sound_speed);
   const double acoustic = kAcousticCfl * support / (sound + speed);

@@ -99,7 +99,8 @@ Fields<F> force_fields() {
         .meaning = "Multiplies the default time step; smaller is slower and steadier. With "
                    "weakly_compressible what is beyond 1.05 makes sound slower, and water more "
                    "compressible by the square (sim-server/fluid/README has a table); not where "
-                   "`sound_speed` is given, nor with grid_projected.",
+                   "`sound_speed` is given. With grid_projected what is fast goes no farther in a "
+                   "step than by default.",
         .min = 0.05,
         .max = 2},
        &F::time_step_factor},

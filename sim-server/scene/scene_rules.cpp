@@ -248,11 +248,6 @@ std::string wrong_order(const DetectSettings& detect) {
 void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
   const double most = longest_step_factor(fluid.solver);
   if (fluid.time_step_factor <= most) return;
-  if (fluid.solver == PressureKind::grid_projected) {
-    throw map.error("time_step_factor",
-                    "must be in 0.05.." + text(most) + " with the solver grid_projected, got '" +
-                        text(fluid.time_step_factor) + "': in longer steps its water gains energy");
-  }
   if (!map.has("sound_speed")) return;
   throw map.error("time_step_factor",
                   "must be in 0.05.." + text(most) +

@@ -34,21 +34,5 @@ TEST(SolverRules, AGridCarriesFreeBodiesSlopesAndWaveMakers) {
   }
 }
 
-TEST(SolverRules, AGridTakesNoLongerSteps) {
-  const auto with = [](const std::string& factor) {
-    std::string text = pool();
-    return parse_scene(text.insert(text.find("  solver"), "  time_step_factor: " + factor + "\n"),
-                       "pool.yaml");
-  };
-  EXPECT_DOUBLE_EQ(with("1.05").fluid.time_step_factor, 1.05);
-  try {
-    static_cast<void>(with("1.06"));
-    ADD_FAILURE() << "longer steps are taken";
-  } catch (const program::ConfigError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("pool.yaml:3:"), HasSubstr("0.05..1.05"),
-                                    HasSubstr("gains energy")));
-  }
-}
-
 }  // namespace
 }  // namespace splash::sim
