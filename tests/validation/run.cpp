@@ -3,9 +3,9 @@
 #include "tests/support/source_folder.hpp"
 
 #include <sys/resource.h>
-#include <iostream>
 
 #include <algorithm>
+#include <iostream>
 
 #include "protocol/time_tag.hpp"
 #include "sim-server/gauge/gauges.hpp"
