@@ -137,7 +137,8 @@ std::string to_json(const RunReport& report) {
       {"kernel_parts", report.kernel_parts},     {"asleep", finite_or_null(report.asleep)}};
   json["refused_poses"] = sum_of(report.refused_poses);
   json["refused"] = {{"poses", by_name(report.refused_poses)},
-                     {"datagrams", by_name(report.refused_datagrams)}};
+                     {"datagrams", by_name(report.refused_datagrams)},
+                     {"messages", report.refused_messages}};
   json["resets"] = report.resets;
   json["retried_frames"] = report.retried;
   json["calmed_frames"] = report.calmed;

@@ -73,6 +73,7 @@ struct RunReport {
   double asleep = 0.0;                 ///< share of the particles that slept, on average [1]
   NamedCounts refused_poses;           ///< of trackers, by reason
   NamedCounts refused_datagrams;       ///< at the gate, by reason
+  std::uint64_t refused_messages = 0;  ///< by the address table, without the poses above
   std::uint64_t retried = 0;           ///< frames that went well only with shorter steps
   std::uint64_t calmed = 0;            ///< frames given up, and the water around a fault stopped
   std::uint64_t resets = 0;            ///< times the fluid had to be set up anew

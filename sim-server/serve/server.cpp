@@ -229,9 +229,11 @@ void Server::stand_still() {
   pacer_.start(still.seconds);  // simulated time is now, however long that goes on
   send(still);
   show(still);
+  pace_.note(protocol::monotonic_now(), still.seconds, simulation_.totals().steps);
+  const std::uint64_t unsent_now = unsent();
   {
     const std::lock_guard lock(status_mutex_);
-    pace_.note(protocol::monotonic_now(), still.seconds, simulation_.totals().steps);
+    status_.unsent = unsent_now;
     status_.real_time_factor = static_cast<float>(pace_.real_time_factor());
     status_.steps_per_second = static_cast<float>(pace_.steps_per_second());
   }
@@ -420,6 +422,7 @@ RunReport Server::finish() {
   report.shown = show_ ? show_->shown() : 0;
   const ControlCounts wire = control_.counts();
   report.refused_poses = poses_.refusals(wire);
+  report.refused_messages = wire.out_of_table - wire.malformed_poses;
   for (std::size_t i = 1; i < wire.refused.size(); ++i) {
     const auto reason = static_cast<protocol::Refusal>(i);
     if (wire.refused[i] == 0) continue;
