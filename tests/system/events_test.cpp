@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "protocol/event_log.hpp"
+#include "protocol/packet_text.hpp"
 #include "protocol/status.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"
@@ -147,7 +148,7 @@ protocol::SimStatus status_of(Simulator& simulator) {
 
 template <class Condition>
 protocol::SimStatus status_when(Simulator& simulator, const Condition& condition) {
-  protocol::SimStatus status;
+  protocol::SimStatus status = status_of(simulator);
   for (int i = 0; i < 400 && !condition(status); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     status = status_of(simulator);
@@ -196,7 +197,8 @@ TEST_F(Events, StatusIsThatOfTheReport) {
   expected.unsent = paused.unsent;
   expected.bubble_particles = paused.bubble_particles;
   expected.density_error = paused.density_error;
-  EXPECT_EQ(protocol::to_message(paused), protocol::to_message(expected));
+  EXPECT_EQ(protocol::to_text(protocol::to_message(paused)),
+            protocol::to_text(protocol::to_message(expected)));
 }
 
 TEST_F(Events, EachOfTwoTargetsGetsAll) {
