@@ -106,10 +106,10 @@ void describe_scene(const Scene& scene) {
 
 /// Whoever asks for longer steps is told what they cost.
 void say_price(const Simulation& simulation) {
-  Scene usual = simulation.scene();
-  usual.fluid.time_step_factor = 1.0;
-  const double sound = scene_sound_speed(usual, simulation.bodies().fastest_ever());
-  const double share = static_cast<double>(simulation.sound_speed()) / sound;
+  const Scene& scene = simulation.scene();
+  if (scene.fluid.sound_speed > 0.0) return;
+  const double usual = suitable_sound_speed(scene, simulation.bodies().fastest_ever(), 1.0);
+  const double share = static_cast<double>(simulation.sound_speed()) / usual;
   if (share > 0.999) return;
   std::printf(
       "sound   is %.2f times as fast as by default, for longer steps: water is compressed "

@@ -13,6 +13,7 @@
 #include "sim-server/scene/lattice.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/step_policy.hpp"
 
 namespace splash::sim {
 namespace {
@@ -68,12 +69,13 @@ int number_of(PressureKind solver) {
   return SPLASH_WEAKLY_COMPRESSIBLE;
 }
 
-/// To where a particle of a standing column comes by the weight of what is above it.
-double sunk(const Scene& scene, const Vector3& x) {
+/// To where a particle of a standing column comes by the weight of what is above it. `stratified`:
+/// the water's stratification [1/m].
+double sunk(const Scene& scene, double stratified, const Vector3& x) {
   const WaterColumn column = water_column(scene, x);
   const double z = x[2] - column.bottom;
   const double above = column.top - x[2];
-  return x[2] - stratification(scene) * std::max(z, 0.0) * std::max(above, 0.0) / 2.0;
+  return x[2] - stratified * std::max(z, 0.0) * std::max(above, 0.0) / 2.0;
 }
 
 void set_pull(const FluidSettings& fluid, FluidParams& p) {
@@ -113,20 +115,25 @@ WallPlane gate_wall(const Gate& gate, bool left) {
   return wall(side, 0, 0, side * gate.x);
 }
 
-std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
+std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles, double sound_speed,
                              const std::vector<Holding>& holding) {
-  if (stratification(scene) == 0.0) return particles;
+  const double stratified = stratification(scene, sound_speed);
+  if (stratified == 0.0) return particles;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const bool hangs = i < holding.size() && holding[i] == Holding::hangs;
-    if (!hangs) particles[i][2] = sunk(scene, particles[i]);
+    if (!hangs) particles[i][2] = sunk(scene, stratified, particles[i]);
   }
   return particles;
 }
 
 FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles) {
+  return make_params(scene, particles, scene_sound_speed(scene));
+}
+
+FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles,
+                        double sound_speed) {
   const double spacing = particle_spacing(scene);
   const double support = scene_support(scene);
-  const double sound = scene_sound_speed(scene);
   FluidParams p = {};
   p.count = static_cast<int>(particles.size());
   lay_grid(scene, support, p);
@@ -141,24 +148,27 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
                        : static_cast<float>(kTornDensity * scene.fluid.density);
   p.kernel_norm = static_cast<float>(kernel_norm(support));
   const double volume = particle_volume(scene);
-  p.mass = static_cast<float>((1.0 + compression(scene)) * scene.fluid.density * volume);
+  p.mass =
+      static_cast<float>((1.0 + compression(scene, sound_speed)) * scene.fluid.density * volume);
   p.rest_density = static_cast<float>(scene.fluid.density);
-  p.sound_speed = static_cast<float>(sound);
+  p.sound_speed = static_cast<float>(sound_speed);
   p.viscous = static_cast<float>(10.0 * scene.fluid.viscosity);
-  p.artificial = static_cast<float>(scene.fluid.artificial * sound * kLengthOfSupport * support);
+  p.artificial =
+      static_cast<float>(scene.fluid.artificial * sound_speed * kLengthOfSupport * support);
   p.gravity_x = static_cast<float>(scene.fluid.gravity[0]);
   p.gravity_y = static_cast<float>(scene.fluid.gravity[1]);
   p.gravity_z = static_cast<float>(scene.fluid.gravity[2]);
   set_pull(scene.fluid, p);
   p.spacing = static_cast<float>(spacing);
   p.layer_weight = static_cast<float>(volume / (spacing * spacing));
-  p.speed_limit = static_cast<float>(sound);
+  p.speed_limit = static_cast<float>(sound_speed);
   p.solver = number_of(scene.fluid.solver);
   p.wave_speed = static_cast<float>(longest_wave(scene));
   p.tolerance = static_cast<float>(scene.fluid.tolerance);
   const bool on_grid = scene.fluid.solver == PressureKind::grid_projected;
-  const double factor = step_factor(scene.fluid);
-  p.way = static_cast<float>(on_grid ? kGridWay * std::min(factor, kMostWay) : kWay * factor);
+  const double factor = StepPolicy(scene.fluid).factor();
+  p.advective_cfl = static_cast<float>(
+      on_grid ? kGridAdvectiveCfl * std::min(factor, kLargestGridCfl) : kAdvectiveCfl * factor);
   const auto walls = tank_walls(scene);
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);

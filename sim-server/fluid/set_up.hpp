@@ -22,7 +22,9 @@ namespace splash::sim {
 /// (scene/lattice.hpp). Its mass is such that the lattice has the density at rest, and more by what
 /// the deepest column loses in height when it settles, its mean compression g H / (2 c0^2): the
 /// water stands at the wanted level, and its outermost particles kSurfaceLoss lower than on the
-/// lattice (smoothing.hpp).
+/// lattice (smoothing.hpp). `sound_speed`: of the water [m/s]; without it, scene_sound_speed.
+[[nodiscard]] FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles,
+                                      double sound_speed);
 [[nodiscard]] FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particles);
 
 /// The particles as they stand under their own weight: density grows with depth as the state
@@ -30,8 +32,9 @@ namespace splash::sim {
 /// surface stays where the scene wants it. To first order z becomes z - g z (H - z) / (2 c0^2),
 /// with z from the floor, or from the bottom of a column that stands higher. What hangs, as
 /// `holding` says of each particle (all are held without it), weighs on nothing and stays where it
-/// is. Needs gravity along -z; any other leaves the lattice as it is.
+/// is. Needs gravity along -z; any other leaves the lattice as it is. `sound_speed`: c0 [m/s].
 [[nodiscard]] std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
+                                           double sound_speed,
                                            const std::vector<Holding>& holding = {});
 
 /// How far the piston stands in front of its rest place, and how fast it moves [m], [m/s].

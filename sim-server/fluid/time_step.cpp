@@ -6,6 +6,7 @@
 
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
+#include "sim-server/scene/step_policy.hpp"
 
 namespace splash::sim {
 namespace {
@@ -31,19 +32,25 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
   const double viscous = std::min(factor * kViscous, kMostViscous) * rubbing;
   if (params.solver == SPLASH_DIVERGENCE_FREE) {
     const double fastest = std::max(speed, static_cast<double>(params.wave_speed));
-    const double way = kWay * static_cast<double>(params.spacing) / std::max(fastest, 1.0e-9);
+    const double way =
+        kAdvectiveCfl * static_cast<double>(params.spacing) / std::max(fastest, 1.0e-9);
     return std::min(factor * std::min(way, kLongest), viscous);
   }
   if (params.solver == SPLASH_GRID_PROJECTED) {
-    const double way = kGridWay * static_cast<double>(params.spacing) / std::max(speed, 1.0e-9);
+    const double way =
+        kGridAdvectiveCfl * static_cast<double>(params.spacing) / std::max(speed, 1.0e-9);
     // It knows no artificial viscosity.
     const double water = h * h / std::max(static_cast<double>(params.viscous) / 10.0, 1.0e-12);
-    return std::min({std::min(factor, kMostWay) * way, factor * kLongest, kViscous * water});
+    return std::min({std::min(factor, kLargestGridCfl) * way, factor * kLongest, kViscous * water});
   }
   const double sound = static_cast<double>(params.sound_speed);
   const double acoustic = kAcousticCfl * support / (sound + speed);
   const double push = kForceCfl * std::sqrt(h / std::max(acceleration, 1.0e-9));
   return std::min(factor * std::min(acoustic, std::max(push, kLeastShare * acoustic)), viscous);
+}
+
+double longest_possible_step(const FluidParams& params) {
+  return StepPolicy::kLargestFactor * largest_time_step(params, 0.0, 0.0, 1.0);
 }
 
 FrameSteps steps_of_frame(double frame, double largest) {

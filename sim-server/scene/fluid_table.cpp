@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The rows of a scene file that say what the water is and how its motion is solved.
 #include "sim-server/scene/scene_table.hpp"
+#include "sim-server/scene/step_policy.hpp"
 
 namespace splash::sim {
 
@@ -101,8 +102,8 @@ Fields<F> force_fields() {
                    "compressible by the square (sim-server/fluid/README has a table); not where "
                    "`sound_speed` is given. With grid_projected what is fast goes no farther in a "
                    "step than by default.",
-        .min = 0.05,
-        .max = 2},
+        .min = StepPolicy::kLeastFactor,
+        .max = StepPolicy::kLargestFactor},
        &F::time_step_factor},
       {{.key = "gravity",
         .unit = "m/s2",

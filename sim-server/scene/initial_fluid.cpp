@@ -81,15 +81,16 @@ struct Cell {
 class Filling {
  public:
   Filling(const Scene& scene, std::span<const Keyframe> poses, std::size_t block,
-          const Lattice& lattice)
+          const Lattice& lattice, double sound_speed)
       : scene_(scene),
         block_(scene.water[block]),
         lattice_(lattice),
         solids_(scene, poses),
         reach_(0.5 *
                length(lattice.step + Vector3{0.0, 0.0, scene.slope.gradient * lattice.step[0]})),
-        stratification_(stratification(scene)),
-        per_cell_(lattice.cell() / particle_volume(scene) / (1.0 + compression(scene))) {
+        stratification_(stratification(scene, sound_speed)),
+        per_cell_(lattice.cell() / particle_volume(scene) /
+                  (1.0 + compression(scene, sound_speed))) {
     const Vector3 middle = 0.5 * (block_.lower + block_.upper);
     const bool in_air = block_.lower[2] > floor_height(scene, block_.upper[0]);
     hangs_ = in_air && how_held(scene, poses, {middle}).front() == Holding::hangs;
@@ -235,14 +236,15 @@ bool is_filled(const WaterBlock& block, const Vector3& place) {
   return std::hypot(share[0], share[1], share[2]) <= 1.0;
 }
 
-InitialWater initial_water(const Scene& scene, std::span<const Keyframe> poses) {
+InitialWater initial_water(const Scene& scene, std::span<const Keyframe> poses,
+                           double sound_speed) {
   if (poses.size() != scene.bodies.size()) {
     throw std::invalid_argument("initial_water: one pose for each body");
   }
   const std::vector<Lattice> rows = lattices(scene);
   InitialWater water;
   for (std::size_t b = 0; b < scene.water.size(); ++b) {
-    water.blocks.push_back(Filling(scene, poses, b, rows[b]).fill(water.particles));
+    water.blocks.push_back(Filling(scene, poses, b, rows[b], sound_speed).fill(water.particles));
   }
   return water;
 }
@@ -254,7 +256,7 @@ std::vector<Vector3> initial_particles(const Scene& scene) {
 }
 
 std::vector<Vector3> initial_particles(const Scene& scene, std::span<const Keyframe> poses) {
-  return initial_water(scene, poses).particles;
+  return initial_water(scene, poses, scene_sound_speed(scene)).particles;
 }
 
 }  // namespace splash::sim

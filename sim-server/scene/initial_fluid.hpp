@@ -35,9 +35,12 @@ struct InitialWater {
 ///
 /// Water that stands is denser below (compression, scene/resolution.hpp): so each column gets as
 /// many particles as its weight asks for. The order is fixed: x fastest, then y, then z.
-[[nodiscard]] InitialWater initial_water(const Scene& scene, std::span<const Keyframe> poses);
+/// `sound_speed`: in that water [m/s].
+[[nodiscard]] InitialWater initial_water(const Scene& scene, std::span<const Keyframe> poses,
+                                         double sound_speed);
 
-/// Its particles; without `poses` bodies are where `rest` says.
+/// Its particles with the scene's speed of sound (scene_sound_speed); without `poses` bodies are
+/// where `rest` says.
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene);
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene,
                                                      std::span<const Keyframe> poses);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/step_policy.hpp"
 
 namespace splash::sim {
 
@@ -177,8 +178,7 @@ double slowest_sound(const Scene& scene) {
   return std::max(longest_wave(scene), fastest / std::numbers::sqrt2) / std::sqrt(kDenser);
 }
 
-double scene_sound_speed(const Scene& scene, double fastest_body) {
-  if (scene.fluid.sound_speed > 0.0) return scene.fluid.sound_speed;
+double suitable_sound_speed(const Scene& scene, double fastest_body, double sound_factor) {
   // Monaghan 1994: density stays within (v/c)^2 of rest, so c should be ten times the fastest
   // speed. Eight times that of the fastest wave the depth allows (1.6 % at the floor) is what two
   // CPU cores carry in real time; the floor covers bodies of up to 1.3 m/s, whatever the depth.
@@ -191,36 +191,23 @@ double scene_sound_speed(const Scene& scene, double fastest_body) {
   const double fastest =
       std::max({fastest_body, fastest_fall(scene), fastest_piston(scene.wave_maker)});
   const double slow = std::max(kRatio * longest_wave(scene), kLeast);
-  return std::max(sound_share(scene.fluid) * slow, fastest / kMach);
+  return std::max(sound_factor * slow, fastest / kMach);
 }
 
-double stratification(const Scene& scene) {
+double scene_sound_speed(const Scene& scene, double fastest_body) {
+  if (scene.fluid.sound_speed > 0.0) return scene.fluid.sound_speed;
+  return suitable_sound_speed(scene, fastest_body, StepPolicy::sound_factor(scene.fluid));
+}
+
+double stratification(const Scene& scene, double sound_speed) {
   const Vector3& g = scene.fluid.gravity;
   const bool falls_down = g[0] == 0.0 && g[1] == 0.0 && g[2] < 0.0;
   if (!falls_down || scene.fluid.solver != PressureKind::weakly_compressible) return 0.0;
-  const double sound = scene_sound_speed(scene);
-  return -g[2] / (sound * sound);
+  return -g[2] / (sound_speed * sound_speed);
 }
 
-double compression(const Scene& scene) {
-  return stratification(scene) * water_depth(scene) / 2.0;
-}
-
-double longest_step_factor(PressureKind solver) noexcept {
-  // Measured by the trials and maps of tests/stress: the state equation's water is calm to 1.15
-  // and no longer at 1.2 around a sunken ball; the divergence-free one's passes all of them at 2.
-  // On a grid still and slow water takes 2 (fluid/time_step.hpp).
-  return solver == PressureKind::weakly_compressible ? 1.05 : 2.0;
-}
-
-double sound_share(const FluidSettings& fluid) noexcept {
-  if (fluid.solver != PressureKind::weakly_compressible) return 1.0;
-  return std::min(longest_step_factor(fluid.solver) / fluid.time_step_factor, 1.0);
-}
-
-double step_factor(const FluidSettings& fluid) noexcept {
-  // Of a speed of sound that the scene names nothing is taken.
-  return (fluid.sound_speed > 0.0 ? 1.0 : sound_share(fluid)) * fluid.time_step_factor;
+double compression(const Scene& scene, double sound_speed) {
+  return stratification(scene, sound_speed) * water_depth(scene) / 2.0;
 }
 
 }  // namespace splash::sim

@@ -34,26 +34,23 @@ struct WaterColumn {
 /// sqrt(v^2 + 2 g drop) [m/s]. Nothing is said of what falls upwards out of the tank, which is open
 /// there.
 [[nodiscard]] double fastest_fall(const Scene& scene);
-/// As given, or from the depth, times sound_share, and the speed of what is fastest: the body that
-/// `fastest_body` is of, what falls, or the piston [m/s].
+/// The speed of sound that suits a scene, whether or not it names one: from the depth, times
+/// `sound_factor` (StepPolicy), and from the speed of what is fastest: the body that `fastest_body`
+/// is of, what falls, or the piston [m/s].
+[[nodiscard]] double suitable_sound_speed(const Scene& scene, double fastest_body,
+                                          double sound_factor);
+/// The speed that the scene names, or the suitable one at its steps [m/s].
 [[nodiscard]] double scene_sound_speed(const Scene& scene, double fastest_body = 0.0);
 /// The least speed of sound that a scene may name [m/s]: neither its own weight, g H / c^2, nor the
 /// stagnation of what falls (fastest_fall), of a uniform flow or at the piston, v^2 / 2 c^2, makes
 /// its water denser by more than a sixteenth. Sound that the scene leaves to us is at least as fast
 /// at any step.
 [[nodiscard]] double slowest_sound(const Scene& scene);
-/// g / c0^2: relative growth of density per depth in water that stands; none where nothing
-/// compresses or gravity is not along -z [1/m].
-[[nodiscard]] double stratification(const Scene& scene);
-/// Part of its height that the deepest column loses by its own weight, its mean compression [1].
-[[nodiscard]] double compression(const Scene& scene);
-/// The most by which steps may exceed the default at one speed of sound, by what still water stands
-/// (sim-server/fluid/README, "How long a step may be") [1].
-[[nodiscard]] double longest_step_factor(PressureKind solver) noexcept;
-/// Part of the speed of sound that suits the scene: longer steps than still water stands are bought
-/// with slower sound, which costs compression and not stability [1].
-[[nodiscard]] double sound_share(const FluidSettings& fluid) noexcept;
-/// What is left of `time_step_factor` to make steps longer with [1].
-[[nodiscard]] double step_factor(const FluidSettings& fluid) noexcept;
+/// g / c0^2: relative growth of density per depth in water that stands, in which sound is as fast
+/// as `sound_speed` [m/s]; 0 where nothing compresses or gravity is not along -z [1/m].
+[[nodiscard]] double stratification(const Scene& scene, double sound_speed);
+/// The part of its height that the deepest column loses by its own weight, its mean compression
+/// [1].
+[[nodiscard]] double compression(const Scene& scene, double sound_speed);
 
 }  // namespace splash::sim

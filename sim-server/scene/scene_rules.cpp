@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/step_policy.hpp"
 
 namespace splash::sim {
 
@@ -246,11 +247,11 @@ std::string wrong_order(const DetectSettings& detect) {
 }
 
 void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
-  const double most = longest_step_factor(fluid.solver);
+  const double most = StepPolicy::stable_factor(fluid.solver);
   if (fluid.time_step_factor <= most) return;
   if (!map.has("sound_speed")) return;
   throw map.error("time_step_factor",
-                  "must be in 0.05.." + text(most) +
+                  "must be in " + text(StepPolicy::kLeastFactor) + ".." + text(most) +
                       " with a sound_speed of the scene's own, got '" +
                       text(fluid.time_step_factor) +
                       "': with longer steps still water begins to boil. Leave sound_speed out, and "
@@ -259,9 +260,7 @@ void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
 
 void check_sound(const ConfigMap& fluid, const Scene& scene) {
   constexpr double kOfWater = 1500.0;  // [m/s]
-  Scene unnamed = scene;
-  unnamed.fluid.sound_speed = 0.0;
-  const double wanted = scene_sound_speed(unnamed);
+  const double wanted = suitable_sound_speed(scene, 0.0, StepPolicy::sound_factor(scene.fluid));
   if (fluid.has("pull") && wanted > kOfWater) {
     const double fastest = std::max(longest_wave(scene), fastest_fall(scene));
     throw fluid.error("pull", "is too strong for where the water is: it would get as fast as " +

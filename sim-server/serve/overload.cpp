@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim-server/scene/resolution.hpp"
-
 namespace splash::sim {
 namespace {
 
@@ -14,11 +12,6 @@ constexpr double kMemory = 1.0;        ///< of the mean load: one slow frame is 
 constexpr double kLongestWait = 16.0;  ///< times the usual wait
 
 }  // namespace
-
-double stable_stretch(const FluidSettings& fluid) noexcept {
-  const double longest = longest_step_factor(PressureKind::weakly_compressible);
-  return std::clamp(longest / fluid.time_step_factor, 1.0, longest);
-}
 
 Load Overload::above() const noexcept {
   switch (level_) {
@@ -74,7 +67,7 @@ bool Overload::note(double seconds, double spent) {
   return true;
 }
 
-std::string describe(const Overload& overload, double stretch) {
+std::string describe(const Overload& overload, double overload_factor) {
   std::array<char, 256> text = {};
   const double load = overload.load();
   switch (overload.level()) {
@@ -88,14 +81,14 @@ std::string describe(const Overload& overload, double stretch) {
       std::snprintf(text.data(), text.size(),
                     "a simulated second takes %.2f s: steps are %.2f times as long, which is "
                     "stable",
-                    load, stretch);
+                    load, overload_factor);
       break;
     case Load::slow:
       // Where steps may get longer still, the scene can ask for it.
       std::snprintf(text.data(), text.size(),
                     "a simulated second takes %.2f s: simulated time runs slower than the clock "
                     "(fewer fluid.particles%s or a faster --device would help)",
-                    load, stretch > 1.0 ? ", fluid.time_step_factor: 2" : "");
+                    load, overload_factor > 1.0 ? ", fluid.time_step_factor: 2" : "");
       break;
   }
   return text.data();

@@ -8,8 +8,6 @@
 #include <array>
 #include <string>
 
-#include "sim-server/scene/scene.hpp"
-
 namespace splash::sim {
 
 enum class Load {
@@ -27,11 +25,6 @@ struct OverloadSettings {
   double rise = 0.5;        ///< between two steps up [s]
   double fall = 2.0;        ///< of low load before a step down [s]
 };
-
-/// How much longer than by default steps may be: 1.05, where still water around a sunken ball is
-/// calm to 1.15 and plunges are sound to 1.5 (the margin's map in tests/stress/README.md). Nothing
-/// for scenes that ask for longer steps themselves.
-[[nodiscard]] double stable_stretch(const FluidSettings& fluid) noexcept;
 
 class Overload {
  public:
@@ -63,7 +56,7 @@ class Overload {
   std::array<double, kLoads> spent_ = {};
 };
 
-/// A sentence on the level that has just been reached.
-[[nodiscard]] std::string describe(const Overload& overload, double stretch);
+/// A sentence on the level that has just been reached. `overload_factor`: StepPolicy's [1].
+[[nodiscard]] std::string describe(const Overload& overload, double overload_factor);
 
 }  // namespace splash::sim

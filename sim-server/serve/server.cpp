@@ -243,12 +243,11 @@ void Server::stand_still() {
 void Server::note_load(double seconds, double spent) {
   if (!options_.real_time || !overload_.note(seconds, spent)) return;
   const Load level = overload_.level();
-  const double stretch = stable_stretch(simulation_.scene().fluid);
-  simulation_.set_stretch(level >= Load::coarse ? stretch : 1.0);
+  simulation_.step_policy().set_overloaded(level >= Load::coarse);
   // Under a lasting load the backlog is given up frame by frame: what is told is told at once.
   const double frame = 1.0 / simulation_.scene().serve.frame_rate;
   pacer_.set_slip_limit(level == Load::slow ? frame : kSlipLimit);
-  std::fprintf(stderr, "sim-server: %s\n", describe(overload_, stretch).c_str());
+  std::fprintf(stderr, "sim-server: %s\n", describe(overload_, simulation_.step_policy().overload_factor()).c_str());
 }
 
 void Server::say(const StepFault& step_fault) {

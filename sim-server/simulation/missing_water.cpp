@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/resolution.hpp"
 #include "sim-server/start/scene_start.hpp"
 
 namespace splash::sim {
@@ -30,7 +31,8 @@ std::string account(std::size_t number, const WaterBlock& block, const BlockWate
 
 std::string missing_water(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
-  const InitialWater water = initial_water(scene, poses_at_start(simulation.bodies()));
+  const InitialWater water =
+      initial_water(scene, poses_at_start(simulation.bodies()), scene_sound_speed(scene));
   std::string list;
   for (std::size_t b = 0; b < water.blocks.size(); ++b) {
     const BlockWater& block = water.blocks[b];

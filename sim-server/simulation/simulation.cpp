@@ -83,7 +83,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
                 !scene_.skip.cavities),
       cavity_watch_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
                     !scene_.skip.cavities),
-      needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count) {
+      needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count),
+      step_policy_(scene_.fluid) {
   come_to_rest(fluid_, scene_, bodies_, holding_, tell);
   fluid_.forget_work();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
@@ -331,9 +332,9 @@ double Simulation::fastest_mover(double seconds) const {
 }
 
 void Simulation::set_largest_step(double fastest, double acceleration) {
-  const double factor = stretch_ * step_factor(scene_.fluid);
-  largest_step_ =
-      std::min(largest_time_step(fluid_.params(), fastest, acceleration, factor), contact_step_);
+  largest_step_ = std::min(
+      largest_time_step(fluid_.params(), fastest, acceleration, step_policy_.factor()),
+      contact_step_);
 }
 
 StepFault Simulation::examine(const Diagnosis& what, double dt) {

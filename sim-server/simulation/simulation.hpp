@@ -18,6 +18,7 @@
 #include "sim-server/fluid/health/checkpoint.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/holding.hpp"
+#include "sim-server/scene/step_policy.hpp"
 #include "sim-server/simulation/hung_bodies.hpp"
 #include "sim-server/simulation/needs.hpp"
 #include "sim-server/simulation/recovery/recovery.hpp"
@@ -74,8 +75,8 @@ class Simulation {
   [[nodiscard]] FrameResult advance();
   /// Our clock when simulated time was 0, as of the next frame [s]: what poses are stamped by.
   void set_origin(double origin) noexcept { origin_ = origin; }
-  /// Steps are this many times as long as the scene wants, from the next frame on [1].
-  void set_stretch(double stretch) noexcept { stretch_ = stretch; }
+  /// How long steps are, from the next frame on.
+  [[nodiscard]] StepPolicy& step_policy() noexcept { return step_policy_; }
   /// Detection by other thresholds, from the next frame on; `cavity_by_count` stays.
   void set_detection(const DetectSettings& settings);
   /// Goes on from `water`, which a simulation of the same scene had at `seconds`; bubbles are lost.
@@ -167,10 +168,10 @@ class Simulation {
   double seconds_ = 0.0;
   double begun_ = 0.0;         ///< when the scene last began anew [s]
   double detected_at_ = 0.0;   ///< time of the last detection [s]
+  StepPolicy step_policy_;
   double largest_step_ = 0.0;  ///< [s]
   double contact_step_ = 0.0;  ///< no step is longer (bodies/contact_step.hpp) [s]
   double thrown_until_ = 0.0;  ///< water may be as fast as it can be [s]
-  double stretch_ = 1.0;       ///< of all steps [1]
   double origin_ = 0.0;        ///< our clock when simulated time was 0 [s]
   Recovery recovery_;
   Checkpoint sound_;  ///< the end of the last sound frame

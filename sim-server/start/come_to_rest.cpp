@@ -9,7 +9,7 @@
 #include "program/failure.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/time_step.hpp"
-#include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/step_policy.hpp"
 #include "sim-server/simulation/recovery/rescue.hpp"
 #include "sim-server/simulation/recovery/step_fault.hpp"
 #include "sim-server/start/pack.hpp"
@@ -50,7 +50,7 @@ void bring_to_rest(Fluid& fluid, const Scene& scene, const Bodies& moved,
   const std::vector<BodyStep> bodies = at_rest(moved.at(0.0));
   const PistonState piston = piston_at(scene.wave_maker, 0.0);
   double dt = largest_time_step(fluid.params(), moved.fastest(0.0),
-                                std::abs(scene.fluid.gravity[2]), step_factor(scene.fluid));
+                                std::abs(scene.fluid.gravity[2]), StepPolicy(scene.fluid).factor());
   pack(fluid, bodies, piston.offset, dt, flagged(holding, false, true),
        static_cast<std::uint32_t>(scene.seed));
   const Snapshot packed = fluid.snapshot();

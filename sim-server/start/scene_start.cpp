@@ -30,12 +30,6 @@ std::vector<Holding> wanted_holding(const Scene& scene, std::span<const Keyframe
   return all;
 }
 
-/// With a speed of sound that suits its depth and its bodies, unless it names one.
-Scene with_sound(Scene scene, const Bodies& bodies) {
-  scene.fluid.sound_speed = scene_sound_speed(scene, bodies.fastest_ever());
-  return scene;
-}
-
 }  // namespace
 
 Bodies make_bodies(const Scene& scene, const std::filesystem::path& tracker,
@@ -65,13 +59,17 @@ std::vector<Keyframe> poses_at_start(const Bodies& bodies) {
 
 Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
                  std::vector<Holding>& holding) {
-  const Scene sounding = with_sound(scene, bodies);
+  const double sound = scene_sound_speed(scene, bodies.fastest_ever());
   const std::vector<Keyframe> poses = poses_at_start(bodies);
-  const std::vector<Vector3> particles = initial_particles(sounding, poses);
+  const std::vector<Vector3> particles = initial_water(scene, poses, sound).particles;
   holding = wanted_holding(scene, poses, particles);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
-  return {device,   make_params(sounding, particles), settled(sounding, particles, holding),
-          boundary, body_outlines(scene.bodies),      {.whole = !scene.skip.kernels}};
+  return {device,
+          make_params(scene, particles, sound),
+          settled(scene, particles, sound, holding),
+          boundary,
+          body_outlines(scene.bodies),
+          {.whole = !scene.skip.kernels}};
 }
 
 double start_flow(Fluid& fluid, const Scene& scene) {

@@ -79,17 +79,6 @@ TEST(Overload, NonsenseIsNoLoad) {
   EXPECT_EQ(overload.load(), 0.0);
 }
 
-TEST(Overload, StretchesStepsOnlyToWhereTheyAreStable) {
-  FluidSettings fluid;
-  EXPECT_NEAR(stable_stretch(fluid), 1.05, 1e-9);
-  fluid.time_step_factor = 1.02;
-  EXPECT_NEAR(1.02 * stable_stretch(fluid), 1.05, 1e-9);
-  fluid.time_step_factor = 2.0;
-  EXPECT_EQ(stable_stretch(fluid), 1.0) << "the scene's own wish";
-  fluid.time_step_factor = 0.1;
-  EXPECT_NEAR(stable_stretch(fluid), 1.05, 1e-9) << "a careful scene stays careful";
-}
-
 TEST(Overload, SaysWhatGivesWay) {
   Overload overload({.has_gauges = true});
   static_cast<void>(overload.note(10.0, 15.0));

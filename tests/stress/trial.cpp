@@ -12,6 +12,7 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/step_policy.hpp"
 
 namespace splash::stress {
 namespace {
@@ -143,7 +144,7 @@ void set_steps(const Settings& settings, Scene& scene) {
   if (settings.stiff) scene.fluid.sound_speed = sim::scene_sound_speed(scene);
   scene.fluid.time_step_factor *= settings.factor;
   if (settings.stiff || scene.fluid.sound_speed == 0.0) return;
-  const double share = sim::sound_share(scene.fluid);
+  const double share = sim::StepPolicy::sound_factor(scene.fluid);
   scene.fluid.sound_speed = std::max(share * scene.fluid.sound_speed, sim::slowest_sound(scene));
   scene.fluid.time_step_factor *= share;
 }

@@ -60,7 +60,7 @@ std::string_view describe(Fault fault) noexcept {
     case Fault::body:
       return "a free body was no number, beyond the tank or faster than anything in it";
     case Fault::step:
-      return "a time step was longer than twice the stable one";
+      return "a time step was longer than any that a scene may ask for";
   }
   return "unknown";
 }
@@ -103,7 +103,7 @@ HealthLimits health_limits(const FluidParams& p) {
 Health::Health(Device& device, const cl::Program& program, const FluidParams& params)
     : particles_(params.count),
       parts_(device.profile().parts),
-      longest_step_(2.0 * largest_time_step(params, 0.0, 0.0, 1.0)),
+      longest_step_(longest_possible_step(params)),
       rested_(device, device.vectors_of(params.count)),
       check_(program, "check_health", device.profile().team) {
   const HealthLimits limits = health_limits(params);

@@ -65,7 +65,7 @@ typedef struct {
   int solver;        // SPLASH_WEAKLY_COMPRESSIBLE, _DIVERGENCE_FREE or _GRID_PROJECTED
   float wave_speed;  // of the longest wave, sqrt(g H) of the deepest water [m/s]
   float tolerance;   // divergence-free: mean density error at which a solve is done [1]
-  float way;         // as far as anything goes in a step, but with the state equation [spacings]
+  float advective_cfl;  // largest displacement in a step, unused with the state equation [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
 SPLASH_SHARED_STRUCT(FluidParams, 39 * 4 + 16 * SPLASH_MAX_WALLS)

@@ -9,6 +9,7 @@
 
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/resolution.hpp"
 #include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
@@ -133,7 +134,7 @@ TEST(SetUp, SettledWaterIsDenserBelowAndNoLower) {
   Scene scene = tank_scene(0.02, {0.2, 0.16, 0.3}, 0.2);
   const std::vector<Vector3> column = {
       {0.1, 0.1, 0.0}, {0.1, 0.1, 0.05}, {0.1, 0.1, 0.1}, {0.1, 0.1, 0.15}, {0.1, 0.1, 0.2}};
-  const auto there = settled(scene, column);
+  const auto there = settled(scene, column, scene_sound_speed(scene));
   EXPECT_NEAR(there.front()[2], 0.0, 1.0e-12);
   EXPECT_NEAR(there.back()[2], 0.2, 1.0e-12);
   for (std::size_t k = 1; k < 4; ++k) {
@@ -142,7 +143,7 @@ TEST(SetUp, SettledWaterIsDenserBelowAndNoLower) {
   }
   EXPECT_LT(there[1][2] - there[0][2], there[4][2] - there[3][2]);
   scene.fluid.gravity = {1.0, 0.0, -9.81};
-  EXPECT_EQ(settled(scene, column), column);
+  EXPECT_EQ(settled(scene, column, scene_sound_speed(scene)), column);
 }
 
 // In the air it weighs on nothing.
@@ -150,7 +151,7 @@ TEST(SetUp, HangingWaterStaysWhereItIs) {
   Scene scene = tank_scene(0.02, {0.2, 0.16, 0.6}, 0.2);
   scene.water.push_back({{0.04, 0.04, 0.4}, {0.16, 0.12, 0.5}});
   const std::vector<Vector3> places = {{0.1, 0.08, 0.1}, {0.04, 0.08, 0.45}};
-  const auto there = settled(scene, places, {Holding::held, Holding::hangs});
+  const auto there = settled(scene, places, scene_sound_speed(scene), {Holding::held, Holding::hangs});
   EXPECT_NEAR(there[0][2], 0.1 - 9.81 * 0.1 * 0.1 / (2.0 * 225.0), 1.0e-9) << "as without it";
   EXPECT_EQ(there[1], places[1]);
 }

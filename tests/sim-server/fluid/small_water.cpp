@@ -6,6 +6,7 @@
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/start/settle.hpp"
 
@@ -44,8 +45,9 @@ void Water::start(Device& device, const KernelBuild& build) {
   bodies = std::make_unique<Bodies>(sample_bodies(scene.bodies, scene.fluid.spacing, support),
                                     std::move(moved), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
-  fluid = std::make_unique<Fluid>(device, params, settle ? settled(scene, particles) : particles,
-                                  boundary, body_outlines(scene.bodies), build);
+  fluid = std::make_unique<Fluid>(
+      device, params, settle ? settled(scene, particles, scene_sound_speed(scene)) : particles,
+      boundary, body_outlines(scene.bodies), build);
   time = 0.0;
 }
 

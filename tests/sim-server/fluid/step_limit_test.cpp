@@ -13,7 +13,7 @@
 
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/time_step.hpp"
-#include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/step_policy.hpp"
 #include "tests/sim-server/fluid/lattice_waves.hpp"
 
 namespace splash::sim {
@@ -57,7 +57,7 @@ const std::vector<std::vector<Vector3>> kLattices = {
     {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}};
 
 TEST(StepLimit, OfTheoryIsAboveTheLongestStepAndFarBelowTwiceTheDefault) {
-  const double most = longest_step_factor(PressureKind::weakly_compressible);
+  const double most = StepPolicy::stable_factor(PressureKind::weakly_compressible);
   for (const auto& basis : kLattices) {
     const Limits limits = limits_of(basis);
     std::printf("%zu per cell: %.3f H/c0 without friction, %.3f with it; used: %.3f\n",
@@ -112,7 +112,7 @@ TEST(StepLimit, OfViscosityIsAboveTheLongestStep) {
     p.solver = SPLASH_DIVERGENCE_FREE;
     p.spacing = p.length = static_cast<float>(kSpacing);  // h is one spacing
     p.viscous = 1.0F;                                     // 10 nu
-    const double most = longest_step_factor(PressureKind::divergence_free);
+    const double most = StepPolicy::stable_factor(PressureKind::divergence_free);
     const double used = largest_time_step(p, 0.0, 0.0, most) * 0.1 / (kSpacing * kSpacing);
     const double limit = viscous_limit(basis);
     std::printf("%zu per cell: %.3f h^2/nu; used: %.3f\n", basis.size(), limit, used);

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "sim-server/scene/step_policy.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -51,6 +53,25 @@ TEST(TimeStep, ViscousLimitIsNotExceededByWhatASceneAsks) {
 TEST(TimeStep, FactorScalesIt) {
   EXPECT_NEAR(largest_time_step(params(), 1.0, 10.0, 0.5),
               0.5 * largest_time_step(params(), 1.0, 10.0, 1.0), 1.0e-12);
+}
+
+// The health check takes a longer step for a fault: whatever a scene asks for must pass.
+TEST(TimeStep, NoSceneMakesItLongerThanTheHealthCheckAllows) {
+  for (const int solver :
+       {SPLASH_WEAKLY_COMPRESSIBLE, SPLASH_DIVERGENCE_FREE, SPLASH_GRID_PROJECTED}) {
+    FluidParams p = params();
+    p.solver = solver;
+    p.spacing = 0.02F;
+    p.wave_speed = 2.0F;
+    const double bound = longest_possible_step(p);
+    for (const double speed : {0.0, 0.5, 5.0}) {
+      for (const double acceleration : {0.0, 9.81, 800.0}) {
+        EXPECT_LE(largest_time_step(p, speed, acceleration, StepPolicy::kLargestFactor), bound);
+      }
+    }
+    EXPECT_DOUBLE_EQ(largest_time_step(p, 0.0, 0.0, StepPolicy::kLargestFactor), bound)
+        << "and no longer than that";
+  }
 }
 
 TEST(TimeStep, OfDivergenceFreeWaterIsSetByTheFastestOrTheLongestWave) {

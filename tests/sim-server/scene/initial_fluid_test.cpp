@@ -191,14 +191,16 @@ TEST(InitialFluid, EachOfTwoBasinsHasItsOwnWater) {
     Scene scene = box({1.0, 0.31, 0.3}, particles);
     scene.water = {{{0.0, 0.0, 0.0}, {0.61, 0.31, 0.3}}, {{0.61, 0.0, 0.0}, {1.0, 0.31, 0.151}}};
     scene.gate = {true, 0.61};
-    const InitialWater water = initial_water(scene, {});
+    const InitialWater water = initial_water(scene, {}, scene_sound_speed(scene));
     const double left =
         static_cast<double>(std::count_if(water.particles.begin(), water.particles.end(),
                                           [](const Vector3& x) { return x[0] < 0.61; }));
     const double right = static_cast<double>(water.particles.size()) - left;
-    const double unit = particle_volume(scene) * (1.0 + compression(scene));
+    const double unit =
+        particle_volume(scene) * (1.0 + compression(scene, scene_sound_speed(scene)));
     const auto weight = [&](double length, double depth) {
-      return length * 0.31 * depth * (1.0 + stratification(scene) * depth / 2.0);
+      return length * 0.31 * depth *
+             (1.0 + stratification(scene, scene_sound_speed(scene)) * depth / 2.0);
     };
     EXPECT_NEAR(left * unit / weight(0.61, 0.3), 1.0, 0.002) << particles;
     EXPECT_NEAR(right * unit / weight(0.39, 0.151), 1.0, 0.002 + 0.5 / right) << particles;
@@ -210,10 +212,10 @@ TEST(InitialFluid, EachOfTwoBasinsHasItsOwnWater) {
 TEST(InitialFluid, WhatHangsWeighsOnNothing) {
   Scene scene = box({0.5, 0.5, 0.3}, 4000);
   scene.water.push_back({{0.1, 0.1, 0.5}, {0.3, 0.3, 0.7}});
-  const InitialWater water = initial_water(scene, {});
+  const InitialWater water = initial_water(scene, {}, scene_sound_speed(scene));
   const auto drop = static_cast<double>(std::count_if(
       water.particles.begin(), water.particles.end(), [](const Vector3& x) { return x[2] > 0.4; }));
-  const double unit = particle_volume(scene) * (1.0 + compression(scene));
+  const double unit = particle_volume(scene) * (1.0 + compression(scene, scene_sound_speed(scene)));
   EXPECT_NEAR(drop * unit, 0.2 * 0.2 * 0.2, 0.5 * unit);
 }
 
@@ -224,7 +226,8 @@ TEST(InitialFluid, WhatFindsNoRoomLiesOnTop) {
   scene.bodies = {body({ShapeKind::box, {0.1, 0.3, 0.4}}, {0.2, 0.15, 0.2}),
                   body({ShapeKind::box, {0.1, 0.3, 0.4}}, {0.3 + gap, 0.15, 0.2})};
   const InitialWater water =
-      initial_water(scene, std::vector<Keyframe>{scene.bodies[0].rest, scene.bodies[1].rest});
+      initial_water(scene, std::vector<Keyframe>{scene.bodies[0].rest, scene.bodies[1].rest},
+                    scene_sound_speed(scene));
   for (const Vector3& x : water.particles) {
     EXPECT_FALSE(x[0] > 0.24 && x[0] < 0.26 + gap) << x[0];
   }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/scene/step_policy.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -143,7 +145,7 @@ TEST(Resolution, SoundIsEightTimesTheWaveSpeedButNeverTooSlow) {
   scene.fluid.time_step_factor = 2.1;
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene), 6.5) << "half, by which steps are longer";
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 12.0), 40.0) << "but not below what bodies need";
-  EXPECT_DOUBLE_EQ(step_factor(scene.fluid), 1.05);
+  EXPECT_DOUBLE_EQ(StepPolicy(scene.fluid).factor(), 1.05);
   scene.fluid.sound_speed = 33.0;
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene), 33.0);
   EXPECT_DOUBLE_EQ(scene_sound_speed(scene, 12.0), 33.0) << "the scene's own wish";

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/step_policy.hpp"
 #include "sim-server/serve/overload.hpp"
 #include "tests/stress/endurance.hpp"
 #include "tests/stress/trial.hpp"
@@ -119,7 +120,7 @@ TEST_P(Stretched, StepsAreStable) {
   sim::Device device;
   sim::FluidSettings fluid;
   fluid.solver = GetParam();
-  const double stretch = sim::stable_stretch(fluid);
+  const double stretch = sim::StepPolicy(fluid).overload_factor();
   for (const char* name : {"rest", "dam break", "plunge at 1.00 m/s"}) {
     const Verdict verdict = run_trial(device, named(name), {GetParam(), kCoarse, stretch});
     EXPECT_THAT(verdict.broken, IsEmpty()) << name << ' ' << verdict.step_fault;

@@ -9,8 +9,9 @@
 // neighbourhood does not compress by coming closer: its offset is very low. Particles that sleep
 // keep their pressures.
 // Pressures stay within 0 and what the step was made for. It lets nothing go farther than s
-// spacings (FluidParams::way), so that the fastest has u = s dx / dt; the most that it may need is
-// the push that stops it within a step over a spacing, p = rho0 u dx / dt, P = s (dx/dt)^2 / rho0.
+// spacings (FluidParams::advective_cfl), so that the fastest has u = s dx / dt; the most that it may
+// need is the push that stops it within a step over a spacing, p = rho0 u dx / dt, P = s (dx/dt)^2 /
+// rho0.
 // That is u^2 / s in terms of its speed, 7 times its stagnation pressure (3 at twice the default
 // step), and as u is sqrt(g H) at least, never less than what the deepest water weighs. A particle
 // that two solids pinch is freed by no pressure, and without the bound got all there is.
@@ -90,7 +91,7 @@ static float2 correct(constant FluidParams* p, int k, float beta, float dt,
   const lanes now = LOAD(it->pressure, first);
   const lanes none = 0.0f, one = 1.0f;
   const float grid_speed = p->spacing / dt;
-  const lanes most = p->way * grid_speed * grid_speed / p->rest_density;
+  const lanes most = p->advective_cfl * grid_speed * grid_speed / p->rest_density;
   const lanes better = clamp(now + step, none, most);
   const lanes before = k > 0 ? LOAD(it->jacobi, first) : now;
   STORE(better, it->jacobi, first);

@@ -49,7 +49,7 @@ double filter_rate(double spacing) {
 GridProjected::GridProjected(Device& device, const FluidParams& params,
                              const std::vector<std::string>& defines, bool solids)
     : grid_(lay_mac_grid(params)),
-      part_(static_cast<double>(params.way) / kGridWay),
+      part_(static_cast<double>(params.advective_cfl) / kGridAdvectiveCfl),
       particles_(static_cast<std::size_t>(params.count)),
       cells_(cells_in(grid_)),
       strips_(strips_in(grid_, device)),

@@ -17,9 +17,9 @@
 namespace splash::sim {
 
 /// In a step nothing goes farther than this [spacings].
-inline constexpr double kGridWay = 1.0;
+inline constexpr double kGridAdvectiveCfl = 1.0;
 /// However much longer a scene asks steps to be, nothing goes this much farther [1].
-inline constexpr double kMostWay = 1.05;
+inline constexpr double kLargestGridCfl = 1.05;
 
 /// What the second-order filter takes of the velocities that the grid does not see: half the
 /// frequency of a wave 2 pi spacings long, sqrt(g / dx), with the earth's g whatever the scene's
