@@ -60,9 +60,9 @@ std::string read_text(const std::filesystem::path& path) {
 }  // namespace
 
 ConfigError::ConfigError(const Place& place, const std::string& reason)
-    : std::runtime_error(place.file + ':' + std::to_string(place.line) + ':' +
-                         std::to_string(place.column) +
-                         ": error: " + printable(reason, kLongestReason)),
+    : Failure(kExitConfig, place.file + ':' + std::to_string(place.line) + ':' +
+                               std::to_string(place.column) +
+                               ": error: " + printable(reason, kLongestReason)),
       place_(place),
       reason_(reason) {}
 

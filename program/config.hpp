@@ -8,11 +8,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
+
+#include "program/failure.hpp"
 
 namespace splash::program {
 
@@ -24,7 +25,7 @@ struct Place {
 };
 
 /// "file:line:column: error: key 'a.b': reason". Programs exit with 78 (EX_CONFIG) on it.
-class ConfigError : public std::runtime_error {
+class ConfigError : public Failure {
  public:
   ConfigError(const Place& place, const std::string& reason);
   [[nodiscard]] const Place& place() const noexcept { return place_; }

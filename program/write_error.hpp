@@ -2,8 +2,9 @@
 // Why a file could not be written, and what to do about it.
 #pragma once
 
-#include <stdexcept>
 #include <string>
+
+#include "program/failure.hpp"
 
 namespace splash::program {
 
@@ -11,10 +12,10 @@ namespace splash::program {
 [[nodiscard]] std::string write_error(int error);
 
 /// A file could not be written. `what`: "cannot write the report '...'"; `error`: an errno value.
-class WriteError : public std::runtime_error {
+class WriteError : public Failure {
  public:
   WriteError(const std::string& what, int error)
-      : std::runtime_error(what + ": " + write_error(error)) {}
+      : Failure(kExitIo, what + ": " + write_error(error)) {}
 };
 
 }  // namespace splash::program

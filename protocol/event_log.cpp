@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <stdexcept>
 #include <string>
 
+#include "program/failure.hpp"
 #include "program/write_error.hpp"
 #include "protocol/limits.hpp"
 
@@ -22,13 +22,13 @@ std::string cannot(const std::string& what, const std::filesystem::path& path) {
   return "cannot " + what + " event log '" + path.string() + "'";
 }
 
-std::runtime_error unreadable(const std::filesystem::path& path, const std::string& why) {
-  return std::runtime_error(cannot("read", path) + ": " + why);
+program::DataError unreadable(const std::filesystem::path& path, const std::string& why) {
+  return program::DataError(cannot("read", path) + ": " + why);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::uintmax_t offset,
                          const std::string& reason) {
-  throw std::runtime_error("event log '" + path.string() + "', byte " + std::to_string(offset) +
+  throw program::DataError("event log '" + path.string() + "', byte " + std::to_string(offset) +
                            ": " + reason);
 }
 

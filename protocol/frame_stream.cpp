@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -28,8 +27,8 @@ constexpr double kPause = 0.2;
 /// What the kernel keeps of a frame that a viewer does not read [bytes].
 constexpr int kSendBuffer = 1 << 16;
 
-std::runtime_error cannot_show(const Endpoint& local) {
-  return std::runtime_error("cannot listen for viewers on TCP port " + std::to_string(local.port) +
+SocketError cannot_show(const Endpoint& local) {
+  return SocketError("cannot listen for viewers on TCP port " + std::to_string(local.port) +
                             " (" + to_string(local) + "): " + std::strerror(errno) +
                             "; use --show host:port with another one, or port 0");
 }

@@ -85,10 +85,9 @@ std::string why_not_bound(const Endpoint& local, int error) {
   }
 }
 
-std::runtime_error cannot_bind(const Endpoint& local, int error) {
-  return std::runtime_error("cannot listen on UDP port " + std::to_string(local.port) + " (" +
-                            to_string(local) + "): " + std::strerror(error) +
-                            why_not_bound(local, error));
+SocketError cannot_bind(const Endpoint& local, int error) {
+  return SocketError("cannot listen on UDP port " + std::to_string(local.port) + " (" +
+                     to_string(local) + "): " + std::strerror(error) + why_not_bound(local, error));
 }
 
 void apply_options(int descriptor) {
@@ -171,7 +170,7 @@ std::string to_string(const Endpoint& endpoint) {
 UdpSocket::UdpSocket(const Endpoint& local)
     : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   if (descriptor_ < 0) {
-    throw std::runtime_error(std::string("cannot open a UDP socket: ") + std::strerror(errno));
+    throw SocketError(std::string("cannot open a UDP socket: ") + std::strerror(errno));
   }
   apply_options(descriptor_);
   auto address = to_sockaddr(local);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "program/failure.hpp"
 #include "protocol/gate.hpp"
 
 namespace splash::protocol {
@@ -34,10 +35,15 @@ struct Endpoint {
                                    std::uint16_t default_port);
 [[nodiscard]] std::string to_string(const Endpoint& endpoint);
 
+/// A port cannot be had. The text names it, the cause and what to do.
+class SocketError : public program::Failure {
+ public:
+  explicit SocketError(const std::string& text) : Failure(program::kExitUnavailable, text) {}
+};
+
 class UdpSocket {
  public:
-  /// Binds to `local` (port 0: a free one). Throws std::runtime_error that names the port, the
-  /// cause and what to do.
+  /// Binds to `local` (port 0: a free one). Throws SocketError.
   explicit UdpSocket(const Endpoint& local);
   ~UdpSocket();
   UdpSocket(UdpSocket&& other) noexcept;

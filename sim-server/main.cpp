@@ -70,9 +70,7 @@ void take_signals() {
 
 /// All, or those that --device means, the first to be taken first.
 void print_devices(const std::string& wish) {
-  const auto devices = program::failing_with(program::kExitUnavailable, [&] {
-    return wish.empty() ? list_devices() : meant_devices(list_devices(), wish);
-  });
+  const auto devices = wish.empty() ? list_devices() : meant_devices(list_devices(), wish);
   for (const auto& device : devices) std::printf("%s\n", describe(device).c_str());
 }
 
@@ -89,8 +87,7 @@ void require_use(const std::filesystem::path& tracker, const Scene& scene) {
 
 /// Nobody is to wait for kernels only to be told that the port is taken.
 void require_free(const protocol::Endpoint& listen) {
-  program::failing_with(program::kExitUnavailable,
-                        [&] { static_cast<void>(protocol::UdpSocket(listen)); });
+  static_cast<void>(protocol::UdpSocket(listen));
 }
 
 /// What whoever prepares for a scene needs to know of it, as ./splash reads it.
@@ -257,9 +254,7 @@ class Start {
   /// On the best device that can do it. One that was not asked for and fails is named and passed
   /// over.
   Started start(const Progress& tell) {
-    auto meant = program::failing_with(program::kExitUnavailable, [this] {
-      return meant_devices(list_devices(), options_.device);
-    });
+    auto meant = meant_devices(list_devices(), options_.device);
     for (;;) {
       const Choice choice = choose_device(meant, !options_.device.empty(), trials_);
       for (const std::string& failed : choice.passed_over) {
@@ -322,10 +317,6 @@ program::OptionValues next_of(const Server& server) {
   return next;
 }
 
-std::filesystem::path kernel_cache() {
-  return program::failing_with(program::kExitUnavailable, prepare_kernel_cache);
-}
-
 /// Until it is over.
 program::OptionValues simulate(const Options& options) {
   program::ServiceNotice service;
@@ -338,7 +329,7 @@ program::OptionValues simulate(const Options& options) {
   say_what_digs(scene, options.tracker);
   require_free(options.listen);
   const double begin = protocol::monotonic_now();
-  Start start(options, scene, kernel_cache());
+  Start start(options, scene, prepare_kernel_cache());
   const auto [device, simulation] = start.start(telling_how_it_settles(service));
   const bool compiled = start.end();
   Server server(options, *simulation, device->facts().name);
@@ -355,7 +346,7 @@ program::OptionValues run(const Options& options) {
   if (options.list_devices) {
     print_devices(options.device);
   } else if (options.check_device >= 0) {
-    check_device(options.check_device, kernel_cache());
+    check_device(options.check_device, prepare_kernel_cache());
   } else {
     return simulate(options);
   }
@@ -374,12 +365,9 @@ int main(int argc, char** argv) {
         naming_opencl_errors([&chosen = *options] { return run(chosen); });
     if (!next.empty()) program::start_anew(program::with_options({argv, argv + argc}, next));
     return program::kExitOk;
-  } catch (const program::ConfigError& error) {
+  } catch (const program::ConfigError& error) {  // begins with its file, line and column
     std::cerr << error.what() << '\n';
-    return program::kExitConfig;
-  } catch (const DeviceError& error) {
-    std::cerr << "sim-server: " << error.what() << '\n';
-    return program::kExitUnavailable;
+    return error.code();
   } catch (const program::Failure& failure) {
     std::cerr << "sim-server: " << failure.what() << '\n';
     return failure.code();

@@ -111,8 +111,7 @@ program::OptionValues play(const Options& options, Server& server,
 }
 
 void print_devices(const std::string& api) {
-  const auto devices =
-      program::failing_with(program::kExitUnavailable, [&] { return list_devices(api); });
+  const auto devices = list_devices(api);
   if (devices.empty()) std::printf("%s\n", why_no_device(api).c_str());
   for (const auto& device : devices) {
     std::printf("%s: '%s', %d outputs, prefers %d Hz%s\n", device.api.c_str(), device.name.c_str(),
@@ -121,8 +120,7 @@ void print_devices(const std::string& api) {
 }
 
 Rig load_rig(const std::filesystem::path& wanted) {
-  const std::filesystem::path path = program::find_config("--rig", "rigs", wanted);
-  return program::failing_with(program::kExitConfig, [&] { return read_rig(path); });
+  return read_rig(program::find_config("--rig", "rigs", wanted));
 }
 
 /// Blocked before any thread starts, so that all inherit it and only who waits for them sees them.

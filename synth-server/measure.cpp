@@ -93,7 +93,7 @@ void print_response(const Rig& rig, std::size_t channel, std::span<const float> 
 
 void read_response(const Options& options, const Rig& rig, std::size_t channel) {
   program::require_readable("--response", options.response);
-  program::failing_with(program::kExitData, [&] {
+  program::failing_with<std::runtime_error>(program::kExitData, [&] {
     const WavSignal heard = read_wav(options.response);
     print_response(rig, channel, heard.channels.at(0), sweep_of(rig, channel, heard.sample_rate),
                    heard.sample_rate);
@@ -140,7 +140,7 @@ void measure(const Options& options, const Rig& rig, const sigset_t& signals) {
                            "the device lost samples during the sweep: once more, with a larger "
                            "--block or less beside it");
   }
-  program::failing_with(program::kExitData, [&] {
+  program::failing_with<std::runtime_error>(program::kExitData, [&] {
     print_response(rig, channel, source.heard(), source.sweep(), format.sample_rate);
   });
 }

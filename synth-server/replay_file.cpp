@@ -78,8 +78,7 @@ void require_renderable(const std::filesystem::path& path,
 
 std::vector<protocol::LogEntry> read_replay(const Options& options) {
   program::require_readable("--replay", options.replay);
-  auto log =
-      program::failing_with(program::kExitData, [&] { return protocol::read_log(options.replay); });
+  auto log = protocol::read_log(options.replay);
   require_renderable(options.replay, log);
   return log;
 }
@@ -91,14 +90,13 @@ void render_log(const Options& options, const Rig& rig) {
   settings.fade_in = options.fade_in;
   settings.tail = options.tail;
   settings.engine.sample_rate = options.sample_rate != 0 ? options.sample_rate : kDefaultRate;
-  const auto report = program::failing_with(
-      program::kExitIo, [&] { return render_to(options.render, log, rig, settings); });
+  const auto report = render_to(options.render, log, rig, settings);
   print(report, options.render, rig, static_cast<int>(settings.engine.sample_rate));
   if (!options.stems) return;
   for (const Stem& stem : kStems) {
     settings.engine.components = stem.components;
     const auto path = stem_path(options.render, stem.name);
-    program::failing_with(program::kExitIo, [&] { return render_to(path, log, rig, settings); });
+    render_to(path, log, rig, settings);
     std::printf("%s: %s alone\n", path.c_str(), stem.name);
   }
 }

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -63,17 +62,15 @@ Server::Server(const Options& options, const Rig& rig)
       muted_(options.muted),
       log_(options.replay.empty() ? std::vector<protocol::LogEntry>() : read_replay(options)),
       desk_(rig, options.engine.sound) {
-  protocol::UdpSocket socket = program::failing_with(
-      program::kExitUnavailable, [&] { return protocol::UdpSocket(options.listen); });
-  OpenedOutput opened = program::failing_with(program::kExitUnavailable,
-                                              [&] { return open_output(options, rig, log); });
+  protocol::UdpSocket socket(options.listen);
+  OpenedOutput opened = open_output(options, rig, log);
   format_ = opened.output->format();
   warn_of_latency(format_);
-  program::failing_with(program::kExitIo, [&] { start_recorder(); });
-  program::failing_with(program::kExitUnavailable, [&] { start_monitor(); });
+  start_recorder();
+  start_monitor();
   playing_ = make_playing(format_.sample_rate, recorder_.get(), event_recorder_.get());
   started_ = protocol::monotonic_now();
-  program::failing_with(program::kExitUnavailable, [&] { start_output(std::move(opened)); });
+  start_output(std::move(opened));
   start_receiver(std::move(socket));
   introduce();
 }
@@ -409,10 +406,8 @@ void Server::finish() {
   const Totals all = stop();
   if (recorder_ != nullptr) {
     recorder_->finish();
-    program::failing_with(program::kExitIo, [&] {
-      if (!recorder_->error().empty()) throw std::runtime_error(recorder_->error());
-      recording_->close();
-    });
+    if (!recorder_->error().empty()) throw program::Failure(program::kExitIo, recorder_->error());
+    recording_->close();
   }
   if (event_recorder_ != nullptr) {
     event_recorder_->finish();

@@ -9,8 +9,7 @@ namespace splash::synth {
 NamedSound chosen_sound(const SoundOptions& options) {
   NamedSound chosen;
   if (!options.file.empty()) {
-    const auto path = program::find_config("--sound", "sounds", options.file);
-    chosen = program::failing_with(program::kExitConfig, [&] { return read_sound(path); });
+    chosen = read_sound(program::find_config("--sound", "sounds", options.file));
   }
   apply(options, chosen.sound);
   return chosen;

@@ -15,15 +15,11 @@ constexpr double kRecorderSeconds = 4.0;
 }  // namespace
 
 TappedOutput::TappedOutput(const Options& options, const Rig& rig)
-    : output_(program::failing_with(program::kExitUnavailable, [&] {
-        return std::move(open_output(options, rig, [](const std::string& line) {
-                           std::fprintf(stderr, "synth-server: %s\n", line.c_str());
-                         }).output);
-      })) {
+    : output_(std::move(open_output(options, rig, [](const std::string& line) {
+                          std::fprintf(stderr, "synth-server: %s\n", line.c_str());
+                        }).output)) {
   if (options.record_audio.empty()) return;
-  file_ = program::failing_with(program::kExitIo, [&] {
-    return std::make_unique<WavFile>(options.record_audio, format().channels, format().sample_rate);
-  });
+  file_ = std::make_unique<WavFile>(options.record_audio, format().channels, format().sample_rate);
   recorder_ = std::make_unique<Recorder>(
       format().channels, format().sample_rate, kLongestBlock, kRecorderSeconds,
       [this](const float* const* planar, int frames) { file_->write(planar, frames); });
@@ -48,7 +44,7 @@ void TappedOutput::finish() {
   if (recorder_ == nullptr) return;
   recorder_->finish();
   if (!recorder_->error().empty()) throw program::Failure(program::kExitIo, recorder_->error());
-  program::failing_with(program::kExitIo, [&] { file_->close(); });
+  file_->close();
 }
 
 }  // namespace splash::synth

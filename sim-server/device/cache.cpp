@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "program/failure.hpp"
 #include "sim-server/device/cache_seal.hpp"
 
 namespace splash::sim {
@@ -28,9 +29,10 @@ std::filesystem::path own_folder(const std::filesystem::path& folder) {
   const bool own = lstat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
                    found.st_uid == geteuid() && (found.st_mode & (S_IWGRP | S_IWOTH)) == 0;
   if (!own) {
-    throw std::runtime_error("the folder for compiled kernels, " + folder.string() +
-                             ", is not a folder that this user alone may write to: remove it, or "
-                             "set HOME, XDG_CACHE_HOME or POCL_CACHE_DIR");
+    throw program::Failure(program::kExitUnavailable,
+                           "the folder for compiled kernels, " + folder.string() +
+                               ", is not a folder that this user alone may write to: remove it, or "
+                               "set HOME, XDG_CACHE_HOME or POCL_CACHE_DIR");
   }
   return folder;
 }
@@ -55,9 +57,10 @@ void try_to_write(const std::filesystem::path& folder) {
   const std::string cause = errno != 0 ? std::strerror(errno) : "input/output error";
   std::filesystem::remove(probe, error);
   if (!written) {
-    throw std::runtime_error("the folder for compiled kernels, " + folder.string() +
-                             ", cannot be written: " + cause +
-                             "; mend that, or set POCL_CACHE_DIR to a folder that can");
+    throw program::Failure(program::kExitUnavailable,
+                           "the folder for compiled kernels, " + folder.string() +
+                               ", cannot be written: " + cause +
+                               "; mend that, or set POCL_CACHE_DIR to a folder that can");
   }
 }
 

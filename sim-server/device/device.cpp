@@ -68,7 +68,7 @@ std::vector<cl::Platform> platforms() {
   } catch (const cl::Error&) {
     found.clear();  // no loader entry at all (-1001): answered below like an empty list
   }
-  if (found.empty()) throw std::runtime_error(why_no_platform());
+  if (found.empty()) throw DeviceError(why_no_platform());
   return found;
 }
 
@@ -109,7 +109,7 @@ std::vector<Found> find_devices() {
       }
     }
   }
-  if (found.empty()) throw std::runtime_error("the OpenCL platforms found have no device");
+  if (found.empty()) throw DeviceError("the OpenCL platforms found have no device");
   return found;
 }
 

@@ -6,8 +6,9 @@
 #include <cstdio>
 #include <iterator>
 #include <optional>
-#include <stdexcept>
 #include <utility>
+
+#include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
 namespace {
@@ -137,8 +138,7 @@ std::vector<DeviceFacts> meant_devices(const std::vector<DeviceFacts>& all,
     for (const DeviceFacts& device : all) {
       text += (device.index == all.front().index ? "" : "; ") + describe(device);
     }
-    throw std::runtime_error(text +
-                             " (one is chosen by its number, a part of its name, gpu or cpu)");
+    throw DeviceError(text + " (one is chosen by its number, a part of its name, gpu or cpu)");
   }
   std::stable_sort(meant.begin(), meant.end(), comes_first);
   return meant;

@@ -2,16 +2,17 @@
 // OpenCL's errors are numbers: a person gets the call, the error's name and what to do.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "program/failure.hpp"
+
 namespace splash::sim {
 
-/// The device cannot do what is asked; the text names the cause and the cure.
-class DeviceError : public std::runtime_error {
+/// There is no device, or it cannot do what is asked; the text names the cause and the cure.
+class DeviceError : public program::Failure {
  public:
-  using std::runtime_error::runtime_error;
+  explicit DeviceError(const std::string& text) : Failure(program::kExitUnavailable, text) {}
 };
 
 /// "clFinish failed: CL_OUT_OF_RESOURCES (-5); ..."

@@ -2,8 +2,8 @@
 #include "sim-server/gauge/gauge_file.hpp"
 
 #include <cerrno>
-#include <stdexcept>
 
+#include "program/failure.hpp"
 #include "program/write_error.hpp"
 
 namespace splash::sim {
@@ -12,9 +12,10 @@ namespace {
 
 const Scene& with_probes(const Scene& scene) {
   if (!scene.gauges.probes.empty()) return scene;
-  throw std::invalid_argument("the scene " + scene.name +
-                              " names no gauges; add 'gauges:' with 'probes:' to it "
-                              "(configs/README.md) or leave out --gauges");
+  throw program::Failure(program::kExitConfig,
+                         "the scene " + scene.name +
+                             " names no gauges; add 'gauges:' with 'probes:' to it "
+                             "(configs/README.md) or leave out --gauges");
 }
 
 program::WriteError cannot_write(const std::filesystem::path& path) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -29,23 +28,17 @@ constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this l
 
 std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
   if (path.empty()) return std::nullopt;
-  return program::failing_with(program::kExitIo, [&] { return protocol::LogWriter(path); });
+  return protocol::LogWriter(path);
 }
 
 std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Scene& scene) {
   if (path.empty()) return std::nullopt;
-  try {
-    return GaugeFile(path, scene);
-  } catch (const std::invalid_argument& error) {
-    throw program::Failure(program::kExitConfig, error.what());
-  } catch (const program::WriteError& error) {
-    throw program::Failure(program::kExitIo, error.what());
-  }
+  return GaugeFile(path, scene);
 }
 
 std::optional<VtkFiles> open_vtk(const std::filesystem::path& folder) {
   if (folder.empty()) return std::nullopt;
-  return program::failing_with(program::kExitIo, [&] { return VtkFiles(folder); });
+  return VtkFiles(folder);
 }
 
 void print_line(const std::string& line) {
@@ -84,12 +77,6 @@ std::string no_forces(const Simulation& simulation) {
   return grid ? "no forces with solver: grid_projected" : "poses move no body of this scene";
 }
 
-protocol::UdpSocket open_socket(const Options& options) {
-  return program::failing_with(program::kExitUnavailable, [&] {
-    return protocol::UdpSocket(sending_endpoint(options.targets, options.listen));
-  });
-}
-
 }  // namespace
 
 Server::Server(const Options& options, Simulation& simulation, const std::string& device)
@@ -97,7 +84,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       simulation_(simulation),
       device_(device),
       targets_(options.targets),
-      socket_(open_socket(options)),
+      socket_(sending_endpoint(options.targets, options.listen)),
       log_(open_log(options.record)),
       gauges_(open_gauges(options.gauges, simulation.scene())),
       vtk_(open_vtk(options.vtk)),
@@ -117,37 +104,32 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
              }),
       line_pace_(kLinePeriod),
       clock_answers_(socket_, targets_, print_line),
-      control_(program::failing_with(program::kExitUnavailable, [&] {
-        return ControlServer(
-            {.listen = options_.listen, .allowed = options_.allow},
-            {.pose = [this](const protocol::BodyPose& pose,
-                            const PoseMoment& moment) { poses_.take(pose, moment); },
-             .track = [this](const protocol::Message& message,
-                             const PoseMoment& moment) { return poses_.track(message, moment); },
-             .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
-             .pause = [this](bool on) { paused_ = on; },
-             .reset = [this] { begins_anew_ = true; },
-             .set = [this](const std::string& name,
-                           double value) { return rows_.set(name, value); },
-             .get = [this](const std::string& name) { return rows_.get(name); },
-             .scene = [this](const std::string& name) { return go_over_to(name); },
-             .no_forces = [this] { return no_forces(simulation_); },
-             .status =
-                 [this] {
-                   const std::lock_guard lock(status_mutex_);
-                   status_.refused = poses_.refused();
-                   return status_;
-                 },
-             .quit = [this] { quit_ = true; },
-             .print = print_line},
-            targets_);
-      })) {
+      control_({.listen = options_.listen, .allowed = options_.allow}, actions(), targets_) {
   if (!options_.show) return;
-  program::failing_with(program::kExitUnavailable, [&] {
-    show_.emplace(
-        protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow},
-        simulation_.scene(), simulation_.fluid(), [this] { return rows_.rows(); });
-  });
+  show_.emplace(protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow},
+                simulation_.scene(), simulation_.fluid(), [this] { return rows_.rows(); });
+}
+
+ControlActions Server::actions() {
+  return {.pose = [this](const protocol::BodyPose& pose,
+                         const PoseMoment& moment) { poses_.take(pose, moment); },
+          .track = [this](const protocol::Message& message,
+                          const PoseMoment& moment) { return poses_.track(message, moment); },
+          .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
+          .pause = [this](bool on) { paused_ = on; },
+          .reset = [this] { begins_anew_ = true; },
+          .set = [this](const std::string& name, double value) { return rows_.set(name, value); },
+          .get = [this](const std::string& name) { return rows_.get(name); },
+          .scene = [this](const std::string& name) { return go_over_to(name); },
+          .no_forces = [this] { return no_forces(simulation_); },
+          .status =
+              [this] {
+                const std::lock_guard lock(status_mutex_);
+                status_.refused = poses_.refused();
+                return status_;
+              },
+          .quit = [this] { quit_ = true; },
+          .print = print_line};
 }
 
 // What a run writes, and its length, belong to one scene.
@@ -247,7 +229,8 @@ void Server::note_load(double seconds, double spent) {
   // Under a lasting load the backlog is given up frame by frame: what is told is told at once.
   const double frame = 1.0 / simulation_.scene().serve.frame_rate;
   pacer_.set_slip_limit(level == Load::slow ? frame : kSlipLimit);
-  std::fprintf(stderr, "sim-server: %s\n", describe(overload_, simulation_.step_policy().overload_factor()).c_str());
+  std::fprintf(stderr, "sim-server: %s\n",
+               describe(overload_, simulation_.step_policy().overload_factor()).c_str());
 }
 
 void Server::say(const StepFault& step_fault) {
@@ -308,7 +291,7 @@ void Server::keep_going(const std::function<void()>& write, const std::function<
   try {
     write();
   } catch (const program::WriteError& error) {
-    if (!options_.real_time) throw program::Failure(program::kExitIo, error.what());
+    if (!options_.real_time) throw;
     forget();
     unwritten_ = error.what();
     std::fprintf(stderr, "sim-server: %s. The run goes on without it\n", error.what());
@@ -432,7 +415,7 @@ RunReport Server::finish() {
 
 void Server::leave(const RunReport& report) const {
   if (!options_.report.empty()) {
-    program::failing_with(program::kExitIo, [&] { write_report(options_.report, report); });
+    write_report(options_.report, report);
   }
   if (!unwritten_.empty()) throw program::Failure(program::kExitIo, unwritten_);
 }

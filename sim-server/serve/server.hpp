@@ -63,6 +63,8 @@ class Server {
   [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 
  private:
+  /// What the control port may do.
+  [[nodiscard]] ControlActions actions();
   /// On stderr, not more often than once a second.
   void say(const StepFault& step_fault);
   void send(const FrameResult& frame);

@@ -65,7 +65,7 @@ class Simulation {
  public:
   /// `tracker`: a marker file that replaces the scene's, or empty. Builds all kernels and lets the
   /// water settle, whose progress it can `tell`. Throws program::ConfigError for what the scene
-  /// says wrong, program::Failure for water that does not come to rest, std::runtime_error for the
+  /// says wrong, program::Failure for water that does not come to rest, DeviceError for the
   /// device.
   Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
              const Progress& tell = {});

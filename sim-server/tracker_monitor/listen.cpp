@@ -52,7 +52,7 @@ std::vector<Ear> open_ears(const std::vector<std::uint16_t>& ports) {
   for (const std::uint16_t port : ports) {
     try {
       ears.push_back({protocol::UdpSocket({.address = INADDR_ANY, .port = port}), port});
-    } catch (const std::runtime_error& error) {
+    } catch (const protocol::SocketError& error) {
       std::printf("%s\n", error.what());
       if (port == protocol::kSimPort) {
         std::printf(

@@ -2,9 +2,10 @@
 // Sound devices as a user sees them: what there is, and which one is meant.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "program/failure.hpp"
 
 namespace splash::synth {
 
@@ -29,9 +30,9 @@ struct DeviceDescription {
 
 /// A device cannot be opened now: there is none, it has too few channels, its server refused.
 /// The text names the device, the cause and what to do.
-class DeviceError : public std::runtime_error {
+class DeviceError : public program::Failure {
  public:
-  using std::runtime_error::runtime_error;
+  explicit DeviceError(const std::string& text) : Failure(program::kExitUnavailable, text) {}
 };
 
 /// What was asked for does not exist: another name or API is needed, waiting will not help.

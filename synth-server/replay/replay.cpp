@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "program/failure.hpp"
 #include "synth-server/output/fade.hpp"
 
 namespace splash::synth {
@@ -21,8 +22,8 @@ constexpr float kSilent = 1e-7F;  ///< -140 dB of full scale
 std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
   const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
   if (!(start <= kLongest)) {
-    throw std::invalid_argument("event log: an event at " + std::to_string(start) +
-                                " s; a log may last 7 days");
+    throw program::DataError("event log: an event at " + std::to_string(start) +
+                             " s; a log may last 7 days");
   }
   return std::max<std::int64_t>(0, std::llround(start * sample_rate));
 }

@@ -48,7 +48,7 @@ const std::vector<Room>& rooms() {
 
       {"sim-server/scene", {"program", "protocol", "sim-server/scene/mesh"}, {}},
       {"sim-server/scene/mesh", {"program", "sim-server/scene"}, {}},
-      {"sim-server/device", {}, {"CL/"}},
+      {"sim-server/device", {"program"}, {"CL/"}},
       // Trackers tell their poses in messages: as plain values, whatever brought them.
       {"sim-server/bodies/motion", {"program", "protocol/message.hpp", "sim-server/scene"}, {}},
       {"sim-server/bodies",
@@ -134,10 +134,10 @@ const std::vector<Room>& rooms() {
        {"protocol/event.hpp", "synth-server/voices", "synth-server/output"},
        {}},
       {"synth-server/replay",
-       {"protocol/event_log.hpp", "synth-server/render", "synth-server/output"},
+       {"program", "protocol/event_log.hpp", "synth-server/render", "synth-server/output"},
        {"boost/"}},
       {"synth-server/audio",
-       {"protocol/time_tag.hpp"},
+       {"program", "protocol/time_tag.hpp"},
        {"RtAudio", "rtaudio/", "jack/", "alsa/", "boost/"}},
       // What runs on the audio thread: of the wire it knows events and their moments, no socket.
       {"synth-server/play",

@@ -131,7 +131,8 @@ TEST_F(GaugeFiles, RefuseASceneWithoutGauges) {
   try {
     const GaugeFile file(path_, parse_scene(kScene, "bare.yaml"));
     FAIL();
-  } catch (const std::invalid_argument& error) {
+  } catch (const program::Failure& error) {
+    EXPECT_EQ(error.code(), program::kExitConfig);
     EXPECT_THAT(error.what(), HasSubstr("bare"));
     EXPECT_THAT(error.what(), HasSubstr("leave out --gauges"));
   }

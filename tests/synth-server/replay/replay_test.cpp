@@ -140,7 +140,7 @@ TEST(Replay, OfAnEmptyLogIsTheTail) {
 
 TEST(Replay, RefusesAbsurdTimes) {
   const std::vector<protocol::LogEntry> log = {{1e9, {protocol::to_message(bubble(0.005F))}}};
-  EXPECT_THROW(play(log, open_rig(), {}), std::invalid_argument);
+  EXPECT_THROW(play(log, open_rig(), {}), program::DataError);
   ReplaySettings settings;
   settings.tail = -1.0;
   EXPECT_THROW(play({}, open_rig(), settings), std::invalid_argument);
