@@ -55,6 +55,8 @@ struct AddressRow {
 /// First row of an address (/body/pose and /status.reply have two); nullptr: no such address.
 [[nodiscard]] const AddressRow* find_address(std::string_view address) noexcept;
 
+/// Whether a value is within its row's range.
+[[nodiscard]] bool in_range(const Argument& argument, const ArgumentRow& row) noexcept;
 /// Whether a message has the row's address, types and ranges.
 [[nodiscard]] bool conforms(const Message& message, const AddressRow& row) noexcept;
 

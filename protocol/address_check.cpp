@@ -32,18 +32,6 @@ std::size_t told_count(const Message& message, const AddressRow& row) {
   return std::min(message.arguments.size(), row.arguments.size());
 }
 
-// Bounds are compared as floats: 1e-4 sent as a float lies under the double 1e-4.
-bool in_range(const Argument& argument, const ArgumentRow& row) {
-  if (const auto* value = std::get_if<std::int32_t>(&argument)) {
-    return *value >= row.min && *value <= row.max;
-  }
-  if (const auto* value = std::get_if<float>(&argument)) {
-    return *value >= static_cast<float>(row.min) && *value <= static_cast<float>(row.max);
-  }
-  const auto* value = std::get_if<std::string>(&argument);
-  return value == nullptr || row.fixed.empty() || *value == row.fixed;
-}
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
@@ -75,6 +63,18 @@ const AddressRow* find_address(std::string_view address) noexcept {
     if (row.address == address) return &row;
   }
   return nullptr;
+}
+
+// Bounds are compared as floats: 1e-4 sent as a float lies under the double 1e-4.
+bool in_range(const Argument& argument, const ArgumentRow& row) noexcept {
+  if (const auto* value = std::get_if<std::int32_t>(&argument)) {
+    return *value >= row.min && *value <= row.max;
+  }
+  if (const auto* value = std::get_if<float>(&argument)) {
+    return *value >= static_cast<float>(row.min) && *value <= static_cast<float>(row.max);
+  }
+  const auto* value = std::get_if<std::string>(&argument);
+  return value == nullptr || row.fixed.empty() || *value == row.fixed;
 }
 
 bool conforms(const Message& message, const AddressRow& row) noexcept {

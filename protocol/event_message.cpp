@@ -30,6 +30,21 @@ class Taker {
   std::size_t index_ = 0;
 };
 
+// Compares the values with their rows, one after the other.
+class Checker {
+ public:
+  Checker(const AddressRow& row, bool& good) : row_(row), good_(good) {}
+  template <class Value>
+  void operator()(const Value& value) {
+    good_ = in_range(value, row_.arguments[index_++]) && good_;
+  }
+
+ private:
+  const AddressRow& row_;
+  bool& good_;
+  std::size_t index_ = 0;
+};
+
 class Giver {
  public:
   explicit Giver(Message& message) : message_(message) {}
@@ -92,13 +107,19 @@ Message give(const Record& record) {
   return message;
 }
 
+/// Of a message that conforms to the record's row.
 template <class Record>
-std::optional<Record> take(const Message& message) {
+Record read(const Message& message) {
   Record record;
-  const auto* row = find_address(address_of(record));
-  if (row == nullptr || !conforms(message, *row)) return std::nullopt;
   visit_arguments(record, Taker(message));
   return record;
+}
+
+template <class Record>
+std::optional<Record> take(const Message& message) {
+  const auto* row = find_address(address_of(Record{}));
+  if (row == nullptr || !conforms(message, *row)) return std::nullopt;
+  return read<Record>(message);
 }
 
 /// As the kind whose address it has.
@@ -140,19 +161,38 @@ bool is_event(std::string_view address) {
   return is_any(address, std::make_index_sequence<kEventKinds>());
 }
 
+bool conforms(const Event& event) noexcept {
+  return std::visit(
+      [](const auto& record) {
+        bool good = true;
+        visit_arguments(record, Checker(*find_address(address_of(record)), good));
+        return good;
+      },
+      event);
+}
+
+void set_offset(Message& event, float offset_ms) {
+  constexpr std::size_t kIndex = 7;  // of offset_ms in each kind of event
+  event.arguments[kIndex] = offset_ms;
+}
+
 std::optional<Frame> to_frame(const Message& message) {
   return take<Frame>(message);
 }
 
 std::optional<BodyPose> to_body_pose(const Message& message) {
-  auto pose = take<BodyPose>(message);
-  if (!pose) return std::nullopt;
+  const auto* row = find_address(address_of(BodyPose{}));
+  return row != nullptr && conforms(message, *row) ? conforming_pose(message) : std::nullopt;
+}
+
+std::optional<BodyPose> conforming_pose(const Message& message) {
+  auto pose = read<BodyPose>(message);
   // Trackers round, filter and blend: what is off by little is brought to unit length. Much is no
   // rotation.
-  const float size = std::hypot(std::hypot(pose->qx, pose->qy), std::hypot(pose->qz, pose->qw));
+  const float size = std::hypot(std::hypot(pose.qx, pose.qy), std::hypot(pose.qz, pose.qw));
   if (size < 1.0F - kLengthError || size > 1.0F + kLengthError) return std::nullopt;
   if (std::abs(size - 1.0F) < kRounding) return pose;
-  for (float* part : {&pose->qx, &pose->qy, &pose->qz, &pose->qw}) *part /= size;
+  for (float* part : {&pose.qx, &pose.qy, &pose.qz, &pose.qw}) *part /= size;
   return pose;
 }
 

@@ -57,5 +57,12 @@ struct DecodeResult {
 [[nodiscard]] bool is_event(std::string_view address);
 [[nodiscard]] std::optional<Frame> to_frame(const Message& message);
 [[nodiscard]] std::optional<BodyPose> to_body_pose(const Message& message);
+/// The pose of a message that conforms to its row. `nullopt`: its quaternion is no rotation.
+[[nodiscard]] std::optional<BodyPose> conforming_pose(const Message& message);
+
+/// Whether all values of an event are within the ranges of the address table.
+[[nodiscard]] bool conforms(const Event& event) noexcept;
+/// Sets the moment of an event's message after its bundle's time [ms].
+void set_offset(Message& event, float offset_ms);
 
 }  // namespace splash::protocol

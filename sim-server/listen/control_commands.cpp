@@ -59,7 +59,7 @@ protocol::Outcome ControlServer::body_pose(const Message& message, const Visit& 
       return {.refused = "no body named '" + *name + "' is moved over OSC"};
     }
   } else {
-    const auto pose = protocol::to_body_pose(message);
+    const auto pose = protocol::conforming_pose(message);
     if (!pose) {
       ++counts_.no_rotations;
       return {.refused = "the quaternion's length is not 1 within 10 %"};

@@ -64,35 +64,39 @@ void EventSender::send_step(const FrameTime& frame, std::vector<TimedEvent> even
   sort_events(events);
   count(events);
   last_moment_ = std::max(last_moment_, events.back().play_seconds);
-  const Parts parts = split_events(events);
-  send_parts(frame, parts);
-  if (log_ != nullptr) log_parts(frame, parts);
+  std::vector<EventBundle> bundles = bundle_events(events);
+  send_bundles(frame, bundles);
+  if (log_ != nullptr) log_bundles(frame, bundles);
 }
 
-void EventSender::send_parts(const FrameTime& frame, const Parts& parts) {
+void EventSender::send_bundles(const FrameTime& frame, std::vector<EventBundle>& bundles) {
   const double now = read_clock();
-  const double earliest = frame.unix_origin + parts.front().front().play_seconds;
+  const double earliest = frame.unix_origin + bundles.front().play_seconds.front();
   const double stamp = frame.unix_origin + frame.seconds + settings_.lead;
   const double time = std::max({wire_.last_time, now, std::min(earliest, stamp)});
-  for (const auto& part : parts) {
-    for (const auto& timed : part) {
-      const double overdue = time - (frame.unix_origin + timed.play_seconds);
+  for (EventBundle& bundle : bundles) {
+    for (const double play_seconds : bundle.play_seconds) {
+      const double overdue = time - (frame.unix_origin + play_seconds);
       if (overdue > 0.0) ++counts_.overdue;
       counts_.most_overdue = std::max(counts_.most_overdue, overdue);
     }
-    transmit(time, tell(wire_, part, time - now, time - frame.unix_origin));
+    stamp_bundle(wire_, bundle, time - now, time - frame.unix_origin);
+    transmit(time, bundle.messages);
     ++counts_.bundles;
   }
   last_sent_ = now;
 }
 
-void EventSender::log_parts(const FrameTime& frame, const Parts& parts) {
-  const double earliest = parts.front().front().play_seconds;
+void EventSender::log_bundles(const FrameTime& frame, std::vector<EventBundle>& bundles) {
+  const double earliest = bundles.front().play_seconds.front();
   const double stamp = frame.seconds + settings_.lead;
   const double time = std::max(logged_.last_time, std::min(earliest, stamp));
   logged_.last_time = time;
   const double delay = std::max(0.0, time - frame.seconds);
-  for (const auto& part : parts) log_->append(time, tell(logged_, part, delay, time));
+  for (EventBundle& bundle : bundles) {
+    stamp_bundle(logged_, bundle, delay, time);
+    log_->append(time, bundle.messages);
+  }
 }
 
 void EventSender::idle() {
@@ -104,21 +108,19 @@ void EventSender::idle() {
 void EventSender::leave() {
   const double now = read_clock();
   const double time = std::max(wire_.last_time, now);
-  auto messages = tell(wire_, {}, time - now, time);
-  messages.push_back({"/leave", {}});
-  transmit(time, messages);
+  transmit(time, {next_frame(wire_, time - now), {"/leave", {}}});
   ++counts_.heartbeats;
 }
 
 void EventSender::close(double end_seconds) {
   if (log_ == nullptr) return;
   const double end = std::max({end_seconds, last_moment_, logged_.last_time});
-  log_->append(end, tell(logged_, {}, 0.0, end));
+  log_->append(end, {next_frame(logged_, 0.0)});
 }
 
 void EventSender::say_frame(double now) {
   const double time = std::max(wire_.last_time, now);
-  transmit(time, tell(wire_, {}, time - now, time));
+  transmit(time, {next_frame(wire_, time - now)});
   last_sent_ = now;
   ++counts_.heartbeats;
 }
@@ -140,8 +142,9 @@ double EventSender::read_clock() {
 void EventSender::drop_invalid(double frame_seconds, std::vector<TimedEvent>& events) {
   counts_.invalid += std::erase_if(events, [=](TimedEvent& timed) {
     if (!std::isfinite(timed.play_seconds)) return true;
-    set_offset(timed.event, 1000.0 * std::max(0.0, timed.play_seconds - frame_seconds));
-    return !protocol::to_event(protocol::to_message(timed.event)).has_value();
+    const float offset_ms = to_ms(std::max(0.0, timed.play_seconds - frame_seconds));
+    std::visit([=](auto& event) { event.offset_ms = offset_ms; }, timed.event);
+    return !protocol::conforms(timed.event);
   });
 }
 
@@ -154,20 +157,22 @@ void EventSender::transmit(double time, const std::vector<protocol::Message>& me
   targets_.send(socket_, build_bundle(protocol::to_time_tag(time), messages));
 }
 
-/// /frame and the events. `play_origin`: the bundle's time in simulated seconds.
-std::vector<protocol::Message> EventSender::tell(Stream& stream, std::vector<TimedEvent> events,
-                                                 double delay_seconds, double play_origin) const {
-  std::vector<protocol::Message> messages;
-  messages.push_back(protocol::to_message(protocol::Frame{.session = stream.session,
-                                                          .sequence = stream.sequence,
-                                                          .step = step_,
-                                                          .delay_ms = to_ms(delay_seconds)}));
+protocol::Message EventSender::next_frame(Stream& stream, double delay_seconds) const {
+  const protocol::Frame frame{.session = stream.session,
+                              .sequence = stream.sequence,
+                              .step = step_,
+                              .delay_ms = to_ms(delay_seconds)};
   stream.sequence = wrap(std::int64_t{stream.sequence} + 1);
-  for (auto& timed : events) {
-    set_offset(timed.event, 1000.0 * std::max(0.0, timed.play_seconds - play_origin));
-    messages.push_back(protocol::to_message(timed.event));
+  return protocol::to_message(frame);
+}
+
+void EventSender::stamp_bundle(Stream& stream, EventBundle& bundle, double delay_seconds,
+                               double play_origin) const {
+  bundle.messages.front() = next_frame(stream, delay_seconds);
+  for (std::size_t i = 0; i < bundle.play_seconds.size(); ++i) {
+    const double offset = std::max(0.0, bundle.play_seconds[i] - play_origin);
+    protocol::set_offset(bundle.messages[i + 1], to_ms(offset));
   }
-  return messages;
 }
 
 }  // namespace splash::sim

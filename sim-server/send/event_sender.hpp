@@ -68,23 +68,26 @@ class EventSender {
   [[nodiscard]] const SendCounts& counts() const noexcept { return counts_; }
 
  private:
-  /// One telling of the events: the wire's or the log's.
+  /// One of the two streams of bundles: the wire's or the log's.
   struct Stream {
     std::int32_t session = 1;
     std::int32_t sequence = 0;
     double last_time = 0.0;  ///< of the newest bundle: Unix time or simulated time [s]
   };
-  using Parts = std::vector<std::vector<TimedEvent>>;
 
   double read_clock();
   void drop_invalid(double frame_seconds, std::vector<TimedEvent>& events);
   void count(const std::vector<TimedEvent>& events);
-  void send_parts(const FrameTime& frame, const Parts& parts);
-  void log_parts(const FrameTime& frame, const Parts& parts);
+  void send_bundles(const FrameTime& frame, std::vector<EventBundle>& bundles);
+  void log_bundles(const FrameTime& frame, std::vector<EventBundle>& bundles);
   void say_frame(double now);
   void transmit(double time, const std::vector<protocol::Message>& messages);
-  std::vector<protocol::Message> tell(Stream& stream, std::vector<TimedEvent> events,
-                                      double delay_seconds, double play_origin) const;
+  /// The stream's next /frame.
+  [[nodiscard]] protocol::Message next_frame(Stream& stream, double delay_seconds) const;
+  /// Fills in the bundle's /frame and its events' offsets. `play_origin`: the bundle's time in
+  /// simulated seconds.
+  void stamp_bundle(Stream& stream, EventBundle& bundle, double delay_seconds,
+                    double play_origin) const;
 
   Targets& targets_;
   protocol::UdpSocket& socket_;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include "protocol/limits.hpp"
-#include "protocol/message.hpp"
 
 namespace splash::sim {
 namespace {
@@ -33,26 +33,24 @@ void sort_events(std::vector<TimedEvent>& events) {
                    [&](const auto& a, const auto& b) { return key(a) < key(b); });
 }
 
-std::vector<std::vector<TimedEvent>> split_events(const std::vector<TimedEvent>& events) {
+std::vector<EventBundle> bundle_events(const std::vector<TimedEvent>& events) {
   const std::size_t opening = kBundleHeader + element_size(protocol::to_message(protocol::Frame{}));
-  std::vector<std::vector<TimedEvent>> parts;
+  std::vector<EventBundle> bundles;
   std::size_t bytes = 0;
-  for (const auto& event : events) {
-    const std::size_t size = element_size(protocol::to_message(event.event));
-    const bool full = parts.empty() || bytes + size > protocol::kMaxDatagram ||
-                      parts.back().size() + 2 > protocol::kMaxMessages;  // /frame and this one
+  for (const TimedEvent& timed : events) {
+    protocol::Message message = protocol::to_message(timed.event);
+    const std::size_t size = element_size(message);
+    const bool full = bundles.empty() || bytes + size > protocol::kMaxDatagram ||
+                      bundles.back().messages.size() + 1 > protocol::kMaxMessages;
     if (full) {
-      parts.emplace_back();
+      bundles.emplace_back();
       bytes = opening;
     }
-    parts.back().push_back(event);
+    bundles.back().messages.push_back(std::move(message));
+    bundles.back().play_seconds.push_back(timed.play_seconds);
     bytes += size;
   }
-  return parts;
-}
-
-void set_offset(protocol::Event& event, double offset_ms) {
-  std::visit([=](auto& kind) { kind.offset_ms = static_cast<float>(offset_ms); }, event);
+  return bundles;
 }
 
 }  // namespace splash::sim

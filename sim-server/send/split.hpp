@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The order of a frame's events and where its bundle must be cut. Depends on nothing but the
-// events, so that the wire and the log are cut alike.
+// A frame's events as the messages of its bundles: their order, and where a bundle must be cut. It
+// depends on nothing but the events, so that the wire and the log are cut alike.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "protocol/event.hpp"
+#include "protocol/message.hpp"
 
 namespace splash::sim {
 
@@ -16,15 +17,17 @@ struct TimedEvent {
   double play_seconds = 0.0;  ///< simulated time [s]
 };
 
+/// The messages of one datagram: /frame, which the sender fills in, then the events.
+struct EventBundle {
+  std::vector<protocol::Message> messages = std::vector<protocol::Message>(1);
+  std::vector<double> play_seconds = {};  ///< of each event, simulated time [s]
+};
+
 /// By moment, then kind (impact, bubble, cavity), then id.
 void sort_events(std::vector<TimedEvent>& events);
 
-/// Events of one datagram behind its /frame: as many as kMaxDatagram and kMaxMessages allow, in
-/// their order. No events: no parts.
-[[nodiscard]] std::vector<std::vector<TimedEvent>> split_events(
-    const std::vector<TimedEvent>& events);
-
-/// Sets the event's moment after its bundle's time [ms].
-void set_offset(protocol::Event& event, double offset_ms);
+/// Makes each event a message, in its order, and fills bundles with as many as kMaxDatagram and
+/// kMaxMessages allow. No events: no bundles. The messages' offsets are 0.
+[[nodiscard]] std::vector<EventBundle> bundle_events(const std::vector<TimedEvent>& events);
 
 }  // namespace splash::sim

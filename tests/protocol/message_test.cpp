@@ -206,6 +206,54 @@ TEST(EventMessage, ValuesOutOfRangeAreRefused) {
   EXPECT_FALSE(refused([](Impact& i) { i.speed = 100.0F; }, kImpact));
 }
 
+// What an event is checked by before it is sent is what its receiver checks its message by.
+TEST(EventMessage, AnEventConformsWhenItsMessageDoes) {
+  const Impact impact{1, 0, 3.0F, 2.0F, {0.1F, 0.2F, 0.3F}, 1.5F, 4.0F, 0.01F};
+  const Bubble bubble{1, -1, 0.005F, 0.1F, {0.1F, 0.2F, 0.3F}, 1.5F};
+  const Cavity cavity{1, 2, 0.05F, 0.1F, {0.1F, 0.2F, 0.3F}, 1.5F, 0.2F};
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<Event> events = {impact, bubble, cavity};
+  for (const float wrong : {-1.0e9F, 1.0e9F, kNan, std::numeric_limits<float>::infinity()}) {
+    for (float Impact::*const field : {&Impact::speed, &Impact::approach, &Impact::offset_ms,
+                                       &Impact::momentum, &Impact::rise}) {
+      Impact changed = impact;
+      changed.*field = wrong;
+      events.emplace_back(changed);
+    }
+    for (float Bubble::*const field : {&Bubble::radius, &Bubble::epsilon, &Bubble::offset_ms}) {
+      Bubble changed = bubble;
+      changed.*field = wrong;
+      events.emplace_back(changed);
+    }
+    for (float Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+      Cavity changed = cavity;
+      changed.position.*axis = wrong;
+      events.emplace_back(changed);
+    }
+    Cavity changed = cavity;
+    changed.life = wrong;
+    events.emplace_back(changed);
+  }
+  Impact numbered = impact;
+  numbered.body = 256;
+  events.emplace_back(numbered);
+  int good = 0;
+  for (const Event& event : events) {
+    EXPECT_EQ(conforms(event), to_event(to_message(event)).has_value()) << good;
+    good += conforms(event) ? 1 : 0;
+  }
+  EXPECT_EQ(good, 3) << "of " << events.size();
+}
+
+TEST(EventMessage, TheOffsetIsSetInTheMessage) {
+  for (Event event : {Event(Impact()), Event(Bubble()), Event(Cavity())}) {
+    Message message = to_message(event);
+    set_offset(message, 12.5F);
+    std::visit([](auto& record) { record.offset_ms = 12.5F; }, event);
+    EXPECT_EQ(message, to_message(event));
+  }
+}
+
 TEST(EventMessage, AFrameOfSessionZeroIsRefused) {
   EXPECT_FALSE(to_frame(to_message(Frame{0, 1, 1, 0.0F})));
   EXPECT_FALSE(to_frame(to_message(Frame{1, 1, 1, 10001.0F})));

@@ -16,12 +16,6 @@
 namespace splash::sim {
 namespace {
 
-std::vector<protocol::Message> with_frame(const std::vector<TimedEvent>& part) {
-  std::vector<protocol::Message> messages{protocol::to_message(protocol::Frame{})};
-  for (const auto& timed : part) messages.push_back(protocol::to_message(timed.event));
-  return messages;
-}
-
 std::string label(const TimedEvent& timed) {
   static constexpr char kKinds[] = {'i', 'b', 'c'};
   const auto id = std::visit([](const auto& kind) { return kind.id; }, timed.event);
@@ -41,21 +35,23 @@ TEST(Split, CutsWhereTheNextEventWouldPassTheDatagram) {
   // /frame takes 36 bytes with its size, a bubble 56: 16 + 36 + 25 * 56 = 1452 of 1472.
   for (const std::int32_t count : {1, 24, 25, 26, 50, 51, 1000}) {
     const auto events = test::bubbles(count, 1.0);
-    const auto parts = split_events(events);
-    EXPECT_EQ(parts.size(), static_cast<std::size_t>((count + 24) / 25)) << count;
-    std::string cut;
-    std::string whole;
-    for (const auto& part : parts) {
-      EXPECT_LE(build_bundle({1}, with_frame(part)).size(), protocol::kMaxDatagram);
-      for (const auto& event : part) cut += label(event) + ' ';
+    auto bundles = bundle_events(events);
+    EXPECT_EQ(bundles.size(), static_cast<std::size_t>((count + 24) / 25)) << count;
+    std::vector<protocol::Message> cut;
+    for (auto& [messages, play_seconds] : bundles) {
+      messages.front() = protocol::to_message(protocol::Frame{});
+      EXPECT_LE(build_bundle({1}, messages).size(), protocol::kMaxDatagram);
+      EXPECT_EQ(play_seconds.size() + 1, messages.size());
+      cut.insert(cut.end(), messages.begin() + 1, messages.end());
     }
-    for (const auto& event : events) whole += label(event) + ' ';
+    std::vector<protocol::Message> whole;
+    for (const auto& timed : events) whole.push_back(protocol::to_message(timed.event));
     EXPECT_EQ(cut, whole) << count;
   }
 }
 
-TEST(Split, NothingGivesNoParts) {
-  EXPECT_TRUE(split_events({}).empty());
+TEST(Split, NothingGivesNoBundles) {
+  EXPECT_TRUE(bundle_events({}).empty());
 }
 
 }  // namespace
