@@ -32,7 +32,7 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/serve/server.hpp"
 #include "sim-server/simulation/missing_water.hpp"
-#include "sim-server/simulation/unsettled.hpp"
+#include "sim-server/simulation/unsupported_water.hpp"
 #include "sim-server/start/device_trials.hpp"
 #include "sim-server/start/self_test.hpp"
 
@@ -116,7 +116,7 @@ void say_price(const Simulation& simulation) {
 
 /// Water that is not as the scene says, or does not stay so.
 void say_what_water(Simulation& simulation) {
-  for (const std::string& notice : {missing_water(simulation), unsettled_water(simulation)}) {
+  for (const std::string& notice : {missing_water(simulation), unsupported_water(simulation)}) {
     if (!notice.empty()) std::printf("water   %s\n", notice.c_str());
   }
 }

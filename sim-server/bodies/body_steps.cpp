@@ -161,7 +161,7 @@ void Bodies::put(std::size_t body, const BodyState& state, const BodyForce& forc
 void Bodies::hold(double seconds, bool still) {
   for (FreeMotion* motion : free_) {
     if (motion == nullptr) continue;
-    if (still) motion->still();
+    if (still) motion->zero_velocities();
     motion->hold(seconds);
   }
 }

@@ -54,7 +54,7 @@ class Bodies {
   /// Free bodies go on at `seconds` from where they are; `still`: and stop.
   void hold(double seconds, bool still);
   /// Stops a free body.
-  void still(std::size_t body) noexcept { free_[body]->still(); }
+  void zero_velocities(std::size_t body) noexcept { free_[body]->zero_velocities(); }
   /// Free bodies are where they were when time began; the others appear where they have gone since.
   void reset(double seconds);
   /// Whether a free body has moved within the last second: only then it is at rest.

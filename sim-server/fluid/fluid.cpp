@@ -80,9 +80,9 @@ void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
   boundary_.set_steps(device_, steps);
 }
 
-void Fluid::let_go(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin) {
-  boundary_.let_go(device_, bodies);
-  solver_->let_go(device_, bodies.size());
+void Fluid::release(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin) {
+  boundary_.release(device_, bodies);
+  solver_->release(device_, bodies.size());
   free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies, skin);
 }
 
@@ -211,12 +211,12 @@ void Fluid::integrate(const Step& step) {
                  boundary_.outlines(), boundary_.bodies_at(step));
 }
 
-void Fluid::still() {
+void Fluid::zero_velocities() {
   sorted_.velocity.enqueue_clear(device_);
   health_.forget();
 }
 
-void Fluid::take_weight() {
+void Fluid::disable_gravity() {
   FluidParams weightless = params_;
   weightless.gravity_x = weightless.gravity_y = weightless.gravity_z = 0.0F;
   weightless.pull_x = weightless.pull_y = weightless.pull_z = 0.0F;
@@ -224,7 +224,7 @@ void Fluid::take_weight() {
   params_buffer_.write(device_, std::span<const FluidParams>(&weightless, 1));
 }
 
-void Fluid::give_weight() {
+void Fluid::enable_gravity() {
   params_buffer_.write(device_, std::span<const FluidParams>(&params_, 1));
 }
 

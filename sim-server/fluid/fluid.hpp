@@ -66,7 +66,7 @@ class Fluid {
 
   /// From now on the water moves these of its bodies; until then they go where set_bodies says.
   /// set_bodies then says where they begin a frame. At least one; `skin`: of them. Waits.
-  void let_go(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
+  void release(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
   /// Null while no body is free.
   [[nodiscard]] FreeBodies* free_bodies() noexcept { return free_.get(); }
 
@@ -95,11 +95,11 @@ class Fluid {
   void note_recalled();
 
   /// Stops all particles where they are.
-  void still();
-  /// Until give_weight nothing acts on the water from afar, neither gravity nor the central field,
-  /// and it does not pull. Both wait.
-  void take_weight();
-  void give_weight();
+  void zero_velocities();
+  /// Until enable_gravity nothing acts on the water from afar, neither gravity nor the central
+  /// field, and it does not pull. Both wait.
+  void disable_gravity();
+  void enable_gravity();
 
   /// Enqueues the statistics; its result is there once the queue is finished.
   void enqueue_stats();

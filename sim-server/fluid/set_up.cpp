@@ -116,11 +116,11 @@ WallPlane gate_wall(const Gate& gate, bool left) {
 }
 
 std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles, double sound_speed,
-                             const std::vector<Holding>& holding) {
+                             const std::vector<SupportState>& support_states) {
   const double stratified = stratification(scene, sound_speed);
   if (stratified == 0.0) return particles;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const bool hangs = i < holding.size() && holding[i] == Holding::hangs;
+    const bool hangs = i < support_states.size() && support_states[i] == SupportState::free_falling;
     if (!hangs) particles[i][2] = sunk(scene, stratified, particles[i]);
   }
   return particles;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/scene/holding.hpp"
 #include "sim-server/scene/scene.hpp"
+#include "sim-server/scene/support_state.hpp"
 
 namespace splash::sim {
 
@@ -31,11 +31,12 @@ namespace splash::sim {
 /// equation asks, rho = rho0 (1 + g (H - z) / c0^2), so nothing falls in the first steps and the
 /// surface stays where the scene wants it. To first order z becomes z - g z (H - z) / (2 c0^2),
 /// with z from the floor, or from the bottom of a column that stands higher. What hangs, as
-/// `holding` says of each particle (all are held without it), weighs on nothing and stays where it
-/// is. Needs gravity along -z; any other leaves the lattice as it is. `sound_speed`: c0 [m/s].
+/// `support_states` says of each particle (all are held without it), weighs on nothing and stays
+/// where it is. Needs gravity along -z; any other leaves the lattice as it is. `sound_speed`: c0
+/// [m/s].
 [[nodiscard]] std::vector<Vector3> settled(const Scene& scene, std::vector<Vector3> particles,
                                            double sound_speed,
-                                           const std::vector<Holding>& holding = {});
+                                           const std::vector<SupportState>& support_states = {});
 
 /// How far the piston stands in front of its rest place, and how fast it moves [m], [m/s].
 struct PistonState {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim-server/scene/holding.hpp"
 #include "sim-server/scene/lattice.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/support_state.hpp"
 
 namespace splash::sim {
 
@@ -93,7 +93,7 @@ class Filling {
                   (1.0 + compression(scene, sound_speed))) {
     const Vector3 middle = 0.5 * (block_.lower + block_.upper);
     const bool in_air = block_.lower[2] > floor_height(scene, block_.upper[0]);
-    hangs_ = in_air && how_held(scene, poses, {middle}).front() == Holding::hangs;
+    hangs_ = in_air && support_states(scene, poses, {middle}).front() == SupportState::free_falling;
   }
 
   BlockWater fill(std::vector<Vector3>& out) {

@@ -22,8 +22,8 @@ enum class PressureKind { weakly_compressible, divergence_free, grid_projected }
 
 /// Over how much water a particle's quantities are smoothed: sim-server/fluid/params/smoothing.hpp.
 
-/// What of the water comes to rest before time begins: scene/holding.hpp. automatic: what something
-/// holds; always: all of it, wherever it flows meanwhile; never: none.
+/// What of the water comes to rest before time begins: scene/support_state.hpp. automatic: what
+/// something holds; always: all of it, wherever it flows meanwhile; never: none.
 enum class SettleKind { automatic, always, never };
 
 /// vector: as suits the device; reference: one particle at a time.

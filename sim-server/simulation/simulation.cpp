@@ -78,18 +78,18 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
       hung_(scene_.bodies, live_),
-      fluid_(make_fluid(device, scene_, bodies_, holding_)),
+      fluid_(make_fluid(device, scene_, bodies_, support_states_)),
       detector_(fluid_, skins_of(scene_, fluid_.params()), scene_.detect, scene_.seed,
                 !scene_.skip.cavities),
       cavity_watch_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
                     !scene_.skip.cavities),
-      needs_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count),
+      planner_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count),
       step_policy_(scene_.fluid) {
-  come_to_rest(fluid_, scene_, bodies_, holding_, tell);
+  come_to_rest(fluid_, scene_, bodies_, support_states_, tell);
   fluid_.forget_work();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
   if (!free.empty()) {
-    fluid_.let_go(free, film_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)));
+    fluid_.release(free, film_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)));
   }
   const double fastest = std::max(start_flow(fluid_, scene_), fastest_mover(0.0));
   contact_step_ = longest_contact_step(scene_.bodies, length(scene_.fluid.gravity));
@@ -110,22 +110,22 @@ void Simulation::set_detection(const DetectSettings& settings) {
   scene_.detect = settings;
   detector_.set(settings);
   cavity_watch_.set(settings);
-  needs_.set_bubble_speed(settings.bubble_speed);
+  planner_.set_bubble_speed(settings.bubble_speed);
 }
 
 // OpenCL on CPUs compiles a kernel when it first runs. On a machine's first start that takes
 // seconds, which nobody minds before time begins, and everybody in the midst of a splash.
 void Simulation::rehearse() {
   std::vector<BodyStep> poses;
-  const FrameSteps steps = steps_of_frame(1.0 / scene_.serve.frame_rate, largest_step_);
-  const std::vector<Step> plan = plan_frame(steps, poses);
-  set_bodies(steps, poses);
-  fluid_.begin_watch(plan.size());
-  for (const Step& step : plan) {
+  const FrameSteps division = steps_of_frame(1.0 / scene_.serve.frame_rate, largest_step_);
+  const std::vector<Step> steps = steps_of(division, poses);
+  set_bodies(division, poses);
+  fluid_.begin_watch(steps.size());
+  for (const Step& step : steps) {
     fluid_.prepare(step);
-    if (&step == &plan.back()) detector_.rehearse(step);
+    if (&step == &steps.back()) detector_.rehearse(step);
     fluid_.accelerate(step);
-    if (&step == &plan.back() && pushes_) pushes_->add(fluid_, step);
+    if (&step == &steps.back() && pushes_) pushes_->add(fluid_, step);
     fluid_.move(step);
   }
   static_cast<void>(fluid_.stats());
@@ -141,17 +141,18 @@ std::vector<cl::Buffer> Simulation::state() const {
   return all;
 }
 
-std::vector<Step> Simulation::plan_frame(const FrameSteps& steps,
-                                         std::vector<BodyStep>& poses) const {
-  std::vector<Step> plan;
-  for (int k = 0; k < steps.count; ++k) {
-    const double time = seconds_ + k * steps.dt;
+std::vector<Step> Simulation::steps_of(const FrameSteps& division,
+                                       std::vector<BodyStep>& poses) const {
+  std::vector<Step> steps;
+  for (int k = 0; k < division.count; ++k) {
+    const double time = seconds_ + k * division.dt;
     const PistonState piston = piston_at(scene_.wave_maker, time - begun_);
-    plan.push_back({steps.dt, piston.offset, piston.speed, static_cast<int>(poses.size()), k == 0});
+    steps.push_back(
+        {division.dt, piston.offset, piston.speed, static_cast<int>(poses.size()), k == 0});
     const std::vector<BodyStep> now = bodies_.at(time);
     poses.insert(poses.end(), now.begin(), now.end());
   }
-  return plan;
+  return steps;
 }
 
 void Simulation::set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses) {
@@ -193,28 +194,29 @@ FrameResult Simulation::advance() {
   }
   std::optional<StepFault> step_fault;
   while (true) {
-    const FrameSteps steps =
+    const FrameSteps division =
         steps_of_frame(1.0 / scene_.serve.frame_rate, recovery_.step_share() * largest_step_);
     std::vector<BodyStep> poses;
-    const std::vector<Step> plan = plan_frame(steps, poses);
-    const FrameNeeds needs =
-        needs_.of_frame(poses, stats_, steps.count * steps.dt,
-                        plan.front().piston_speed != 0.0 || bodies_.restless(seconds_) ||
-                            hung_.move(seconds_, steps.count * steps.dt),
-                        detector_.bubbles_alive());
-    if (!step_fault) count(needs);
-    if (!needs.steps) return hold_still(steps.count * steps.dt);
-    set_bodies(steps, poses);
-    if (auto result = attempt(plan, needs)) {
+    const std::vector<Step> steps = steps_of(division, poses);
+    const FramePlan plan =
+        planner_.plan(poses, stats_, division.count * division.dt,
+                      steps.front().piston_speed != 0.0 || bodies_.restless(seconds_) ||
+                          hung_.move(seconds_, division.count * division.dt),
+                      detector_.bubbles_alive());
+    if (!step_fault) count(plan);
+    if (!plan.steps) return hold_still(division.count * division.dt);
+    set_bodies(division, poses);
+    if (auto result = attempt(steps, plan)) {
       result->step_fault = step_fault;
       totals_.retried += step_fault.has_value();
       return *result;
     }
-    StepFault now = examine(*wrong_, steps.dt);
+    StepFault now = examine(*wrong_, division.dt);
     if (!step_fault) step_fault = now;
     step_fault->tries = recovery_.failed_tries() + 1;
     step_fault->remedy = recovery_.failed();
-    if (step_fault->remedy != Remedy::retry) return give_up(*step_fault, steps.count * steps.dt);
+    if (step_fault->remedy != Remedy::retry)
+      return give_up(*step_fault, division.count * division.dt);
   }
 }
 
@@ -230,15 +232,15 @@ FrameResult Simulation::hold_still(double frame) {
   return still;
 }
 
-void Simulation::enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since) {
-  fluid_.begin_watch(plan.size());
+void Simulation::enqueue(const std::vector<Step>& steps, const FramePlan& plan, double since) {
+  fluid_.begin_watch(steps.size());
   const bool weighs = feels_ && pushes_;
   if (weighs) pushes_->begin(fluid_);
-  for (std::size_t k = 0; k < plan.size(); ++k) {
-    Step step = plan[k];
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    Step step = steps[k];
     if (hook_) hook_(fluid_, step, Moment::before);
     fluid_.prepare(step);
-    if (k + 1 == plan.size()) detector_.enqueue(step, since, {needs.contacts, needs.bubbles});
+    if (k + 1 == steps.size()) detector_.enqueue(step, since, {plan.contacts, plan.bubbles});
     if (hook_) hook_(fluid_, step, Moment::between);
     fluid_.accelerate(step);
     if (weighs) pushes_->add(fluid_, step);
@@ -256,11 +258,11 @@ std::optional<Diagnosis> Simulation::diagnosis(std::size_t steps) {
   return look_at_free_bodies(fluid_, static_cast<int>(steps) - 1);
 }
 
-std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
-                                               const FrameNeeds& needs) {
-  const double dt = plan.front().dt;
-  const auto steps = static_cast<int>(plan.size());
-  const double detect_time = seconds_ + (steps - 1) * dt;
+std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& steps,
+                                               const FramePlan& plan) {
+  const double dt = steps.front().dt;
+  const auto step_count = static_cast<int>(steps.size());
+  const double detect_time = seconds_ + (step_count - 1) * dt;
   const double since = detect_time - detected_at_;
   const double mover = fastest_mover(seconds_);
   if (mover > kThrows * static_cast<double>(fluid_.params().sound_speed)) {
@@ -269,18 +271,18 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& plan,
   // Upwards nothing ends a fall: the tank is open.
   const bool falls_out = scene_.fluid.gravity[2] > 0.0;
   fluid_.health().expect_speed(falls_out || seconds_ < thrown_until_);
-  enqueue(plan, needs, since);
-  wrong_ = diagnosis(plan.size());
+  enqueue(steps, plan, since);
+  wrong_ = diagnosis(steps.size());
   if (wrong_) return std::nullopt;
-  seconds_ += steps * dt;
+  seconds_ += step_count * dt;
   bring_free_bodies(fluid_, bodies_, seconds_);
-  totals_.steps += steps;
+  totals_.steps += step_count;
   FrameResult result;
   result.seconds = seconds_;
   result.found = collect(detect_time, since);
   result.stats = fluid_.stats_result();
   if (feels_) {
-    result.pushes = felt_ = find_pushes(steps * dt);
+    result.pushes = felt_ = find_pushes(step_count * dt);
     ++totals_.felt;
   }
   detected_at_ = detect_time;
@@ -298,12 +300,12 @@ Detections Simulation::collect(double detect_time, double since) {
   return found;
 }
 
-void Simulation::count(const FrameNeeds& needs) {
+void Simulation::count(const FramePlan& plan) {
   ++totals_.frames;
   SkipTotals& skipped = totals_.skipped;
-  skipped.idle += !needs.steps;
-  skipped.contacts += !needs.steps || !needs.contacts;
-  skipped.bubbles += !needs.steps || !needs.bubbles;
+  skipped.idle += !plan.steps;
+  skipped.contacts += !plan.steps || !plan.contacts;
+  skipped.bubbles += !plan.steps || !plan.bubbles;
   skipped.cavities = static_cast<std::uint64_t>(totals_.frames) - detector_.cavity_searches() -
                      cavity_watch_.looks();
   skipped.asleep_sum += static_cast<double>(stats_.asleep) / fluid_.params().count;
@@ -332,15 +334,15 @@ double Simulation::fastest_mover(double seconds) const {
 }
 
 void Simulation::set_largest_step(double fastest, double acceleration) {
-  largest_step_ = std::min(
-      largest_time_step(fluid_.params(), fastest, acceleration, step_policy_.factor()),
-      contact_step_);
+  largest_step_ =
+      std::min(largest_time_step(fluid_.params(), fastest, acceleration, step_policy_.factor()),
+               contact_step_);
 }
 
 StepFault Simulation::examine(const Diagnosis& what, double dt) {
   sound_.recall(fluid_.device(), state());
   fluid_.note_recalled();
-  needs_.forget();
+  planner_.forget();
   StepFault step_fault;
   step_fault.what = what;
   step_fault.step = totals_.steps + what.step;
@@ -349,7 +351,7 @@ StepFault Simulation::examine(const Diagnosis& what, double dt) {
   return step_fault;
 }
 
-void Simulation::put_back(double seconds) {
+void Simulation::restore_start(double seconds) {
   fluid_.restore(start_);
   bodies_.reset(seconds);
   cavity_watch_.forget();
@@ -360,15 +362,15 @@ void Simulation::begin_anew() {
     if (body != nullptr) body->restart(seconds_);
   }
   begun_ = seconds_;
-  put_back(seconds_);
+  restore_start(seconds_);
   detector_.forget();
-  needs_.forget();
+  planner_.forget();
   sound_.keep(fluid_.device(), state());
 }
 
 FrameResult Simulation::give_up(StepFault& step_fault, double frame) {
   if (step_fault.remedy == Remedy::reset) {
-    put_back(seconds_ + frame);
+    restore_start(seconds_ + frame);
     ++totals_.resets;
   } else {
     calm(step_fault, fluid_, bodies_, recovery_.given_up(), seconds_);

@@ -17,10 +17,10 @@
 #include "sim-server/fluid/free_bodies/body_pushes.hpp"
 #include "sim-server/fluid/health/checkpoint.hpp"
 #include "sim-server/fluid/time_step.hpp"
-#include "sim-server/scene/holding.hpp"
 #include "sim-server/scene/step_policy.hpp"
+#include "sim-server/scene/support_state.hpp"
+#include "sim-server/simulation/frame_plan.hpp"
 #include "sim-server/simulation/hung_bodies.hpp"
-#include "sim-server/simulation/needs.hpp"
 #include "sim-server/simulation/recovery/recovery.hpp"
 #include "sim-server/simulation/recovery/step_fault.hpp"
 #include "sim-server/start/settle.hpp"
@@ -84,7 +84,7 @@ class Simulation {
     fluid_.restore(water);
     seconds_ = detected_at_ = seconds;
     sound_.keep(fluid_.device(), state());
-    needs_.forget();
+    planner_.forget();
     cavity_watch_.forget();
   }
   /// The scene begins anew, its time goes on: water, free bodies and the bodies' own motions.
@@ -104,7 +104,9 @@ class Simulation {
   [[nodiscard]] const Bodies& bodies() const noexcept { return bodies_; }
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   /// Of each particle, by its id: what came to rest before time began, and what did not.
-  [[nodiscard]] const std::vector<Holding>& holding() const noexcept { return holding_; }
+  [[nodiscard]] const std::vector<SupportState>& support_states() const noexcept {
+    return support_states_;
+  }
   [[nodiscard]] Fluid& fluid() noexcept { return fluid_; }
   /// Where the bubble particles are [m].
   [[nodiscard]] std::vector<Vector3> bubble_places() const { return detector_.bubble_places(); }
@@ -120,16 +122,16 @@ class Simulation {
   }
 
  private:
-  [[nodiscard]] std::vector<Step> plan_frame(const FrameSteps& steps,
-                                             std::vector<BodyStep>& poses) const;
+  [[nodiscard]] std::vector<Step> steps_of(const FrameSteps& division,
+                                           std::vector<BodyStep>& poses) const;
   /// Where bodies and devices are in the steps of a frame, to the device.
   void set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses);
   /// What is felt of a frame of so many seconds that has been computed.
   [[nodiscard]] std::vector<BodyPush> find_pushes(double seconds);
   /// One try of a frame; nullopt: it was not sound.
-  [[nodiscard]] std::optional<FrameResult> attempt(const std::vector<Step>& plan,
-                                                   const FrameNeeds& needs);
-  void enqueue(const std::vector<Step>& plan, const FrameNeeds& needs, double since);
+  [[nodiscard]] std::optional<FrameResult> attempt(const std::vector<Step>& steps,
+                                                   const FramePlan& plan);
+  void enqueue(const std::vector<Step>& steps, const FramePlan& plan, double since);
   /// What the detectors found in a frame that was sound.
   [[nodiscard]] Detections collect(double detect_time, double since);
   [[nodiscard]] FrameResult hold_still(double frame);
@@ -139,7 +141,7 @@ class Simulation {
   /// Of bodies and the piston [m/s].
   [[nodiscard]] double fastest_mover(double seconds) const;
   void set_largest_step(double fastest, double acceleration);
-  void count(const FrameNeeds& needs);
+  void count(const FramePlan& plan);
 
   [[nodiscard]] std::vector<cl::Buffer> state() const;
   /// Computes a frame with all that a splash needs, and takes it back.
@@ -148,26 +150,26 @@ class Simulation {
   [[nodiscard]] StepFault examine(const Diagnosis& what, double dt);
   /// Ends a frame that no try made sound.
   /// Water and free bodies as they were when time began; `seconds`: now [s].
-  void put_back(double seconds);
+  void restore_start(double seconds);
   [[nodiscard]] FrameResult give_up(StepFault& step_fault, double frame);
 
   Scene scene_;
   std::vector<PosedMotion*> live_;
   Bodies bodies_;
   HungBodies hung_;
-  std::vector<Holding> holding_;
+  std::vector<SupportState> support_states_;
   Fluid fluid_;
   Detector detector_;
   CavityWatch cavity_watch_;
-  Needs needs_;
+  FramePlanner planner_;
   FluidStats stats_;                    ///< the last one
   std::unique_ptr<BodyPushes> pushes_;  ///< null until somebody wants to feel the water
   bool can_feel_ = false;
   bool feels_ = false;
   std::vector<BodyPush> felt_;  ///< of the last frame that was computed
   double seconds_ = 0.0;
-  double begun_ = 0.0;         ///< when the scene last began anew [s]
-  double detected_at_ = 0.0;   ///< time of the last detection [s]
+  double begun_ = 0.0;        ///< when the scene last began anew [s]
+  double detected_at_ = 0.0;  ///< time of the last detection [s]
   StepPolicy step_policy_;
   double largest_step_ = 0.0;  ///< [s]
   double contact_step_ = 0.0;  ///< no step is longer (bodies/contact_step.hpp) [s]

@@ -22,11 +22,13 @@ namespace {
 constexpr double kSettleSeconds = 1.0;
 
 /// Of each particle whether it is held in one of these ways.
-std::vector<bool> flagged(const std::vector<Holding>& holding, bool flows, bool hangs) {
-  std::vector<bool> flags(holding.size());
-  std::transform(holding.begin(), holding.end(), flags.begin(), [&](Holding how) {
-    return (flows && how == Holding::flows) || (hangs && how == Holding::hangs);
-  });
+std::vector<bool> flagged(const std::vector<SupportState>& support_states, bool flows, bool hangs) {
+  std::vector<bool> flags(support_states.size());
+  std::transform(support_states.begin(), support_states.end(), flags.begin(),
+                 [&](SupportState how) {
+                   return (flows && how == SupportState::flowing) ||
+                          (hangs && how == SupportState::free_falling);
+                 });
   return flags;
 }
 
@@ -46,15 +48,15 @@ std::vector<bool> flagged(const std::vector<Holding>& holding, bool flows, bool 
 
 /// Water that nothing divides.
 void bring_to_rest(Fluid& fluid, const Scene& scene, const Bodies& moved,
-                   const std::vector<Holding>& holding, const Progress& tell) {
+                   const std::vector<SupportState>& support_states, const Progress& tell) {
   const std::vector<BodyStep> bodies = at_rest(moved.at(0.0));
   const PistonState piston = piston_at(scene.wave_maker, 0.0);
   double dt = largest_time_step(fluid.params(), moved.fastest(0.0),
                                 std::abs(scene.fluid.gravity[2]), StepPolicy(scene.fluid).factor());
-  pack(fluid, bodies, piston.offset, dt, flagged(holding, false, true),
+  pack(fluid, bodies, piston.offset, dt, flagged(support_states, false, true),
        static_cast<std::uint32_t>(scene.seed));
   const Snapshot packed = fluid.snapshot();
-  PinnedParticles pinned(fluid, flagged(holding, true, true));
+  PinnedParticles pinned(fluid, flagged(support_states, true, true));
   std::optional<Diagnosis> wrong;
   for (int k = 0; k <= Recovery::kTries; ++k) {
     settle(fluid, bodies, piston.offset, kSettleSeconds, dt, tell, &pinned);
@@ -66,7 +68,7 @@ void bring_to_rest(Fluid& fluid, const Scene& scene, const Bodies& moved,
     fluid.end_watch();
     wrong = fluid.health().diagnosis();
     pinned.restore();
-    fluid.still();
+    fluid.zero_velocities();
     if (!wrong) return;
     fluid.restore(packed);
     dt /= 2.0;
@@ -129,16 +131,16 @@ void put_back(Fluid& part, const std::vector<int>& ids, std::size_t stride, Snap
 }  // namespace
 
 void come_to_rest(Fluid& fluid, const Scene& scene, const Bodies& bodies,
-                  const std::vector<Holding>& holding, const Progress& tell) {
-  if (!scene.gate.present) return bring_to_rest(fluid, scene, bodies, holding, tell);
+                  const std::vector<SupportState>& support_states, const Progress& tell) {
+  if (!scene.gate.present) return bring_to_rest(fluid, scene, bodies, support_states, tell);
   Snapshot all = fluid.snapshot();
   double done = 0.0;  // part of the particles
   for (const bool left : {true, false}) {
     const std::vector<int> ids = beside(scene.gate, all, left);
     if (ids.empty()) continue;
     Fluid part = part_of(fluid, scene, bodies, all, ids, gate_wall(scene.gate, left));
-    std::vector<Holding> held;
-    for (const int id : ids) held.push_back(holding[static_cast<std::size_t>(id)]);
+    std::vector<SupportState> held;
+    for (const int id : ids) held.push_back(support_states[static_cast<std::size_t>(id)]);
     const double share = static_cast<double>(ids.size()) / static_cast<double>(all.id.size());
     bring_to_rest(part, scene, bodies, held, [&](double now) {
       if (tell) tell(done + now * share);

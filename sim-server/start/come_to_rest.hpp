@@ -6,8 +6,8 @@
 
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/scene/holding.hpp"
 #include "sim-server/scene/scene.hpp"
+#include "sim-server/scene/support_state.hpp"
 #include "sim-server/start/settle.hpp"
 
 namespace splash::sim {
@@ -17,6 +17,6 @@ namespace splash::sim {
 /// in a fluid of its own. Waits. `tell` hears how far it is. Throws program::Failure with
 /// kExitConfig for water that does not come to rest, whatever the steps.
 void come_to_rest(Fluid& fluid, const Scene& scene, const Bodies& bodies,
-                  const std::vector<Holding>& holding, const Progress& tell);
+                  const std::vector<SupportState>& support_states, const Progress& tell);
 
 }  // namespace splash::sim

@@ -48,15 +48,15 @@ void pack(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, doub
   PinnedParticles rest(fluid, others);
   scatter(fluid, loose, seed);
   fluid.set_bodies(bodies);
-  fluid.take_weight();
+  fluid.disable_gravity();
   for (int k = 0; k < kPackingSteps; ++k) {
     const Step step = {dt, piston, 0.0, 0};
     fluid.prepare(step);
     fluid.advance(step);
-    fluid.still();
+    fluid.zero_velocities();
     rest.restore();
   }
-  fluid.give_weight();
+  fluid.enable_gravity();
 }
 
 }  // namespace splash::sim

@@ -18,14 +18,14 @@ namespace splash::sim {
 namespace {
 
 /// What comes to rest is held, whatever holds it.
-std::vector<Holding> wanted_holding(const Scene& scene, std::span<const Keyframe> poses,
-                                    const std::vector<Vector3>& particles) {
+std::vector<SupportState> wanted_states(const Scene& scene, std::span<const Keyframe> poses,
+                                        const std::vector<Vector3>& particles) {
   if (scene.fluid.settle == SettleKind::always) {
-    return std::vector<Holding>(particles.size(), Holding::held);
+    return std::vector<SupportState>(particles.size(), SupportState::supported);
   }
-  std::vector<Holding> all = how_held(scene, poses, particles);
+  std::vector<SupportState> all = support_states(scene, poses, particles);
   if (scene.fluid.settle == SettleKind::never) {
-    std::fill(all.begin(), all.end(), Holding::flows);
+    std::fill(all.begin(), all.end(), SupportState::flowing);
   }
   return all;
 }
@@ -58,15 +58,15 @@ std::vector<Keyframe> poses_at_start(const Bodies& bodies) {
 }
 
 Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
-                 std::vector<Holding>& holding) {
+                 std::vector<SupportState>& support_states) {
   const double sound = scene_sound_speed(scene, bodies.fastest_ever());
   const std::vector<Keyframe> poses = poses_at_start(bodies);
   const std::vector<Vector3> particles = initial_water(scene, poses, sound).particles;
-  holding = wanted_holding(scene, poses, particles);
+  support_states = wanted_states(scene, poses, particles);
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
   return {device,
           make_params(scene, particles, sound),
-          settled(scene, particles, sound, holding),
+          settled(scene, particles, sound, support_states),
           boundary,
           body_outlines(scene.bodies),
           {.whole = !scene.skip.kernels}};

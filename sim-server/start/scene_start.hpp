@@ -9,8 +9,8 @@
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/bodies/motion/live_motion.hpp"
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/scene/holding.hpp"
 #include "sim-server/scene/scene.hpp"
+#include "sim-server/scene/support_state.hpp"
 
 namespace splash::sim {
 
@@ -23,12 +23,12 @@ namespace splash::sim {
 /// Where the bodies are when time begins, one entry each.
 [[nodiscard]] std::vector<Keyframe> poses_at_start(const Bodies& bodies);
 
-/// The scene's water under its own weight, with no particle in a body. `holding` gets one entry a
-/// particle, by its id: which of them are to come to rest and which begin where they are, as the
-/// scene wants it (fluid.settle). Builds all kernels; throws program::ConfigError for what the
-/// scene says wrong, std::runtime_error for the device.
+/// The scene's water under its own weight, with no particle in a body. `support_states` gets one
+/// entry a particle, by its id: which of them are to come to rest and which begin where they are,
+/// as the scene wants it (fluid.settle). Builds all kernels; throws program::ConfigError for what
+/// the scene says wrong, std::runtime_error for the device.
 [[nodiscard]] Fluid make_fluid(Device& device, const Scene& scene, const Bodies& bodies,
-                               std::vector<Holding>& holding);
+                               std::vector<SupportState>& support_states);
 
 /// Gives every particle the velocity of the scene's flow; the fastest of them [m/s].
 double start_flow(Fluid& fluid, const Scene& scene);

@@ -84,11 +84,12 @@ void settle(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, do
   Settling water(fluid, {dt, piston, 0.0, 0}, most, tell, pinned);
   for (int k = 0; k < steps; ++k) {
     water.advance();
-    if (k > kLoose * steps && k % between == 0) fluid.still();
+    if (k > kLoose * steps && k % between == 0) fluid.zero_velocities();
   }
-  fluid.still();
+  fluid.zero_velocities();
   const double wave = static_cast<double>(fluid.params().wave_speed);
-  for (bool restless = wave > 0.0; restless && water.done() + watched <= most; fluid.still()) {
+  for (bool restless = wave > 0.0; restless && water.done() + watched <= most;
+       fluid.zero_velocities()) {
     const double fastest = water.watch(watched);
     restless = fastest > kCalm * wave && fastest < wave;
   }

@@ -65,7 +65,8 @@ TEST(FastWater, ThatDoesNotComeToRestIsAMistakeOfTheScene) {
   Fluid fluid(device, params, particles, {}, {});
   const Bodies none({}, {}, scene_support(scene));
   try {
-    come_to_rest(fluid, scene, none, std::vector<Holding>(particles.size(), Holding::held), {});
+    come_to_rest(fluid, scene, none,
+                 std::vector<SupportState>(particles.size(), SupportState::supported), {});
     FAIL() << "at rest";
   } catch (const program::Failure& failure) {
     EXPECT_EQ(failure.code(), program::kExitConfig);

@@ -93,7 +93,8 @@ TEST_P(WetBed, IsHeldUntilTimeBeginsAndThenRunAcross) {
   for (const Vector3& v : places_of(simulation, &Snapshot::velocity)) {
     EXPECT_EQ(v, (Vector3{0.0, 0.0, 0.0}));
   }
-  for (const Holding how : simulation.holding()) EXPECT_EQ(how, Holding::held);
+  for (const SupportState how : simulation.support_states())
+    EXPECT_EQ(how, SupportState::supported);
   while (simulation.seconds() < 0.35) ASSERT_FALSE(simulation.advance().step_fault);
   const Stoker wave = stoker();
   const auto now = places_of(simulation, &Snapshot::position);

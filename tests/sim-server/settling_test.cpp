@@ -9,7 +9,7 @@
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
-#include "sim-server/simulation/unsettled.hpp"
+#include "sim-server/simulation/unsupported_water.hpp"
 
 namespace splash::sim {
 namespace {
@@ -136,10 +136,10 @@ TEST(SettlingOfFreeWater, IsDoneWhereTheSceneWantsIt) {
 TEST(SettlingOfFreeWater, IsToldInOneLine) {
   Device device;
   Simulation falling(device, scene_of(kPool + kDrop), {});
-  EXPECT_EQ(unsettled_water(falling).substr(0, 69),
+  EXPECT_EQ(unsupported_water(falling).substr(0, 69),
             "nothing holds block 2, from 0.175 0.075 0.4 to 0.325 0.225 0.55 of th");
   Simulation still(device, scene_of(kPool), {});
-  EXPECT_EQ(unsettled_water(still), "");
+  EXPECT_EQ(unsupported_water(still), "");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class FreeMotion : public Motion {
   /// It is still there at `seconds`, and goes on from then.
   void hold(double seconds) noexcept { seconds_ = seconds; }
   /// Stops it where it is.
-  void still() noexcept { now_.velocity = now_.spin = {0.0, 0.0, 0.0}; }
+  void zero_velocities() noexcept { now_.velocity = now_.spin = {0.0, 0.0, 0.0}; }
 
  private:
   BodyState start_;

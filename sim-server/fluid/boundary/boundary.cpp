@@ -54,7 +54,7 @@ void Boundary::set_steps(Device& device, const std::vector<BodyStep>& steps) {
   steps_.enqueue_write(device, uploaded_);
 }
 
-void Boundary::let_go(Device& device, const std::vector<FreeBody>& bodies) {
+void Boundary::release(Device& device, const std::vector<FreeBody>& bodies) {
   std::vector<BodyShape> shapes = shapes_.read(device, static_cast<std::size_t>(body_count_));
   for (const FreeBody& body : bodies) shapes[static_cast<std::size_t>(body.body)].free = 1;
   shapes_.write(device, shapes);

@@ -27,7 +27,7 @@ class Boundary {
   /// Bodies of all steps of the coming frame, step after step; the copy is not waited for.
   void set_steps(Device& device, const std::vector<BodyStep>& steps);
   /// These go where the water moves them; waits.
-  void let_go(Device& device, const std::vector<FreeBody>& bodies);
+  void release(Device& device, const std::vector<FreeBody>& bodies);
   /// Carries the points to where the bodies are in this step, and sorts them.
   void place(cl::CommandQueue& queue, const Buffer<FluidParams>& params, const Step& step);
 

@@ -47,7 +47,7 @@ class PressureSolver {
   virtual ~PressureSolver() = default;
 
   /// From now on the water moves so many bodies.
-  virtual void let_go(Device& /*device*/, std::size_t /*count*/) {}
+  virtual void release(Device& /*device*/, std::size_t /*count*/) {}
   /// After density: leaves in Fluid::pressure_term() what is known before the step is solved, or,
   /// where its length is 0, for whoever wants to read it.
   virtual void recall_pressure(Fluid& fluid, const Step& step) = 0;

@@ -59,7 +59,7 @@ void calm(StepFault& step_fault, Fluid& fluid, Bodies& bodies, int times, double
   for (std::size_t b = 0; b < bodies.count(); ++b) {
     const bool near =
         length(bodies.state(b, sound_at).position - step_fault.place) <= step_fault.calmed;
-    if (bodies.is_free(b) && near) bodies.still(b);
+    if (bodies.is_free(b) && near) bodies.zero_velocities(b);
   }
 }
 

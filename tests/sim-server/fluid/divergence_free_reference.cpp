@@ -109,7 +109,7 @@ ReferenceSolve reference_solve(const FluidState& s, const ReferenceResponse& r,
   const double least = 1.0e-4 * strongest * strongest;
   ReferenceSolve solve = std::move(from);
   const double speed = static_cast<double>(s.params.spacing) / dt;
-  const double most = static_cast<double>(s.params.way) * speed * speed /
+  const double most = static_cast<double>(s.params.advective_cfl) * speed * speed /
                       static_cast<double>(s.params.rest_density);
   std::vector<double> jacobi = solve.pressure;
   std::vector<double> change(count);

@@ -106,7 +106,7 @@ TEST(Films, ChangeNoBitWhereNothingIsNear) {
     FreeFloat world = pool();
     world.add(kBall, 700.0, at({0.25, 0.2, 0.2}));
     world.start(device);
-    if (!films) world.fluid->let_go(free_bodies(world.scene.bodies), {});
+    if (!films) world.fluid->release(free_bodies(world.scene.bodies), {});
     world.run(0.05);
     EXPECT_EQ(world.fluid->free_bodies()->films().steps(), 0U);
     ends.push_back(world.state(0));

@@ -175,8 +175,8 @@ void expect_nobody_through(Device& device, const Shape& shape, bool free, double
   motion.kind = MotionKind::free;
   motion.density = 500.0;
   if (free)
-    water.fluid->let_go(free_bodies(water.scene.bodies),
-                        film_skins(water.scene.bodies, water.scene.fluid.spacing));
+    water.fluid->release(free_bodies(water.scene.bodies),
+                         film_skins(water.scene.bodies, water.scene.fluid.spacing));
   throw_through(water, places, far, kStep);
   water.step(kStep);
   const Snapshot after = water.fluid->snapshot();

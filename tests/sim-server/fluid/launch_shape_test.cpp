@@ -56,8 +56,8 @@ class LaunchShape : public ::testing::Test {
         body.motion.kind = MotionKind::free;
         body.motion.density = 300.0;
       }
-      water.fluid->let_go(free_bodies(water.scene.bodies),
-                          film_skins(water.scene.bodies, water.scene.fluid.spacing));
+      water.fluid->release(free_bodies(water.scene.bodies),
+                           film_skins(water.scene.bodies, water.scene.fluid.spacing));
     }
     water.fluid->begin_watch(static_cast<std::size_t>(count));
     bench::begin_ledger();

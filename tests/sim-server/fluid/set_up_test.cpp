@@ -151,7 +151,8 @@ TEST(SetUp, HangingWaterStaysWhereItIs) {
   Scene scene = tank_scene(0.02, {0.2, 0.16, 0.6}, 0.2);
   scene.water.push_back({{0.04, 0.04, 0.4}, {0.16, 0.12, 0.5}});
   const std::vector<Vector3> places = {{0.1, 0.08, 0.1}, {0.04, 0.08, 0.45}};
-  const auto there = settled(scene, places, scene_sound_speed(scene), {Holding::held, Holding::hangs});
+  const auto there = settled(scene, places, scene_sound_speed(scene),
+                             {SupportState::supported, SupportState::free_falling});
   EXPECT_NEAR(there[0][2], 0.1 - 9.81 * 0.1 * 0.1 / (2.0 * 225.0), 1.0e-9) << "as without it";
   EXPECT_EQ(there[1], places[1]);
 }

@@ -58,7 +58,7 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(FluidParams, centre_x, centre_y, centre_z),
     MEMBERS_4(FluidParams, spacing, layer_weight, least_density, torn_density),
     MEMBERS_4(FluidParams, speed_limit, wall_count, piston, slope),
-    MEMBERS_4(FluidParams, solver, wave_speed, tolerance, way),
+    MEMBERS_4(FluidParams, solver, wave_speed, tolerance, advective_cfl),
     MEMBER(FluidParams, walls),
 
     MEMBERS_3(BodyStep, px, py, pz),

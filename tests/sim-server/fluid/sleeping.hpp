@@ -31,7 +31,7 @@ class Sleeping : public ::testing::TestWithParam<Build> {
       return BodyState{{0.12, 0.12, height_}, {0, 0, 0, 1}, {0.0, 0.0, -drop_}, {0, 0, 0}};
     }};
     water_.start(device_);
-    water_.fluid->still();
+    water_.fluid->zero_velocities();
     water_.fluid->let_sleep(kRule);
   }
 
@@ -50,7 +50,7 @@ class Sleeping : public ::testing::TestWithParam<Build> {
   /// Stops all water, frame by frame, until it sleeps.
   void put_to_sleep() {
     for (int k = 0; k < kRule.frames + 2; ++k) {
-      water_.fluid->still();
+      water_.fluid->zero_velocities();
       frame();
     }
     ASSERT_EQ(water_.fluid->stats().asleep, water_.params.count);

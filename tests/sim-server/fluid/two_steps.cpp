@@ -45,8 +45,8 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
       body.motion.kind = MotionKind::free;
       body.motion.density = 300.0;
     }
-    water.fluid->let_go(free_bodies(water.scene.bodies),
-                        film_skins(water.scene.bodies, water.scene.fluid.spacing));
+    water.fluid->release(free_bodies(water.scene.bodies),
+                         film_skins(water.scene.bodies, water.scene.fluid.spacing));
     std::vector<FreeBody> felt = free_bodies(water.scene.bodies);
     for (FreeBody& body : felt) body.mass = 0.0F;
     pushes.emplace(*water.fluid, felt, film_skins(water.scene.bodies, water.scene.fluid.spacing));
@@ -64,7 +64,7 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
   Step sleepy = water.step_at(1.0e-3);
   sleepy.opens_frame = true;
   for (int k = 0; k < 2; ++k) {
-    water.fluid->still();
+    water.fluid->zero_velocities();
     water.fluid->prepare(sleepy);
     water.fluid->advance(sleepy);
   }

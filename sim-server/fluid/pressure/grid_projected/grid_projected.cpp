@@ -106,7 +106,7 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
   sample_pressure_ = Kernel(program, "sample_pressure", group);
 }
 
-void GridProjected::let_go(Device& device, std::size_t count) {
+void GridProjected::release(Device& device, std::size_t count) {
   grip_ = Buffer<float>(device, 6 * room_);
   stopped_ = Buffer<float>(device, SPLASH_KEPT_FLOATS * count);
 }

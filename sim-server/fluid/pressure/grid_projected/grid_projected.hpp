@@ -37,7 +37,7 @@ class GridProjected : public PressureSolver {
   GridProjected(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
                 bool solids);
 
-  void let_go(Device& device, std::size_t count) override;
+  void release(Device& device, std::size_t count) override;
   /// Where a step follows nobody asks: pressure_term() stays the state equation's, for spacing.
   void recall_pressure(Fluid& fluid, const Step& step) override;
   void accelerate(Fluid& fluid, const Step& step) override;

@@ -11,7 +11,7 @@
 
 namespace splash::sim {
 
-struct FrameNeeds {
+struct FramePlan {
   bool steps = true;     ///< anything may move
   bool contacts = true;  ///< a body may meet the water
   bool bubbles = true;   ///< water may make bubbles, or bubbles live
@@ -35,16 +35,16 @@ struct SkipTotals {
 /// Same, of bodies that move.
 [[nodiscard]] bool moving_near_water(const std::vector<BodyStep>& bodies, const FluidStats& water);
 
-class Needs {
+class FramePlanner {
  public:
-  Needs(const SkipSettings& skip, double bubble_speed, int particles)
+  FramePlanner(const SkipSettings& skip, double bubble_speed, int particles)
       : skip_(skip), bubble_speed_(bubble_speed), particles_(particles) {}
 
   /// `bodies`: those of all steps of the coming frame; `last`: the statistics of the last one, of
   /// `frame` seconds; `driven`: the wave maker moves, or a free body did not long ago; `bubbles`:
   /// how many live.
-  [[nodiscard]] FrameNeeds of_frame(const std::vector<BodyStep>& bodies, const FluidStats& last,
-                                    double frame, bool driven, std::size_t bubbles);
+  [[nodiscard]] FramePlan plan(const std::vector<BodyStep>& bodies, const FluidStats& last,
+                               double frame, bool driven, std::size_t bubbles);
   /// Water slower than this makes no bubbles [m/s].
   void set_bubble_speed(double speed) noexcept { bubble_speed_ = speed; }
   /// After a failure nothing is taken for granted.

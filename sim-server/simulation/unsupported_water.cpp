@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/simulation/unsettled.hpp"
+#include "sim-server/simulation/unsupported_water.hpp"
 
 #include <array>
 #include <cstdio>
@@ -27,7 +27,8 @@ std::set<std::size_t> blocks_of(Simulation& simulation) {
   const std::vector<WaterBlock>& water = simulation.scene().water;
   std::set<std::size_t> blocks;
   for (std::size_t i = 0; i < now.id.size(); ++i) {
-    if (simulation.holding()[static_cast<std::size_t>(now.id[i])] == Holding::held) continue;
+    if (simulation.support_states()[static_cast<std::size_t>(now.id[i])] == SupportState::supported)
+      continue;
     const auto at = [&](std::size_t axis) {
       return static_cast<double>(now.position[axis * stride + i]);
     };
@@ -48,7 +49,7 @@ std::string corner(const Vector3& x) {
 
 }  // namespace
 
-std::string unsettled_water(Simulation& simulation) {
+std::string unsupported_water(Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const bool has_weight = length(scene.fluid.gravity) > 0.0 || length(scene.fluid.pull) > 0.0;
   if (scene.fluid.settle != SettleKind::automatic || !has_weight) return {};

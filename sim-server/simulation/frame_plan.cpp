@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/simulation/needs.hpp"
+#include "sim-server/simulation/frame_plan.hpp"
 
 #include <algorithm>
 
@@ -36,18 +36,18 @@ bool moving_near_water(const std::vector<BodyStep>& bodies, const FluidStats& wa
   });
 }
 
-FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const FluidStats& last,
-                           double frame, bool driven, std::size_t bubbles) {
-  FrameNeeds needs;
+FramePlan FramePlanner::plan(const std::vector<BodyStep>& bodies, const FluidStats& last,
+                             double frame, bool driven, std::size_t bubbles) {
+  FramePlan plan;
   if (!known_) {
     known_ = true;
     calm_before_ = false;
-    return needs;
+    return plan;
   }
   const bool asleep = last.asleep == particles_;
-  needs.steps = !(skip_.idle && skip_.sleep && asleep && bubbles == 0 && !driven &&
-                  !moving_near_water(bodies, last));
-  needs.contacts = !skip_.contacts || near_water(bodies, last, last.speed * frame);
+  plan.steps = !(skip_.idle && skip_.sleep && asleep && bubbles == 0 && !driven &&
+                 !moving_near_water(bodies, last));
+  plan.contacts = !skip_.contacts || near_water(bodies, last, last.speed * frame);
   double fastest = last.speed;
   for (const BodyStep& b : bodies) {
     if (meets(b, last, last.speed * frame))
@@ -55,9 +55,9 @@ FrameNeeds Needs::of_frame(const std::vector<BodyStep>& bodies, const FluidStats
   }
   const bool calm = bubbles == 0 && fastest < kCalm * bubble_speed_;
   // One more pass after all has calmed down, for the particles' memories.
-  needs.bubbles = !(skip_.bubbles && calm && calm_before_);
+  plan.bubbles = !(skip_.bubbles && calm && calm_before_);
   calm_before_ = calm;
-  return needs;
+  return plan;
 }
 
 }  // namespace splash::sim

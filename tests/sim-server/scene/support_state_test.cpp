@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which water something holds where a scene puts it, and which begins to flow or fall.
-#include "sim-server/scene/holding.hpp"
+#include "sim-server/scene/support_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@
 namespace splash::sim {
 namespace {
 
-using Kinds = std::set<Holding>;
-const Kinds kHeld = {Holding::held};
-const Kinds kFlows = {Holding::flows};
-const Kinds kHangs = {Holding::hangs};
+using Kinds = std::set<SupportState>;
+const Kinds kHeld = {SupportState::supported};
+const Kinds kFlows = {SupportState::flowing};
+const Kinds kHangs = {SupportState::free_falling};
 
 /// A tank 1 m long, 0.5 m wide and high, particles 25 mm apart.
 Scene tank(std::vector<WaterBlock> water) {
@@ -39,32 +39,32 @@ void add_box(Scene& scene, const Vector3& size, const Vector3& place) {
   scene.bodies.push_back(body);
 }
 
-std::vector<Holding> holding(const Scene& scene) {
+std::vector<SupportState> states(const Scene& scene) {
   std::vector<Keyframe> poses;
   for (const BodySettings& body : scene.bodies) poses.push_back(body.rest);
-  return how_held(scene, poses, initial_particles(scene, poses));
+  return support_states(scene, poses, initial_particles(scene, poses));
 }
 
 Kinds kinds(const Scene& scene) {
-  const std::vector<Holding> all = holding(scene);
+  const std::vector<SupportState> all = states(scene);
   return {all.begin(), all.end()};
 }
 
-TEST(Holding, LevelWaterFromWallToWallIsHeld) {
+TEST(SupportState, LevelWaterFromWallToWallIsHeld) {
   EXPECT_EQ(kinds(tank({kPool})), kHeld);
   Scene open = tank({kPool});
   open.water[0].upper[2] = 0.5;
   EXPECT_EQ(kinds(open), kHeld) << "up to the brim";
 }
 
-TEST(Holding, GapsAndStepsBelowTheSpacingDoNotCount) {
+TEST(SupportState, GapsAndStepsBelowTheSpacingDoNotCount) {
   EXPECT_EQ(kinds(tank({{{0.02, 0.01, 0.01}, {0.98, 0.5, 0.2}}})), kHeld);
   EXPECT_EQ(kinds(tank({kDam, {{0.4, 0.0, 0.0}, {1.0, 0.5, 0.23}}})), kHeld);
   EXPECT_EQ(kinds(tank({{{0.08, 0.0, 0.0}, {1.0, 0.5, 0.2}}})), kFlows);
   EXPECT_EQ(kinds(tank({kDam, {{0.4, 0.0, 0.0}, {1.0, 0.5, 0.3}}})), kFlows);
 }
 
-TEST(Holding, ADamNeedsAGateOrABody) {
+TEST(SupportState, ADamNeedsAGateOrABody) {
   EXPECT_EQ(kinds(tank({kDam})), kFlows);
   Scene gated = tank({kDam});
   gated.gate = {true, 0.4};
@@ -72,7 +72,8 @@ TEST(Holding, ADamNeedsAGateOrABody) {
   gated.water.push_back({{0.4, 0.0, 0.0}, {1.0, 0.5, 0.1}});
   EXPECT_EQ(kinds(gated), kHeld) << "so does the bed on its other side";
   gated.water[1].upper[0] = 0.7;
-  EXPECT_EQ(kinds(gated), Kinds({Holding::held, Holding::flows})) << "if a wall ends it";
+  EXPECT_EQ(kinds(gated), Kinds({SupportState::supported, SupportState::flowing}))
+      << "if a wall ends it";
   Scene walled = tank({kDam});
   add_box(walled, {0.01, 0.5, 0.5}, {0.405, 0.25, 0.25});
   EXPECT_EQ(kinds(walled), kHeld) << "a board thinner than a spacing";
@@ -80,25 +81,25 @@ TEST(Holding, ADamNeedsAGateOrABody) {
   EXPECT_EQ(kinds(walled), kFlows) << "the board stands 15 cm above the floor";
 }
 
-TEST(Holding, WhatIsInTheAirHangs) {
+TEST(SupportState, WhatIsInTheAirHangs) {
   EXPECT_EQ(kinds(tank({kDrop})), kHangs);
   EXPECT_EQ(kinds(tank({{{0.0, 0.0, 0.3}, {1.0, 0.5, 0.325}}})), kHangs) << "from wall to wall";
 }
 
-TEST(Holding, EachBodyOfWaterIsLookedAtAlone) {
+TEST(SupportState, EachBodyOfWaterIsLookedAtAlone) {
   const Scene scene = tank({kPool, kDrop});
-  const std::vector<Holding> all = holding(scene);
+  const std::vector<SupportState> all = states(scene);
   const std::vector<Vector3> places = initial_particles(scene);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(all[i], places[i][2] < 0.25 ? Holding::held : Holding::hangs);
+    EXPECT_EQ(all[i], places[i][2] < 0.25 ? SupportState::supported : SupportState::free_falling);
   }
 }
 
-TEST(Holding, AColumnOnAPoolTakesThePoolAlong) {
+TEST(SupportState, AColumnOnAPoolTakesThePoolAlong) {
   EXPECT_EQ(kinds(tank({kPool, {{0.4, 0.2, 0.2}, {0.5, 0.3, 0.4}}})), kFlows);
 }
 
-TEST(Holding, ABasinOfBodiesHolds) {
+TEST(SupportState, ABasinOfBodiesHolds) {
   Scene scene = tank({{{0.3, 0.1, 0.2}, {0.6, 0.4, 0.35}}});
   add_box(scene, {0.4, 0.4, 0.05}, {0.45, 0.25, 0.175});
   for (const double side : {-1.0, 1.0}) {
@@ -110,7 +111,7 @@ TEST(Holding, ABasinOfBodiesHolds) {
   EXPECT_EQ(kinds(scene), kFlows) << "it has lost a side";
 }
 
-TEST(Holding, ABeachIsHeldUpToItsEdge) {
+TEST(SupportState, ABeachIsHeldUpToItsEdge) {
   Scene scene = tank({kPool});
   scene.slope = {true, 0.2, 0.4};
   EXPECT_EQ(kinds(scene), kHeld);
@@ -118,7 +119,7 @@ TEST(Holding, ABeachIsHeldUpToItsEdge) {
   EXPECT_EQ(kinds(scene), kFlows) << "8 cm deep where the block ends";
 }
 
-TEST(Holding, TheWayDownIsThatOfTheField) {
+TEST(SupportState, TheWayDownIsThatOfTheField) {
   Scene scene = tank({kPool});
   scene.fluid.gravity = {0.0, 0.0, 0.0};
   EXPECT_EQ(kinds(scene), kHangs) << "nothing pulls it to the floor";

@@ -14,11 +14,12 @@
 namespace splash::sim {
 
 /// held: it stays; flows: off, but something is beneath it; hangs: it falls.
-enum class Holding : std::uint8_t { held, flows, hangs };
+enum class SupportState : std::uint8_t { supported, flowing, free_falling };
 
 /// Of each of `particles` [m], all those of one body of water alike. `poses` of the bodies, one
 /// each; their times are ignored. Without gravity and pull all hangs.
-[[nodiscard]] std::vector<Holding> how_held(const Scene& scene, std::span<const Keyframe> poses,
-                                            const std::vector<Vector3>& particles);
+[[nodiscard]] std::vector<SupportState> support_states(const Scene& scene,
+                                                       std::span<const Keyframe> poses,
+                                                       const std::vector<Vector3>& particles);
 
 }  // namespace splash::sim

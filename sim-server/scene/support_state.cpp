@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/scene/holding.hpp"
+#include "sim-server/scene/support_state.hpp"
 
 #include <algorithm>
 
@@ -48,10 +48,10 @@ class WaterBodies {
     }
   }
 
-  [[nodiscard]] Holding at(const Vector3& place) const {
+  [[nodiscard]] SupportState at(const Vector3& place) const {
     const std::int64_t cell = cells_.water_near(place);
-    if (cell == WaterCells::kNone) return Holding::held;
-    return holding_[static_cast<std::size_t>(body_of(cell) - 1)];
+    if (cell == WaterCells::kNone) return SupportState::supported;
+    return support_states_[static_cast<std::size_t>(body_of(cell) - 1)];
   }
 
  private:
@@ -64,7 +64,7 @@ class WaterBodies {
 
   /// All water that can be reached from this cell.
   void add_body(std::int64_t first) {
-    const int body = static_cast<int>(holding_.size()) + 1;
+    const int body = static_cast<int>(support_states_.size()) + 1;
     Cells water = {first};
     body_[static_cast<std::size_t>(first)] = body;
     double level = energy(first);
@@ -78,9 +78,9 @@ class WaterBodies {
         water.push_back(next);
       }
     }
-    holding_.push_back(!finds_way_down(water, level, body) ? Holding::held
-                       : stands(water)                     ? Holding::flows
-                                                           : Holding::hangs);
+    support_states_.push_back(!finds_way_down(water, level, body) ? SupportState::supported
+                              : stands(water)                     ? SupportState::flowing
+                                                                  : SupportState::free_falling);
   }
 
   /// Whether through air that is below its level it gets deep.
@@ -115,14 +115,14 @@ class WaterBodies {
   WaterCells cells_;
   std::vector<int> body_;  ///< of each cell, from 1 on; 0: none
   std::vector<int> air_;   ///< the last body whose air this cell was
-  std::vector<Holding> holding_;
+  std::vector<SupportState> support_states_;
 };
 
 }  // namespace
 
-std::vector<Holding> how_held(const Scene& scene, std::span<const Keyframe> poses,
-                              const std::vector<Vector3>& particles) {
-  std::vector<Holding> all(particles.size(), Holding::hangs);
+std::vector<SupportState> support_states(const Scene& scene, std::span<const Keyframe> poses,
+                                         const std::vector<Vector3>& particles) {
+  std::vector<SupportState> all(particles.size(), SupportState::free_falling);
   if (length(scene.fluid.gravity) == 0.0 && length(scene.fluid.pull) == 0.0) return all;
   const WaterBodies water(scene, poses);
   std::transform(particles.begin(), particles.end(), all.begin(),

@@ -11,6 +11,6 @@ namespace splash::sim {
 /// One line on the water that begins as the scene says: which blocks, and what to do to have it
 /// otherwise. Empty if there is none, or the scene wants none to settle, or has no weight. Before
 /// the first frame.
-[[nodiscard]] std::string unsettled_water(Simulation& simulation);
+[[nodiscard]] std::string unsupported_water(Simulation& simulation);
 
 }  // namespace splash::sim
