@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Strict YAML. A parameter is one row of a table: key, unit, range, meaning, source. From the row
-// come the reader, the error text and the reference page. Its default is the member's initialiser.
+// Reads strict YAML. Each parameter is one row of a table: key, unit, range, meaning, source. The
+// reader, the error texts and the reference page follow from the rows; the default is the member's
+// initialiser.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ struct Place {
   int column = 1;
 };
 
-/// "file:line:column: error: key 'a.b': reason". Programs exit with 78 (EX_CONFIG) on it.
+/// An error in a configuration: "file:line:column: error: key 'a.b': reason".
 class ConfigError : public Failure {
  public:
   ConfigError(const Place& place, const std::string& reason);
@@ -63,7 +64,7 @@ struct Field {
       member;
 };
 
-/// One mapping of a YAML file. Keeps the text's places; refuses what yaml-cpp lets pass:
+/// One mapping of a YAML file. It keeps the text's places and refuses what yaml-cpp accepts:
 /// duplicate and unknown keys, octal-looking and non-finite numbers, yes/no as booleans.
 class ConfigMap {
  public:
@@ -78,15 +79,15 @@ class ConfigMap {
             Struct& out) const;
 
   [[nodiscard]] bool has(const std::string& key) const;
-  /// A child mapping. `child` throws when it is missing, `optional_child` does not.
+  /// Returns a child mapping. `child` throws when it is missing, `optional_child` does not.
   [[nodiscard]] ConfigMap child(const std::string& key) const;
   [[nodiscard]] std::optional<ConfigMap> optional_child(const std::string& key) const;
-  /// A list of mappings; empty when the key is missing.
+  /// Returns a list of mappings; empty when the key is missing.
   [[nodiscard]] std::vector<ConfigMap> list(const std::string& key) const;
 
-  /// The error a caller raises for a rule that spans several keys.
+  /// Returns the error that a caller throws for a rule that spans several keys.
   [[nodiscard]] ConfigError error(const std::string& key, const std::string& reason) const;
-  /// Where this mapping begins, and the folder of its file (for paths named in it).
+  /// The place where this mapping begins, and the folder of its file (for paths named in it).
   [[nodiscard]] Place place() const;
   [[nodiscard]] std::filesystem::path folder() const;
 
@@ -118,7 +119,7 @@ void ConfigMap::read(const std::vector<Field<Struct>>& fields,
   }
 }
 
-/// A markdown table of rows: key, unit, default, range, meaning, source.
+/// Returns a Markdown table of rows: key, unit, default, range, meaning, source.
 [[nodiscard]] std::string describe(const std::vector<Row>& rows,
                                    const std::vector<std::string>& defaults);
 

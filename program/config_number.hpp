@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers and truth values as configurations write them: one spelling each, nothing guessed.
+// Parses numbers and truth values of configurations strictly: each has one spelling.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,14 @@
 
 namespace splash::program {
 
-/// A finite decimal number: sign, digits, point, exponent. Not: 010, 0x10, 1_000, .inf, .nan.
+/// Parses a finite decimal number: sign, digits, point, exponent. Refuses 010, 0x10, 1_000, .inf
+/// and .nan.
 [[nodiscard]] std::optional<double> parse_number(const std::string& text);
-/// A whole number without point or exponent.
+/// Parses a whole number without point or exponent.
 [[nodiscard]] std::optional<int> parse_whole(const std::string& text);
-/// true or false.
+/// Parses true or false.
 [[nodiscard]] std::optional<bool> parse_truth(const std::string& text);
-/// What to write instead of a text that is none of the above; "" when there is nothing to say.
+/// Returns what to write instead of a text that none of the above accepts; "": there is no advice.
 [[nodiscard]] std::string number_advice(const std::string& text);
 
 }  // namespace splash::program

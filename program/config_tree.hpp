@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A YAML text as a plain tree in which everything knows its place. Built from yaml-cpp's events
-// instead of its nodes: nodes lose the places of keys, repeated keys, quotes and anchors.
+// A YAML text as a plain tree whose nodes know their places in the file. It is built from
+// yaml-cpp's events, since yaml-cpp's nodes lose the places of keys, repeated keys, quotes and
+// anchors.
 #pragma once
 
 #include <string>
@@ -41,7 +42,7 @@ struct ConfigTree::Entry {
 /// keys, tags, a second document, over kMaxConfigBytes, deeper than kMaxConfigDepth.
 [[nodiscard]] ConfigTree parse_config_tree(const std::string& text, const std::string& file_name);
 
-/// "a mapping", "the text 'abc'", ...: what an error says it got.
+/// Describes a node for an error: "a mapping", "the text 'abc'", ...
 [[nodiscard]] std::string describe_kind(const ConfigTree& tree);
 
 }  // namespace splash::program

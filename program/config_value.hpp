@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One value of a configuration and the row it must obey: converted, or refused with place, key,
-// what was found and what is allowed.
+// Converts one value of a configuration according to its row, or refuses it with place, key, value
+// and what is allowed.
 #pragma once
 
 #include <string>

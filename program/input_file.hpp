@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A file that the command line names is looked at before it is read, so that the answer names the
-// option and not only the file.
+// Checks a file that the command line names before it is read, so that the error names the option
+// and not only the file.
 #pragma once
 
 #include <filesystem>

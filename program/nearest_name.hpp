@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "Did you mean ...?": the known name nearest to a mistyped one.
+// Finds the known name nearest to a mistyped one, for "did you mean ...?".
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace splash::program {
 
-/// The known name with the fewest insertions, deletions, replacements and swaps of neighbours from
-/// `wrong`; empty when even that one is more than a third of its length away.
+/// Returns the known name with the fewest insertions, deletions, replacements and swaps of
+/// neighbours from `wrong`; empty when that is more than a third of its length away.
 [[nodiscard]] std::string nearest_name(const std::string& wrong,
                                        const std::vector<std::string>& known);
 

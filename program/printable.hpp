@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text out of a file or a packet, made fit to be shown: what a stranger wrote must not move the
-// cursor, clear the screen or fill it.
+// Makes text out of a file or a packet safe for a terminal: foreign text must not move the cursor,
+// clear the screen or fill it.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,12 @@
 
 namespace splash::program {
 
-/// True for text of printable characters, tabs and line ends: no control characters of ASCII or of
-/// Unicode (U+0080 to U+009F), nothing but well-formed UTF-8.
+/// Whether the text is well-formed UTF-8 of printable characters, tabs and line ends, without other
+/// control characters of ASCII or Unicode (U+0080 to U+009F).
 [[nodiscard]] bool is_printable(std::string_view text) noexcept;
 
-/// On one line: everything else than printable characters as \xNN, "..." after `longest` bytes.
+/// Returns the text on one line: characters that are not printable as \xNN, and "..." after
+/// `longest` bytes.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t longest);
 
 }  // namespace splash::program

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// NaN on the command line passes every range, since it is neither below nor above a limit.
+// Refuses NaN on the command line, which would pass every range: it is neither below nor above any
+// limit.
 #pragma once
 
 #include <cmath>
@@ -8,7 +9,7 @@
 
 namespace splash::program {
 
-/// What is wrong with the text of a number, as command-line parsers ask it; empty: nothing.
+/// Returns what is wrong with the text of a number, as CLI11's validators do; empty: nothing.
 [[nodiscard]] inline std::string refuse_nan(const std::string& text) {
   return std::isnan(std::strtod(text.c_str(), nullptr)) ? text + " is no number" : std::string();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tells systemd how the program is, in the datagrams of sd_notify(3): starting, ready, alive,
-// stopping. They are a line of text each, so no library is needed to say them.
+// Reports the program's state to systemd in the datagrams of sd_notify(3): starting, ready, alive,
+// stopping. Each is a line of text, so no library is needed.
 #pragma once
 
 #include <string>
@@ -10,26 +10,25 @@ namespace splash::program {
 
 class ServiceNotice {
  public:
-  /// Speaks to $NOTIFY_SOCKET, at the pace of $WATCHDOG_USEC; without them every call does nothing.
-  /// Takes them out of the environment: they are not meant for programs started by this one.
-  /// To be made before any other thread.
+  /// Reports to $NOTIFY_SOCKET, at the rate of $WATCHDOG_USEC; without them every call does
+  /// nothing. Removes them from the environment, since they are not meant for programs that this
+  /// one starts. Must be constructed before any other thread starts.
   ServiceNotice();
   ~ServiceNotice();
   ServiceNotice(const ServiceNotice&) = delete;
   ServiceNotice& operator=(const ServiceNotice&) = delete;
 
-  /// Not ready yet, and it is no hang: whoever waits is to go on waiting for at least `seconds`
-  /// from now, however soon he would have given up. Nothing of a start may take longer between two
-  /// calls.
+  /// Extends the start's timeout: the program is not ready yet but works on it. systemd waits for
+  /// at least `seconds` more; the next call must come within them.
   void starting(double seconds);
-  /// The program does its work from now on; `status` is what systemctl shows.
+  /// Reports that the program is ready; systemctl shows `status`.
   void ready(const std::string& status);
-  /// Whether the next sign of life is due: four in the watchdog's period. To be asked by the loop
-  /// whose hang is to be seen, as often as it turns.
+  /// Whether the next alive() is due: four in the watchdog's period. The loop that the watchdog
+  /// guards asks this in each iteration.
   [[nodiscard]] bool is_due() const;
-  /// The work goes on.
+  /// Resets the watchdog.
   void alive();
-  /// The program ends because it was asked to.
+  /// Reports that the program shuts down on request.
   void stopping();
   /// The process begins anew (start_anew.hpp), which may take as long as a start: the watchdog
   /// waits so long, and what the constructor took is in the environment again.
@@ -46,7 +45,7 @@ class ServiceNotice {
   std::vector<Variable> taken_;
   std::string address_;  ///< of the socket; a leading 0 byte: in the abstract namespace
   int socket_ = -1;
-  double period_ = 0.0;  ///< between two signs of life [s]; 0: nobody watches
+  double period_ = 0.0;  ///< between two resets of the watchdog [s]; 0: there is no watchdog
   double next_ = 0.0;    ///< [s, monotonic]
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What strangers can make a program print: so much a second, lest they fill a disk.
+// Limits how much text per second other hosts can make a program print, so that they cannot fill a
+// disk.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ class TextLimit {
   static constexpr double kRate = 64.0 * 1024.0;    ///< bytes per second, in the long run [1/s]
   static constexpr double kBurst = 256.0 * 1024.0;  ///< bytes at once after a rest
 
-  /// Gives `line` to `print` if it may be printed at `now` (monotonic [s]), and before it how many
-  /// were left out since the last.
+  /// Passes `line` to `print` if it may be printed at `now` (monotonic [s]), and before it the
+  /// number of lines that were left out since the last one.
   void print(const std::string& line, double now,
              const std::function<void(const std::string&)>& print);
 

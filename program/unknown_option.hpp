@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What to say of words on the command line that no option takes.
+// Describes words on the command line that no option takes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace splash::program {
 
-/// `words`: as they stand, at least one; `options`: all there are, with their dashes.
+/// Returns the error's text. `words`: as they stand, at least one; `options`: all options of the
+/// program, with their dashes.
 [[nodiscard]] std::string unknown_option(const std::vector<std::string>& words,
                                          const std::vector<std::string>& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Why a file could not be written, and what to do about it.
+// The error of a file that cannot be written: its cause and what to do about it.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace splash::program {
 
-/// "No space left on device; free space there or ..." for an errno value; 0: nothing is known.
+/// Returns cause and cure of an errno value: "No space left on device; free space there or ...".
+/// 0: the cause is not known.
 [[nodiscard]] std::string write_error(int error);
 
 /// A file could not be written. `what`: "cannot write the report '...'"; `error`: an errno value.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The address table: one row per OSC address, with the unit, range and meaning of each argument.
-// The only source of the range checks, of the status messages' order and of README.md's reference.
+// The address table: one row per OSC address, with the unit, range and meaning of each argument. It
+// is the only source of the range checks, of the status messages' order and of README.md's
+// reference.
 #pragma once
 
 #include <optional>
@@ -15,11 +16,11 @@ namespace splash::protocol {
 enum class Direction {
   to_synth,     ///< the simulator's events
   to_sim,       ///< trackers' poses
-  to_both,      ///< control: either program takes it
-  synth_alone,  ///< control: only the synth takes it
-  sim_alone,    ///< control: only the simulator takes it
-  subscribers,  ///< from the simulator to who asked with /notify
-  reply,        ///< to who sent the command
+  to_both,      ///< commands of either program
+  synth_alone,  ///< commands of the synth alone
+  sim_alone,    ///< commands of the simulator alone
+  subscribers,  ///< from the simulator to hosts that subscribed with /notify
+  reply,        ///< to the sender of a command
 };
 
 struct ArgumentRow {
@@ -42,8 +43,8 @@ struct AddressRow {
 
 [[nodiscard]] std::span<const AddressRow> address_table() noexcept;
 
-/// Control: who sends one waits for an answer. Behind its own arguments texts are allowed and
-/// ignored (filling.hpp).
+/// Whether the row is a command: its sender waits for a reply. Texts behind its own arguments are
+/// allowed and ignored (filling.hpp).
 [[nodiscard]] constexpr bool is_command(const AddressRow& row) noexcept {
   return row.direction == Direction::to_both || row.direction == Direction::synth_alone ||
          row.direction == Direction::sim_alone;
@@ -60,8 +61,8 @@ struct AddressRow {
 /// Whether a message has the row's address, types and ranges.
 [[nodiscard]] bool conforms(const Message& message, const AddressRow& row) noexcept;
 
-/// Why a message breaks the table, in words for /fail and logs ("speed 120 m/s, allowed 0 to
-/// 100"); nullopt: it does not.
+/// Returns why a message breaks the table, in words for /fail and logs ("speed 120 m/s, allowed 0
+/// to 100"); nullopt: it conforms.
 [[nodiscard]] std::optional<std::string> violation(const Message& message);
 
 /// The reference in Markdown: one table of all addresses, one of each address's arguments.

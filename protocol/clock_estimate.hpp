@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A peer's clock from pings and pongs: offset and drift through the samples with the shortest
-// round trips, because those are the least delayed by queues.
+// Estimates a peer's clock from pings and pongs: offset and drift are fitted to the samples with
+// the shortest round trips, because queues delay those least.
 #pragma once
 
 #include <cstddef>
@@ -8,26 +8,27 @@
 
 namespace splash::protocol {
 
-/// Four stamps as in NTP (RFC 5905, section 8). Its error is at most half the shortest round trip
-/// when the way there and back differ, far less when they do not.
+/// Uses four stamps as NTP does (RFC 5905, section 8). The error is at most half the shortest round
+/// trip when the delays of the two directions differ, and far less when they do not.
 class ClockEstimate {
  public:
   /// Remembers the last `window` samples (at least 4).
   explicit ClockEstimate(std::size_t window = 64);
 
   /// t0: ping sent, t3: pong back, both by our clock; t1: ping received, t2: pong sent, by the
-  /// peer's [s]. False: the stamps contradict themselves or, once, what is known; not taken.
-  /// A second contradiction means that a clock was set: all older samples are forgotten.
+  /// peer's [s]. Returns false, and ignores the sample, when the stamps contradict each other or,
+  /// once, the older samples. A second contradiction means that a clock was set: all older samples
+  /// are forgotten.
   bool add(double t0, double t1, double t2, double t3);
 
   [[nodiscard]] bool ready() const noexcept { return !samples_.empty(); }
-  /// The peer's clock less ours [s] when ours shows `local_time`; 0 before the first sample.
+  /// The peer's clock minus ours when ours shows `local_time`; 0 before the first sample [s].
   [[nodiscard]] double offset_at(double local_time) const noexcept;
   /// How much faster the peer's clock runs [s/s]; 0 until the samples span enough time.
   [[nodiscard]] double drift() const noexcept { return drift_; }
-  /// Shortest round trip remembered [s].
+  /// The shortest round trip of the window [s].
   [[nodiscard]] double round_trip() const noexcept { return shortest_; }
-  /// How often a clock was found to have been set.
+  /// The number of times that a clock was set, as far as the samples show.
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The replies to control commands, worded like SuperCollider's server. Each fits the address table.
+// Builds the replies to commands, which are those of SuperCollider's server. Each conforms to the
+// address table.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ inline constexpr const char* kSynthProgram = "synth-server";
 
 /// /done command [value]
 [[nodiscard]] Message done(const std::string& command, std::optional<std::int32_t> value = {});
-/// /fail command reason. Texts are made fit for the wire: printable ASCII, cut at 64 characters.
+/// /fail command reason. Texts are reduced to printable ASCII and cut at 64 characters.
 [[nodiscard]] Message fail(const std::string& command, const std::string& reason);
 /// The reason of the /fail to /notify when kMaxSubscribers have subscribed.
 [[nodiscard]] std::string too_many_subscribers();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The only vocabulary both servers share: what happened in the water, in SI units.
+// The events that both servers share: what happened in the water, in SI units.
 #pragma once
 
 #include <cstddef>
@@ -57,12 +57,13 @@ struct Cavity {
 using Event = std::variant<Impact, Bubble, Cavity>;
 inline constexpr std::size_t kEventKinds = std::variant_size_v<Event>;
 
-/// Bubbles come in floods, impacts and cavities do not: places are kept for those.
+/// Whether an event is a bubble. Bubbles come in floods, impacts and cavities do not: queues
+/// reserve places for those.
 [[nodiscard]] inline bool is_bubble(const Event& event) noexcept {
   return std::holds_alternative<Bubble>(event);
 }
 
-/// Something for each kind of event.
+/// One value for each kind of event.
 template <class T>
 struct ByKind {
   T impacts{};
@@ -85,7 +86,7 @@ struct ByKind {
   [[nodiscard]] T& of_kind(const Cavity& /*event*/) noexcept { return cavities; }
 };
 
-/// Opens each bundle: who speaks, which bundle this is, how long until its time.
+/// The first message of each bundle: its sender, its number and the time until its moment.
 struct Frame {
   std::int32_t session = 0;   ///< drawn at start, in [1, 2^24): a new one means a restarted sender
   std::int32_t sequence = 0;  ///< counts bundles, wraps at 2^24

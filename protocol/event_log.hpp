@@ -13,8 +13,8 @@
 
 namespace splash::protocol {
 
-/// Appends bundles to a log. Throws WriteError when it cannot write. What a killed program or a
-/// full disk leaves behind is a log of whole bundles.
+/// Appends bundles to a log. Throws WriteError when it cannot write. A killed program or a full
+/// disk leaves a log of whole bundles behind.
 class LogWriter {
  public:
   explicit LogWriter(const std::filesystem::path& path);
@@ -23,7 +23,7 @@ class LogWriter {
   void append(double seconds, const std::vector<Message>& messages);
 
  private:
-  /// Cuts off what was written of a bundle, and throws.
+  /// Removes the part of a bundle that was written, and throws.
   [[noreturn]] void give_up();
 
   std::filesystem::path path_;
@@ -37,10 +37,10 @@ struct LogEntry {
   std::vector<Message> messages;
 };
 
-/// Reads a whole log; every packet passes the gate. Throws std::runtime_error naming the file,
-/// the byte offset and the reason.
+/// Reads a whole log; every packet passes the gate. Throws program::DataError with the file, the
+/// byte offset and the reason.
 [[nodiscard]] std::vector<LogEntry> read_log(const std::filesystem::path& path);
-/// The same from a stream of `total` bytes; `path` is what errors call it.
+/// The same from a stream of `total` bytes; errors name it `path`.
 [[nodiscard]] std::vector<LogEntry> read_log(std::istream& file, std::uintmax_t total,
                                              const std::filesystem::path& path);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames for viewers (view-server/README.md): a kind, their size, a moment, and numbers, all little
-// endian.
+// The format of viewers' frames (view-server/README.md): a kind, the frame's size, a moment, and
+// numbers, all little endian.
 #pragma once
 
 #include <bit>
@@ -61,10 +61,10 @@ class FrameWriter {
     const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
     bytes_.insert(bytes_.end(), bytes, bytes + text.size());
   }
-  /// Room for what follows [bytes].
+  /// Reserves memory for `more` bytes that follow.
   void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
 
-  /// The frame, its size written.
+  /// Writes the frame's size and returns the frame.
   [[nodiscard]] ViewFrame take() && {
     const auto size = static_cast<std::uint32_t>(bytes_.size());
     for (std::size_t i = 0; i < 4; ++i) bytes_[4 + i] = static_cast<std::byte>(size >> (8 * i));
@@ -81,7 +81,7 @@ class FrameWriter {
   ViewFrame bytes_;
 };
 
-/// A little-endian number of a frame.
+/// Reads a little-endian number of a frame.
 template <class Number>
 [[nodiscard]] Number frame_number(const std::byte* bytes) noexcept {
   using Bits = FrameBits<Number>;
@@ -92,7 +92,7 @@ template <class Number>
   return std::bit_cast<Number>(bits);
 }
 
-/// Its four characters.
+/// The frame's kind: its first four characters.
 [[nodiscard]] inline std::string_view frame_kind(const std::byte* frame) noexcept {
   return {reinterpret_cast<const char*>(frame), 4};
 }

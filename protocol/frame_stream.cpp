@@ -28,9 +28,9 @@ constexpr double kPause = 0.2;
 constexpr int kSendBuffer = 1 << 16;
 
 SocketError cannot_show(const Endpoint& local) {
-  return SocketError("cannot listen for viewers on TCP port " + std::to_string(local.port) +
-                            " (" + to_string(local) + "): " + std::strerror(errno) +
-                            "; use --show host:port with another one, or port 0");
+  return SocketError("cannot listen for viewers on TCP port " + std::to_string(local.port) + " (" +
+                     to_string(local) + "): " + std::strerror(errno) +
+                     "; use --show host:port with another one, or port 0");
 }
 
 int listen_at(Endpoint& local) {
@@ -148,7 +148,7 @@ void FrameStream::welcome() {
 void FrameStream::pause() {
   const int cause = errno;
   paused_until_ = monotonic_now() + kPause;
-  if (std::exchange(told_of_pause_, true)) return;
+  if (std::exchange(warned_of_pause_, true)) return;
   std::fprintf(stderr,
                "%s: a viewer waits, no connection can be taken (%s): raise the limit of open files "
                "(ulimit -n, LimitNOFILE)\n",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Frames to viewers over TCP. A viewer gets a greeting, then a frame for each byte that it sends:
-// one that reads slowly asks rarely, and nothing is queued for it. A thread of its own writes.
+// Sends frames to viewers over TCP. A viewer gets a greeting, then one frame for each byte that it
+// sends: a slow viewer asks rarely, and nothing is queued for it. The stream has a thread of its
+// own.
 #pragma once
 
 #include <atomic>
@@ -20,31 +21,31 @@ namespace splash::protocol {
 
 struct FrameStreamSettings {
   Endpoint listen;
-  std::vector<std::uint32_t> allowed;  ///< hosts besides this one that may look (IPv4)
-  int most_asked = 1;                  ///< frames that a viewer may have asked for and not got
+  std::vector<std::uint32_t> allowed;  ///< hosts besides this one that may connect (IPv4)
+  int most_asked = 1;                  ///< frames that a viewer may wait for at once
 };
 
 class FrameStream {
  public:
   static constexpr std::size_t kViewersMax = 8;
 
-  /// Listens. Throws std::runtime_error that names the port, the cause and what to do.
+  /// Listens. Throws SocketError.
   FrameStream(const FrameStreamSettings& settings, ViewFrame greeting);
-  /// `greet` makes it for each viewer, on the stream's thread.
+  /// `greet` makes the greeting of each viewer, on the stream's thread.
   FrameStream(const FrameStreamSettings& settings, std::function<ViewFrame()> greet);
   ~FrameStream();
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
 
-  // From any thread, without waiting for a viewer.
+  // These may be called from any thread and never wait for a viewer.
 
-  /// Somebody asked for a frame and has not got it.
+  /// Whether a viewer has asked for a frame and not got it.
   [[nodiscard]] bool wanted() const noexcept { return wanted_.load(std::memory_order_acquire); }
-  /// To all who asked.
+  /// Sends the frame to all viewers that have asked for one.
   void offer(ViewFrame frame);
   [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
   [[nodiscard]] std::size_t viewers() const noexcept { return viewers_count_; }
-  /// Where viewers are listened for.
+  /// The endpoint that viewers connect to.
   [[nodiscard]] Endpoint local() const noexcept { return local_; }
 
  private:
@@ -62,7 +63,7 @@ class FrameStream {
   void hear(Viewer& viewer);
   void write(Viewer& viewer);
   void drop_gone();
-  /// It asked, and what it got before is on its way.
+  /// Whether the viewer has asked for a frame and has been sent all earlier ones.
   [[nodiscard]] bool is_open(const Viewer& viewer) const noexcept;
   void note_wanted();
 
@@ -71,8 +72,8 @@ class FrameStream {
   int listener_ = -1;
   int wake_ = -1;
   Endpoint local_;
-  double paused_until_ = 0.0;   ///< no viewer is accepted before; monotonic [s]
-  bool told_of_pause_ = false;  ///< the warning is printed once
+  double paused_until_ = 0.0;     ///< no viewer is accepted before; monotonic [s]
+  bool warned_of_pause_ = false;  ///< the warning is printed once
   std::atomic<bool> ending_{false};
   std::atomic<bool> wanted_{false};
   std::atomic<std::uint64_t> offered_{0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The strict gate in front of every OSC parser: Debian's oscpack and liblo both can be crashed or
-// hung by a packet, so nothing reaches them that this has not accepted.
+// The strict packet filter in front of every OSC parser: a packet can crash or hang Debian's
+// oscpack and liblo, so they see only packets that this filter has accepted.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,8 @@ enum class Refusal {
   count_      ///< number of reasons
 };
 
-/// Whether `packet` is a message or a one-level bundle of messages that keeps all limits.
-/// Never throws, never allocates, reads each byte at most a few times.
+/// Returns whether, or why not, `packet` is a message or a one-level bundle of messages within all
+/// limits. It never throws or allocates, and reads each byte at most a few times.
 [[nodiscard]] Refusal gate(Bytes packet) noexcept;
 
 /// The reason in words, for logs and counters.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One OSC message as plain values, and bundles of them: what encode writes and decode reads.
+// OSC messages as plain values, their encoding and decoding, and events as messages.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ struct Packet {
 [[nodiscard]] std::string type_tags(const Message& message);
 [[nodiscard]] std::size_t encoded_size(const Message& message) noexcept;
 
-/// Our own reader. Gates first; an accepted packet always decodes.
+/// Decodes a packet that the gate accepts; an accepted packet always decodes.
 struct DecodeResult {
   Refusal refusal = Refusal::none;
   Packet packet;  ///< empty when refused

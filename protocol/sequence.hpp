@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Watches the sequence numbers of one sender: what is missing, doubled, late or from a new session.
+// Classifies the bundles of one sender by their sequence numbers: missing, duplicate, reordered or
+// of a new session.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 namespace splash::protocol {
 
 enum class Arrival {
-  first,  ///< nothing was heard before
+  first,  ///< the sender's first bundle
   in_order,
   new_session,  ///< the sender was restarted: counting starts anew
   reordered,    ///< older than the newest, but not seen before: play it
@@ -21,7 +22,7 @@ class SequenceWatch {
  public:
   Arrival observe(const Frame& frame) noexcept;
   [[nodiscard]] std::uint64_t received() const noexcept { return received_; }
-  /// Bundles that were skipped and have not come since.
+  /// The number of bundles that were skipped and have not come since.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
   [[nodiscard]] std::uint64_t duplicates() const noexcept { return duplicates_; }
   [[nodiscard]] std::uint64_t reordered() const noexcept { return reordered_; }

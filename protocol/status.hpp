@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What /status.reply says of each program. Order and meaning are the address table's; a field is
-// only ever added at the end, so that receivers which know fewer still read the rest.
+// The numbers of each program's /status.reply. Order and meaning are the address table's. A field
+// is only ever added at the end, so that receivers that know fewer fields still read the rest.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +52,7 @@ struct SimStatus {
   bool operator==(const SimStatus&) const = default;
 };
 
-/// The argument rows of a program's /status.reply, the program's name first.
+/// The argument rows of a program's /status.reply; the first is the program's name.
 [[nodiscard]] std::span<const ArgumentRow> synth_status_fields() noexcept;
 [[nodiscard]] std::span<const ArgumentRow> sim_status_fields() noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OSC time tags (NTP: 32.32 fixed-point seconds since 1900) and the seconds they stand for.
+// Converts OSC time tags (NTP: 32.32 fixed-point seconds since 1900) to and from seconds.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ inline constexpr TimeTag kImmediately{1};
 /// Seconds between 1900-01-01 (NTP) and 1970-01-01 (Unix).
 inline constexpr double kNtpUnixOffset = 2208988800.0;
 
-/// Unix time [s] to a tag; resolution about 0.25 ns in the tag, 0.2 us in a double of today.
+/// Converts Unix time [s] to a tag, whose resolution is 0.25 ns; a double of today has 0.2 us.
 [[nodiscard]] TimeTag to_time_tag(double unix_seconds) noexcept;
-/// Tag to Unix time [s].
+/// Converts a tag to Unix time [s].
 [[nodiscard]] double to_unix_seconds(TimeTag tag) noexcept;
-/// Seconds since a score's start [s], as event logs and scsynth's score files count them.
+/// Converts seconds since a score's start [s], as event logs and scsynth's score files count them.
 [[nodiscard]] TimeTag to_score_tag(double seconds) noexcept;
 [[nodiscard]] double to_score_seconds(TimeTag tag) noexcept;
 
-/// System clock now, Unix time [s].
+/// The system clock, Unix time [s].
 [[nodiscard]] double unix_now() noexcept;
-/// Monotonic clock now [s].
+/// The monotonic clock [s].
 [[nodiscard]] double monotonic_now() noexcept;
 
 }  // namespace splash::protocol

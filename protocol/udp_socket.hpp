@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A UDP socket of our own, for both servers: bound where it is told (loopback unless asked
-// otherwise), with a large receive buffer and a count of what the kernel dropped.
+// The UDP socket of both servers, with a large receive buffer and a count of the datagrams that the
+// kernel dropped.
 #pragma once
 
 #include <netinet/in.h>
@@ -22,7 +22,7 @@ struct Endpoint {
   bool operator==(const Endpoint&) const = default;
 };
 
-/// 127.0.0.0/8: this host itself, under an address that reaches no other.
+/// Whether the address is in 127.0.0.0/8, which always is this host itself.
 [[nodiscard]] constexpr bool is_loopback(const Endpoint& endpoint) noexcept {
   return endpoint.address >> 24U == 127U;
 }
@@ -51,22 +51,23 @@ class UdpSocket {
   UdpSocket(const UdpSocket&) = delete;
   UdpSocket& operator=(const UdpSocket&) = delete;
 
-  /// False when the kernel refused it (no route, buffer full): UDP may lose, the caller counts.
+  /// Returns false when the kernel refused the datagram (no route, buffer full). UDP may lose
+  /// datagrams: the caller counts.
   bool send_to(const Endpoint& peer, Bytes packet) noexcept;
 
   struct Received {
-    std::size_t size = 0;  ///< real size of the datagram, may exceed what fitted the buffer
+    std::size_t size = 0;  ///< of the whole datagram, may exceed the buffer's [bytes]
     Endpoint from;
-    double waited = 0.0;  ///< it lay in the kernel for so long [s]; 0 where that does not say
+    double waited = 0.0;  ///< time that it spent in the kernel [s]; 0 where that is not known
   };
-  /// Waits up to `timeout` seconds (0: not at all) for one datagram. Interrupted waits return
-  /// nothing.
+  /// Waits up to `timeout` seconds (0: not at all) for one datagram. Returns nothing when the wait
+  /// is interrupted.
   [[nodiscard]] std::optional<Received> receive(std::byte* buffer, std::size_t capacity,
                                                 double timeout) noexcept;
 
   [[nodiscard]] Endpoint local() const noexcept { return local_; }
   [[nodiscard]] std::uint64_t dropped_by_kernel() const noexcept { return dropped_; }
-  /// Bytes of receive buffer the kernel granted (it counts its own overhead in them).
+  /// The receive buffer that the kernel granted, its own overhead included [bytes].
   [[nodiscard]] std::size_t receive_buffer() const noexcept;
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 

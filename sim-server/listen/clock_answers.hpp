@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Receivers measure the simulator's clock by a /ping to where their events come from: answered
-// here, on a thread of its own, since a frame's computing would be taken for travelling.
+// Answers the /ping with which receivers measure the simulator's clock. They send it to the port
+// that their events come from. A thread of its own answers, since waiting for a frame to be
+// computed would look like travel time.
 #pragma once
 
 #include <atomic>
@@ -21,8 +22,8 @@ class ClockAnswers {
  public:
   using Print = std::function<void(const std::string& line)>;
 
-  /// Reads `socket`, from which another thread sends the events. Only hosts of `targets` are
-  /// answered, and only /ping. Both outlive this. `print`: called on this one's thread when a /ping
+  /// Reads `socket`, from which another thread sends the events. Only /ping is answered, and only
+  /// hosts of `targets` are. Both outlive this object. `print` is called on its thread when a /ping
   /// was too short for its /pong (protocol::ReplyBudget).
   ClockAnswers(protocol::UdpSocket& socket, const Targets& targets, Print print);
   ~ClockAnswers() = default;  ///< stops within a tenth of a second
@@ -30,7 +31,7 @@ class ClockAnswers {
   ClockAnswers& operator=(const ClockAnswers&) = delete;
 
   [[nodiscard]] std::uint64_t answered() const noexcept { return answered_; }
-  /// Pings that were too short for their /pong.
+  /// The number of pings that were too short for their /pong.
   [[nodiscard]] std::uint64_t withheld() const noexcept { return withheld_; }
 
  private:

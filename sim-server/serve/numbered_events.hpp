@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what was found to what is told: events get their ids, their body and the moment they shall
-// sound.
+// Turns detections into events of the wire: assigns ids, the nearest body and the moment to sound.
 #pragma once
 
 #include <vector>
@@ -13,11 +12,11 @@ namespace splash::sim {
 
 class Simulation;
 
-/// Counts the events of a session.
+/// The next id of each kind of event in a session.
 using EventIds = protocol::ByKind<int>;
 
-/// Impacts sound when the surfaces meet; bubbles and cavities `latency` seconds after they
-/// happened, which hides how long it took to find them.
+/// Impacts sound when the surfaces meet; bubbles and cavities sound `latency` seconds after they
+/// happened, which hides the time that their detection takes.
 [[nodiscard]] std::vector<TimedEvent> number_events(const Detections& found,
                                                     const Simulation& simulation, double latency,
                                                     EventIds& ids);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Keeps simulated time on the wall clock. A simulator that falls behind by more than a limit lets
-// simulated time slip: what it missed is given up, it never races to catch up a growing backlog.
+// Keeps simulated time on the wall clock. When the simulator falls behind by more than a limit,
+// simulated time slips: the missed time is given up, and no backlog is caught up.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace splash::sim {
 
-/// The clocks of the machine; tests bring their own.
+/// The machine's clocks; tests replace them.
 struct PacerClock {
   std::function<double()> monotonic;        ///< [s]
   std::function<double()> unix_time;        ///< [s]
@@ -34,20 +34,20 @@ class Pacer {
  public:
   explicit Pacer(PacerSettings settings = {}, PacerClock clock = PacerClock::system());
 
-  /// Simulated time `seconds` is now. Call when the first frame starts (compiling is over), and
-  /// after every pause.
+  /// Makes simulated time `seconds` the present moment. To be called when the first frame starts,
+  /// after kernels were compiled, and after every pause.
   void start(double seconds = 0.0);
-  /// Call when a frame is computed, before its events are sent: waits for its moment, or notes
-  /// that it is over.
+  /// Waits for a frame's moment, or takes note that it has passed. To be called when the frame is
+  /// computed, before its events are sent.
   void wait_until(double seconds);
 
-  /// Time slips when behind by more than this [s].
+  /// Sets how far simulated time may fall behind before it slips [s].
   void set_slip_limit(double seconds) noexcept { settings_.slip_limit = seconds; }
 
-  /// Our monotonic clock when simulated second 0 was, slips included [s]. It never runs back.
+  /// The monotonic clock at simulated second 0, slips included [s]. It never decreases.
   [[nodiscard]] double origin() const noexcept { return origin_; }
-  /// Unix time at which simulated second 0 was, slips included [s]: what FrameTime wants. Read it
-  /// for each frame, since slips and corrections of the system clock move it.
+  /// Unix time at simulated second 0, slips included [s]. To be read for each frame, since slips
+  /// and corrections of the system clock change it.
   [[nodiscard]] double unix_origin() const;
   [[nodiscard]] const PacerCounts& counts() const noexcept { return counts_; }
 

@@ -77,8 +77,8 @@ void PoseIntake::say(std::int32_t body, PoseRefusal refusal, double now) {
   const bool for_good = refusal == PoseRefusal::no_body || refusal == PoseRefusal::not_tracked;
   if (for_good) {
     const auto index = static_cast<std::size_t>(body);
-    if (said_[index]) return;
-    said_[index] = true;
+    if (reported_[index]) return;
+    reported_[index] = true;
   } else if (now < next_line_) {
     return;
   } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Poses from the wire to the bodies that they move. What is not taken is counted by its reason and
-// said, to stderr and viewers, but not over and over.
+// Passes poses from the wire to the bodies that they move. Refused poses are counted by reason and
+// reported to stderr and to viewers, once a second at most.
 #pragma once
 
 #include <array>
@@ -35,15 +35,15 @@ class PoseIntake {
         surfaces_(simulation.scene()),
         floor_(simulation.scene()) {}
 
-  /// On the thread that listens, for each pose as it comes.
+  /// Takes a pose. Called on the control thread.
   void take(const protocol::BodyPose& pose, const PoseMoment& moment);
-  /// Same, for each message that is no command; false: no sender that
-  /// the scene's `tracking` names may have sent it.
+  /// Takes a message that is no command, on the same thread. Returns false when no sender that the
+  /// scene's `tracking` names may have sent it.
   bool track(const protocol::Message& message, const PoseMoment& moment);
 
-  /// All that were refused here. From any thread.
+  /// The number of poses that were refused here. May be called from any thread.
   [[nodiscard]] std::uint64_t refused() const noexcept;
-  /// By reason, with what was refused at the wire already.
+  /// The refused poses by reason, those included that the control port refused.
   [[nodiscard]] NamedCounts refusals(const ControlCounts& wire) const;
 
  private:
@@ -58,8 +58,8 @@ class PoseIntake {
   TuioFeet surfaces_;
   PressureFeet floor_;
   std::array<std::atomic<std::uint64_t>, kPoseRefusals> counts_ = {};
-  std::bitset<256> said_;   ///< of bodies that no pose can move
-  double next_line_ = 0.0;  ///< monotonic [s]
+  std::bitset<256> reported_;  ///< bodies that no pose can move
+  double next_line_ = 0.0;     ///< monotonic [s]
 };
 
 }  // namespace splash::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How fast the simulation has been of late, not on average since it began.
+// The speed of the simulation over the last second, in contrast to its mean since the start.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,14 @@ namespace splash::sim {
 
 class RecentPace {
  public:
-  /// Over the last `window` seconds of our clock.
+  /// `window`: of wall time, over which the rates are taken [s].
   explicit RecentPace(double window = 1.0) noexcept : window_(window) {}
 
-  /// At the end of each frame: our clock, simulated time [s] and the steps done so far.
+  /// To be called at the end of each frame with the wall clock, simulated time [s] and the number
+  /// of steps so far.
   void note(double wall, double simulated, std::int64_t steps);
 
-  /// Simulated time in wall time [1]; 0 before the second frame.
+  /// Simulated time per wall time [1]; 0 before the second frame.
   [[nodiscard]] double real_time_factor() const noexcept;
   [[nodiscard]] double steps_per_second() const noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run achieved: as JSON for programs, as a few lines for people.
+// The report of a run: as JSON for programs, as a few lines for people.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace splash::sim {
 
-/// What one kind of solve of the divergence-free solver took.
+/// The work of one kind of solve of the divergence-free solver.
 struct SolveTotals {
   std::int64_t solves = 0;  ///< one per step; 0: the solver in use needs none
   std::int64_t iterations = 0;
@@ -24,7 +24,7 @@ struct SolveTotals {
   [[nodiscard]] double mean() const noexcept;
 };
 
-/// Air that the water folded in, and the bubble particles that mark where.
+/// The air that the water entrapped, and the bubble particles that mark its places.
 struct AirReport {
   double entrapped = 0.0;          ///< [m3]
   double told = 0.0;               ///< in bubbles [m3]
@@ -33,7 +33,7 @@ struct AirReport {
   double largest_particles = 0.0;  ///< same, largest [1]
 };
 
-/// How often something happened, by the name of its reason.
+/// Counts by the name of a reason.
 using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
 [[nodiscard]] std::uint64_t sum_of(const NamedCounts& counts) noexcept;
 
@@ -84,14 +84,13 @@ struct RunReport {
   [[nodiscard]] double real_time_factor() const noexcept;
 };
 
-/// The report as JSON; numbers that are not finite become null.
+/// Returns the report as JSON; numbers that are not finite become null.
 [[nodiscard]] std::string to_json(const RunReport& report);
 
-/// Writes it whole or not at all (by way of a file beside it). Throws
-/// program::WriteError.
+/// Writes the whole report or nothing, by way of a file beside it. Throws program::WriteError.
 void write_report(const std::filesystem::path& path, const RunReport& report);
 
-/// A few lines for the terminal.
+/// Returns a few lines for the terminal.
 [[nodiscard]] std::string summary(const RunReport& report);
 
 }  // namespace splash::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report of a run, from those who counted.
+// Collects the report of a run from the parts of the program that counted.
 #pragma once
 
 #include "sim-server/send/event_sender.hpp"
@@ -10,7 +10,7 @@
 
 namespace splash::sim {
 
-/// All but the device, wall time, and what the targets and trackers had to say.
+/// Returns the report without the device, the wall time and the counts of targets and trackers.
 [[nodiscard]] RunReport report_on(const Simulation& simulation, const SendCounts& sent,
                                   const PacerCounts& paced, const Overload& overload);
 

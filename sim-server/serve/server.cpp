@@ -23,7 +23,7 @@ constexpr double kLinePeriod = 2.0;   ///< between two lines on the state [s]
 constexpr double kFaultPeriod = 1.0;  ///< between two lines on what went wrong [s]
 constexpr double kSlipLimit = 0.100;  ///< time slips when behind by more, while frames keep up [s]
 constexpr double kLeanGauges = 1.0;   ///< between two readings of the gauges under load [s]
-constexpr auto kStillTurn = std::chrono::milliseconds(20);
+constexpr auto kPauseStep = std::chrono::milliseconds(20);
 constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this long are silent [s]
 
 std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
@@ -117,7 +117,7 @@ ControlActions Server::actions() {
                           const PoseMoment& moment) { return poses_.track(message, moment); },
           .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
           .pause = [this](bool on) { paused_ = on; },
-          .reset = [this] { begins_anew_ = true; },
+          .reset = [this] { restarts_ = true; },
           .set = [this](const std::string& name, double value) { return rows_.set(name, value); },
           .get = [this](const std::string& name) { return rows_.get(name); },
           .scene = [this](const std::string& name) { return go_over_to(name); },
@@ -167,10 +167,10 @@ void Server::run(const std::function<bool()>& ended) {
   note_gauges();
   note_vtk();
   while (!ended() && !is_over()) {
-    if (begins_anew_.exchange(false)) simulation_.begin_anew();
+    if (restarts_.exchange(false)) simulation_.restart();
     take_rows();
     if (paused_) {
-      stand_still();
+      pause_step();
       continue;
     }
     const double before = simulation_.seconds();
@@ -179,7 +179,7 @@ void Server::run(const std::function<bool()>& ended) {
     simulation_.feel(targets_.wants(kForceStream));
     const FrameResult frame = simulation_.advance();
     const double computed = protocol::monotonic_now();
-    tell_forces(frame);
+    send_forces(frame);
     pacer_.wait_until(frame.seconds);
     const double due = protocol::monotonic_now();
     send(frame);
@@ -204,10 +204,10 @@ void Server::take_rows() {
   }
 }
 
-void Server::stand_still() {
+void Server::pause_step() {
   FrameResult still;
   still.seconds = simulation_.seconds();
-  std::this_thread::sleep_for(kStillTurn);
+  std::this_thread::sleep_for(kPauseStep);
   pacer_.start(still.seconds);  // simulated time is now, however long that goes on
   send(still);
   show(still);
@@ -233,20 +233,20 @@ void Server::note_load(double seconds, double spent) {
                describe(overload_, simulation_.step_policy().overload_factor()).c_str());
 }
 
-void Server::say(const StepFault& step_fault) {
+void Server::report(const StepFault& step_fault) {
   const double now = protocol::monotonic_now();
   if (now < next_fault_) {
-    ++unsaid_;
+    ++unreported_;
     return;
   }
   next_fault_ = now + kFaultPeriod;
   std::fprintf(stderr, "sim-server: %s\n", describe(step_fault).c_str());
-  if (unsaid_ > 0) std::fprintf(stderr, "sim-server: and %d more before that\n", unsaid_);
-  unsaid_ = 0;
+  if (unreported_ > 0) std::fprintf(stderr, "sim-server: and %d more before that\n", unreported_);
+  unreported_ = 0;
 }
 
 void Server::send(const FrameResult& frame) {
-  if (frame.step_fault) say(*frame.step_fault);
+  if (frame.step_fault) report(*frame.step_fault);
   const FrameTime time = {simulation_.totals().steps, frame.seconds, pacer_.unix_origin()};
   const double latency = 1e-3 * simulation_.scene().serve.latency_ms;
   auto events = number_events(frame.found, simulation_, latency, ids_);
@@ -254,8 +254,8 @@ void Server::send(const FrameResult& frame) {
              [this] { sender_.stop_logging(); });
 }
 
-/// At once: who closes a loop over them wants no delay.
-void Server::tell_forces(const FrameResult& frame) {
+/// Sent at once: a control loop that is closed over the forces wants no delay.
+void Server::send_forces(const FrameResult& frame) {
   if (frame.pushes.empty()) return;
   std::vector<ForceReading> readings;
   for (const BodyPush& push : frame.pushes) {

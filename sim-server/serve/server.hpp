@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The running simulator: frames against the wall clock, events out, poses and control in.
+// The running simulator: it computes frames in step with the wall clock, sends their events, and
+// takes poses and commands.
 #pragma once
 
 #include <atomic>
@@ -33,55 +34,56 @@ namespace splash::sim {
 
 class Server {
  public:
-  /// Opens sockets and log. Throws program::Failure with the exit code.
+  /// Opens sockets and files. Throws program::Failure.
   Server(const Options& options, Simulation& simulation, const std::string& device);
 
-  /// Frame after frame, until `ended` says so, /quit comes or the duration is over. Prints a line
-  /// on the state now and then.
+  /// Computes frame after frame until `ended` returns true, /quit comes or the duration is over.
+  /// Prints a line on the state every two seconds.
   void run(const std::function<bool()>& ended);
-  /// Begins log and gauges anew, if somebody has moved the files away. Between two frames only.
+  /// Begins new files for log and gauges if the old ones were moved away (log rotation). To be
+  /// called between two frames.
   void reopen();
-  /// Closes the log and asks the targets how they fared.
+  /// Closes the log and asks the targets for their counts of late and lost events.
   [[nodiscard]] RunReport finish();
-  /// Writes the report where the options want it. Throws program::Failure when that or a file
-  /// before could not be written.
+  /// Writes the report's file, if the options name one. Throws program::Failure when it, or a file
+  /// earlier in the run, could not be written.
   void leave(const RunReport& report) const;
 
-  /// Whether the thread that listens has turned since this was last asked.
+  /// True if the control thread has made progress since the last call.
   [[nodiscard]] bool listens();
-  /// Neither a target nor a file was named.
+  /// Whether neither a target nor a file was named.
   [[nodiscard]] bool is_unheard() const noexcept {
     return options_.targets.empty() && options_.record.empty();
   }
-  /// Where viewers are let in; empty: nowhere.
+  /// The endpoint that viewers connect to; empty: there is none.
   [[nodiscard]] std::optional<protocol::Endpoint> shown_at() const {
     return show_ ? std::optional(show_->local()) : std::nullopt;
   }
   /// The scene to go over to, once run() is over; empty: the program ends.
   [[nodiscard]] std::filesystem::path next_scene() const;
-  /// Where poses and control are listened for.
+  /// The endpoint of the control port.
   [[nodiscard]] protocol::Endpoint local() const noexcept { return control_.local(); }
 
  private:
-  /// What the control port may do.
+  /// The actions of the control port's commands.
   [[nodiscard]] ControlActions actions();
-  /// On stderr, not more often than once a second.
-  void say(const StepFault& step_fault);
+  /// Prints a fault to stderr, once a second at most.
+  void report(const StepFault& step_fault);
   void send(const FrameResult& frame);
-  void tell_forces(const FrameResult& frame);
-  /// What was set since the last frame holds from now on, and clients of /notify hear of it.
+  void send_forces(const FrameResult& frame);
+  /// Applies the rows that were set since the last frame, and tells them to subscribers.
   void take_rows();
   void show(const FrameResult& frame);
-  /// One turn of a pause: peers hear that we are there, viewers may look around.
-  void stand_still();
+  /// One iteration of a pause: heartbeats go on, and viewers are sent frames.
+  void pause_step();
   void note_status(const FrameResult& frame);
   [[nodiscard]] std::uint64_t unsent() const;
   void note_gauges();
   void note_vtk();
-  /// What a frame cost; more gives way, or less.
+  /// Takes note of what a frame of `seconds` cost, and changes the level of overload.
   void note_load(double seconds, double spent);
-  /// `write` puts something into a file. If it cannot: whoever plays in real time goes on without
-  /// the file, `forget` it; else the run ends.
+  /// Runs `write`, which writes to a file. When the file cannot be written (program::WriteError), a
+  /// run in real time calls `forget` and goes on without the file; any other run ends.
   void keep_going(const std::function<void()>& write, const std::function<void()>& forget);
   void print_progress();
   [[nodiscard]] bool is_over() const;
@@ -107,7 +109,7 @@ class Server {
   LiveRows rows_;
   std::atomic<bool> quit_ = false;
   std::atomic<bool> paused_ = false;
-  std::atomic<bool> begins_anew_ = false;
+  std::atomic<bool> restarts_ = false;
   PoseIntake poses_;
   RecentPace pace_;       ///< for /status
   RecentPace line_pace_;  ///< for the lines on the state
@@ -115,12 +117,12 @@ class Server {
   protocol::SimStatus status_;
   std::filesystem::path next_scene_;  ///< under status_mutex_
   std::uint64_t turns_seen_ = 0;
-  std::string unwritten_;      ///< why a file ends early; empty: none does
+  std::string unwritten_;      ///< the reason why a file ends early; empty: none does
   double started_ = 0.0;       ///< monotonic [s]
   double wall_seconds_ = 0.0;  ///< of run()
   double next_line_ = 0.0;     ///< monotonic [s]
   double next_fault_ = 0.0;    ///< monotonic [s]
-  int unsaid_ = 0;             ///< faults since the last line on one
+  int unreported_ = 0;         ///< faults since the last line on one
   ClockAnswers clock_answers_;
   ControlServer control_;  ///< last: its thread uses all of the above
 };

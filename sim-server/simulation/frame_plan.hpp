@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a frame needs: looked up from the last frame's statistics and from where the bodies go.
+// Plans a frame: which of its computations can be skipped, decided from the last frame's statistics
+// and the bodies' motions.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,12 @@
 namespace splash::sim {
 
 struct FramePlan {
-  bool steps = true;     ///< anything may move
+  bool steps = true;     ///< something may move
   bool contacts = true;  ///< a body may meet the water
-  bool bubbles = true;   ///< water may make bubbles, or bubbles live
+  bool bubbles = true;   ///< the water may entrap bubbles, or bubbles are alive
 };
 
-/// Frames that went without.
+/// The number of frames in which a computation was skipped.
 struct SkipTotals {
   std::uint64_t idle = 0;  ///< nothing was computed
   std::uint64_t contacts = 0;
@@ -28,11 +29,11 @@ struct SkipTotals {
   double asleep_sum = 0.0;  ///< of the share of the particles that slept, over all frames [1]
 };
 
-/// Whether any of the bodies comes within the support of the box around the water; the box may have
-/// grown by `margin` [m] since.
+/// Whether any of the bodies comes within the kernel's support of the water's bounding box, which
+/// may have grown by `margin` [m] since.
 [[nodiscard]] bool near_water(const std::vector<BodyStep>& bodies, const FluidStats& water,
                               double margin);
-/// Same, of bodies that move.
+/// The same for bodies that move.
 [[nodiscard]] bool moving_near_water(const std::vector<BodyStep>& bodies, const FluidStats& water);
 
 class FramePlanner {
@@ -40,22 +41,22 @@ class FramePlanner {
   FramePlanner(const SkipSettings& skip, double bubble_speed, int particles)
       : skip_(skip), bubble_speed_(bubble_speed), particles_(particles) {}
 
-  /// `bodies`: those of all steps of the coming frame; `last`: the statistics of the last one, of
-  /// `frame` seconds; `driven`: the wave maker moves, or a free body did not long ago; `bubbles`:
-  /// how many live.
+  /// `bodies`: those of all steps of the next frame; `last`: the statistics of the last frame,
+  /// which lasts `frame` seconds; `driven`: the wave maker moves, or a free body moved recently;
+  /// `bubbles`: the number of bubble particles alive.
   [[nodiscard]] FramePlan plan(const std::vector<BodyStep>& bodies, const FluidStats& last,
                                double frame, bool driven, std::size_t bubbles);
   /// Water slower than this makes no bubbles [m/s].
   void set_bubble_speed(double speed) noexcept { bubble_speed_ = speed; }
-  /// After a failure nothing is taken for granted.
+  /// Makes the next plan compute everything, as after a failure.
   void forget() noexcept { known_ = false; }
 
  private:
   SkipSettings skip_;
   double bubble_speed_ = 0.0;
   int particles_ = 0;
-  bool known_ = false;        ///< there has been the statistics
-  bool calm_before_ = false;  ///< the last frame looked for bubbles and all water was slow
+  bool known_ = false;        ///< the last frame's statistics are known
+  bool calm_before_ = false;  ///< the last frame searched for bubbles and all water was slow
 };
 
 }  // namespace splash::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What became of the free bodies in a frame: whether it can be, and from the device to the host.
+// Checks the free bodies after a frame, and copies their states from the device to the host.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,12 @@
 
 namespace splash::sim {
 
-/// Once the frame's last step, number `step`, is done: a free body whose numbers are none, whose
-/// centre is beyond a side or the floor of the tank, or which is ten times as fast as sound.
+/// Returns a fault when a free body has NaN or infinity in its state, its centre is beyond a side
+/// or the floor of the tank, or it is ten times as fast as sound. To be called after the frame's
+/// last step, number `step`.
 [[nodiscard]] std::optional<Diagnosis> look_at_free_bodies(Fluid& fluid, int step);
 
-/// The bodies are where the device has brought them by `seconds`.
+/// Copies the states that the bodies have at `seconds` from the device.
 void bring_free_bodies(Fluid& fluid, Bodies& bodies, double seconds);
 
 }  // namespace splash::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tells whoever starts a scene which of its water found no place.
+// Describes the water of a scene that found no place, for the terminal.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace splash::sim {
 
-/// One line on the blocks that have more or less water than the scene wants, with the bodies where
-/// they are when time begins: litres and level, wanted and there. Empty where all are right to
-/// 0.2 %. Before the first frame.
+/// Returns one line on the blocks that have more or less water than the scene specifies, with the
+/// bodies where they are when time begins: litres and level, specified and present. Empty when all
+/// are right within 0.2 %. To be called before the first frame.
 [[nodiscard]] std::string missing_water(const Simulation& simulation);
 
 }  // namespace splash::sim

@@ -357,7 +357,7 @@ void Simulation::restore_start(double seconds) {
   cavity_watch_.forget();
 }
 
-void Simulation::begin_anew() {
+void Simulation::restart() {
   for (PosedMotion* body : live_) {
     if (body != nullptr) body->restart(seconds_);
   }

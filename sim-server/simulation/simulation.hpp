@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene at work: water, bodies and detectors, frame by frame. Knows neither clocks nor OSC.
+// Simulates a scene frame by frame: water, bodies and detectors. It knows neither clocks nor OSC.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +27,13 @@
 
 namespace splash::sim {
 
-/// What one frame did.
+/// The result of one frame.
 struct FrameResult {
   double seconds = 0.0;  ///< simulated time at its end [s]
   Detections found;
   FluidStats stats;
-  std::vector<BodyPush> pushes;         ///< that devices feel, while somebody wants to
-  std::optional<StepFault> step_fault;  ///< something went wrong; found is of a sound try, or empty
+  std::vector<BodyPush> pushes;         ///< forces that devices feel, while they are asked for
+  std::optional<StepFault> step_fault;  ///< a fault; `found` is of a try without one, or empty
 };
 
 /// Sums over a run.
@@ -55,31 +55,32 @@ struct RunTotals {
   std::uint64_t felt = 0;  ///< frames whose pushes on bodies were found
 };
 
-/// Where in a step a hook is called.
+/// The moment in a step at which a hook is called.
 enum class Moment { before, between };
 
-/// For tests: may change what a step works on, and its length.
+/// For tests: a hook may change the state that a step works on, and the step's length.
 using StepHook = std::function<void(Fluid&, Step&, Moment)>;
 
 class Simulation {
  public:
-  /// `tracker`: a marker file that replaces the scene's, or empty. Builds all kernels and lets the
-  /// water settle, whose progress it can `tell`. Throws program::ConfigError for what the scene
-  /// says wrong, program::Failure for water that does not come to rest, DeviceError for the
-  /// device.
+  /// Builds all kernels and lets the water settle. `tracker`: a marker file that replaces the
+  /// scene's, or empty; `tell` is called with the progress of the settling. Throws
+  /// program::ConfigError for what the scene says wrong, program::Failure for water that does not
+  /// come to rest, DeviceError for the device.
   Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
              const Progress& tell = {});
 
-  /// Simulates one frame: some equal steps, the detectors in the last one. What is not sound is
-  /// done again or given up (Recovery); nothing of it is told.
+  /// Simulates one frame: some equal steps, with the detectors in the last one. A try with a fault
+  /// is repeated or given up (Recovery); its events are discarded.
   [[nodiscard]] FrameResult advance();
-  /// Our clock when simulated time was 0, as of the next frame [s]: what poses are stamped by.
+  /// Sets the wall clock at simulated time 0, as of the next frame [s]; poses are stamped by it.
   void set_origin(double origin) noexcept { origin_ = origin; }
-  /// How long steps are, from the next frame on.
+  /// The length of steps, from the next frame on.
   [[nodiscard]] StepPolicy& step_policy() noexcept { return step_policy_; }
-  /// Detection by other thresholds, from the next frame on; `cavity_by_count` stays.
+  /// Detects by other thresholds, from the next frame on; `cavity_by_count` stays.
   void set_detection(const DetectSettings& settings);
-  /// Goes on from `water`, which a simulation of the same scene had at `seconds`; bubbles are lost.
+  /// Continues from `water`, which a simulation of the same scene had at `seconds`; bubbles are
+  /// lost.
   void resume(const Snapshot& water, double seconds) {
     fluid_.restore(water);
     seconds_ = detected_at_ = seconds;
@@ -87,36 +88,38 @@ class Simulation {
     planner_.forget();
     cavity_watch_.forget();
   }
-  /// The scene begins anew, its time goes on: water, free bodies and the bodies' own motions.
-  void begin_anew();
-  /// Whether the pushes on bodies are found, from the next frame on. Needs can_feel(). The first
-  /// time builds kernels where no body follows poses from the start on.
+  /// Restarts the scene (water, free bodies and the bodies' own motions); its time goes on.
+  void restart();
+  /// Computes the forces on bodies, or not, from the next frame on. Requires can_feel(). The first
+  /// call builds kernels where no body follows poses from the start on.
   void feel(bool on);
-  /// Poses can move a body, in water that is not a grid's, or a body hangs on a device.
+  /// Whether forces can be computed: poses can move a body, in water that is not a grid's, or a
+  /// body hangs on a device.
   [[nodiscard]] bool can_feel() const noexcept { return can_feel_; }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
   [[nodiscard]] const RunTotals& totals() const noexcept { return totals_; }
-  /// Of the pressure solver, without the settling.
+  /// The work of the pressure solver, without the settling.
   [[nodiscard]] SolverWork solver_work() const { return fluid_.solver_work(); }
   [[nodiscard]] int particles() const noexcept { return fluid_.params().count; }
   [[nodiscard]] const Bodies& bodies() const noexcept { return bodies_; }
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
-  /// Of each particle, by its id: what came to rest before time began, and what did not.
+  /// The state of each particle, by its id, before the water came to rest.
   [[nodiscard]] const std::vector<SupportState>& support_states() const noexcept {
     return support_states_;
   }
   [[nodiscard]] Fluid& fluid() noexcept { return fluid_; }
-  /// Where the bubble particles are [m].
+  /// The places of the bubble particles [m].
   [[nodiscard]] std::vector<Vector3> bubble_places() const { return detector_.bubble_places(); }
   [[nodiscard]] double time_step() const noexcept { return largest_step_; }
   [[nodiscard]] float sound_speed() const noexcept {
     return fluid_.params().sound_speed;
   }  ///< [m/s]
-  /// The body that poses can move, or null: the water moves it, or there is none.
+  /// Returns the body's motion if poses can move it, null if the water moves it or it does not
+  /// exist.
   [[nodiscard]] PosedMotion* live_body(int body) const noexcept;
-  /// Index of the body nearest to a place when events were last looked for, -1 without bodies.
+  /// The index of the body nearest to a place when events were last detected; -1 without bodies.
   [[nodiscard]] int nearest_body(const Vector3& place) const {
     return bodies_.nearest(place, detected_at_);
   }
@@ -124,33 +127,33 @@ class Simulation {
  private:
   [[nodiscard]] std::vector<Step> steps_of(const FrameSteps& division,
                                            std::vector<BodyStep>& poses) const;
-  /// Where bodies and devices are in the steps of a frame, to the device.
+  /// Sets where bodies and devices are in the steps of a frame, on the device.
   void set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses);
-  /// What is felt of a frame of so many seconds that has been computed.
+  /// Returns the forces that are felt in a frame of so many seconds that has been computed.
   [[nodiscard]] std::vector<BodyPush> find_pushes(double seconds);
-  /// One try of a frame; nullopt: it was not sound.
+  /// Tries to compute a frame; nullopt: it had a fault.
   [[nodiscard]] std::optional<FrameResult> attempt(const std::vector<Step>& steps,
                                                    const FramePlan& plan);
   void enqueue(const std::vector<Step>& steps, const FramePlan& plan, double since);
-  /// What the detectors found in a frame that was sound.
+  /// The detections of a frame without a fault.
   [[nodiscard]] Detections collect(double detect_time, double since);
   [[nodiscard]] FrameResult hold_still(double frame);
-  /// Of the frame that has been computed, with so many steps.
+  /// The fault of the frame that has been computed, with so many steps.
   [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t steps);
   void keep(const FrameResult& result);
-  /// Of bodies and the piston [m/s].
+  /// The speed of the fastest body or the piston [m/s].
   [[nodiscard]] double fastest_mover(double seconds) const;
   void set_largest_step(double fastest, double acceleration);
   void count(const FramePlan& plan);
 
   [[nodiscard]] std::vector<cl::Buffer> state() const;
-  /// Computes a frame with all that a splash needs, and takes it back.
+  /// Computes a frame with all kernels that a splash uses, and discards it.
   void rehearse();
-  /// Takes the state back to the last sound one, and notes what was wrong.
+  /// Restores the last good state and describes the fault.
   [[nodiscard]] StepFault examine(const Diagnosis& what, double dt);
-  /// Ends a frame that no try made sound.
-  /// Water and free bodies as they were when time began; `seconds`: now [s].
+  /// Restores water and free bodies as they were when time began; `seconds`: now [s].
   void restore_start(double seconds);
+  /// Ends a frame in which every try had a fault.
   [[nodiscard]] FrameResult give_up(StepFault& step_fault, double frame);
 
   Scene scene_;
@@ -163,7 +166,7 @@ class Simulation {
   CavityWatch cavity_watch_;
   FramePlanner planner_;
   FluidStats stats_;                    ///< the last one
-  std::unique_ptr<BodyPushes> pushes_;  ///< null until somebody wants to feel the water
+  std::unique_ptr<BodyPushes> pushes_;  ///< null until forces are asked for
   bool can_feel_ = false;
   bool feels_ = false;
   std::vector<BodyPush> felt_;  ///< of the last frame that was computed
@@ -176,10 +179,10 @@ class Simulation {
   double thrown_until_ = 0.0;  ///< water may be as fast as it can be [s]
   double origin_ = 0.0;        ///< our clock when simulated time was 0 [s]
   Recovery recovery_;
-  Checkpoint sound_;  ///< the end of the last sound frame
+  Checkpoint sound_;  ///< the end of the last good frame
   Snapshot start_;    ///< when time began
   StepHook hook_;
-  std::optional<Diagnosis> wrong_;  ///< with the last try
+  std::optional<Diagnosis> wrong_;  ///< the fault of the last try
   RunTotals totals_;
 };
 

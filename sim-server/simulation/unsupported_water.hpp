@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tells whoever starts a scene which of its water did not come to rest, as nothing holds it.
+// Describes the water of a scene that nothing supports, for the terminal.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace splash::sim {
 
-/// One line on the water that begins as the scene says: which blocks, and what to do to have it
-/// otherwise. Empty if there is none, or the scene wants none to settle, or has no weight. Before
-/// the first frame.
+/// Returns one line on the blocks of water that flow or fall from where the scene puts them, and
+/// how to change that. Empty if there are none, the scene wants no settling, or nothing has weight.
+/// To be called before the first frame.
 [[nodiscard]] std::string unsupported_water(Simulation& simulation);
 
 }  // namespace splash::sim

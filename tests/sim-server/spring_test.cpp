@@ -199,7 +199,7 @@ TEST(Spring, IsSoundAfterAFrameWentWrongAndWhenTheSceneBeginsAnew) {
   simulation.set_hook({});
   play(0.1, {0.2, 0.2, 0.4});
   play(0.5, {0.25, 0.2, 0.55});
-  simulation.begin_anew();
+  simulation.restart();
   EXPECT_NEAR(cube(simulation).position[2], 0.4, 1.0e-6);
   EXPECT_LT(play(0.02, {0.25, 0.2, 0.55}), 3.0) << "the spring was slack";
   play(1.0, {0.25, 0.2, 0.55});

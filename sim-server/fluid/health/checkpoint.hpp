@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last sound state of the water, kept on the device: to keep it and to go back to it costs a
-// copy, and nothing waits.
+// Keeps the last good state of the water on the device. Keeping and recalling it each cost a copy
+// on the device and do not wait.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace splash::sim {
 class Checkpoint {
  public:
   Checkpoint() = default;
-  /// `state`: all that the next step depends on. The buffers may be others at each call, of the
-  /// same sizes in the same order.
+  /// `state`: all buffers that the next step depends on. They may be other buffers at each call, of
+  /// the same sizes in the same order.
   void keep(Device& device, const std::vector<cl::Buffer>& state);
   void recall(Device& device, const std::vector<cl::Buffer>& state) const;
 

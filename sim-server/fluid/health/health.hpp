@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The health of the water, looked at on the device after every step: what went wrong first, in
-// which step, with which particle.
+// Checks the water on the device after every step. A diagnosis names the first fault, its step and
+// its particle.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,25 @@
 
 namespace splash::sim {
 
-/// What may be wrong with a step. The first five are looked for by health/health.cl.
+/// The faults of a step. The first five are detected by health/health.cl.
 enum class Fault : std::uint8_t {
-  not_finite,  ///< a place, a velocity or a density is no number
+  not_finite,  ///< a place, a velocity or a density is NaN or infinite
   outside,     ///< beyond the walls, or higher than anything flies
-  stray,       ///< not where its motion took it, nor a wall or a body put it
-  speed,       ///< as fast as sound
-  density,     ///< less than a particle alone has, or twice that at rest
-  lost,        ///< the particles of a step's end are not those of its beginning
-  changed,     ///< a step did not begin with what the last one ended with
-  body,        ///< a free body is no number, beyond the tank or faster than anything
-  step,        ///< longer than twice what is stable
+  stray,    ///< a particle is neither where its velocity moved it nor where a wall or body put it
+  speed,    ///< as fast as sound
+  density,  ///< less than a particle alone has, or twice that at rest
+  lost,     ///< particle ids were lost or duplicated during the step
+  changed,  ///< the state changed between two steps
+  body,     ///< a free body is NaN or infinite, beyond the tank or faster than anything
+  step,     ///< the step was longer than any that a scene may ask for (longest_possible_step)
 };
 inline constexpr std::size_t kFaults = 9;
 
-/// In a few words, and what is likely to have caused it.
+/// A few words on a fault, and on its likely cause.
 [[nodiscard]] std::string_view describe(Fault fault) noexcept;
 [[nodiscard]] std::string_view likely_cause(Fault fault) noexcept;
 
-/// A set of faults that are looked for; tests leave some out.
+/// A set of faults that are checked; tests leave some out.
 using FaultSet = std::uint32_t;
 inline constexpr FaultSet kAllFaults = (1U << kFaults) - 1U;
 [[nodiscard]] constexpr FaultSet without(Fault fault) noexcept {
@@ -53,7 +53,7 @@ inline constexpr FaultSet kAllFaults = (1U << kFaults) - 1U;
 ///           twice the stagnation pressure of the fastest there may be
 [[nodiscard]] HealthLimits health_limits(const FluidParams& params);
 
-/// Where and how the first fault of a frame was seen.
+/// The first fault of a frame.
 struct Diagnosis {
   Fault fault = Fault::not_finite;
   int step = 0;       ///< of the frame, from 0
@@ -62,7 +62,7 @@ struct Diagnosis {
   int body = -1;      ///< the free body that it is about, -1: none
 };
 
-/// What the checks of a step read, after it.
+/// The buffers that the checks of a step read after it.
 struct CheckInputs {
   const Buffer<FluidParams>& params;
   const PointArrays& now;        ///< at the step's end
@@ -81,26 +81,26 @@ class Health {
   /// `program`: the statistics'.
   Health(Device& device, const cl::Program& program, const FluidParams& params);
 
-  /// A frame of so many steps begins.
+  /// Begins a frame of so many steps.
   void begin(Device& device, std::size_t steps);
-  /// Enqueues the look at a step that has just been enqueued: at all that is at work, in the last
-  /// one of the frame at what rests, too.
+  /// Enqueues the check of a step that has just been enqueued: of all active groups, in the last
+  /// step of the frame of the resting ones, too.
   void look(Device& device, const CheckInputs& inputs, const Step& step);
   void enqueue_read(Device& device);
-  /// Once the queue is finished: what was wrong first, if anything.
+  /// Returns the first fault of the frame, if any. The queue must have finished.
   [[nodiscard]] std::optional<Diagnosis> diagnosis() const;
 
-  /// The frame was sound: the next one goes on from its end.
+  /// Accepts the frame: the next one must begin with its end.
   void accept();
-  /// The particles were sorted in a step that nobody looks at, by gauges, say: what rests now may
-  /// never have been looked at, so the next look is at all.
+  /// Takes note of a step that is not checked, such as that of gauges: particles may have been
+  /// sorted into resting groups, so the next check is of all groups.
   void miss() noexcept { missed_ = true; }
-  /// The next state is another one, put there on purpose.
+  /// Takes note that the state is changed on purpose.
   void forget() noexcept { last_.reset(); }
-  /// Something moves so fast that the water it throws may reach the speed limit, or water falls
-  /// without end: that is no fault then, the limit holds it.
+  /// Tolerates particles at the speed limit: a body moves so fast that it may throw water to that
+  /// speed, or water falls without end.
   void expect_speed(bool fast) noexcept { fast_ = fast; }
-  /// For tests: only these faults are looked for.
+  /// For tests: restricts the checks to these faults.
   void set_checks(FaultSet checks) noexcept { checks_ = checks; }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is done about a frame that was not sound: first it is computed again from the last sound
-// state, with steps of half the length, up to three times. Then the water around the fault is
-// stopped where it last was sound, and time goes on. When that does not help either, the scene
-// begins anew. So every fault ends, and soon.
+// Decides how a frame with a fault is recovered. First it is computed again from the last good
+// state with steps of half the length, up to three times. Then the water around the fault is
+// stopped in its last good state, and time goes on. When that does not help either, the scene
+// restarts. So recovery always ends, and soon.
 #pragma once
 
 namespace splash::sim {
@@ -18,16 +18,16 @@ class Recovery {
   static constexpr int kTries = 3;          ///< of a frame, besides the first
   static constexpr int kFramesGivenUp = 3;  ///< in a row, the last of which is the scene's reset
 
-  /// Of the largest stable step, that the next try is computed with [1].
+  /// The part of the largest stable step that the next try is computed with [1].
   [[nodiscard]] double step_share() const noexcept { return share_; }
-  /// Frames given up in a row until now.
+  /// The number of frames given up in a row.
   [[nodiscard]] int given_up() const noexcept { return given_up_; }
-  /// Tries of the present frame that failed.
+  /// The number of failed tries of the present frame.
   [[nodiscard]] int failed_tries() const noexcept { return failed_; }
 
-  /// The try was not sound.
+  /// Takes note of a try with a fault. Returns what to do about it.
   [[nodiscard]] Remedy failed() noexcept;
-  /// The frame was sound: steps grow again, by and by.
+  /// Takes note of a frame without a fault: steps grow again gradually.
   void succeeded() noexcept;
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done after a fault, once the water is back in its last sound state: the place is found,
-// and the water around it stopped.
+// Locates a fault once the water is back in its last good state, and stops the water around it.
 #pragma once
 
 #include "sim-server/bodies/body_steps.hpp"
@@ -9,13 +8,14 @@
 
 namespace splash::sim {
 
-/// Where that happened, and the body nearest to it: names in `step_fault`, whose diagnosis and time
-/// are known, the rest. `sound_at`: time of the water's state [s].
+/// Adds the place of a fault and the nearest body to `step_fault`, whose diagnosis and time are
+/// known. `sound_at`: time of the water's state [s].
 void locate(StepFault& step_fault, Fluid& fluid, const Bodies& bodies, const Scene& scene,
             double sound_at);
 
-/// Stops the water and the free bodies around the fault, or all of it where many particles were
-/// wrong; farther around when `times` frames in a row were given up. Notes how far.
+/// Stops the water and the free bodies around the fault, or all of it when many particles were
+/// wrong. The radius grows with `times`, the number of frames given up in a row; it is stored in
+/// `step_fault`.
 void calm(StepFault& step_fault, Fluid& fluid, Bodies& bodies, int times, double sound_at);
 
 }  // namespace splash::sim

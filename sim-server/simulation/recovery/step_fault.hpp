@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame that went wrong, and what became of it, for people.
+// Describes a fault of a frame and how it was recovered, for the log.
 #pragma once
 
 #include <string>
@@ -22,9 +22,9 @@ struct StepFault {
   double calmed = 0.0;              ///< radius within which the water was stopped [m]
 };
 
-/// What was wrong with what, and where.
+/// Returns what was wrong with which particle or body, and where.
 [[nodiscard]] std::string describe_fault(const StepFault& step_fault);
-/// A sentence: when and where, what was wrong, what may have caused it and what was done.
+/// Returns a sentence: time, place, fault, likely cause and recovery.
 [[nodiscard]] std::string describe(const StepFault& step_fault);
 
 }  // namespace splash::sim
