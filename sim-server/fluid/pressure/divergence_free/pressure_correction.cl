@@ -9,9 +9,9 @@
 // neighbourhood does not compress by coming closer: its offset is very low. Particles that sleep
 // keep their pressures.
 // Pressures stay within 0 and what the step was made for. It lets nothing go farther than s
-// spacings (FluidParams::advective_cfl), so that the fastest has u = s dx / dt; the most that it may
-// need is the push that stops it within a step over a spacing, p = rho0 u dx / dt, P = s (dx/dt)^2 /
-// rho0.
+// spacings (FluidParams::advective_cfl), so that the fastest has u = s dx / dt; the most that it
+// may need is the push that stops it within a step over a spacing, p = rho0 u dx / dt, P = s
+// (dx/dt)^2 / rho0.
 // That is u^2 / s in terms of its speed, 7 times its stagnation pressure (3 at twice the default
 // step), and as u is sqrt(g H) at least, never less than what the deepest water weighs. A particle
 // that two solids pinch is freed by no pressure, and without the bound got all there is.
