@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "program/failure.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
