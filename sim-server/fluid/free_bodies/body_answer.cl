@@ -6,10 +6,10 @@
 // Spins are solved for as speeds at a lever, so that all six equations are of one unit. Sums have a
 // fixed order: the same state gives the same bits.
 
-#include "sim-server/fluid/free_bodies/body_inertia.h"
+#include "sim-server/fluid/boundary/body_inertia.h"
+#include "sim-server/fluid/boundary/six.h"
 #include "sim-server/fluid/free_bodies/body_reach.h"
 #include "sim-server/fluid/free_bodies/body_spring.h"
-#include "sim-server/fluid/free_bodies/six.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"

@@ -6,9 +6,9 @@
 // The result is where the body is in the next step.
 
 #include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/body_inertia.h"
 #include "sim-server/fluid/boundary/outline.h"
 #include "sim-server/fluid/free_bodies/body_contact.h"
-#include "sim-server/fluid/free_bodies/body_inertia.h"
 #include "sim-server/fluid/free_bodies/contact.h"
 #include "sim-server/fluid/free_bodies/tank_contact.h"
 #include "sim-server/fluid/params/fluid_params.h"

@@ -6,7 +6,7 @@
 // of which the diagonal is kept. Parts are those of body_answer.cl, in which spins count as speeds
 // at the body's lever. Films push them, too (body_film.cl).
 
-#include "sim-server/fluid/free_bodies/six.h"
+#include "sim-server/fluid/boundary/six.h"
 #include "sim-server/fluid/params/fluid_params.h"
 
 // One work-item for each body. `sums`: of each, six of the one and six of the other [N s], [kg],

@@ -9,7 +9,7 @@
 // found in a few sweeps. Where the water was taken back, that push is of a step that did not come
 // to be: a worse guess, no wrong answer.
 
-#include "sim-server/fluid/free_bodies/body_inertia.h"
+#include "sim-server/fluid/boundary/body_inertia.h"
 #include "sim-server/fluid/params/fluid_params.h"
 
 #define REBOUND_SPEED 0.1f  // what comes slower does not rebound [m/s]

@@ -8,8 +8,8 @@
 // symmetric and positive, like L alone, however light the body (Batty, Bertails & Bridson 2007).
 
 #include "sim-server/fluid/boundary/bodies.h"
-#include "sim-server/fluid/free_bodies/body_inertia.h"
-#include "sim-server/fluid/free_bodies/six.h"
+#include "sim-server/fluid/boundary/body_inertia.h"
+#include "sim-server/fluid/boundary/six.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"

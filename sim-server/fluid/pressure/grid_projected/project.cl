@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Faces beside water get what the pressures do to them, walls stop: what the step changed at each
-// face is left in `pushed`, or MAC_UNKNOWN where there is no water, or a solid closes the face. Then
-// the pressures of cells with water are kept, in Pa.
+// face is left in `pushed`, or MAC_UNKNOWN where there is no water, or a solid closes the face.
+// Then the pressures of cells with water are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"

@@ -3,7 +3,7 @@
 // its own but for a mesh's.
 
 #include "sim-server/fluid/boundary/bodies.h"
-#include "sim-server/fluid/free_bodies/six.h"
+#include "sim-server/fluid/boundary/six.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
 
