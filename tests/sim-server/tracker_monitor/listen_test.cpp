@@ -68,7 +68,7 @@ TEST(Listen, OffersThePresetOfACommonSender) {
 TEST(Listen, SpellsOutWhatNoPresetKnows) {
   expect_at(pose_by({{"/phone", {1.0F, 2.0F, 3.0F}}}), {1.0, 2.0, 3.0});
   const std::optional<MappedPose> turned =
-      pose_by({{"/rig", {std::string("it's"), 4, 1.0F, 2.0F, 3.0F, 0.0F, 0.6F, 0.0F, 0.8F}}});
+      pose_by({{"/head", {std::string("it's"), 4, 1.0F, 2.0F, 3.0F, 0.0F, 0.6F, 0.0F, 0.8F}}});
   expect_at(turned, {1.0, 2.0, 3.0});
   EXPECT_NEAR(turned->rotation[1], 0.6, 1.0e-6);
   expect_at(pose_by({{"/mm", {1000.0F, 2000.0F, 300.0F}}}), {1.0, 2.0, 0.3});
