@@ -241,7 +241,7 @@ void check_detect(const ConfigMap& map, const DetectSettings& d) {
 
 std::string wrong_order(const DetectSettings& detect) {
   for (const Order& order : orders_of(detect)) {
-    if (const std::string reason = wrong(order); !reason.empty()) return reason;
+    if (std::string reason = wrong(order); !reason.empty()) return reason;
   }
   return {};
 }
