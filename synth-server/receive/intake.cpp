@@ -197,7 +197,7 @@ void Intake::take_reply(const protocol::Message& message, const protocol::Endpoi
     control_.port().report(from, line, arrival);
   }
   Sender* sender = senders_.find(from);
-  if (sender == nullptr || protocol::violation(message)) return;
+  if (message.address != "/pong" || sender == nullptr || protocol::violation(message)) return;
   const auto stamp = [&](std::size_t i) {
     return std::get<protocol::TimeTag>(message.arguments[i]);
   };

@@ -91,7 +91,7 @@ class Story {
   }
   static Reply goodbye_to(std::size_t peer) { return {kPeers[peer], protocol::done("/quit")}; }
   /// Whether it will get a goodbye one day: what asks for that has to be as long, too.
-  [[nodiscard]] bool is_client(std::size_t peer) const {
+  [[nodiscard]] bool is_client(std::size_t peer) {
     std::vector<Reply> goodbyes;
     intake_.say_goodbye(goodbyes);
     return std::any_of(goodbyes.begin(), goodbyes.end(),
