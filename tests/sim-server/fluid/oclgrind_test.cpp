@@ -84,9 +84,6 @@ const Kernels kGrid = {"cut_cells",       "open_faces",     "fill_beside_solids"
 const Kernels kFree = {"reach_bodies", "measure_rims",  "press_films", "sum_films",
                        "weigh_water",  "answer_bodies", "carry_water", "keep_out_of_free",
                        "move_bodies",  "sum_pushes"};
-/// Of one whose water needs no films: what is pushed is asked for, too.
-const Kernels kCarried = {"reach_bodies",     "weigh_water", "answer_bodies", "carry_water",
-                          "keep_out_of_free", "move_bodies", "sum_pushes"};
 const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_density",
                          "integrate",     "compute_acceleration", "touch_water",
                          "spawn_bubbles", "carry_bubbles",        "seed_cavities",
@@ -94,14 +91,16 @@ const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_densi
 
 // Scalar kernels of the divergence-free solver take the interpreter minutes: by hand only.
 const std::vector<Watched> kWatched = {
-    {"scalar", "sim_fluid_two_steps 1 0 0", "Oclgrind: 251 particles",
-     join({kRanks, kStep, kPairs})},
+    // The interpreter's own counter of instructions breaks its heap here, with no other option,
+    // too;
+    // scalar_free_bodies counts the same kernels.
+    {"scalar", "sim_fluid_two_steps 1 0 0", "Oclgrind: 251 particles", {}},
     {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs})},
     {"divergence_free", "sim_fluid_two_steps 16 1 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kSolve})},
     {"grid_projected", "sim_fluid_two_steps 16 2 1", "Oclgrind: 251 particles",
-     join({kRuns, kStep, kGrid, kCarried})},
+     join({kRuns, kStep, kGrid, kFree})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kFree})},
     {"scalar_free_bodies", "sim_fluid_two_steps 1 0 1", "Oclgrind: 251 particles",
@@ -117,11 +116,10 @@ TEST_P(Oclgrind, FindsNothing) {
   // Its compiler's optimiser makes instructions that its interpreter does not know.
   const char* asked = std::getenv("SPLASH_OCLGRIND_STEPS");
   const int steps = asked != nullptr ? std::max(std::atoi(asked), 2) : 2;
-  const Ended ended =
-      run("timeout " + std::to_string(600 * steps) +
-          " oclgrind --data-races --check-api --inst-counts --build-options "
-          "-cl-opt-disable " +
-          std::string(SPLASH_BINARY_DIR) + "/" + GetParam().command + " " + std::to_string(steps));
+  const Ended ended = run(
+      "timeout " + std::to_string(600 * steps) + " oclgrind --data-races --check-api " +
+      (GetParam().kernels.empty() ? "" : "--inst-counts ") + "--build-options -cl-opt-disable " +
+      std::string(SPLASH_BINARY_DIR) + "/" + GetParam().command + " " + std::to_string(steps));
   static const std::regex kRan("Instructions executed for kernel '([a-z_]+)'");
   EXPECT_EQ(ended.status, 0) << ended.output;
   EXPECT_THAT(ended.output, ::testing::HasSubstr(GetParam().says));
