@@ -9,8 +9,8 @@
 
 namespace splash::program {
 
-/// Whether the text is well-formed UTF-8 of printable characters, tabs and line ends, without other
-/// control characters of ASCII or Unicode (U+0080 to U+009F).
+/// Returns whether the text is well-formed UTF-8 and has no control character of ASCII or Unicode
+/// (U+0080 to U+009F) besides tabs and line ends.
 [[nodiscard]] bool is_printable(std::string_view text) noexcept;
 
 /// Returns the text on one line: characters that are not printable as \xNN, and "..." after

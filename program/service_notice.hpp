@@ -23,8 +23,8 @@ class ServiceNotice {
   void starting(double seconds);
   /// Reports that the program is ready; systemctl shows `status`.
   void ready(const std::string& status);
-  /// Whether the next alive() is due: four in the watchdog's period. The loop that the watchdog
-  /// guards asks this in each iteration.
+  /// Returns whether a quarter of the watchdog's period has passed since the last alive(). The loop
+  /// that the watchdog guards asks this in each iteration.
   [[nodiscard]] bool is_due() const;
   /// Resets the watchdog.
   void alive();

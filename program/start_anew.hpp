@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program that goes over to another configuration begins anew in its own place: the same process,
-// the same command line but for some options. Whoever started it notices nothing.
+// Re-executes the program with another configuration: the process ID stays the same, and so does
+// the command line except for some options.
 #pragma once
 
 #include <string>

@@ -43,8 +43,8 @@ struct AddressRow {
 
 [[nodiscard]] std::span<const AddressRow> address_table() noexcept;
 
-/// Whether the row is a command: its sender waits for a reply. Texts behind its own arguments are
-/// allowed and ignored (filling.hpp).
+/// Returns whether the row is a command, whose sender waits for a reply. A command may have further
+/// text arguments, which are ignored: they pad the request (filling.hpp).
 [[nodiscard]] constexpr bool is_command(const AddressRow& row) noexcept {
   return row.direction == Direction::to_both || row.direction == Direction::synth_alone ||
          row.direction == Direction::sim_alone;
@@ -56,7 +56,7 @@ struct AddressRow {
 /// First row of an address (/body/pose and /status.reply have two); nullptr: no such address.
 [[nodiscard]] const AddressRow* find_address(std::string_view address) noexcept;
 
-/// Whether a value is within its row's range.
+/// Returns whether a value is within the range of its row.
 [[nodiscard]] bool in_range(const Argument& argument, const ArgumentRow& row) noexcept;
 /// Whether a message has the row's address, types and ranges.
 [[nodiscard]] bool conforms(const Message& message, const AddressRow& row) noexcept;

@@ -19,7 +19,7 @@ std::size_t text_size(Bytes rest) {
   return length == rest.size() || padded > rest.size() ? 0 : padded;
 }
 
-/// Whether each array that begins ends.
+/// Returns whether the brackets of a type string match.
 bool is_balanced(Bytes tags) {
   int depth = 0;
   for (const std::byte tag : tags) {

@@ -86,7 +86,8 @@ class ControlPort {
   /// The commands of the table for this program that have not been added.
   [[nodiscard]] std::vector<std::string> missing() const;
 
-  /// Whether the commands of a host are obeyed: its own host's (127.0.0.0/8) and those named.
+  /// Returns whether commands of this host are carried out: those of 127.0.0.0/8 and of the hosts
+  /// in Settings::allowed.
   [[nodiscard]] bool allows(const Endpoint& from) const noexcept;
   /// Counts and reports a host that is not allowed.
   void turn_away(const Endpoint& from, double now);

@@ -57,8 +57,8 @@ struct Cavity {
 using Event = std::variant<Impact, Bubble, Cavity>;
 inline constexpr std::size_t kEventKinds = std::variant_size_v<Event>;
 
-/// Whether an event is a bubble. Bubbles come in floods, impacts and cavities do not: queues
-/// reserve places for those.
+/// Returns whether an event is a bubble. There may be thousands of bubbles a second, and few
+/// impacts and cavities: queues reserve places for these.
 [[nodiscard]] inline bool is_bubble(const Event& event) noexcept {
   return std::holds_alternative<Bubble>(event);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tells the local network where OSCQuery is (DNS-SD, _oscjson._tcp), by avahi-publish, where there
-// is one. It ends with this program, however that ends.
+// Announces OSCQuery to the local network (DNS-SD, _oscjson._tcp) with avahi-publish, if that is
+// installed. avahi-publish ends with this program, even when this program is killed.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +11,7 @@ namespace splash::view {
 
 class Announcement {
  public:
-  /// Nothing is announced of a server that only its own host can reach.
+  /// Announces `server`, unless it is bound to loopback.
   explicit Announcement(const protocol::Endpoint& server);
   ~Announcement();
   Announcement(const Announcement&) = delete;

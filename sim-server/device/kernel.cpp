@@ -114,7 +114,7 @@ bool Kernel::is_written(const std::string& name, const std::string& type) const 
   return std::find(written.begin(), written.end(), KernelParameter{name, type}) != written.end();
 }
 
-Kernel::Told Kernel::meet(const KernelArg& arg) const {
+Kernel::Binding Kernel::bind(const KernelArg& arg) const {
   const std::string name = arg.name_;
   const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                   [&](const KernelParameter& p) { return p.name == name; });
@@ -133,13 +133,13 @@ Kernel::Told Kernel::meet(const KernelArg& arg) const {
 void Kernel::set(std::span<const KernelArg> args) {
   for (const KernelArg& arg : args) {
     const bool is_buffer = arg.memory_ != nullptr;
-    if (place_ >= told_.size() || told_[place_].name != arg.name_ ||
-        told_[place_].type != arg.type_ || told_[place_].is_buffer != is_buffer) {
+    if (place_ >= bindings_.size() || bindings_[place_].name != arg.name_ ||
+        bindings_[place_].type != arg.type_ || bindings_[place_].is_buffer != is_buffer) {
       is_new_ = true;
-      told_.resize(std::max(told_.size(), place_ + 1));
-      told_[place_] = meet(arg);
+      bindings_.resize(std::max(bindings_.size(), place_ + 1));
+      bindings_[place_] = bind(arg);
     }
-    const std::size_t index = told_[place_++].parameter;
+    const std::size_t index = bindings_[place_++].parameter;
     Setting& setting = settings_[index];
     if (is_buffer) {
       if (setting.is_set && setting.memory() == (*arg.memory_)()) continue;
@@ -154,11 +154,11 @@ void Kernel::set(std::span<const KernelArg> args) {
   }
 }
 
-void Kernel::check_all() {
+void Kernel::check_complete() {
   is_new_ = true;
-  told_.resize(place_);
+  bindings_.resize(place_);
   std::vector<int> times(parameters_.size(), 0);
-  for (const Told& told : told_) ++times[told.parameter];
+  for (const Binding& binding : bindings_) ++times[binding.parameter];
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] == 1) continue;
     throw std::logic_error("the parameter " + parameters_[i].name + " of the kernel " + name_ +

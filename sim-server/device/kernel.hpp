@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A kernel and its arguments, which are given by the names of its parameters: in any order, each
-// once, and of the parameter's type. What the device knows of a kernel's parameters
-// (clGetKernelArgInfo) is read when it is made; names, types and completeness are checked at the
-// first launch of each place that launches it. Later launches compare addresses only, and set what
-// differs from the launch before.
+// A kernel and its arguments, which are passed by the names of its parameters: in any order, each
+// once, and of the parameter's type. The parameters are read (clGetKernelArgInfo) when the kernel
+// is created; names, types and completeness are checked at the first launch of each call site.
+// Later launches compare addresses only, and set the arguments that differ from the last launch's.
 #pragma once
 
 #include <bit>
@@ -125,8 +124,8 @@ class Kernel {
     std::uint32_t bits = 0;
     bool is_set = false;
   };
-  /// An argument of the launch before, by its place in the lists.
-  struct Told {
+  /// The parameter that an argument of the last launch belongs to, by its place in the lists.
+  struct Binding {
     const char* name = nullptr;
     const char* type = nullptr;
     bool is_buffer = false;
@@ -138,7 +137,7 @@ class Kernel {
     place_ = 0;
     set(std::span<const KernelArg>(args.begin(), args.size()));
     (set(std::span<const KernelArg>(more)), ...);
-    if (is_new_ || place_ != told_.size()) check_all();
+    if (is_new_ || place_ != bindings_.size()) check_complete();
   }
   template <class... Args>
   void set_by_position(const Args&... args) {
@@ -148,8 +147,8 @@ class Kernel {
   }
   void set(std::span<const KernelArg> args);
   [[nodiscard]] bool is_written(const std::string& name, const std::string& type) const;
-  [[nodiscard]] Told meet(const KernelArg& arg) const;
-  void check_all();
+  [[nodiscard]] Binding bind(const KernelArg& arg) const;
+  void check_complete();
   void launch(cl::CommandQueue& queue, std::size_t count, std::size_t group);
 
   cl::Kernel kernel_;
@@ -158,7 +157,7 @@ class Kernel {
   bool has_run_ = false;
   std::vector<KernelParameter> parameters_;
   std::vector<Setting> settings_;  ///< of each parameter
-  std::vector<Told> told_;
+  std::vector<Binding> bindings_;
   std::size_t place_ = 0;  ///< in the lists of this launch
   bool is_new_ = true;     ///< this launch's lists differ from the last one's
 };

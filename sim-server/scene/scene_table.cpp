@@ -257,10 +257,11 @@ Fields<MotionEntry> coupling_fields() {
   return {
       {{.key = "coupling",
         .unit = "",
-        .meaning = "osc: direct, the body is where the poses are, and the water's force on it is "
-                   "told (/force); spring, the water moves it, and a spring and a damper draw it "
-                   "to the poses: their force is what is told. Walls hold such a body, and its "
-                   "device feels them.",
+        .meaning =
+            "osc. direct: the body follows the poses, and /force is the force of the water on "
+            "it. spring: the water moves the body, which a spring and a damper connect to "
+            "the poses, and /force is the force of these two on the device. Walls stop "
+            "such a body, and its device feels them.",
         .choices = {"direct", "spring"}},
        &M::coupling_name},
       {{.key = "stiffness",

@@ -110,22 +110,6 @@ int write_events(const std::filesystem::path& folder, const Kind& kind,
   return count;
 }
 
-void write_levels(const std::filesystem::path& file, const LevelMap& map) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(map.level_db.data()),
-            static_cast<std::streamsize>(map.level_db.size() * sizeof(float)));
-  if (!out) throw std::runtime_error("cannot write " + file.string());
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (c != '\n') result += c;
-  }
-  return result + '"';
-}
-
 }  // namespace
 
 LevelMap level_map(const WavSignal& signal, std::size_t columns) {
@@ -158,7 +142,7 @@ void draw_events(const EventFigure& figure, const std::filesystem::path& png) {
     const int count = write_events(folder.path(), kind, log);
     subtitle << count << ' ' << std::string_view(kind.address).substr(1) << "(s)   ";
   }
-  write_levels(folder.path() / "levels.bin", map);
+  write_floats(folder.path() / "levels.bin", map.level_db);
   const float top = *std::max_element(map.level_db.begin(), map.level_db.end());
   const std::filesystem::path script = folder.path() / "events.gp";
   std::ofstream out(script);

@@ -56,6 +56,22 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c != '\n') result += c;
+  }
+  return result + '"';
+}
+
+void write_floats(const std::filesystem::path& file, const std::vector<float>& numbers) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(numbers.data()),
+            static_cast<std::streamsize>(numbers.size() * sizeof(float)));
+  if (!out) throw std::runtime_error("cannot write " + file.string());
+}
+
 void run_gnuplot(const std::filesystem::path& script, const char* program) {
   const std::filesystem::path log = std::filesystem::path(script).replace_extension("log");
   const int status = wait_for(start(program, script, log));

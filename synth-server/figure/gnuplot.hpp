@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace splash::synth {
 
@@ -15,6 +17,12 @@ class GnuplotError : public std::runtime_error {
 /// Runs `program` (found on the PATH) in the script's folder; what it prints goes to a file beside
 /// the script, and into the error's text when it fails. Throws GnuplotError.
 void run_gnuplot(const std::filesystem::path& script, const char* program = "gnuplot");
+
+/// A string of a script in double quotes, on one line.
+[[nodiscard]] std::string quoted(const std::string& text);
+
+/// Writes numbers for a script's `binary format="%float"`. Throws std::runtime_error.
+void write_floats(const std::filesystem::path& file, const std::vector<float>& numbers);
 
 /// A new empty folder below the system's temporary one, removed with its content at the end.
 class ScratchFolder {

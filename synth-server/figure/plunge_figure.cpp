@@ -101,23 +101,6 @@ void write_envelope(const std::filesystem::path& file, const std::vector<float>&
   if (!out) throw std::runtime_error("cannot write " + file.string());
 }
 
-void write_spectrogram(const std::filesystem::path& file, const Spectrogram& spectrum) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(spectrum.level_db.data()),
-            static_cast<std::streamsize>(spectrum.level_db.size() * sizeof(float)));
-  if (!out) throw std::runtime_error("cannot write " + file.string());
-}
-
-/// gnuplot's strings in double quotes take backslashes and quotes with a backslash before them.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (c != '\n') result += c;
-  }
-  return result + '"';
-}
-
 float peak_of(const Components& components) {
   float peak = 0.0F;
   for (const auto* part :
@@ -133,7 +116,7 @@ void write_data(const std::filesystem::path& folder, const Components& component
   write_envelope(folder / "bubble.dat", components.bubble, components);
   write_envelope(folder / "cavity.dat", components.cavity, components);
   write_envelope(folder / "played.dat", components.signal(), components);
-  write_spectrogram(folder / "spectrogram.bin", spectrum);
+  write_floats(folder / "spectrogram.bin", spectrum.level_db);
 }
 
 std::string subtitle(const Components& components) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the simulator's /force to how fast the forces on its bodies change; and the question for
-// them, /notify 2, which the simulator forgets after a minute.
+// Computes from the simulator's /force how fast the forces on bodies change; and requests these
+// messages with /notify 2, a subscription that lasts a minute.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace splash::synth {
 
-/// Whether a packet tells forces: it counts on its own, beside its sender's events.
+/// Returns whether a packet carries forces. Such packets are numbered separately from events.
 [[nodiscard]] bool tells_forces(const protocol::Packet& packet) noexcept;
 
 class Forces {
@@ -39,7 +39,7 @@ class Forces {
   std::array<Told, 256> last_;
 };
 
-/// Who is asked for forces, and whether anybody wants them now.
+/// The simulator to request forces from, and whether they are needed at present.
 struct ForceSource {
   std::optional<protocol::Endpoint> simulator = {};
   std::function<bool()> wanted = [] { return false; };

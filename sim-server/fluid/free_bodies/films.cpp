@@ -2,6 +2,7 @@
 #include "sim-server/fluid/free_bodies/films.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "sim-server/fluid/fluid.hpp"
@@ -105,44 +106,24 @@ void Films::press(Fluid& fluid, const Step& step, const Now& now) {
   const auto dt = as_float(step.dt);
   const auto piston = as_float(step.piston);
   const std::size_t items = free_.size() * SPLASH_PUSH_PARTS;
-  measure_rims_.run(queue, items,
-                    {{"p", params},
-                     {"piston", piston},
-                     {"free_count", count},
-                     {"frees", now.bodies},
-                     {"steps", boundary.steps()},
-                     {"first_body", step.first_body},
-                     {"body_count", boundary.body_count()},
-                     {"skin", skin_},
-                     {"skin_from", skin_from_},
-                     {"skin_stride", skin_stride_},
-                     {"position", fluid.particles().position},
-                     {"density", fluid.density()},
-                     {"pressure", now.pressure},
-                     {"reach", now.reach},
-                     {"reached", now.reached},
-                     {"rims", rims_}},
-                    boundary.outlines());
-  press_films_.run(queue, items,
-                   {{"p", params},
-                    {"piston", piston},
-                    {"free_count", count},
-                    {"frees", now.bodies},
-                    {"steps", boundary.steps()},
-                    {"first_body", step.first_body},
-                    {"body_count", boundary.body_count()},
-                    {"skin", skin_},
-                    {"skin_from", skin_from_},
-                    {"skin_stride", skin_stride_},
-                    {"position", fluid.particles().position},
-                    {"density", fluid.density()},
-                    {"pressure", now.pressure},
-                    {"reach", now.reach},
-                    {"reached", now.reached},
-                    {"rims", rims_},
-                    {"dt", dt},
-                    {"kept", kept_},
-                    {"parts", parts_}},
+  const std::array near_surfaces = {KernelArg{"p", params},
+                                    KernelArg{"piston", piston},
+                                    KernelArg{"free_count", count},
+                                    KernelArg{"frees", now.bodies},
+                                    KernelArg{"steps", boundary.steps()},
+                                    KernelArg{"first_body", step.first_body},
+                                    KernelArg{"body_count", boundary.body_count()},
+                                    KernelArg{"skin", skin_},
+                                    KernelArg{"skin_from", skin_from_},
+                                    KernelArg{"skin_stride", skin_stride_},
+                                    KernelArg{"position", fluid.particles().position},
+                                    KernelArg{"density", fluid.density()},
+                                    KernelArg{"pressure", now.pressure},
+                                    KernelArg{"reach", now.reach},
+                                    KernelArg{"reached", now.reached},
+                                    KernelArg{"rims", rims_}};
+  measure_rims_.run(queue, items, {}, near_surfaces, boundary.outlines());
+  press_films_.run(queue, items, {{"dt", dt}, {"kept", kept_}, {"parts", parts_}}, near_surfaces,
                    boundary.outlines());
   sum_films_.run(queue, 1,
                  {{"p", params},
