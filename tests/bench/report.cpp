@@ -25,10 +25,12 @@ std::string first_line(const std::string& command) {
   return text;
 }
 
+/// With "-dirty" where anything but docs/, into which the benchmarks themselves write, differs from it.
 std::string commit() {
-  const std::string told =
-      first_line("git -C '" + tests::source_folder().string() + "' describe --always --dirty 2>&1");
-  return told.empty() || told.starts_with("fatal") ? "of no known commit" : "commit " + told;
+  const std::string git = "git -C '" + tests::source_folder().string() + "' ";
+  const std::string told = first_line(git + "describe --always 2>&1");
+  if (told.empty() || told.starts_with("fatal")) return "of no known commit";
+  return "commit " + told + first_line(git + "diff --quiet HEAD -- . ':!docs' || echo -dirty");
 }
 
 std::string today() {
