@@ -2,7 +2,7 @@
 // A kernel and its arguments, which are passed by the names of its parameters: in any order, each
 // once, and of the parameter's type. The parameters are read (clGetKernelArgInfo) when the kernel
 // is created; names, types and completeness are checked at the first launch of each call site.
-// Later launches compare addresses only, and set the arguments that differ from the last launch's.
+// Later launches compare the addresses of names, and types, and set the arguments that differ.
 #pragma once
 
 #include <bit>
@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
@@ -35,7 +36,7 @@ class KernelArg {
   template <class T>
   KernelArg(const char* name, const Buffer<T>& buffer)
       : name_(name), type_(kKernelType<T>), memory_(&buffer.memory()) {
-    static_assert(kKernelType<T> != nullptr, "kernels know no such type (shared_struct.h)");
+    static_assert(!kKernelType<T>.empty(), "kernels know no such type (shared_struct.h)");
   }
   KernelArg(const char* name, int value)
       : name_(name), type_(kKernelType<int>), bits_(std::bit_cast<std::uint32_t>(value)) {}
@@ -45,7 +46,7 @@ class KernelArg {
  private:
   friend class Kernel;
   const char* name_;
-  const char* type_;  ///< of the number, or of the buffer's elements
+  std::string_view type_;  ///< of the number, or of the buffer's elements
   const cl::Buffer* memory_ = nullptr;
   std::uint32_t bits_ = 0;
 };
@@ -127,7 +128,7 @@ class Kernel {
   /// The parameter that an argument of the last launch belongs to, by its place in the lists.
   struct Binding {
     const char* name = nullptr;
-    const char* type = nullptr;
+    std::string_view type;
     bool is_buffer = false;
     std::size_t parameter = 0;
   };

@@ -8,29 +8,30 @@
 
 #ifdef __cplusplus
 #include <cstddef>
+#include <string_view>
 
 namespace splash::sim {
 
 /// What kernels call a type in their parameters; types without a name here are not passed to them.
 template <class T>
-inline constexpr const char* kKernelType = nullptr;
+inline constexpr std::string_view kKernelType{};
 template <>
-inline constexpr const char* kKernelType<int> = "int";
+inline constexpr std::string_view kKernelType<int> = "int";
 template <>
-inline constexpr const char* kKernelType<unsigned> = "uint";
+inline constexpr std::string_view kKernelType<unsigned> = "uint";
 template <>
-inline constexpr const char* kKernelType<float> = "float";
+inline constexpr std::string_view kKernelType<float> = "float";
 /// Memory that kernels keep their own structs in, of any type.
-inline constexpr char kAnyKernelType[] = "any";
+inline constexpr std::string_view kAnyKernelType = "any";
 template <>
-inline constexpr const char* kKernelType<std::byte> = kAnyKernelType;
+inline constexpr std::string_view kKernelType<std::byte> = kAnyKernelType;
 
 }  // namespace splash::sim
 
-#define SPLASH_SHARED_STRUCT(type, bytes)                                   \
+#define SPLASH_SHARED_STRUCT(type, bytes)                                        \
   static_assert(sizeof(type) == (bytes), #type " has another size on the host"); \
-  template <>                                                               \
-  inline constexpr const char* kKernelType<type> = #type;
+  template <>                                                                    \
+  inline constexpr std::string_view kKernelType<type> = #type;
 #else
 #define SPLASH_SHARED_STRUCT(type, bytes) \
   typedef char type##_has_its_size[sizeof(type) == (bytes) ? 1 : -1];
