@@ -245,10 +245,14 @@ TEST_F(Page, GoesOverToAnotherSceneAndRig) {
   choose("rigs", "stereo");
   EXPECT_TRUE(browser.wait_for("splash.alive().synth && splash.peaks()?.length === 2", kTimeout))
       << stage.words();
+  browser.evaluate(R"js({
+    window.said = [];
+    const state = document.getElementById('state');
+    new MutationObserver(() => said.push(state.textContent)).observe(state, { childList: true });
+  })js");
   choose("scenes", "plunge");
-  EXPECT_TRUE(
-      browser.wait_for("document.getElementById('state').textContent.includes('made ready')", 10.0))
-      << stage.words();
+  EXPECT_TRUE(browser.wait_for("said.some((text) => text.includes('made ready'))", 10.0))
+      << browser.evaluate("said");
   EXPECT_TRUE(browser.wait_for("splash.world().name === 'plunge' && splash.pictures() > 2", 180.0))
       << stage.words();
   EXPECT_EQ(browser.evaluate("document.getElementById('scenes').value"), "plunge");

@@ -6,6 +6,7 @@ import { Gamepads } from './gamepad.js';
 import { Grabs } from './grab.js';
 import { LightMaps } from './light.js';
 import { Link } from './link.js';
+import { Pace } from './pace.js';
 import { Panel } from './panel.js';
 import { Particles } from './particles.js';
 import { Playout } from './playout.js';
@@ -30,6 +31,7 @@ if (!gl) {
 }
 canvas.addEventListener('webglcontextlost', () => location.reload());
 const smooth = gl.getExtension('EXT_color_buffer_float') && !options.has('points');
+const pace = new Pace(options.has('share') ? Number(options.get('share')) || 1 : null);
 
 const camera = new Camera();
 const particles = new Particles(gl);
@@ -39,7 +41,7 @@ const playout = new Playout();
 const strip = new Strip(at('strip'));
 const lights = smooth ? new LightMaps(gl) : null;
 const water = smooth ? new Water(gl) : null;
-const points = smooth ? null : new Points(gl);
+let points = smooth ? null : new Points(gl);
 
 const FALL = 0.8; // of a shown peak from one frame of levels to the next
 
@@ -76,6 +78,7 @@ const link = new Link({
     document.title = `${scene.name} - splash`;
   },
   SPS1: (state) => {
+    pace.answered();
     playout.push(state, link.now());
     if (world && world.level === null) setLevel(state);
   },
@@ -107,6 +110,7 @@ const grabs = new Grabs(link);
 const panel = new Panel(at, link, (what, name) => {
   going = { what, name, since: performance.now() };
   if (what === 'scene') centres = true;
+  tellState();
 });
 const pointers = new Pointers(canvas, camera, solids, grabs);
 const gamepads = new Gamepads(camera, solids, grabs);
@@ -160,7 +164,7 @@ function refused([command, reason]) {
   warn(`${command}: ${reason}`);
 }
 
-let warned = 0;
+let warned = -Infinity; // when [ms]
 function warn(text) {
   at('state').textContent = text;
   at('state').className = 'warning';
@@ -191,7 +195,7 @@ function latency() {
 function tellFigures() {
   const ms = (x) => `${Math.round(1000 * x)} ms`;
   const sim = words.last('sim-server');
-  const parts = [`${world.particles} particles`, `${rate.toFixed(0)} pictures/s`,
+  const parts = [`${world.particles} particles`, `${pace.rate.toFixed(0)} pictures/s${points && smooth ? ' (points: the water is too much for these graphics)' : ''}`,
     `95 % of pictures younger than ${ms(playout.age)}`];
   if (sound.lag !== null) {
     const { picture } = latency();
@@ -202,25 +206,9 @@ function tellFigures() {
   at('figures').textContent = parts.join('  ·  ');
 }
 
-/// Sharpness of the water, given up where pictures come too slowly.
-let share = Number(options.get('share')) || 1;
-let rate = 60;
-let meanTook = 1000 / 60; // [ms]
-let before = performance.now();
 const headset = new Headset({ gl, solids, grabs, pick: (ray) => pointers.pick(ray),
   world: () => world, prepare, draw: drawAll });
 if (smooth) headset.isThere().then((there) => { at('headset').hidden = !there; });
-
-function keepPace() {
-  const now = performance.now();
-  const took = Math.min(now - before, 2000);
-  before = now;
-  meanTook += Math.min(took / 1000, 0.2) * (took - meanTook); // over about a second
-  rate = 1000 / Math.max(meanTook, 1);
-  if (options.has('share')) return;
-  if (rate < 45) share = Math.max(0.4, share - 0.005);
-  else if (rate > 57) share = Math.min(1, share + 0.002);
-}
 
 function poseBodies({ older, newer, share: t }) {
   newer.bodies.forEach((body, i) => {
@@ -234,14 +222,15 @@ let pictures = 0;
 let answered = null; // the newest state that was drawn and answered with a question for the next
 function picture() {
   requestAnimationFrame(picture);
-  keepPace();
+  pace.step();
+  if (pace.isTooSlow && !points && !headset.session) points = new Points(gl);
   gamepads.poll();
-  const dense = Math.min(window.devicePixelRatio, 2);
+  const dense = Math.min(window.devicePixelRatio, 2) * (points ? pace.share : 1);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   camera.aspect = width / height;
   if (headset.session || !prepare()) return;
-  drawAll({ width, height, share }, camera.matrices());
+  drawAll({ width, height, share: pace.share }, camera.matrices());
   if (wantsPicture) savePicture(canvas, world.name);
   wantsPicture = false;
 }
@@ -250,11 +239,11 @@ let moment = 0; // that is shown
 /// Everything as it is to be shown now; whether there is anything. Asks for the next state.
 function prepare() {
   const now = link.now();
-  const view = world && playout.at(now, sound.lag === null ? 0 : sound.lag - 0.025);
+  const view = world && playout.at(now, pace.rate, sound.lag === null ? 0 : sound.lag - 0.025);
   const newest = playout.states.at(-1);
   if (newest && newest !== answered) {
     answered = newest;
-    link.ask();
+    pace.askInTime(() => link.ask());
   }
   if (!view) return false;
   moment = view.moment;
@@ -332,5 +321,5 @@ setInterval(() => {
 
 /// For tests and for whoever looks with the browser's tools.
 window.splash = { camera, solids, playout, sound, link, grabs, headset, events: [], peaks: () => peaks, alive: () => alive,
-  rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, latency, share: () => share, world: () => world };
+  rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, latency, share: () => pace.share, world: () => world };
 requestAnimationFrame(picture);

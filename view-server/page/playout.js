@@ -2,7 +2,8 @@
 // Which two states a picture lies between. States are shown by their moments, held back by what
 // nine of ten of them came late after the one before them, so that motion is even.
 
-const HOLD_MAX = 0.05; // [s]
+const HOLD_MAX = 0.055; // [s]
+const EVEN = 25; // pictures a second, below which no motion is even and the newest state is shown
 const KEEP = 90; // arrivals, and shown ages, that are looked at
 
 export function quantile(values, share) {
@@ -31,10 +32,11 @@ export class Playout {
     if (this.states.length > 8) this.states.shift();
   }
 
-  /// {older, newer, share} at this moment; null before the first state.
-  at(now, extra = 0) {
+  /// {older, newer, share} at this moment, of `rate` pictures a second; null before the first state.
+  at(now, rate, extra = 0) {
     if (this.states.length === 0) return null;
-    const wanted = Math.min(Math.max(quantile(this.lateness, 0.9), extra, 0), HOLD_MAX);
+    const late = rate < EVEN ? 0 : quantile(this.lateness, 0.9);
+    const wanted = Math.min(Math.max(late, extra, 0), HOLD_MAX);
     this.hold += 0.05 * (wanted - this.hold);
     const shown = now - this.hold;
     while (this.states.length > 2 && this.states[1].moment <= shown) this.states.shift();

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// How sharp pictures may be, and when to ask for the next state, on a machine that draws as fast as
+// this one does.
+import { quantile } from './playout.js';
+
+const SHARES = [1, 0.71, 0.5, 0.35, 0.25]; // of the pixels along each axis: each has half as many
+const SLOW = 40; // pictures a second, below which they get coarser
+const FAST = 57; // above which they get sharper
+const TOO_SLOW = 24; // of the coarsest water, after which points are drawn
+const SETTLE = 0.5; // after each change before the rate counts [s]
+const SHARPER_AFTER = 5; // of a fast rate [s]
+const LOOKED_AT = 30; // answers
+
+export class Pace {
+  /// `share` of the pixels along each axis; null: as the machine allows.
+  constructor(share) {
+    this.fixed = share;
+    this.level = 0; // in SHARES
+    this.isTooSlow = false; // for water
+    this.took = 1 / 60; // a picture, a mean [s]
+    this.before = performance.now() / 1000;
+    this.pictures = 0; // since the last change
+    this.since = 0; // that change [s]
+    this.waits = []; // from asking to the answer [s]
+    this.asked = null; // when [s]
+  }
+
+  get share() {
+    return this.fixed ?? SHARES[this.level];
+  }
+
+  /// Pictures a second, a mean.
+  get rate() {
+    return 1 / Math.max(this.took, 1e-3);
+  }
+
+  /// Once a picture.
+  step() {
+    const now = performance.now() / 1000;
+    const took = Math.min(now - this.before, 2);
+    this.before = now;
+    this.took += Math.min(3 * took, 0.3) * (took - this.took); // over about a third of a second
+    this.since += took;
+    this.pictures += 1;
+    if (this.fixed !== null || this.since < SETTLE || this.pictures < 2) return;
+    const meanRate = this.pictures / this.since;
+    const coarsest = SHARES.length - 1;
+    if (meanRate < SLOW && this.level < coarsest) {
+      this.go(Math.min(this.level + Math.ceil(Math.log2(SLOW / meanRate)), coarsest));
+    } else if (meanRate < TOO_SLOW && !this.isTooSlow) {
+      this.go(0, true);
+    } else if (this.since > SHARPER_AFTER) {
+      this.go(Math.max(this.level - (meanRate > FAST ? 1 : 0), 0));
+    }
+  }
+
+  go(level, isTooSlow = this.isTooSlow) {
+    Object.assign(this, { level, isTooSlow, since: 0, pictures: 0 });
+  }
+
+  /// Calls `ask` so that the answer is there just before the next picture, and not long before.
+  askInTime(ask) {
+    const wait = this.took - quantile(this.waits, 0.9) - 0.004;
+    const send = () => {
+      this.asked = performance.now() / 1000;
+      ask();
+    };
+    if (this.waits.length === 0 || wait < 0.004) send();
+    else setTimeout(send, 1000 * wait);
+  }
+
+  answered() {
+    if (this.asked === null) return;
+    this.waits.push(performance.now() / 1000 - this.asked);
+    if (this.waits.length > LOOKED_AT) this.waits.shift();
+    this.asked = null;
+  }
+}
