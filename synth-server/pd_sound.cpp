@@ -15,8 +15,9 @@
 namespace splash::synth {
 namespace {
 
-/// Rows that the patches do not play: linear theory, forces that the simulator tells.
-constexpr std::array kUnplayed = {"physical", "least"};
+/// Rows that the patches do not play: linear theory, noise in place of bubbles, forces that the
+/// simulator tells.
+constexpr std::array kUnplayed = {"physical", "singles", "least"};
 
 struct PdRow {
   std::string part;  ///< impact, bubble, cavity, cloud, fine, foot

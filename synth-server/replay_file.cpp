@@ -50,6 +50,10 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
       "events: %llu in the log; played %llu impacts, %llu bubbles, %llu cavities\n",
       static_cast<unsigned long long>(report.events), static_cast<unsigned long long>(c.impacts),
       static_cast<unsigned long long>(c.bubbles), static_cast<unsigned long long>(c.cavities));
+  if (c.crowded != 0) {
+    std::printf("crowd: %llu of the bubbles sounded as one noise\n",
+                static_cast<unsigned long long>(c.crowded));
+  }
   std::printf(
       "left out: %llu above every output's band, %llu unheard or out of reach, %llu "
       "without a voice (%llu of them impacts, %llu cavities), %llu out of range\n",

@@ -66,6 +66,9 @@ std::string summary(const Totals& t) {
   out << "ran " << decimal(t.seconds, 1) << " s: played " << t.engine.impacts << " impacts, "
       << t.engine.bubbles << " bubbles, " << t.engine.cavities << " cavities; at most "
       << t.player.voices_peak << " voices at once\n";
+  if (t.engine.crowded != 0) {
+    out << "crowd: " << t.engine.crowded << " of the bubbles sounded as one noise\n";
+  }
   out << "not played: " << t.player.too_late << " too late, "
       << t.engine.dropped_queue + t.engine.dropped_pool + t.taken.queue_full
       << " without a voice or place (" << engine.impacts + queue.impacts << " impacts, "

@@ -30,6 +30,7 @@ struct EngineCounters {
   std::uint64_t resets = 0;            ///< samples that were not finite and reset their channel
   std::uint64_t limited = 0;           ///< samples that a limiter turned down
   protocol::ByKind<std::uint64_t> without_place;  ///< dropped_queue and dropped_pool by kind
+  std::uint64_t crowded = 0;  ///< of the started bubbles, those that sound as noise
 };
 
 /// One number with one writer: cheaper than fetch_add, and no reader ever sees a torn value.

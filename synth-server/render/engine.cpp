@@ -269,7 +269,8 @@ EngineCounters Engine::counters() const noexcept {
           c.resets.get(),
           c.limited.get(),
           {without_place(&Kinds::impacts), without_place(&Kinds::bubbles),
-           without_place(&Kinds::cavities)}};
+           without_place(&Kinds::cavities)},
+          e.crowded.get()};
 }
 
 int Engine::channels() const noexcept {

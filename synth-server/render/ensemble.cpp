@@ -31,6 +31,8 @@ Ensemble::Ensemble(const Rig& rig, const EngineSettings& settings)
       impact_level_(rig),
       impacts_(settings.max_impacts, routing_.max_routes(), settings.sample_rate),
       cloud_(settings.sample_rate),
+      births_(settings.sample_rate),
+      crowd_(rig, settings.sample_rate, settings.seed),
       fine_(rig, settings.sample_rate, settings.seed),
       underfoot_(rig, settings.sample_rate, settings.seed) {}
 
@@ -45,6 +47,9 @@ void Ensemble::start(const TimedEvent& timed) noexcept {
   if (outcome == Outcome::started) {
     counts_.started.of(timed.event).add();
     ++starts_;
+  } else if (outcome == Outcome::crowded) {
+    counts_.started.of(timed.event).add();
+    counts_.crowded.add();
   } else if (outcome == Outcome::no_place) {
     counts_.pool.add();
     counts_.without_place.of(timed.event).add();
@@ -111,6 +116,11 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
     counts_.unheard.add();
     return Outcome::left_out;
   }
+  if (!kept && !births_.is_single(settings_.sound.cloud.singles, sample) &&
+      crowd_.join(sound, tone, static_cast<double>(life.length) / settings_.sample_rate,
+                  reached(reach))) {
+    return Outcome::crowded;
+  }
   if (starts_ >= (kept ? kMostStarts : kMostStarts - kKeptStarts)) return Outcome::no_place;
   const BubblePool::Start result = bubbles_.start(tone, life, reached(reach), reach.group, sample);
   if (result == BubblePool::Start::refused) return Outcome::no_place;
@@ -150,6 +160,7 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
   impacts_.mix(from, to, mix);
   bubbles_.mix(from, to, mix);
+  crowd_.mix(from, to, mix);
   fine_.mix(from, to, mix);
   underfoot_.mix(from, to, mix);
 }
@@ -157,6 +168,7 @@ void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
 void Ensemble::end_cell(std::int64_t sample) noexcept {
   impacts_.release(sample);
   bubbles_.release(sample);
+  crowd_.end_cell();
   fine_.end_cell();
   underfoot_.end_cell();
   starts_ = 0;
@@ -165,6 +177,7 @@ void Ensemble::end_cell(std::int64_t sample) noexcept {
 void Ensemble::fade_all(std::int64_t sample) noexcept {
   impacts_.fade_all(sample);
   bubbles_.fade_all(sample);
+  crowd_.clear();
   fine_.clear();
   underfoot_.clear();
 }

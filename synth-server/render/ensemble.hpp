@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "protocol/event.hpp"
+#include "synth-server/render/birth_rate.hpp"
 #include "synth-server/render/bubble_pool.hpp"
 #include "synth-server/render/counters.hpp"
+#include "synth-server/render/crowd.hpp"
 #include "synth-server/render/engine.hpp"
 #include "synth-server/render/fine_water.hpp"
 #include "synth-server/render/impact_level.hpp"
@@ -50,14 +52,15 @@ class Ensemble {
   [[nodiscard]] std::size_t voices() const noexcept { return bubbles_.size() + impacts_.size(); }
 
   struct Counts {
-    Count stolen, pool, band, unheard;
+    Count stolen, pool, band, unheard, crowded;
     protocol::ByKind<Count> started;
     protocol::ByKind<Count> without_place;  ///< `pool` by kind
   };
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
 
  private:
-  enum class Outcome { started, left_out, no_place };  ///< left out: counted with its reason
+  /// Left out: counted with its reason.
+  enum class Outcome { started, crowded, left_out, no_place };
   Outcome start_kind(const protocol::Impact& impact, const TimedEvent& timed) noexcept;
   template <class BubbleOrCavity>
   Outcome start_kind(const BubbleOrCavity& event, const TimedEvent& timed) noexcept;
@@ -80,6 +83,8 @@ class Ensemble {
   ImpactLevel impact_level_;
   ImpactPool impacts_;
   Cloud cloud_;
+  BirthRate births_;
+  Crowd crowd_;
   FineWater fine_;
   Underfoot underfoot_;
   static constexpr std::size_t kBodies = 256;  ///< of a scene

@@ -227,7 +227,16 @@ std::vector<Field<CloudSound>> cloud_fields() {
             .min = 0.001,
             .max = 1.0,
             .source = "ours: until most have rung"},
-           &CloudSound::company}};
+           &CloudSound::company},
+          {{.key = "singles",
+            .unit = "1/s",
+            .meaning = "where more bubbles than this are born in a second (by a tenth, over a "
+                       "tenth of a second), so many of them sound one by one, and all others "
+                       "together as a noise of the same level and colour",
+            .min = 100.0,
+            .max = 1e6,
+            .source = "ours: more than 2,000 cannot be told from noise"},
+           &CloudSound::singles}};
 }
 
 std::vector<Field<FineSound>> fine_fields() {

@@ -49,6 +49,8 @@ struct ToneSound {
 struct CloudSound {
   double coupling = 0.0;  ///< 0: each sounds as if it were alone, 1: as the theory has it [1]
   double company = 0.05;  ///< a bubble counts for others so long after its birth [s]
+  /// Of more births than this [1/s] the rest sound as noise (render/crowd.hpp); so many: never.
+  double singles = 1e6;
 };
 
 /// Bubbles too small for the simulator (render/fine_water.hpp).

@@ -201,11 +201,12 @@ OnsetCase measure_onsets(const std::string& instructions, int tiles) {
   return result;
 }
 
-double measure_flood(bool everything) {
-  constexpr int kBirths = 10000;  // per second
+double measure_flood(int births, double singles, bool everything) {
   constexpr int kSeconds = 4;
   constexpr int kTiles = 6;
-  EngineSettings settings = settings_of("best", 16384);
+  EngineSettings settings = settings_of("best", 131072);
+  settings.max_scheduled = 1 << 20;
+  settings.sound.cloud.singles = singles;
   if (everything) {
     settings.sound.cloud.coupling = 1.0;
     settings.sound.fine.amount = 1.0;
@@ -215,13 +216,13 @@ double measure_flood(bool everything) {
   }
   Engine engine(rig_of(kTiles, 1.0), settings);
   Draw draw;
-  for (int i = 0; i < kBirths * kSeconds; ++i) {  // sizes as r^-3
+  for (int i = 0; i < births * kSeconds; ++i) {  // sizes as r^-3
     protocol::Bubble bubble;
     const double u = draw();
     bubble.radius = static_cast<float>(0.003 / std::sqrt(1.0 - 0.99 * u));
     bubble.epsilon = static_cast<float>(0.01 + 0.09 * draw());
     bubble.position = place(draw, kTiles);
-    engine.schedule({bubble, static_cast<std::int64_t>(i * kRate / kBirths)});
+    engine.schedule({bubble, static_cast<std::int64_t>(i * kRate / births)});
   }
   Player player(engine, 256);
   const double start = cpu_seconds();

@@ -36,10 +36,10 @@ struct OnsetCase {
 };
 [[nodiscard]] OnsetCase measure_onsets(const std::string& instructions, int tiles);
 
-/// Of one core [1], 10,000 bubbles a second of 3 to 30 mm on 36 channels up to 20 kHz at 44.1 kHz:
-/// as the paper has them, or in coupled clouds, with fine water on every channel and a gain of
-/// their own.
-[[nodiscard]] double measure_flood(bool everything);
+/// Of one core [1], so many births a second of bubbles of 3 to 30 mm on 36 channels up to 20 kHz at
+/// 44.1 kHz, of which `singles` a second sound one by one: as the paper has them, or in coupled
+/// clouds, with fine water on every channel, water under the foot and a gain of their own.
+[[nodiscard]] double measure_flood(int births, double singles, bool everything);
 
 /// Of one core [1]: the pitches of 10,000 births a second in a cloud as full as it gets.
 [[nodiscard]] double measure_clouds();

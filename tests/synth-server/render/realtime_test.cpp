@@ -98,9 +98,10 @@ TEST(Realtime, ScheduleAndRenderDoNothingForbidden) {
   settings.max_voices = 100;
   settings.max_scheduled = 500;
   settings.max_block = 256;
+  settings.sound.cloud.singles = 500.0;
   Rig rig = floor_rig();
   rig.outputs.push_back(open_rig().outputs.front());
-  ControlTargets targets{control_values(rig, {}), {}};
+  ControlTargets targets{control_values(rig, settings.sound), {}};
   targets.seconds.assign(targets.values.size(), 0.02F);
   ControlBox box(targets, std::vector<char>(targets.values.size(), 0));
   settings.controls = &box;
@@ -127,6 +128,7 @@ TEST(Realtime, ScheduleAndRenderDoNothingForbidden) {
   EXPECT_GT(counters.impacts, 0U);
   EXPECT_GT(counters.cavities, 0U);
   EXPECT_GT(counters.late, 0U);
+  EXPECT_GT(counters.crowded, 0U);
 }
 
 /// How long a full pool is rendered: a second, or as SPLASH_REALTIME_SECONDS says [s].
