@@ -149,6 +149,12 @@ constexpr ArgumentRow kForceRate[] = {
     rate("dtx", "what an angular velocity about x adds to tx; 0 or less"),
     rate("dty", "same about y"),
     rate("dtz", "same about z")};
+constexpr ArgumentRow kForceChange[] = {
+    {'i', "body", "1", 0, 255, "index of the body in the scene"},
+    coordinate("x", "the body's origin"),
+    coordinate("y", "to the left of x, seen from above"),
+    coordinate("z", "upwards"),
+    {'f', "rate", "N/s", 0, 1e6, "size of the change of the force on it in a second"}};
 constexpr ArgumentRow speed(std::string_view name, std::string_view meaning) {
   return {'f', name, name[0] == 'v' ? "m/s" : "rad/s", -1e6, 1e6, meaning};
 }
@@ -252,6 +258,9 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/impact", Direction::to_synth, "A body met the water's surface", kImpact},
     {"/bubble", Direction::to_synth, "A pocket of air was entrapped", kBubble},
     {"/cavity", Direction::to_synth, "The cavity behind a body closed", kCavity},
+    {"/force/change", Direction::to_synth,
+     "How fast the force on a body changes: what a synth's own recordings have in place of /force",
+     kForceChange},
     {"/leave",
      Direction::to_synth,
      "Behind a sender's last /frame: what was sent sounds to its end, and no more is waited for",

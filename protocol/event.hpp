@@ -96,6 +96,14 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
+/// How fast the force of the water on a body changes, by one that has compared two /force messages.
+struct Push {
+  Vec3 position;          ///< of the body [m]
+  std::int32_t body = 0;  ///< index in the scene
+  float rate = 0.0F;      ///< |dF/dt| [N/s]
+  bool operator==(const Push&) const = default;
+};
+
 /// Pose of a tracked body: to the simulator.
 struct BodyPose {
   std::int32_t body = 0;  ///< index of the body in the scene

@@ -72,6 +72,9 @@ constexpr const char* address_of(const Frame&) {
 constexpr const char* address_of(const BodyPose&) {
   return "/body/pose";
 }
+constexpr const char* address_of(const Push&) {
+  return "/force/change";
+}
 
 template <class... Values, class Visit>
 void visit_all(Visit& visit, Values&... values) {
@@ -93,6 +96,8 @@ void visit_arguments(Record& r, Visit visit) {
               r.offset_ms, r.life);
   } else if constexpr (std::is_same_v<Plain, Frame>) {
     visit_all(visit, r.session, r.sequence, r.step, r.delay_ms);
+  } else if constexpr (std::is_same_v<Plain, Push>) {
+    visit_all(visit, r.body, r.position.x, r.position.y, r.position.z, r.rate);
   } else {
     static_assert(std::is_same_v<Plain, BodyPose>, "a message without an order of arguments");
     visit_all(visit, r.body, r.position.x, r.position.y, r.position.z, r.qx, r.qy, r.qz, r.qw);
@@ -148,6 +153,9 @@ Message to_message(const Frame& frame) {
 Message to_message(const BodyPose& pose) {
   return give(pose);
 }
+Message to_message(const Push& push) {
+  return give(push);
+}
 
 Message to_message(const Event& event) {
   return std::visit([](const auto& one) { return give(one); }, event);
@@ -178,6 +186,10 @@ void set_offset(Message& event, float offset_ms) {
 
 std::optional<Frame> to_frame(const Message& message) {
   return take<Frame>(message);
+}
+
+std::optional<Push> to_push(const Message& message) {
+  return take<Push>(message);
 }
 
 std::optional<BodyPose> to_body_pose(const Message& message) {

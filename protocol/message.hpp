@@ -52,10 +52,12 @@ struct DecodeResult {
 [[nodiscard]] Message to_message(const Event& event);
 [[nodiscard]] Message to_message(const Frame& frame);
 [[nodiscard]] Message to_message(const BodyPose& pose);
+[[nodiscard]] Message to_message(const Push& push);
 [[nodiscard]] std::optional<Event> to_event(const Message& message);
 /// Whether events have this address.
 [[nodiscard]] bool is_event(std::string_view address);
 [[nodiscard]] std::optional<Frame> to_frame(const Message& message);
+[[nodiscard]] std::optional<Push> to_push(const Message& message);
 [[nodiscard]] std::optional<BodyPose> to_body_pose(const Message& message);
 /// The pose of a message that conforms to its row. `nullopt`: its quaternion is no rotation.
 [[nodiscard]] std::optional<BodyPose> conforming_pose(const Message& message);

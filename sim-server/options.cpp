@@ -56,7 +56,11 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
                  "Show the water to viewers, such as view-server, at this TCP port; hosts other "
                  "than this one need --allow")
       ->type_name("HOST:PORT");
-  app.add_option("--record", options.record, "Write the events to this log")->type_name("LOG");
+  auto* record = app.add_option("--record", options.record, "Write the events to this log");
+  record->type_name("LOG");
+  app.add_flag("--record-forces", options.record_forces,
+               "Write the forces of the water on bodies that poses move to that log, too")
+      ->needs(record);
   app.add_option("--report", options.report, "Write what the run achieved to this file")
       ->type_name("FILE.json");
   app.add_option("--gauges", options.gauges, "Write what the scene's gauges read to this file")

@@ -102,7 +102,7 @@ std::unique_ptr<Track> Server::make_track(int sample_rate) const {
   if (options_.replay.empty()) return nullptr;
   std::uint64_t others = 0;
   const std::size_t done = playing_ == nullptr ? 0 : playing_->track->done();
-  return std::make_unique<Track>(events_of(log_, sample_rate, others), done,
+  return std::make_unique<Track>(score_of(log_, sample_rate, others), done,
                                  std::llround(kOpening * sample_rate));
 }
 

@@ -51,7 +51,7 @@ EventSender::EventSender(Targets& targets, protocol::UdpSocket& socket, protocol
                          EventSenderSettings settings)
     : targets_(targets), socket_(socket), log_(log), settings_(std::move(settings)) {
   wire_.session = random_session();
-  logged_.session = session_of_seed(settings_.seed);
+  logged_.session = logged_forces_.session = session_of_seed(settings_.seed);
 }
 
 void EventSender::send_step(const FrameTime& frame, std::vector<TimedEvent> events) {
@@ -95,7 +95,28 @@ void EventSender::log_bundles(const FrameTime& frame, std::vector<EventBundle>& 
   const double delay = std::max(0.0, time - frame.seconds);
   for (EventBundle& bundle : bundles) {
     stamp_bundle(logged_, bundle, delay, time);
-    log_->append(time, bundle.messages);
+    if (has_forces_) {
+      ahead_.push_back({time, std::move(bundle.messages)});
+    } else {
+      log_->append(time, bundle.messages);
+    }
+  }
+}
+
+void EventSender::log_forces(const FrameTime& frame,
+                             const std::vector<protocol::Message>& messages) {
+  if (log_ == nullptr) return;
+  has_forces_ = true;
+  step_ = wrap(frame.step);
+  write_log_until(frame.seconds);
+  std::vector<protocol::Message> bundle = {next_frame(logged_forces_, 0.0)};
+  bundle.insert(bundle.end(), messages.begin(), messages.end());
+  log_->append(frame.seconds, bundle);
+}
+
+void EventSender::write_log_until(double seconds) {
+  for (; !ahead_.empty() && ahead_.front().seconds <= seconds; ahead_.pop_front()) {
+    log_->append(ahead_.front().seconds, ahead_.front().messages);
   }
 }
 
@@ -115,6 +136,7 @@ void EventSender::leave() {
 void EventSender::close(double end_seconds) {
   if (log_ == nullptr) return;
   const double end = std::max({end_seconds, last_moment_, logged_.last_time});
+  write_log_until(end);
   log_->append(end, {next_frame(logged_, 0.0)});
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -53,6 +54,10 @@ class EventSender {
   /// Sends and logs one frame's events; without events as idle(). Sending never throws; the log
   /// throws std::runtime_error when the disk refuses.
   void send_step(const FrameTime& frame, std::vector<TimedEvent> events);
+  /// Logs forces on bodies at the end of a frame, before send_step() of that frame: a bundle of
+  /// `messages` behind a /frame of the log's. What is logged of earlier frames waits for its time
+  /// from then on, so that the log stays in order.
+  void log_forces(const FrameTime& frame, const std::vector<protocol::Message>& messages);
   /// Says /frame when nothing was said for kHeartbeatPeriod. The log has no heartbeats: they
   /// depend on the wall clock.
   void idle();
@@ -80,6 +85,8 @@ class EventSender {
   void count(const std::vector<TimedEvent>& events);
   void send_bundles(const FrameTime& frame, std::vector<EventBundle>& bundles);
   void log_bundles(const FrameTime& frame, std::vector<EventBundle>& bundles);
+  /// Writes what waits of the log up to this simulated time [s].
+  void write_log_until(double seconds);
   void say_frame(double now);
   void transmit(double time, const std::vector<protocol::Message>& messages);
   /// The stream's next /frame.
@@ -95,6 +102,9 @@ class EventSender {
   EventSenderSettings settings_;
   Stream wire_;
   Stream logged_;
+  Stream logged_forces_;                  ///< numbered separately
+  bool has_forces_ = false;               ///< the log has some
+  std::deque<protocol::LogEntry> ahead_;  ///< bundles of the log that lie ahead of their frame
   std::int32_t step_ = 0;
   std::optional<double> last_now_;   ///< [s], Unix time
   std::optional<double> last_sent_;  ///< [s], Unix time

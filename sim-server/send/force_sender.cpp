@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "protocol/address.hpp"
 #include "protocol/limits.hpp"
@@ -13,7 +14,7 @@
 namespace splash::sim {
 namespace {
 
-constexpr std::size_t kBodies = 5;  ///< of a bundle, which then is well below a datagram
+constexpr std::size_t kBodies = 5;  ///< of a bundle
 
 template <std::size_t size>
 protocol::Message message_of(const char* address, std::int32_t body,
@@ -39,20 +40,30 @@ bool is_sound(const std::vector<protocol::Message>& messages) {
 
 }  // namespace
 
-void ForceSender::send(std::int64_t step, double unix_time,
-                       const std::vector<ForceReading>& readings) {
+std::vector<std::vector<protocol::Message>> force_bundles(
+    const std::vector<ForceReading>& readings) {
+  std::vector<std::vector<protocol::Message>> bundles;
   for (std::size_t first = 0; first < readings.size(); first += kBodies) {
+    std::vector<protocol::Message> bundle;
+    for (std::size_t k = first; k < std::min(first + kBodies, readings.size()); ++k) {
+      const auto messages = messages_of(readings[k]);
+      if (is_sound(messages)) bundle.insert(bundle.end(), messages.begin(), messages.end());
+    }
+    if (!bundle.empty()) bundles.push_back(std::move(bundle));
+  }
+  return bundles;
+}
+
+void ForceSender::send(std::int64_t step, double unix_time,
+                       const std::vector<std::vector<protocol::Message>>& bundles) {
+  for (const std::vector<protocol::Message>& messages : bundles) {
     const double delay = 1000.0 * (unix_time - protocol::unix_now());
     std::vector<protocol::Message> bundle = {protocol::to_message(
         protocol::Frame{.session = session_,
                         .sequence = sequence_,
                         .step = static_cast<std::int32_t>(step % protocol::kCounterWrap),
                         .delay_ms = static_cast<float>(std::clamp(delay, -10000.0, 10000.0))})};
-    for (std::size_t k = first; k < std::min(first + kBodies, readings.size()); ++k) {
-      const auto messages = messages_of(readings[k]);
-      if (is_sound(messages)) bundle.insert(bundle.end(), messages.begin(), messages.end());
-    }
-    if (bundle.size() == 1) continue;
+    bundle.insert(bundle.end(), messages.begin(), messages.end());
     targets_.send(socket_, build_bundle(protocol::to_time_tag(unix_time), bundle), kForceStream);
     sequence_ = (sequence_ + 1) % protocol::kCounterWrap;
     ++bundles_;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "protocol/message.hpp"
 #include "protocol/udp_socket.hpp"
 #include "sim-server/send/targets.hpp"
 
@@ -21,15 +22,20 @@ struct ForceReading {
   std::array<double, 6> rate = {};   ///< of these by the twist's own part [N s/m], [N m s]
 };
 
+/// The messages of up to five bodies at a time, which are well below a datagram; none of a body
+/// whose numbers break the address table.
+[[nodiscard]] std::vector<std::vector<protocol::Message>> force_bundles(
+    const std::vector<ForceReading>& readings);
+
 class ForceSender {
  public:
   /// `session`: that of the program's events. Both references outlive the sender.
   ForceSender(Targets& targets, protocol::UdpSocket& socket, std::int32_t session)
       : targets_(targets), socket_(socket), session_(session) {}
 
-  /// A frame's, which ended at `unix_time` [s]; nothing is sent of a body whose numbers are not
-  /// the address table's.
-  void send(std::int64_t step, double unix_time, const std::vector<ForceReading>& readings);
+  /// A frame's, which ended at `unix_time` [s].
+  void send(std::int64_t step, double unix_time,
+            const std::vector<std::vector<protocol::Message>>& bundles);
 
   [[nodiscard]] std::uint64_t bundles() const noexcept { return bundles_; }
 

@@ -105,6 +105,9 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       line_pace_(kLinePeriod),
       clock_answers_(socket_, targets_, print_line),
       control_({.listen = options_.listen, .allowed = options_.allow}, actions(), targets_) {
+  if (const std::string reason = no_forces(simulation); options_.record_forces && !reason.empty()) {
+    throw program::Failure(program::kExitUsage, "--record-forces: " + reason);
+  }
   if (!options_.show) return;
   show_.emplace(protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow},
                 simulation_.scene(), simulation_.fluid(), [this] { return rows_.rows(); });
@@ -176,7 +179,7 @@ void Server::run(const std::function<bool()>& ended) {
     const double before = simulation_.seconds();
     const double begin = protocol::monotonic_now();
     simulation_.set_origin(pacer_.origin());
-    simulation_.feel(targets_.wants(kForceStream));
+    simulation_.feel(targets_.wants(kForceStream) || options_.record_forces);
     const FrameResult frame = simulation_.advance();
     const double computed = protocol::monotonic_now();
     send_forces(frame);
@@ -254,7 +257,7 @@ void Server::send(const FrameResult& frame) {
              [this] { sender_.stop_logging(); });
 }
 
-/// Sent at once: a control loop that is closed over the forces wants no delay.
+/// Sent and logged at once: a control loop that is closed over the forces wants no delay.
 void Server::send_forces(const FrameResult& frame) {
   if (frame.pushes.empty()) return;
   std::vector<ForceReading> readings;
@@ -272,7 +275,15 @@ void Server::send_forces(const FrameResult& frame) {
                         .force = six(push.force, push.torque),
                         .rate = six(push.by_speed, push.by_spin)});
   }
-  forces_.send(simulation_.totals().steps, pacer_.unix_origin() + frame.seconds, readings);
+  const auto bundles = force_bundles(readings);
+  const FrameTime time = {simulation_.totals().steps, frame.seconds, pacer_.unix_origin()};
+  forces_.send(time.step, time.unix_origin + time.seconds, bundles);
+  if (!options_.record_forces) return;
+  keep_going(
+      [&] {
+        for (const auto& messages : bundles) sender_.log_forces(time, messages);
+      },
+      [this] { sender_.stop_logging(); });
 }
 
 void Server::show(const FrameResult& frame) {

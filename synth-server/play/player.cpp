@@ -116,7 +116,7 @@ void Player::play(const Command& command) noexcept {
 void Player::push(const Command& command) noexcept {
   const Placement placement =
       place(command.moment, command.by_arrival, clock_, engine_.clock(), schedule_);
-  if (placement.timing != Timing::too_late) engine_.push(command.push, placement.sample);
+  if (placement.timing != Timing::too_late) engine_.push({command.push, placement.sample});
 }
 
 void Player::render_parts(const AudioBlock& block) noexcept {

@@ -1,43 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Computes from the simulator's /force how fast the forces on bodies change; and requests these
-// messages with /notify 2, a subscription that lasts a minute.
+// Requests the simulator's /force messages with /notify 2, a subscription that lasts a minute.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "protocol/message.hpp"
 #include "protocol/udp_socket.hpp"
-#include "synth-server/play/command_queue.hpp"
 
 namespace splash::synth {
-
-/// Returns whether a packet carries forces. Such packets are numbered separately from events.
-[[nodiscard]] bool tells_forces(const protocol::Packet& packet) noexcept;
-
-class Forces {
- public:
-  /// What a bundle says that the address table accepts. `time`: its tag [s]; only differences
-  /// count. A body's first force, one after a gap and one that comes twice give no push.
-  [[nodiscard]] std::vector<Push> take(const protocol::Packet& packet, double time);
-
-  static constexpr double kGap = 0.1;       ///< a body that is told again so late begins anew [s]
-  static constexpr double kLeast = 1e-4;    ///< forces are told further apart [s]
-  static constexpr double kMostRate = 1e6;  ///< no body bears more; what is over it is cut [N/s]
-
- private:
-  struct Told {
-    std::int32_t session = -1;  ///< of the sender; -1: never
-    double time = 0.0;          ///< [s]
-    std::array<double, 3> force{};
-  };
-  std::array<Told, 256> last_;
-};
 
 /// The simulator to request forces from, and whether they are needed at present.
 struct ForceSource {

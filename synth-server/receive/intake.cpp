@@ -66,7 +66,7 @@ void Intake::datagram(protocol::Bytes bytes, const protocol::Endpoint& from, dou
   ++counters_.datagrams;
   const protocol::DecodeResult read = read_packet(bytes);
   if (!control_.port().inspect(bytes, read, from, arrival)) return;
-  if (tells_forces(read.packet)) return push(read.packet, from, arrival);
+  if (protocol::tells_forces(read.packet.messages)) return push(read.packet, from, arrival);
   control_.renew(from, arrival);
   Visit visit{from, arrival, time_.unix_of(arrival), read.packet.time, {from, bytes.size()}};
   const auto timing = open_bundle(read.packet, visit, replies);
@@ -120,6 +120,7 @@ void Intake::route(const protocol::Message& message, const Timing& timing, Visit
   const auto* row = protocol::find_address(message.address);
   if (row != nullptr && row->direction == protocol::Direction::to_synth) {
     if (const auto event = protocol::to_event(message)) return play(*event, timing);
+    if (const auto push = protocol::to_push(message)) return press(*push, timing);
     if (const auto reason = protocol::violation(message)) return refuse(message, *reason, visit);
     if (message.address == "/leave") leave(visit);
   } else if (is_reply(message)) {
@@ -155,6 +156,15 @@ void Intake::play(const protocol::Event& event, const Timing& timing) {
   if (!taken) ++counters_.without_place.of(event);
 }
 
+void Intake::press(const Push& push, const Timing& timing) {
+  Command command;
+  command.kind = Command::Kind::push;
+  command.moment = timing.moment;
+  command.by_arrival = timing.by_arrival;
+  command.push = push;
+  if (queue_.write_available() > kKeptPlaces + kKeptFromBubbles) (void)queue_.push(command);
+}
+
 // These bundles count on their own: what of them is lost is no loss, for the next one comes soon.
 // They tell of the time in which the bodies move, by the clock of their sender.
 void Intake::push(const protocol::Packet& packet, const protocol::Endpoint& from, double arrival) {
@@ -168,13 +178,9 @@ void Intake::push(const protocol::Packet& packet, const protocol::Endpoint& from
   const Sender* const sender = senders_.find(from);
   const double correction =
       sender == nullptr ? 0.0 : sender->clock.correction(time_.unix_of(arrival));
-  Command command;
-  command.kind = Command::Kind::push;
-  command.moment = time_.monotonic_of(*packet.time) + correction;
-  command.by_arrival = arrival;
-  for (const Push& found : forces_.take(packet, protocol::to_unix_seconds(*packet.time))) {
-    command.push = found;
-    if (queue_.write_available() > kKeptPlaces + kKeptFromBubbles) (void)queue_.push(command);
+  const double moment = time_.monotonic_of(*packet.time) + correction;
+  for (const Push& found : forces_.take(packet.messages, protocol::to_unix_seconds(*packet.time))) {
+    press(found, {moment, arrival});
   }
 }
 

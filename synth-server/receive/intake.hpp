@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/force_changes.hpp"
 #include "protocol/gate.hpp"
 #include "protocol/udp_socket.hpp"
 #include "synth-server/play/command_queue.hpp"
@@ -87,6 +88,7 @@ class Intake {
   void refuse(const protocol::Message& message, const std::string& reason, const Visit& visit);
   void play(const protocol::Event& event, const Timing& timing);
   void leave(const Visit& visit);
+  void press(const Push& push, const Timing& timing);
   void push(const protocol::Packet& packet, const protocol::Endpoint& from, double arrival);
   void take_reply(const protocol::Message& message, const protocol::Endpoint& from, double arrival);
   void ask_clock(Sender& sender, Visit& visit, Replies& replies);
@@ -95,7 +97,7 @@ class Intake {
   CommandQueue& queue_;
   LocalTime time_;
   SenderTable senders_;
-  Forces forces_;
+  protocol::ForceChanges forces_;
   ForceQuestion force_question_;
   IntakeCounters counters_;  ///< but for those of the control port
   Control control_;

@@ -46,11 +46,7 @@ struct Engine::State {
   LiveControls controls;
   Ensemble ensemble;
   EventQueue queue;
-  struct Pushed {
-    Push push;
-    std::int64_t sample = 0;
-  };
-  std::vector<Pushed> pushes;  ///< that wait for their cell
+  std::vector<TimedPush> pushes;  ///< that wait for their cell
   Mix mix;
   std::vector<OutputGuard> guards;
   std::vector<char> idle;  ///< per channel: its guard is at rest
@@ -90,10 +86,11 @@ void Engine::State::begin_cell() noexcept {
   mix.impacts = controls.component(0);
   mix.bubbles = controls.component(1);
   mix.cavities = controls.component(2);
-  std::erase_if(pushes, [this](const Pushed& waiting) {
-    const bool is_due = waiting.sample < clock + kCell;
-    if (is_due) ensemble.press(waiting.push, clock);
-    return is_due;
+  std::erase_if(pushes, [this](const TimedPush& waiting) {
+    if (waiting.sample >= clock + kCell) return false;
+    if (settings.watch != nullptr) settings.watch->pushed({waiting.push, clock});
+    ensemble.press(waiting.push, clock);
+    return true;
   });
 }
 
@@ -185,15 +182,15 @@ bool Engine::schedule(const TimedEvent& timed) noexcept {
   return true;
 }
 
-void Engine::push(const Push& push, std::int64_t sample) noexcept {
-  if (state_->pushes.size() < kMostPushes) state_->pushes.push_back({push, sample});
+void Engine::push(const TimedPush& push) noexcept {
+  if (state_->pushes.size() < kMostPushes) state_->pushes.push_back(push);
 }
 
 Engine::Overtaken Engine::catch_up(std::int64_t samples, std::int64_t late_window) noexcept {
   State& s = *state_;
   Overtaken overtaken;
   s.queue.advance(samples);
-  for (State::Pushed& waiting : s.pushes) waiting.sample -= samples;
+  for (TimedPush& waiting : s.pushes) waiting.sample -= samples;
   while (s.queue.due(s.clock - late_window)) {
     (void)s.queue.pop();
     ++overtaken.too_late;

@@ -32,10 +32,18 @@ struct TimedEvent {
   std::int32_t session = 0;  ///< of its sender, 0: not known; its impacts have noise of their own
 };
 
-/// Is told of each event at the sample at which it starts, from the rendering thread.
+/// A body is pushed from the cell of this sample on.
+struct TimedPush {
+  Push push;
+  std::int64_t sample = 0;
+};
+
+/// Is told of each event at the sample at which it starts, and of each push at the beginning of the
+/// cell in which it acts, from the rendering thread.
 class StartWatch {
  public:
   virtual void started(const TimedEvent& event) noexcept = 0;
+  virtual void pushed(const TimedPush& push) noexcept = 0;
 
  protected:
   ~StartWatch() = default;
@@ -75,9 +83,9 @@ class Engine {
   /// past starts with the next sample.
   bool schedule(const TimedEvent& timed) noexcept;
 
-  /// A body is pushed from the cell of `sample` on. For a while its events do not drive what is
-  /// under the foot. Of more than kMostPushes that wait the last are left out.
-  void push(const Push& push, std::int64_t sample) noexcept;
+  /// For a while the body's events do not drive what is under the foot. Of more than kMostPushes
+  /// that wait the last are left out.
+  void push(const TimedPush& push) noexcept;
   static constexpr std::size_t kMostPushes = 512;
 
   struct Overtaken {

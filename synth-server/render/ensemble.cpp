@@ -61,7 +61,7 @@ void Ensemble::press(const Push& push, std::int64_t sample) noexcept {
   if (body >= told_.size()) return;
   told_[body] = sample + std::llround(kTold * settings_.sample_rate);
   const Routing::Reach reach = routing_.route({push.position, push.body, 0.0}, routes_);
-  underfoot_.press(settings_.sound.foot, push.rate, reached(reach));
+  underfoot_.press(settings_.sound.foot, static_cast<double>(push.rate), reached(reach));
 }
 
 template <class Event>

@@ -28,12 +28,7 @@
 
 namespace splash::synth {
 
-/// How fast the force on a body changes, as the simulator's forces say.
-struct Push {
-  protocol::Vec3 position;  ///< of the body [m]
-  std::int32_t body = 0;    ///< index in the scene
-  double rate = 0.0;        ///< |dF/dt| [N/s]
-};
+using Push = protocol::Push;
 
 /// |dF/dt| of an event [N/s]; 0: none.
 [[nodiscard]] double force_rate(const protocol::Impact& impact) noexcept;

@@ -3,8 +3,6 @@
 
 #include <chrono>
 #include <exception>
-#include <variant>
-#include <vector>
 
 namespace splash::synth {
 namespace {
@@ -25,8 +23,15 @@ void EventRecorder::started(const TimedEvent& event) noexcept {
   if (!queue_.push(event)) ++lost_;
 }
 
+void EventRecorder::pushed(const TimedPush& push) noexcept {
+  if (!queue_.push(push)) ++lost_;
+}
+
+void EventRecorder::write(const TimedPush& push) {
+  append(push.sample, {protocol::to_message(push.push)});
+}
+
 void EventRecorder::write(const TimedEvent& event) {
-  if (!error_.empty()) return;  // keep the queue empty
   protocol::Event told = event.event;
   std::visit([](auto& kind) { kind.offset_ms = 0.0F; }, told);
   std::vector<protocol::Message> messages;
@@ -35,8 +40,13 @@ void EventRecorder::write(const TimedEvent& event) {
     sequence_ = (sequence_ + 1) % kWrap;
   }
   messages.push_back(protocol::to_message(told));
+  append(event.sample, messages);
+}
+
+void EventRecorder::append(std::int64_t sample, const std::vector<protocol::Message>& messages) {
+  if (!error_.empty()) return;  // keep the queue empty
   try {
-    log_.append(static_cast<double>(event.sample) / sample_rate_, messages);
+    log_.append(static_cast<double>(sample) / sample_rate_, messages);
   } catch (const std::exception& error) {
     error_ = error.what();
   }
@@ -45,7 +55,9 @@ void EventRecorder::write(const TimedEvent& event) {
 void EventRecorder::run() {
   for (;;) {
     const bool last = finishing_;
-    queue_.consume_all([this](const TimedEvent& event) { write(event); });
+    queue_.consume_all([this](const auto& started) {
+      std::visit([this](const auto& kind) { write(kind); }, started);
+    });
     if (last) return;
     std::this_thread::sleep_for(kPause);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an engine that plays live starts, and when, as an event log: rendered again it gives the
-// same sound, whatever network, clocks and load had made of the moments that were meant.
+// What an engine that plays live starts, and which forces push bodies when, as an event log:
+// rendered again it gives the same sound, whatever network, clocks and load had made of the moments
+// that were meant.
 #pragma once
 
 #include <atomic>
@@ -9,6 +10,8 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <variant>
+#include <vector>
 
 #include "protocol/event_log.hpp"
 #include "synth-server/render/engine.hpp"
@@ -26,6 +29,7 @@ class EventRecorder final : public StartWatch {
   /// From the audio thread; the log counts seconds from the engine's first sample. What does not
   /// fit the queue, because the disk stalls, is left out and counted.
   void started(const TimedEvent& event) noexcept override;
+  void pushed(const TimedPush& push) noexcept override;
 
   /// Writes what is left and ends the thread; nothing may start any more.
   void finish();
@@ -38,11 +42,15 @@ class EventRecorder final : public StartWatch {
 
   void run();
   void write(const TimedEvent& event);
+  void write(const TimedPush& push);
+  void append(std::int64_t sample, const std::vector<protocol::Message>& messages);
 
   protocol::LogWriter log_;
   double sample_rate_;
   std::int32_t sequence_ = 0;  ///< of the log's bundles
-  boost::lockfree::spsc_queue<TimedEvent, boost::lockfree::capacity<kCapacity>> queue_;
+  boost::lockfree::spsc_queue<std::variant<TimedEvent, TimedPush>,
+                              boost::lockfree::capacity<kCapacity>>
+      queue_;
   std::atomic<std::uint64_t> lost_{0};
   std::string error_;
   std::atomic<bool> finishing_{false};

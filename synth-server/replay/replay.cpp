@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "program/failure.hpp"
+#include "protocol/force_changes.hpp"
 #include "synth-server/output/fade.hpp"
 
 namespace splash::synth {
@@ -28,11 +29,11 @@ std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
   return std::max<std::int64_t>(0, std::llround(start * sample_rate));
 }
 
-/// Renders block after block, handing the engine its events as their samples come near.
+/// Renders block after block, handing the engine its events and pushes as their samples come near.
 class Player {
  public:
-  Player(const std::vector<TimedEvent>& events, Engine& engine, int block, const BlockSink& sink)
-      : events_(events),
+  Player(const Score& score, Engine& engine, int block, const BlockSink& sink)
+      : score_(score),
         engine_(engine),
         block_(block),
         sink_(sink),
@@ -50,8 +51,13 @@ class Player {
   void play_until(std::int64_t end) {
     while (engine_.clock() < end) {
       const auto frames = static_cast<int>(std::min<std::int64_t>(block_, end - engine_.clock()));
-      while (next_ < events_.size() && events_[next_].sample < engine_.clock() + frames) {
-        engine_.schedule(events_[next_++]);
+      const std::int64_t next = engine_.clock() + frames;
+      const auto& [events, pushes] = score_;
+      while (next_ < events.size() && events[next_].sample < next)
+        engine_.schedule(events[next_++]);
+      // A push acts from the beginning of its cell on, which may lie before its sample.
+      while (next_push_ < pushes.size() && pushes[next_push_].sample < next + kCell) {
+        engine_.push(pushes[next_push_++]);
       }
       engine_.render(channels_.data(), frames);
       note_peak(frames);
@@ -66,39 +72,46 @@ class Player {
     }
   }
 
-  const std::vector<TimedEvent>& events_;
+  const Score& score_;
   Engine& engine_;
   int block_;
   const BlockSink& sink_;
   std::vector<float> samples_;
   std::vector<float*> channels_;
-  std::size_t next_ = 0;
-  float peak_ = 0.0F;  ///< since it was last asked for [full scale]
+  std::size_t next_ = 0;       ///< of the events
+  std::size_t next_push_ = 0;  ///< of the pushes
+  float peak_ = 0.0F;          ///< since it was last asked for [full scale]
 };
 
 }  // namespace
 
-std::vector<TimedEvent> events_of(const std::vector<protocol::LogEntry>& log, double sample_rate,
-                                  std::uint64_t& others) {
-  std::vector<TimedEvent> events;
+Score score_of(const std::vector<protocol::LogEntry>& log, double sample_rate,
+               std::uint64_t& others) {
+  Score score;
+  protocol::ForceChanges forces;
   others = 0;
   for (const protocol::LogEntry& entry : log) {
     const auto frame =
         entry.messages.empty() ? std::nullopt : protocol::to_frame(entry.messages.front());
     const std::int32_t session = frame ? frame->session : 0;
+    const auto push = [&](const protocol::Push& found) {
+      score.pushes.push_back({found, start_sample(entry.seconds, 0.0F, sample_rate)});
+    };
     for (const protocol::Message& message : entry.messages) {
       const std::optional<protocol::Event> event = protocol::to_event(message);
       if (!event) {
         ++others;
+        if (const auto found = protocol::to_push(message)) push(*found);
         continue;
       }
       const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
-      events.push_back({*event, start_sample(entry.seconds, offset, sample_rate), session});
+      score.events.push_back({*event, start_sample(entry.seconds, offset, sample_rate), session});
     }
+    for (const protocol::Push& found : forces.take(entry.messages, entry.seconds)) push(found);
   }
-  std::stable_sort(events.begin(), events.end(),
+  std::stable_sort(score.events.begin(), score.events.end(),
                    [](const TimedEvent& a, const TimedEvent& b) { return a.sample < b.sample; });
-  return events;
+  return score;
 }
 
 ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
@@ -113,13 +126,13 @@ ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
   engine_settings.max_block = settings.block;
   const double rate = engine_settings.sample_rate;
   Engine engine(rig, engine_settings);
-  const std::vector<TimedEvent> events = events_of(log, rate, report.not_events);
-  report.events = events.size();
-  const std::int64_t last = events.empty() ? 0 : events.back().sample;
+  const Score score = score_of(log, rate, report.not_events);
+  report.events = score.events.size();
+  const std::int64_t last = last_sample(score);
   const std::int64_t fade = std::llround(Fade::kSeconds * rate);
   const std::int64_t total = last + std::llround(settings.tail.value_or(kLongestRing) * rate);
   const std::int64_t end = std::max<std::int64_t>(0, total - fade);
-  Player player(events, engine, settings.block, sink);
+  Player player(score, engine, settings.block, sink);
   player.play_until(settings.tail ? end : std::min(end, last + 1));
   const std::int64_t step = std::llround(kStep * rate);
   while (!settings.tail && engine.clock() < end && player.sounds()) {

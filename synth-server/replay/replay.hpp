@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "protocol/event_log.hpp"
-#include "synth-server/render/engine.hpp"
+#include "synth-server/render/score.hpp"
 
 namespace splash::synth {
 
@@ -27,7 +27,7 @@ using BlockSink = std::function<void(const float* const* channels, int frames)>;
 struct ReplayReport {
   std::int64_t frames = 0;       ///< rendered
   std::uint64_t events = 0;      ///< in the log
-  std::uint64_t not_events = 0;  ///< messages of the log that are none, such as /frame
+  std::uint64_t not_events = 0;  ///< messages of the log that are none, such as /frame and /force
   EngineCounters counters;       ///< at the end
 };
 
@@ -35,13 +35,13 @@ struct ReplayReport {
 /// dB.
 inline constexpr double kLongestRing = 60.0;
 
-/// The log's events in the order of their samples; `others`: gets the number of all other messages.
-/// Throws std::invalid_argument on a moment that no log can have.
-[[nodiscard]] std::vector<TimedEvent> events_of(const std::vector<protocol::LogEntry>& log,
-                                                double sample_rate, std::uint64_t& others);
+/// The log's events, and the changes of the forces that it tells; `others`: gets the number of all
+/// messages that are no events. Throws program::DataError on a moment that no log can have.
+[[nodiscard]] Score score_of(const std::vector<protocol::LogEntry>& log, double sample_rate,
+                             std::uint64_t& others);
 
-/// Renders from the log's start to its last event and the tail. Throws std::invalid_argument on
-/// settings out of their limits, and what `sink` throws.
+/// Renders from the log's start to its last event or force and the tail. Throws
+/// std::invalid_argument on settings out of their limits, and what `sink` throws.
 ReplayReport replay(const std::vector<protocol::LogEntry>& log, const Rig& rig,
                     const ReplaySettings& settings, const BlockSink& sink);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both real programs: the synth asks the simulator for the forces on a body that is moved under
-// water, where no event happens, and lets them be felt.
+// water, where no event happens, and lets them be felt; both record them, and what was recorded
+// feels the same again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,20 +60,48 @@ double effective(const std::vector<float>& samples, std::size_t from, std::size_
   return from < to ? std::sqrt(sum / static_cast<double>(to - from)) : 0.0;
 }
 
-/// What a shoe feels of a body that rests in the water for a while and is then moved.
+/// Largest effective value of a second.
+double loudest_second(const std::vector<float>& samples) {
+  double loudest = 0.0;
+  for (std::size_t n = 0; n + 48000 <= samples.size(); n += 2400) {
+    loudest = std::max(loudest, effective(samples, n, n + 48000));
+  }
+  return loudest;
+}
+
+/// What a shoe feels of a body that rests in the water for a while and is then moved; and of the
+/// logs of both programs.
 struct Felt {
   double at_rest = 0.0;
   double moved = 0.0;
+  double loudest = 0.0;           ///< within a second
+  double of_simulator_log = 0.0;  ///< the same of the simulator's log
+  bool same_of_synth_log = false;
 };
+
+/// A log as the same rig and sound render it.
+Recording rendered(const std::string& log, const std::string& sound) {
+  const std::string wav = temporary_path("rendered.wav");
+  ChildProcess render(
+      command("synth-server", {"--rig", rig_path("handheld.yaml"), "--sound", sound, "--replay",
+                               log, "--render", wav, "--fade-in", "2"}));
+  EXPECT_EQ(render.wait_for_end(), 0) << render.output();
+  const Recording recording = read_recording(wav);
+  std::filesystem::remove(wav);
+  return recording;
+}
 Felt felt(bool asks) {
   const SmallScene scene(tracked());
   const TextureAlone sound;
   const std::string wav = temporary_path("texture.wav");
-  Simulator simulator({"--scene", scene.path()});
+  const std::string told = temporary_path("told.osc");
+  const std::string started = temporary_path("started.osc");
+  Simulator simulator({"--scene", scene.path(), "--record", told, "--record-forces"});
   EXPECT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
   move(simulator, 1.0, 0.0F);  // down into the water
-  Arguments arguments = {"--rig", rig_path("handheld.yaml"), "--sound", sound.path(), "--device",
-                         "null",  "--record-audio",          wav};
+  Arguments arguments = {
+      "--rig", rig_path("handheld.yaml"), "--sound", sound.path(),      "--device",
+      "null",  "--record-audio",          wav,       "--record-events", started};
   if (asks) {
     arguments.insert(arguments.end(), {"--forces", protocol::to_string(simulator.endpoint())});
   }
@@ -83,12 +112,22 @@ Felt felt(bool asks) {
   move(simulator, kMoved, 0.02F);
   synth.process().signal(SIGTERM);
   EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
-  const Recording recording = read_recording(wav);
-  std::filesystem::remove(wav);
-  const auto& heard = recording.channels.at(0);
+  simulator.process().signal(SIGTERM);
+  EXPECT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  const auto heard = read_recording(wav).channels.at(0);
   const auto sample = [](double seconds) { return static_cast<std::size_t>(seconds * 48000.0); };
-  return {effective(heard, sample(2.0), sample(rest - 0.1)),
-          effective(heard, sample(rest + 0.4), sample(rest + kMoved))};
+  Felt felt = {effective(heard, sample(2.0), sample(rest - 0.1)),
+               effective(heard, sample(rest + 0.4), sample(rest + kMoved))};
+  if (asks) {
+    const auto again = rendered(started, sound.path()).channels.at(0);
+    const auto whole = static_cast<std::ptrdiff_t>(sample(rest + kMoved));  // then it fades out
+    felt.same_of_synth_log = std::equal(heard.begin(), heard.begin() + whole, again.begin(),
+                                        [](float a, float b) { return std::abs(a - b) < 1e-6F; });
+    felt.loudest = loudest_second(heard);
+    felt.of_simulator_log = loudest_second(rendered(told, sound.path()).channels.at(0));
+  }
+  for (const std::string& file : {wav, told, started}) std::filesystem::remove(file);
+  return felt;
 }
 
 TEST(Underfoot, FeelsTheForcesOfTheRealSimulatorWhenItAsks) {
@@ -99,6 +138,10 @@ TEST(Underfoot, FeelsTheForcesOfTheRealSimulatorWhenItAsks) {
   EXPECT_GT(with.moved, 0.01);
   EXPECT_GT(with.moved, 5.0 * with.at_rest) << "follows how the force changes";
   EXPECT_LT(without.moved, 0.1 * with.moved) << "nothing happens that is an event";
+  std::cout << "loudest second " << with.loudest << ", by the simulator's log "
+            << with.of_simulator_log << '\n';
+  EXPECT_NEAR(with.of_simulator_log / with.loudest, 1.0, 0.25) << "other noise, same forces";
+  EXPECT_TRUE(with.same_of_synth_log) << "the samples of its own recording";
 }
 
 }  // namespace

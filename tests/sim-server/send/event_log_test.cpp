@@ -25,6 +25,7 @@ struct RunAs {
   double pace = 1.0;  // wall seconds per simulated second
   int seed = 1;
   double lead = 0.0;
+  bool forces = false;
 };
 
 /// A quarter of a second of events, some in one frame too many for one bundle, then rest.
@@ -42,7 +43,9 @@ void run(const std::filesystem::path& path, const RunAs& as) {
     if (i % 10 == 0 && i < 60) events.push_back(test::impact(i, seconds + 0.0031));
     if (i == 30) events = test::bubbles(40, seconds + 0.01);
     if (i % 7 == 0 && i < 60) events.push_back(test::bubble(100 + i, seconds + 0.006));
-    sender.send_step({.step = 10 * i, .seconds = seconds, .unix_origin = as.unix_origin}, events);
+    const FrameTime frame = {.step = 10 * i, .seconds = seconds, .unix_origin = as.unix_origin};
+    if (as.forces) sender.log_forces(frame, {{"/force", {0, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F}}});
+    sender.send_step(frame, events);
   }
   sender.close(kEnd);
 }
@@ -56,6 +59,36 @@ TEST(EventLog, TwoRunsAtOtherTimesAndPacesAreByteIdentical) {
   EXPECT_GT(bytes.size(), 3000U);
   EXPECT_EQ(bytes, test::read_file(folder / "b.osc"));
   EXPECT_EQ(bytes, test::read_file(folder / "c.osc"));
+}
+
+TEST(EventLog, HasForcesAtTheirFramesAndTheSameEvents) {
+  const test::TemporaryFolder folder;
+  run(folder / "plain.osc", {.lead = 0.015});
+  run(folder / "forces.osc", {.lead = 0.015, .forces = true});
+  run(folder / "again.osc", {.unix_origin = 1.9e9, .pace = 3.0, .lead = 0.015, .forces = true});
+  EXPECT_EQ(test::read_file(folder / "forces.osc"), test::read_file(folder / "again.osc"));
+  std::vector<protocol::LogEntry> events;
+  std::vector<double> forces;
+  for (const protocol::LogEntry& entry : protocol::read_log(folder / "forces.osc")) {
+    if (entry.messages.back().address != "/force") {
+      events.push_back(entry);
+      continue;
+    }
+    const auto frame = protocol::to_frame(entry.messages.front()).value();
+    EXPECT_EQ(frame.sequence, static_cast<std::int32_t>(forces.size()));
+    EXPECT_EQ(frame.step, static_cast<std::int32_t>(10 * forces.size()));
+    forces.push_back(entry.seconds);
+  }
+  ASSERT_EQ(forces.size(), 250U);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    EXPECT_NEAR(forces[i], 0.004 * static_cast<double>(i), 1e-9);
+  }
+  const auto plain = protocol::read_log(folder / "plain.osc");
+  ASSERT_EQ(events.size(), plain.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_EQ(events[i].seconds, plain[i].seconds);
+    EXPECT_EQ(events[i].messages, plain[i].messages);
+  }
 }
 
 TEST(EventLog, AnotherSeedIsAnotherSession) {

@@ -43,7 +43,7 @@ class Forces : public testing::Test {
 
 TEST_F(Forces, AreToldBehindTheirFrame) {
   const double end = protocol::unix_now() + 0.01;
-  sender_.send(42, end, {reading_of(3)});
+  sender_.send(42, end, force_bundles({reading_of(3)}));
   const auto packet = peer_.packet();
   ASSERT_TRUE(packet.has_value());
   ASSERT_TRUE(packet->time.has_value());
@@ -70,7 +70,7 @@ TEST_F(Forces, AreToldBehindTheirFrame) {
 TEST_F(Forces, OfManyBodiesComeFiveInABundle) {
   std::vector<ForceReading> readings;
   for (std::int32_t body = 0; body < 12; ++body) readings.push_back(reading_of(body));
-  sender_.send(1, protocol::unix_now(), readings);
+  sender_.send(1, protocol::unix_now(), force_bundles(readings));
   EXPECT_EQ(sender_.bundles(), 3U);
   std::int32_t next = 0;
   for (const std::size_t bodies : {5U, 5U, 2U}) {
@@ -86,19 +86,19 @@ TEST_F(Forces, OfManyBodiesComeFiveInABundle) {
 TEST_F(Forces, OfABodyWhoseNumbersAreNoneAreLeftOut) {
   ForceReading broken = reading_of(1);
   broken.force[2] = std::numeric_limits<double>::quiet_NaN();
-  sender_.send(1, protocol::unix_now(), {reading_of(0), broken, reading_of(2)});
+  sender_.send(1, protocol::unix_now(), force_bundles({reading_of(0), broken, reading_of(2)}));
   const auto packet = peer_.packet();
   ASSERT_TRUE(packet.has_value());
   ASSERT_EQ(packet->messages.size(), 9U);
   EXPECT_EQ(std::get<std::int32_t>(packet->messages[5].arguments[0]), 2);
-  sender_.send(2, protocol::unix_now(), {broken});
+  sender_.send(2, protocol::unix_now(), force_bundles({broken}));
   EXPECT_TRUE(peer_.silent()) << "a frame alone says nothing";
 }
 
 TEST_F(Forces, ComeToThoseAloneWhoAskedForThem) {
   test::Peer events;
   EXPECT_TRUE(targets_.subscribe(events.endpoint(), kEventStream));
-  sender_.send(1, protocol::unix_now(), {reading_of(0)});
+  sender_.send(1, protocol::unix_now(), force_bundles({reading_of(0)}));
   EXPECT_TRUE(peer_.bytes().has_value());
   EXPECT_TRUE(events.silent());
 }

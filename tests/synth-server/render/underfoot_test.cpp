@@ -92,12 +92,12 @@ TEST(Underfoot, FollowsToldForcesByTheLawHoweverOftenTheyCome) {
   auto settings = foot_settings(1e-4, 0.0);
   settings.sound.foot.least = 50.0;
   settings.sound.foot.power = 0.5;
-  const auto played = [&](double rate, int apart) {
+  const auto played = [&](float rate, int apart) {
     Engine engine(open_rig(), settings);
     constexpr int kFrames = 96000;
     std::vector<float> out;
     for (int at = 0; at < kFrames; at += apart) {
-      engine.push({{0.0F, 0.0F, 0.0F}, 0, rate}, at);
+      engine.push({{{0.0F, 0.0F, 0.0F}, 0, rate}, at});
       const auto more = render(engine, apart)[0];
       out.insert(out.end(), more.begin(), more.end());
     }
@@ -108,17 +108,17 @@ TEST(Underfoot, FollowsToldForcesByTheLawHoweverOftenTheyCome) {
     return std::sqrt(sum / (0.75 * kFrames));
   };
   const double wanted = 1e-4 * std::sqrt(4.0) / open_rig().outputs[0].full_scale;
-  EXPECT_NEAR(played(4050.0, 96) / wanted, 1.0, 0.1);
+  EXPECT_NEAR(played(4050.0F, 96) / wanted, 1.0, 0.1);
   // Within 300 samples it falls by 6 %, of which the mean is seen, and comes up again in 5 ms.
-  EXPECT_NEAR(played(4050.0, 300) / wanted, 1.0, 0.1);
-  EXPECT_EQ(played(50.0, 300), 0.0) << "no more than the solver's noise";
+  EXPECT_NEAR(played(4050.0F, 300) / wanted, 1.0, 0.1);
+  EXPECT_EQ(played(50.0F, 300), 0.0) << "no more than the solver's noise";
 }
 
 TEST(Underfoot, OfABodyWhoseForcesAreToldItsEventsDriveNothing) {
   const auto settings = foot_settings(1e-4, 0.0);
   const auto played = [&](int body, int at, bool told) {
     Engine engine(open_rig(), settings);
-    if (told) engine.push({{0.0F, 0.0F, 0.0F}, 2, 0.0}, 0);
+    if (told) engine.push({{{0.0F, 0.0F, 0.0F}, 2, 0.0F}, 0});
     protocol::Impact event = impact(1.0F);
     event.body = body;
     engine.schedule({event, at});
@@ -132,7 +132,7 @@ TEST(Underfoot, OfABodyWhoseForcesAreToldItsEventsDriveNothing) {
 TEST(Underfoot, IsFeltUnderThePushedBodyAtItsMoment) {
   const auto settings = foot_settings(1e-4, 0.0);
   Engine engine(floor_rig(), settings);
-  engine.push({{0.305F * 2.5F, 0.305F * 3.5F, 0.1F}, 0, 1000.0}, 9600);
+  engine.push({{{0.305F * 2.5F, 0.305F * 3.5F, 0.1F}, 0, 1000.0F}, 9600});
   const Channels out = render(engine, 24000);
   EXPECT_EQ(energy(out[0]), 0.0);
   const auto& under = out[3 * 6 + 2];

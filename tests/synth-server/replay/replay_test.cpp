@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "program/failure.hpp"
+#include "synth-server/play/track.hpp"
+#include "synth-server/replay/event_recorder.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
@@ -56,6 +59,105 @@ TEST(Replay, IsBitIdenticalTwiceAndInAnyBlocks) {
   }
   settings.engine.seed = 2;
   EXPECT_NE(play(log, floor_rig(), settings), first) << "the impacts' noise follows the seed";
+}
+
+/// A body over the floor whose force changes by more and more from frame to frame.
+std::vector<protocol::LogEntry> log_of_forces() {
+  std::vector<protocol::LogEntry> log;
+  for (int i = 0; i < 160; ++i) {
+    const float x = 0.01F * static_cast<float>(i);
+    const float fz = 0.05F * static_cast<float>(i * i % 97);
+    log.push_back({0.00625 * i,
+                   {protocol::to_message(protocol::Frame{7, i, i, 0.0F}),
+                    {"/body/at", {2, x, 0.9F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F}},
+                    {"/force", {2, 0.0F, 0.0F, fz, 0.0F, 0.0F, 0.0F}}}});
+  }
+  return log;
+}
+
+EngineSettings texture_settings() {
+  auto settings = file_settings();
+  settings.sound.foot.texture = 1e-3;
+  return settings;
+}
+
+TEST(Replay, LetsForcesBeFeltInAnyBlocks) {
+  ReplaySettings settings;
+  settings.engine = texture_settings();
+  ReplayReport report;
+  const Channels felt = play(log_of_forces(), floor_rig(), settings, &report);
+  EXPECT_EQ(report.events, 0U);
+  EXPECT_GT(report.frames, 48000) << "to the last force, and until it has died away";
+  const auto force_of = [](int i) { return 0.05 * (i * i % 97); };
+  Engine engine(floor_rig(), texture_settings());
+  for (int i = 1; i < 160; ++i) {
+    const auto rate = static_cast<float>(std::abs(force_of(i) - force_of(i - 1)) / 0.00625);
+    engine.push({{{0.01F * static_cast<float>(i), 0.9F, 0.0F}, 2, rate}, 300 * i});
+  }
+  const Channels wanted = render(engine, 48000);
+  double difference = 0.0;
+  double all = 0.0;
+  for (std::size_t c = 0; c < wanted.size(); ++c) {
+    for (std::size_t n = 0; n < wanted[c].size(); ++n) {
+      difference = std::max(difference, std::abs(static_cast<double>(felt[c][n] - wanted[c][n])));
+      all = std::max(all, std::abs(static_cast<double>(wanted[c][n])));
+    }
+  }
+  EXPECT_GT(all, 0.01);
+  EXPECT_LT(difference, 1e-5 * all) << "but for the rounding of force and time";
+  for (const int block : {1, 100, 4096}) {
+    settings.block = block;
+    EXPECT_EQ(play(log_of_forces(), floor_rig(), settings), felt) << block;
+  }
+}
+
+TEST(Replay, AloudFeelsTheSame) {
+  std::vector<protocol::LogEntry> log = log_of_forces();
+  for (const protocol::LogEntry& entry : log_of_splashes()) log.push_back(entry);
+  std::stable_sort(log.begin(), log.end(),
+                   [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  std::uint64_t others = 0;
+  Engine engine(floor_rig(), texture_settings());
+  Track track(score_of(log, kRate, others), 0, 0);
+  Channels aloud(36);
+  while (engine.clock() < 48000) {
+    track.give(engine, engine.clock() + 100);
+    const Channels block = render(engine, 100);
+    for (std::size_t c = 0; c < block.size(); ++c) {
+      aloud[c].insert(aloud[c].end(), block[c].begin(), block[c].end());
+    }
+  }
+  ReplaySettings settings;
+  settings.engine = texture_settings();
+  Channels rendered = play(log, floor_rig(), settings);
+  for (auto& channel : rendered) channel.resize(aloud[0].size());
+  EXPECT_EQ(aloud, rendered);
+}
+
+TEST(Replay, OfARecordingGivesTheSameSamplesWithForcesToo) {
+  const auto path = std::filesystem::temp_directory_path() / "splash-forces-replay-test.osc";
+  EventRecorder recorder(path, static_cast<int>(kRate));
+  auto settings = texture_settings();
+  settings.watch = &recorder;
+  Engine engine(floor_rig(), settings);
+  for (const TimedEvent& event : splashes(100, 40000)) engine.schedule(event);
+  for (int i = 0; i < 300; ++i) {
+    const auto rate = static_cast<float>(1e4 / (1 + i));
+    engine.push({{{0.006F * static_cast<float>(i), 0.3F, 0.0F}, i % 4, rate}, 133 * i});
+  }
+  const Channels live = render(engine, 48000);
+  recorder.finish();
+  EXPECT_EQ(recorder.lost(), 0U);
+  const auto log = protocol::read_log(path);
+  std::filesystem::remove(path);
+  ReplaySettings again;
+  again.engine = texture_settings();
+  ReplayReport report;
+  Channels replayed = play(log, floor_rig(), again, &report);
+  EXPECT_EQ(report.events, 100U);
+  EXPECT_EQ(report.not_events, 300U);
+  for (auto& channel : replayed) channel.resize(live[0].size());
+  EXPECT_EQ(replayed, live);
 }
 
 TEST(Replay, StartsEventsAtTheirTimeAndOffsetAndLastsForTheTail) {
