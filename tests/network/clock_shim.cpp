@@ -7,18 +7,20 @@
 #include <cstdlib>
 #include <ctime>
 
+// The header's names are reserved ones.
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name)
 extern "C" __attribute__((visibility("default"))) int clock_gettime(clockid_t clock,
                                                                     timespec* time) noexcept {
   using Function = int (*)(clockid_t, timespec*);
-  static const auto original = reinterpret_cast<Function>(dlsym(RTLD_NEXT, "clock_gettime"));
-  static const char* const text = std::getenv("SPLASH_CLOCK_OFFSET");
-  static const double offset = text == nullptr ? 0.0 : std::strtod(text, nullptr);
-  const int result = original(clock, time);
+  static const auto kOriginal = reinterpret_cast<Function>(dlsym(RTLD_NEXT, "clock_gettime"));
+  static const char* const kText = std::getenv("SPLASH_CLOCK_OFFSET");
+  static const double kOffset = kText == nullptr ? 0.0 : std::strtod(kText, nullptr);
+  const int result = kOriginal(clock, time);
   if (result != 0 || clock != CLOCK_REALTIME) return result;
   constexpr long kNanoseconds = 1000000000;
-  const double whole = std::floor(offset);
+  const double whole = std::floor(kOffset);
   time->tv_sec += static_cast<time_t>(whole);
-  time->tv_nsec += static_cast<long>((offset - whole) * 1e9);
+  time->tv_nsec += static_cast<long>((kOffset - whole) * 1e9);
   if (time->tv_nsec >= kNanoseconds) {
     time->tv_nsec -= kNanoseconds;
     ++time->tv_sec;

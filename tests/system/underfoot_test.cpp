@@ -86,7 +86,7 @@ Recording rendered(const std::string& log, const std::string& sound) {
       command("synth-server", {"--rig", rig_path("handheld.yaml"), "--sound", sound, "--replay",
                                log, "--render", wav, "--fade-in", "2"}));
   EXPECT_EQ(render.wait_for_end(), 0) << render.output();
-  const Recording recording = read_recording(wav);
+  Recording recording = read_recording(wav);
   std::filesystem::remove(wav);
   return recording;
 }

@@ -88,9 +88,9 @@ TEST(Replay, LetsForcesBeFeltInAnyBlocks) {
   const Channels felt = play(log_of_forces(), floor_rig(), settings, &report);
   EXPECT_EQ(report.events, 0U);
   EXPECT_GT(report.frames, 48000) << "to the last force, and until it has died away";
-  const auto force_of = [](int i) { return 0.05 * (i * i % 97); };
+  const auto force_of = [](std::int64_t i) { return 0.05 * static_cast<double>(i * i % 97); };
   Engine engine(floor_rig(), texture_settings());
-  for (int i = 1; i < 160; ++i) {
+  for (std::int64_t i = 1; i < 160; ++i) {
     const auto rate = static_cast<float>(std::abs(force_of(i) - force_of(i - 1)) / 0.00625);
     engine.push({{{0.01F * static_cast<float>(i), 0.9F, 0.0F}, 2, rate}, 300 * i});
   }
@@ -143,7 +143,8 @@ TEST(Replay, OfARecordingGivesTheSameSamplesWithForcesToo) {
   for (const TimedEvent& event : splashes(100, 40000)) engine.schedule(event);
   for (int i = 0; i < 300; ++i) {
     const auto rate = static_cast<float>(1e4 / (1 + i));
-    engine.push({{{0.006F * static_cast<float>(i), 0.3F, 0.0F}, i % 4, rate}, 133 * i});
+    const std::int64_t sample = std::int64_t{133} * i;
+    engine.push({{{0.006F * static_cast<float>(i), 0.3F, 0.0F}, i % 4, rate}, sample});
   }
   const Channels live = render(engine, 48000);
   recorder.finish();
