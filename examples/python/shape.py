@@ -28,7 +28,7 @@ def rows():
     for line in (ROOT / "configs/sounds/README.md").read_text().splitlines():
         if heading := re.match(r"### `(\w+)`$", line):
             part = heading[1]
-        row = re.match(r"\| `(\w+)` \|[^|]*\| ([-\d.e]+) \| ([-\d.e]+) \.\. ([-\d.e]+) \|", line)
+        row = re.match(r"\| `(\w+)` \|[^|]*\| ([-+\d.e]+) \| ([-+\d.e]+) \.\. ([-+\d.e]+) \|", line)
         if part and row:
             found.append((f"{part}/{row[1]}", *(float(number) for number in row.groups()[1:])))
     return found
