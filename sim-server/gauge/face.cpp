@@ -99,14 +99,18 @@ std::optional<Face> face_at(const Vector3& place, const Surfaces& surfaces, doub
     face.body = body;
   };
   const Tank& tank = surfaces.tank;
-  if (place[0] < surfaces.slope_from) offer(place[2] - tank.lower[2], {0.0, 0.0, 1.0}, -1);
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  const bool walls = surfaces.only < 0;
+  if (walls && place[0] < surfaces.slope_from) {
+    offer(place[2] - tank.lower[2], {0.0, 0.0, 1.0}, -1);
+  }
+  for (std::size_t axis = 0; walls && axis < 2; ++axis) {
     Vector3 normal = {0.0, 0.0, 0.0};
     normal[axis] = 1.0;
     offer(place[axis] - tank.lower[axis], normal, -1);
     offer(tank.upper[axis] - place[axis], -1.0 * normal, -1);
   }
   for (std::size_t b = 0; b < surfaces.bodies.size(); ++b) {
+    if (!walls && static_cast<int>(b) != surfaces.only) continue;
     const double distance = distance_to_body(surfaces, b, place);
     if (std::abs(distance) > reach) continue;
     offer(distance, normal_of_body(surfaces, b, place, reach), static_cast<int>(b));
@@ -121,6 +125,27 @@ std::optional<Face> face_at(const Vector3& place, const Surfaces& surfaces, doub
            distance_to_body(surfaces, body, x + skin * face.normal) > 0.0;
   });
   return face;
+}
+
+std::vector<Vector3> disc_on(const Face& face, double radius, const Tank& tank) {
+  constexpr int kParts = 37;  // of equal area: the middle, and three rings around it
+  const auto [first, second] = across(face.normal);
+  std::vector<Vector3> places;
+  int inner = 0;  // parts within the ring
+  for (const int count : {1, 6, 12, 18}) {
+    // Half the ring's area is on either side of its places.
+    const double part = inner == 0 ? 0.0 : (inner + 0.5 * count) / kParts;
+    const double r = radius * std::sqrt(part);
+    for (int k = 0; k < count; ++k) {
+      // Askew: no diameter along an edge has places on it but for the middle.
+      const double angle = 2.0 * std::numbers::pi * (k + 0.3) / count;
+      const Vector3 place =
+          face.place + (r * std::cos(angle)) * first + (r * std::sin(angle)) * second;
+      if (in_tank(tank, place)) places.push_back(place);
+    }
+    inner += count;
+  }
+  return places;
 }
 
 }  // namespace splash::sim

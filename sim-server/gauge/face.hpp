@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "sim-server/bodies/motion/motion.hpp"
 #include "sim-server/scene/scene.hpp"
@@ -17,6 +18,7 @@ struct Surfaces {
   double slope_from = 0.0;  ///< x from which on the tank's floor is under a slope [m]
   std::span<const BodySettings> bodies;
   std::span<const BodyState> states;  ///< of all of them
+  int only = -1;                      ///< the one body that counts; -1: all that there is
 };
 
 struct Face {
@@ -35,5 +37,10 @@ struct Face {
 /// The face at `place` [m] if that is within `reach` [m] of a surface, of the nearest one.
 [[nodiscard]] std::optional<Face> face_at(const Vector3& place, const Surfaces& surfaces,
                                           double reach, double radius);
+
+/// Places that share a disc around the middle of a face evenly: each stands for as much of its
+/// area, and the mean over them is that over the disc for what changes linearly across it. Those
+/// beyond the tank are left out.
+[[nodiscard]] std::vector<Vector3> disc_on(const Face& face, double radius, const Tank& tank);
 
 }  // namespace splash::sim

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <span>
 
 #include "sim-server/bodies/skin.hpp"
 #include "sim-server/fluid/air/images.hpp"
@@ -26,16 +28,14 @@ namespace {
 /// Frames end on time up to this [s].
 constexpr double kSlack = 1.0e-9;
 
-/// A pressure sensor this near to a wall or a body is let into it [spacings].
-constexpr double kLetIn = 0.25;
-
-/// Radius of its face [supports].
+/// Radius over which a pressure sensor feels what is let into a wall or a body [supports].
 constexpr double kFace = 1.0;
 
 const std::vector<std::string>& quantities(GaugeKind kind) {
   static const std::map<GaugeKind, std::vector<std::string>> kNames = {
       {GaugeKind::height, {"height", "wetted"}},
       {GaugeKind::pressure, {"pressure"}},
+      {GaugeKind::velocity, {"vx", "vy", "vz", "colour"}},
       {GaugeKind::front, {"front"}},
       {GaugeKind::body,
        {"x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz",
@@ -92,16 +92,46 @@ void add_body(const GaugeSettings& probe, double seconds, const Scene& scene,
   append(row, force.torque);
 }
 
+/// Where a probe is now [m].
+Vector3 place_of(const GaugeSettings& probe, double seconds, const Bodies& bodies) {
+  if (!probe.rides) return probe.place;
+  const BodyState body = bodies.state(probe.body, seconds);
+  return body.position + rotate(body.rotation, probe.place);
+}
+
+double pressure_on(const std::optional<Face>& face, const Vector3& place, const Scene& scene,
+                   const WaterState& water, const Bodies& bodies,
+                   std::span<const BodyState> states) {
+  // The grid's pressures are right up to the walls: particles there need not push on a face.
+  const bool on_grid = scene.fluid.solver == PressureKind::grid_projected;
+  if (on_grid || !face) return pressure_at(water, place);
+  return thrust_on(*face, water, bodies.points(), states);
+}
+
 double pressure(const GaugeSettings& probe, double seconds, const Scene& scene,
                 const WaterState& water, const Bodies& bodies) {
-  // The grid's pressures are right up to the walls: particles there need not push on a face.
-  if (scene.fluid.solver == PressureKind::grid_projected) return pressure_at(water, probe.place);
   const std::vector<BodyState> states = states_at(seconds, bodies);
   const double slope_from =
       scene.slope.present ? scene.slope.foot : std::numeric_limits<double>::infinity();
-  const Surfaces surfaces = {tank_at(scene, seconds), slope_from, scene.bodies, states};
-  const auto face = face_at(probe.place, surfaces, kLetIn * water.spacing, kFace * water.support);
-  return face ? thrust_on(*face, water, bodies.points(), states) : pressure_at(water, probe.place);
+  const Surfaces surfaces = {tank_at(scene, seconds), slope_from, scene.bodies, states,
+                             probe.rides ? static_cast<int>(probe.body) : -1};
+  const auto face_of = [&](const Vector3& place) {
+    return face_at(place, surfaces, kLetIn * water.spacing, kFace * water.support);
+  };
+  const Vector3 place = place_of(probe, seconds, bodies);
+  const auto face = face_of(place);
+  if (probe.radius == 0.0 || !face) {
+    return pressure_on(face, place, scene, water, bodies, states);
+  }
+  double sum = 0.0;
+  int count = 0;
+  for (const Vector3& part : disc_on(*face, probe.radius, surfaces.tank)) {
+    const auto around = face_of(part);
+    if (!around) continue;  // beyond the body's edge
+    sum += pressure_on(around, part, scene, water, bodies, states);
+    ++count;
+  }
+  return sum / std::max(count, 1);
 }
 
 void add_cavity(const GaugeSettings& probe, double seconds, const Scene& scene,
@@ -174,6 +204,12 @@ void Gauges::add(const GaugeSettings& probe, double seconds, const WaterState& w
     case GaugeKind::pressure:
       row.push_back(pressure(probe, seconds, scene_, water, bodies));
       break;
+    case GaugeKind::velocity: {
+      const FlowAt flow = flow_at(water, place_of(probe, seconds, bodies));
+      append(row, flow.velocity);
+      row.push_back(flow.colour);
+      break;
+    }
     case GaugeKind::front: {
       const std::size_t across = 1 - probe.axis;
       row.push_back(

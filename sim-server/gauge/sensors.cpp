@@ -107,6 +107,22 @@ double pressure_at(const WaterState& water, const Vector3& place) {
   return std::max(sum / weight, 0.0);
 }
 
+FlowAt flow_at(const WaterState& water, const Vector3& place) {
+  double weight = 0.0;
+  Vector3 sum = {0.0, 0.0, 0.0};
+  for (std::size_t j = 0; j < water.position.size(); ++j) {
+    const double r = length(place - water.position[j]);
+    if (r >= water.support) continue;
+    const double w = kernel_value(r, water.support);
+    weight += w;
+    sum = sum + w * water.velocity[j];
+  }
+  FlowAt flow;
+  flow.colour = water.volume() * weight;
+  if (flow.colour >= kDry) flow.velocity = (1.0 / weight) * sum;
+  return flow;
+}
+
 Cavity find_cavity(std::span<const Vector3> points, const WaterState& water, const Vector3& lower,
                    const Vector3& upper, const std::function<bool(const Vector3&)>& solid) {
   AirCells cells(lower, upper, water.spacing, water.support);

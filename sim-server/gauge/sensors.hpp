@@ -46,6 +46,16 @@ struct Height {
 /// `water` has pressures; `place` [m]. In Pa above that of the air.
 [[nodiscard]] double pressure_at(const WaterState& water, const Vector3& place);
 
+// How the water flows at a point: the mean of the particles around it.
+//   v(x) = sum_j v_j W_j / sum_j W_j; 0 where V sum_j W_j < 0.1, the colour
+
+struct FlowAt {
+  Vector3 velocity = {0.0, 0.0, 0.0};  ///< [m/s]
+  double colour = 0.0;                 ///< 1 within water, 1/2 on its surface or a wall, 0: dry [1]
+};
+
+[[nodiscard]] FlowAt flow_at(const WaterState& water, const Vector3& place);
+
 // Air below the water's level: a hollow that is open to the air above, and pockets that the water
 // has closed around (fluid/air/air_cells.hpp).
 

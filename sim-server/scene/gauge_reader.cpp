@@ -15,23 +15,32 @@ namespace {
 
 using program::ConfigMap;
 
-/// The keys that a kind needs, all of them; any other but name and kind is a mistake.
-const std::map<std::string, std::set<std::string>>& keys_of_kinds() {
-  static const std::map<std::string, std::set<std::string>> kKeys = {
-      {"height", {"x", "y"}}, {"pressure", {"place"}},
-      {"front", {"axis"}},    {"body", {"body"}},
-      {"energy", {}},         {"momentum", {}},
-      {"spread", {}},         {"cavity", {"lower", "upper"}}};
+/// The keys of a kind; any other but name and kind is a mistake.
+struct Keys {
+  std::set<std::string> needed = {};
+  std::set<std::string> optional = {};
+};
+
+const std::map<std::string, Keys>& keys_of_kinds() {
+  static const std::map<std::string, Keys> kKeys = {{"height", {{"x", "y"}}},
+                                                    {"pressure", {{"place"}, {"body", "radius"}}},
+                                                    {"velocity", {{"place"}, {"body"}}},
+                                                    {"front", {{"axis"}}},
+                                                    {"body", {{"body"}}},
+                                                    {"energy", {}},
+                                                    {"momentum", {}},
+                                                    {"spread", {}},
+                                                    {"cavity", {{"lower", "upper"}}}};
   return kKeys;
 }
 
 void check_keys(const ConfigMap& map, const std::string& kind) {
-  const std::set<std::string>& wanted = keys_of_kinds().at(kind);
-  for (const char* key : {"x", "y", "place", "axis", "body", "lower", "upper"}) {
-    if (wanted.contains(key) && !map.has(key)) {
+  const Keys& keys = keys_of_kinds().at(kind);
+  for (const char* key : {"x", "y", "place", "radius", "axis", "body", "lower", "upper"}) {
+    if (keys.needed.contains(key) && !map.has(key)) {
       throw map.error(key, "is missing: a gauge of kind " + kind + " needs it");
     }
-    if (!wanted.contains(key) && map.has(key)) {
+    if (!keys.needed.contains(key) && !keys.optional.contains(key) && map.has(key)) {
       throw map.error(key, "has no meaning for a gauge of kind " + kind);
     }
   }
@@ -58,10 +67,11 @@ std::size_t find_body(const ConfigMap& map, const Scene& scene, const std::strin
 
 GaugeSettings read_gauge(const ConfigMap& map, const Scene& scene) {
   static const std::map<std::string, GaugeKind> kKinds = {
-      {"height", GaugeKind::height}, {"pressure", GaugeKind::pressure},
-      {"front", GaugeKind::front},   {"body", GaugeKind::body},
-      {"energy", GaugeKind::energy}, {"momentum", GaugeKind::momentum},
-      {"spread", GaugeKind::spread}, {"cavity", GaugeKind::cavity}};
+      {"height", GaugeKind::height},     {"pressure", GaugeKind::pressure},
+      {"velocity", GaugeKind::velocity}, {"front", GaugeKind::front},
+      {"body", GaugeKind::body},         {"energy", GaugeKind::energy},
+      {"momentum", GaugeKind::momentum}, {"spread", GaugeKind::spread},
+      {"cavity", GaugeKind::cavity}};
   GaugeEntry entry;
   map.read(gauge_fields(), {}, entry);
   check_name(map, entry.name);
@@ -69,8 +79,11 @@ GaugeSettings read_gauge(const ConfigMap& map, const Scene& scene) {
   entry.kind = kKinds.at(entry.kind_name);
   entry.sign = entry.axis_name.front() == '-' ? -1.0 : 1.0;
   entry.axis = static_cast<std::size_t>(entry.axis_name.back() - 'x');
-  if (entry.kind == GaugeKind::body) entry.body = find_body(map, scene, entry.body_name);
-  check_gauge(map, entry, scene.tank);
+  if (map.has("body")) {
+    entry.body = find_body(map, scene, entry.body_name);
+    entry.rides = entry.kind != GaugeKind::body;
+  }
+  check_gauge(map, entry, scene);
   return entry;
 }
 

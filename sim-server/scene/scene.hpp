@@ -207,7 +207,7 @@ struct DetectSettings {
   double cavity_radius_max = 0.100;  ///< by the paper's rule [m]
 };
 
-enum class GaugeKind { height, pressure, front, body, energy, momentum, spread, cavity };
+enum class GaugeKind { height, pressure, velocity, front, body, energy, momentum, spread, cavity };
 
 /// One probe of the water; sim-server/gauge says what each kind measures.
 struct GaugeSettings {
@@ -215,13 +215,18 @@ struct GaugeSettings {
   GaugeKind kind = GaugeKind::height;
   double x = 0.0;                   ///< height: of the vertical line [m]
   double y = 0.0;                   ///< height [m]
-  Vector3 place = {0.0, 0.0, 0.0};  ///< pressure [m]
+  Vector3 place = {0.0, 0.0, 0.0};  ///< pressure, velocity; in the body's axes if it rides [m]
   Vector3 lower = {0.0, 0.0, 0.0};  ///< cavity: region that is searched [m]
   Vector3 upper = {1.0, 1.0, 1.0};  ///< cavity: its z is the level below which air is enclosed [m]
   std::size_t axis = 0;             ///< front: 0 or 1 for x or y
   double sign = 1.0;                ///< front: +1 or -1, the way it runs
-  std::size_t body = 0;             ///< body: index among the scene's
+  std::size_t body = 0;             ///< body, and what rides: index among the scene's
+  bool rides = false;               ///< pressure, velocity: the place is fixed to `body`
+  double radius = 0.0;              ///< pressure: of the sensor's face; 0: a point [m]
 };
+
+/// A sensor this near to a wall or a body is let into it [spacings].
+inline constexpr double kLetIn = 0.25;
 
 struct GaugesSettings {
   double rate = 0.0;  ///< samples per second; 0: one at the end of every frame [1/s]

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/step_policy.hpp"
 
 namespace splash::sim {
@@ -128,10 +129,44 @@ void check_gate(const ConfigMap& map, const Scene& scene) {
   }
 }
 
-void check_gauge(const ConfigMap& map, const GaugeSettings& gauge, const Tank& tank) {
+namespace {
+
+/// How far a place is inside the tank, from its floor and its sides [m].
+double distance_to_walls(const Tank& tank, const Vector3& place) {
+  double least = place[2] - tank.lower[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    least = std::min({least, place[i] - tank.lower[i], tank.upper[i] - place[i]});
+  }
+  return least;
+}
+
+/// A sensor with a size is let into something, and one that rides on a body is not inside it.
+void check_sensor(const ConfigMap& map, const GaugeSettings& gauge, const Scene& scene) {
+  const double let_in = kLetIn * particle_spacing(scene);
+  const double distance = gauge.rides ? distance_to(scene.bodies[gauge.body].shape, gauge.place)
+                                      : distance_to_walls(scene.tank, gauge.place);
+  if (gauge.rides && distance < -let_in) {
+    throw map.error("place", "is " + text(-distance) + " m inside the body '" +
+                                 scene.bodies[gauge.body].name +
+                                 "', where no water comes; it is told in that body's own axes");
+  }
+  if (gauge.radius == 0.0 || std::abs(distance) <= let_in) return;
+  throw map.error("radius",
+                  "a sensor with a size is let into a wall, the floor or the skin of the "
+                  "body that `body` names, but this one is " +
+                      text(distance) + " m from it, and may be " + text(let_in) +
+                      " m at most, a quarter of a particle spacing");
+}
+
+}  // namespace
+
+void check_gauge(const ConfigMap& map, const GaugeSettings& gauge, const Scene& scene) {
   if (gauge.kind == GaugeKind::cavity) return check_corners(map, gauge.lower, gauge.upper);
   const bool line = gauge.kind == GaugeKind::height;
-  if (!line && gauge.kind != GaugeKind::pressure) return;
+  const bool point = gauge.kind == GaugeKind::pressure || gauge.kind == GaugeKind::velocity;
+  if (gauge.rides) return check_sensor(map, gauge, scene);
+  if (!(line || point)) return;
+  const Tank& tank = scene.tank;
   const Vector3 place = line ? Vector3{gauge.x, gauge.y, tank.lower[2]} : gauge.place;
   for (std::size_t i = 0; i < 3; ++i) {
     const bool inside =
@@ -142,6 +177,7 @@ void check_gauge(const ConfigMap& map, const GaugeSettings& gauge, const Tank& t
                                                    text(tank.lower[i]) + " to " +
                                                    text(tank.upper[i]));
   }
+  if (point) check_sensor(map, gauge, scene);
 }
 
 namespace {

@@ -17,8 +17,9 @@ void check_wave_maker(const program::ConfigMap& map, const WaveMaker& maker, con
 void check_water(const program::ConfigMap& map, const WaterBlock& block, const Scene& scene);
 /// No block of water on both sides of it, and no wave maker there.
 void check_gate(const program::ConfigMap& map, const Scene& scene);
-/// Inside the tank, or a region with a volume.
-void check_gauge(const program::ConfigMap& map, const GaugeSettings& gauge, const Tank& tank);
+/// Inside the tank and outside the body that it rides on, on a surface if it has a size; or a
+/// region with a volume. `scene` has its bodies.
+void check_gauge(const program::ConfigMap& map, const GaugeSettings& gauge, const Scene& scene);
 void check_shape(const program::ConfigMap& map, const Shape& shape);
 /// Of a free motion: density or mass, one of them.
 void check_free(const program::ConfigMap& map, const MotionSettings& motion);

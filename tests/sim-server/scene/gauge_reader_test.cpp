@@ -27,6 +27,8 @@ gauges:
     - {name: P1, kind: pressure, place: [0.6, 0.1, 0.05]}
     - {name: tip, kind: front, axis: -x}
     - {name: post, kind: body, body: post}
+    - {name: flank, kind: pressure, body: post, place: [0.05, 0, 0.1], radius: 0.02}
+    - {name: flow, kind: velocity, body: post, place: [0.1, 0, 0]}
     - {name: hole, kind: cavity, lower: [0.5, 0, 0], upper: [0.8, 0.2, 0.3]}
 )";
 
@@ -38,13 +40,17 @@ TEST(GaugeReader, ReadsWhatIsWritten) {
   EXPECT_EQ(scene.flow.kind, FlowKind::strain);
   EXPECT_DOUBLE_EQ(scene.flow.rate, 3.0);
   EXPECT_DOUBLE_EQ(scene.gauges.rate, 50.0);
-  ASSERT_EQ(scene.gauges.probes.size(), 5U);
+  ASSERT_EQ(scene.gauges.probes.size(), 7U);
   EXPECT_DOUBLE_EQ(scene.gauges.probes[0].x, 0.6);
   EXPECT_DOUBLE_EQ(scene.gauges.probes[1].place[2], 0.05);
   EXPECT_EQ(scene.gauges.probes[2].axis, 0U);
   EXPECT_EQ(scene.gauges.probes[2].sign, -1.0);
   EXPECT_EQ(scene.gauges.probes[3].body, 0U);
-  EXPECT_DOUBLE_EQ(scene.gauges.probes[4].upper[2], 0.3);
+  EXPECT_FALSE(scene.gauges.probes[3].rides);
+  EXPECT_TRUE(scene.gauges.probes[4].rides);
+  EXPECT_DOUBLE_EQ(scene.gauges.probes[4].radius, 0.02);
+  EXPECT_EQ(scene.gauges.probes[5].kind, GaugeKind::velocity);
+  EXPECT_DOUBLE_EQ(scene.gauges.probes[6].upper[2], 0.3);
 }
 
 TEST(GaugeReader, RefusesGaugesWithoutProbes) {
@@ -101,6 +107,17 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NameWithAComma", "name: P1", "name: 'P,1'", "letters, digits"},
         Mistake{"ProbeOutside", "place: [0.6, 0.1, 0.05]", "place: [0.6, 0.3, 0.05]",
                 "outside the tank"},
+        Mistake{"SensorInsideItsBody", "body: post, place: [0.05, 0, 0.1]",
+                "body: post, place: [0.02, 0, 0.1]", "0.03 m inside the body 'post'"},
+        Mistake{"SizedSensorInTheOpen", "body: post, place: [0.05, 0, 0.1]",
+                "body: post, place: [0.08, 0, 0.1]", "this one is 0.03 m from it"},
+        Mistake{"SizedSensorFarFromWalls", "place: [0.6, 0.1, 0.05]",
+                "place: [0.6, 0.1, 0.05], radius: 0.01", "let into a wall"},
+        Mistake{"SizedVelocity", "body: post, place: [0.1, 0, 0]",
+                "body: post, place: [0.1, 0, 0], radius: 0.01",
+                "no meaning for a gauge of kind velocity"},
+        Mistake{"RidingOnNobody", "velocity, body: post", "velocity, body: pots",
+                "there are: post"},
         Mistake{"FlatRegion", "cavity, lower: [0.5, 0, 0]", "cavity, lower: [0.9, 0, 0]",
                 "not above that of 'lower'"}),
     [](const auto& parameter) { return parameter.param.name; });
