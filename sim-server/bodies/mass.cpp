@@ -17,20 +17,22 @@ std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies) {
     const BodySettings& body = bodies[b];
     if (!is_free(body)) continue;
     const double mass = mass_of(body);
-    const Vector3 inertia = inertia_of(body.shape, mass);
-    const Quaternion axes = principal_axes(body.shape);
+    const bool own = body.motion.inertia[0] > 0.0;
+    const Vector3 inertia = own ? body.motion.inertia : inertia_of(body.shape, mass);
+    const Quaternion axes = own ? Quaternion{0.0, 0.0, 0.0, 1.0} : principal_axes(body.shape);
     // It turns on its spring as fast as it swings on it, on the mean over its axes.
     const double lever2 = (inertia[0] + inertia[1] + inertia[2]) / (3.0 * mass);
     const double spring = body.motion.stiffness;
     const double damper = body.motion.damping;
-    all.push_back(
-        {static_cast<int>(b), static_cast<float>(mass), static_cast<float>(inertia[0]),
-         static_cast<float>(inertia[1]), static_cast<float>(inertia[2]),
-         static_cast<float>(length(body.shape.size) / 2.0),
-         static_cast<float>(body.motion.restitution), static_cast<float>(body.motion.friction),
-         static_cast<float>(axes[0]), static_cast<float>(axes[1]), static_cast<float>(axes[2]),
-         static_cast<float>(axes[3]), static_cast<float>(spring), static_cast<float>(damper),
-         static_cast<float>(lever2 * spring), static_cast<float>(lever2 * damper)});
+    all.push_back({static_cast<int>(b), static_cast<float>(mass), static_cast<float>(inertia[0]),
+                   static_cast<float>(inertia[1]), static_cast<float>(inertia[2]),
+                   static_cast<float>(length(body.shape.size) / 2.0),
+                   static_cast<float>(body.motion.restitution),
+                   static_cast<float>(body.motion.friction), static_cast<float>(axes[0]),
+                   static_cast<float>(axes[1]), static_cast<float>(axes[2]),
+                   static_cast<float>(axes[3]), static_cast<float>(spring),
+                   static_cast<float>(damper), static_cast<float>(lever2 * spring),
+                   static_cast<float>(lever2 * damper), body.motion.held});
   }
   return all;
 }

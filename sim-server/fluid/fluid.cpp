@@ -80,10 +80,12 @@ void Fluid::set_bodies(const std::vector<BodyStep>& steps) {
   boundary_.set_steps(device_, steps);
 }
 
-void Fluid::release(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin) {
+void Fluid::release(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin,
+                    const std::vector<PairFriction>& pairs) {
   boundary_.release(device_, bodies);
   solver_->release(device_, bodies.size());
-  free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies, skin);
+  free_ = std::make_unique<FreeBodies>(device_, params_, kernel_defines(parts_), bodies, skin,
+                                       boundary_.body_count(), pairs);
 }
 
 void Fluid::prepare(const Step& step) {

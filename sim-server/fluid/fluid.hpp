@@ -65,8 +65,10 @@ class Fluid {
   void set_bodies(const std::vector<BodyStep>& steps);
 
   /// From now on the water moves these of its bodies; until then they go where set_bodies says.
-  /// set_bodies then says where they begin a frame. At least one; `skin`: of them. Waits.
-  void release(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
+  /// set_bodies then says where they begin a frame. At least one; `skin`: of them; `pairs`: whose
+  /// friction is one of their own. Waits.
+  void release(const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin,
+               const std::vector<PairFriction>& pairs = {});
   /// Null while no body is free.
   [[nodiscard]] FreeBodies* free_bodies() noexcept { return free_.get(); }
 

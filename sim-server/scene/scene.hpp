@@ -149,6 +149,16 @@ struct MotionSettings {
   Vector3 spin = {0.0, 0.0, 0.0};      ///< free: when time begins, in the world [rad/s]
   double restitution = 0.2;            ///< free: of its speed after a knock [1]
   double friction = 0.4;               ///< free: Coulomb's, on walls [1]
+  Vector3 inertia = {0.0, 0.0, 0.0};   ///< free: moments about its own axes; 0: as if it were the
+                                       ///< same everywhere [kg m2]
+  int held = 0;  ///< free: bits of what it does not do: move along x y z, turn about x y z
+};
+
+/// Coulomb's coefficient between two bodies, of which at least one is free, or one and the walls.
+struct PairFriction {
+  int one = 0;            ///< index among the scene's bodies
+  int other = -1;         ///< likewise; -1: the tank's walls, floor and slope
+  double friction = 0.4;  ///< [1]
 };
 
 struct BodySettings {
@@ -302,6 +312,7 @@ struct Scene {
   Gate gate;
   Flow flow;
   std::vector<BodySettings> bodies;
+  std::vector<PairFriction> frictions;
   GaugesSettings gauges;
   DetectSettings detect;
   SkipSettings skip;

@@ -122,7 +122,9 @@ void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
       {"velocity", {"free"}},
       {"spin", {"free"}},
       {"restitution", {"free", kOnSpring}},
-      {"friction", {"free", kOnSpring}}};
+      {"friction", {"free", kOnSpring}},
+      {"inertia", {"free", kOnSpring}},
+      {"held", {"free"}}};
   const bool spring = entry.kind == MotionKind::osc && entry.coupling == CouplingKind::spring;
   for (const auto& [key, kinds] : kUsedBy) {
     if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
@@ -131,6 +133,20 @@ void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
     throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name +
                              (wants_spring ? " without coupling: spring" : ""));
   }
+}
+
+/// Bits of what is held.
+int read_held(const ConfigMap& map, const std::vector<std::string>& names) {
+  static const std::vector<std::string> kNames = {"x", "y", "z", "rx", "ry", "rz"};
+  int held = 0;
+  for (const std::string& name : names) {
+    const auto found = std::find(kNames.begin(), kNames.end(), name);
+    if (found == kNames.end()) {
+      throw map.error("held", "'" + name + "' must be one of x, y, z, rx, ry and rz");
+    }
+    held |= 1 << (found - kNames.begin());
+  }
+  return held;
 }
 
 void check_markers(const ConfigMap& map, const MotionEntry& entry) {
@@ -165,6 +181,7 @@ MotionSettings read_motion(const ConfigMap& map) {
     throw map.error("gap_limit", "has no meaning where a gap is held; gap: bridge needs it");
   }
   const bool spring = entry.coupling == CouplingKind::spring;
+  entry.held = read_held(map, entry.held_names);
   if (entry.kind == MotionKind::free || spring) check_free(map, entry);
   if (spring) check_spring(map, entry);
   entry.file = find_file(map, "file", entry.file_name);
@@ -207,6 +224,33 @@ BodySettings read_body(const ConfigMap& map, double spacing) {
   return body;
 }
 
+void read_frictions(const ConfigMap& map, Scene& scene) {
+  const auto index_of = [&](const ConfigMap& entry, const std::string& name) {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      if (scene.bodies[b].name == name) return static_cast<int>(b);
+    }
+    if (name == "walls") return -1;
+    throw entry.error("between", "there is no body named '" + name + "', and it is not `walls`");
+  };
+  const auto is_free_one = [&](int body) {
+    return body >= 0 && is_free(scene.bodies[static_cast<std::size_t>(body)]);
+  };
+  for (const ConfigMap& entry : map.list("frictions")) {
+    FrictionEntry pair;
+    entry.read(friction_fields(), {}, pair);
+    if (pair.between.size() != 2) {
+      throw entry.error("between", "names two, not " + std::to_string(pair.between.size()));
+    }
+    pair.one = index_of(entry, pair.between[0]);
+    pair.other = index_of(entry, pair.between[1]);
+    if (pair.one == pair.other) throw entry.error("between", "names the same twice");
+    if (!is_free_one(pair.one) && !is_free_one(pair.other)) {
+      throw entry.error("between", "names no free body: what goes its way feels no friction");
+    }
+    scene.frictions.push_back(pair);
+  }
+}
+
 void read_bodies(const ConfigMap& map, Scene& scene) {
   std::set<std::string> names;
   int free = 0;
@@ -224,6 +268,12 @@ void read_bodies(const ConfigMap& map, Scene& scene) {
     // A mesh has the axes of its file, whose origin may be anywhere.
     if (is_free(scene.bodies.back()) && scene.bodies.back().shape.kind != ShapeKind::mesh) {
       check_place(entry, scene.bodies.back().rest.position, scene.tank);
+    }
+    const int held = scene.bodies.back().motion.held;
+    if (held != 0 && scene.fluid.solver == PressureKind::grid_projected) {
+      throw entry.child("motion").error("held",
+                                        "the solver grid_projected holds no body yet; the "
+                                        "other solvers do");
     }
     const std::string& name = scene.bodies.back().name;
     if (!names.insert(name).second) {
@@ -311,8 +361,8 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   refuse_rig(map);
   Scene scene;
   map.read(scene_fields(),
-           {"fluid", "tank", "slope", "wave_maker", "water", "gate", "flow", "bodies", "gauges",
-            "detect", "skip", "serve", "tracking"},
+           {"fluid", "tank", "slope", "wave_maker", "water", "gate", "flow", "bodies", "frictions",
+            "gauges", "detect", "skip", "serve", "tracking"},
            scene);
   if (scene.name.empty()) scene.name = file_stem;
   read_basin(map, scene);
@@ -320,6 +370,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   scene.fluid = read_fluid(fluid);
   check_resolution(fluid, scene);
   read_bodies(map, scene);
+  read_frictions(map, scene);
   check_sound(fluid, scene);
   if (const auto gauges = map.optional_child("gauges")) {
     scene.gauges = read_gauges(*gauges, scene);

@@ -92,6 +92,8 @@ std::string scene_reference() {
                  rest_fields()) +
          section("### `motion` of a body (optional)", motion_fields()) +
          section("### `keyframes` of a scripted motion: a list", keyframe_fields()) +
+         section("### `frictions` (optional): a list of pairs that rub in a way of their own",
+                 friction_fields()) +
          section("### `gauges` (optional): what `--gauges FILE.csv` writes", gauges_fields()) +
          section("### `probes` of the gauges: a list", gauge_fields()) +
          section("### `detect` (optional)", detect_fields()) +

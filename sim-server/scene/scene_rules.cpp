@@ -217,7 +217,30 @@ void check_shape(const ConfigMap& map, const Shape& shape) {
   }
 }
 
+namespace {
+
+/// No moment is larger than the other two together, and nothing moves as it is held.
+void check_inertia(const ConfigMap& map, const MotionSettings& motion) {
+  const Vector3& moments = motion.inertia;
+  const double half = 0.5 * (moments[0] + moments[1] + moments[2]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (moments[i] > (1.0 + kTouch) * half) {
+      throw map.error("inertia", std::string("the moment about ") + kAxes[i] +
+                                     " is larger than the other two together, as of no body");
+    }
+    const bool moves = (motion.held >> i & 1) != 0 && motion.velocity[i] != 0.0;
+    const bool turns = (motion.held >> (i + 3) & 1) != 0 && motion.spin[i] != 0.0;
+    if (moves || turns) {
+      throw map.error("held", std::string("the body is held by ") + (moves ? "" : "r") + kAxes[i] +
+                                  ", but its " + (moves ? "'velocity'" : "'spin'") + " is not 0");
+    }
+  }
+}
+
+}  // namespace
+
 void check_free(const ConfigMap& map, const MotionSettings& motion) {
+  check_inertia(map, motion);
   if (map.has("density") != map.has("mass")) return;
   const bool spring = motion.coupling == CouplingKind::spring;
   throw map.error(motion.mass > 0.0 ? "mass" : "kind",

@@ -353,14 +353,46 @@ Fields<MotionEntry> free_fields() {
         .unit = "1",
         .meaning =
             "free, spring: Coulomb's coefficient on walls and other bodies; of two free ones the "
-            "geometric mean counts.",
+            "geometric mean counts. `frictions` of the scene may say otherwise of a pair.",
         .min = 0,
         .max = 10},
        &M::friction},
+      {{.key = "inertia",
+        .unit = "kg m2",
+        .meaning = "free, spring: moments of inertia about the body's own axes through its centre; "
+                   "left out: those of a body that is the same everywhere.",
+        .min = 1.0e-12,
+        .max = 1.0e9},
+       &M::inertia},
+      {{.key = "held",
+        .unit = "",
+        .meaning = "free: what the body does not do, as on a rail or a hinge: x, y, z: move along "
+                   "that axis of the tank; rx, ry, rz: turn about it. What holds it takes any "
+                   "force. Not yet with the solver grid_projected."},
+       &M::held_names},
   };
 }
 
 }  // namespace
+
+const Fields<FrictionEntry>& friction_fields() {
+  static const Fields<FrictionEntry> kFields = {
+      {{.key = "between",
+        .unit = "",
+        .meaning = "Two names of bodies, one of them free; `walls` in place of one: the tank's "
+                   "walls, floor and slope.",
+        .required = true},
+       &FrictionEntry::between},
+      {{.key = "friction",
+        .unit = "1",
+        .meaning = "Coulomb's coefficient where these two touch, whatever they say of themselves.",
+        .min = 0,
+        .max = 10,
+        .required = true},
+       &FrictionEntry::friction},
+  };
+  return kFields;
+}
 
 const Fields<MotionEntry>& motion_fields() {
   static const Fields<MotionEntry> kFields = [] {

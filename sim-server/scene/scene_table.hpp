@@ -39,6 +39,12 @@ struct MotionEntry : MotionSettings {
   std::string file_name;
   std::string gap_name = "bridge";
   std::string coupling_name = "direct";
+  std::vector<std::string> held_names = {};
+};
+
+/// Friction between two as its mapping spells it.
+struct FrictionEntry : PairFriction {
+  std::vector<std::string> between = {};
 };
 
 /// Water as its mapping spells it: the form is still a word.
@@ -90,6 +96,7 @@ struct TrackerEntry {
 [[nodiscard]] const Fields<Keyframe>& rest_fields();
 [[nodiscard]] const Fields<Keyframe>& keyframe_fields();
 [[nodiscard]] const Fields<MotionEntry>& motion_fields();
+[[nodiscard]] const Fields<FrictionEntry>& friction_fields();
 [[nodiscard]] const Fields<GaugesSettings>& gauges_fields();
 [[nodiscard]] const Fields<GaugeEntry>& gauge_fields();
 [[nodiscard]] const Fields<DetectSettings>& detect_fields();

@@ -89,7 +89,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   fluid_.forget_work();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
   if (!free.empty()) {
-    fluid_.release(free, film_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)));
+    fluid_.release(free, film_skins(scene_.bodies, static_cast<double>(fluid_.params().spacing)),
+                   scene_.frictions);
   }
   const double fastest = std::max(start_flow(fluid_, scene_), fastest_mover(0.0));
   contact_step_ = longest_contact_step(scene_.bodies, length(scene_.fluid.gravity));

@@ -5,6 +5,23 @@
 #define SIX_ENTRIES 21
 #define SIX_AT(row, column) ((row) * ((row) + 1) / 2 + (column))  // column <= row
 
+// Leaves unknowns, by the bits of `held`, out of the equations a x = b: they are 0.
+static void hold_six(int held, float* b, float* a) {
+  for (int r = 0; r < 6; ++r) {
+    if (held >> r & 1) b[r] = 0.0f;
+    for (int c = 0; c < r; ++c) {
+      if ((held >> r | held >> c) & 1) a[SIX_AT(r, c)] = 0.0f;
+    }
+  }
+}
+
+// One row of a x.
+static float row_of_six(const float* a, int row, const float* x) {
+  float sum = 0.0f;
+  for (int c = 0; c < 6; ++c) sum += (c <= row ? a[SIX_AT(row, c)] : a[SIX_AT(c, row)]) * x[c];
+  return sum;
+}
+
 // a becomes L, a = L L^T.
 static void factor_six(float* a) {
   for (int c = 0; c < 6; ++c) {

@@ -118,12 +118,16 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
   BodyStep b = bodies[first_body + f.body];
   float sum[SPLASH_PUSH_ENTRIES];
   for (int e = 0; e < SPLASH_PUSH_ENTRIES; ++e) sum[e] = of_team[e];
+  float water[SPLASH_PUSH_ENTRIES];
+  for (int e = 0; e < SPLASH_PUSH_ENTRIES; ++e) water[e] = sum[e];
   const float3 fall = falling * (float3)(p->gravity_x, p->gravity_y, p->gravity_z);
   sum[0] += f.mass * fall.x;
   sum[1] += f.mass * fall.y;
   sum[2] += f.mass * fall.z;
   for (int e = 0; films && e < 6; ++e) {
-    sum[e] += falling * film[6 * item + e] / (e < 3 ? 1.0f : f.size);
+    const float press = falling * film[6 * item + e] / (e < 3 ? 1.0f : f.size);
+    sum[e] += press;
+    water[e] += press;
   }
   add_inertia(f, b, sum + 6);
   const bool tied = f.spring > 0.0f && falling > 0.0f;
@@ -132,12 +136,19 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
     tug = tug_of(f, b, anchors[first_anchor + item], falling);
     add_tug(tug, f.size, sum);
   }
+  if (f.held) hold_six(f.held, sum, sum + 6);
   factor_six(sum + 6);
   solve_six(sum + 6, sum);
   const float3 dv = (float3)(sum[0], sum[1], sum[2]);
   const float3 dw = (float3)(sum[3], sum[4], sum[5]) / f.size;
   const float3 tugged = tug.push - tug.inertia * dv, twisted = tug.turn - tug.turn_inertia * dw;
-  const float3 pushed = f.mass * (dv - fall) - tugged, turned = inertia_times(f, b, dw) - twisted;
+  float3 pushed = f.mass * (dv - fall) - tugged, turned = inertia_times(f, b, dw) - twisted;
+  if (f.held) {  // what holds it takes part, and is no water
+    float felt_six[6];
+    for (int r = 0; r < 6; ++r) felt_six[r] = water[r] - row_of_six(water + 6, r, sum);
+    pushed = vload3(0, felt_six);
+    turned = f.size * vload3(1, felt_six);
+  }
   vstore3(dv, 2 * item, answer);
   vstore3(dw, 2 * item + 1, answer);
   vstore3(vload3(2 * item, felt) + pushed, 2 * item, felt);

@@ -50,6 +50,7 @@ static void add_meeting(Contacts* all, const Pairing* m, int feature, float3 at,
   c.other_lever = at - place_of(theirs);
   c.normal = turned ? -normal : normal;
   c.key = contact_key(m->body, m->body_other, turned, feature);
+  c.friction = friction_on(all, c.body, turned ? m->body : m->body_other);
   c.drift = speed_at(theirs, c.other_lever);
   add_contact(all, c, gap, touch_of(m), dt);
 }
@@ -136,10 +137,10 @@ static void put_apart(const Contacts* all, const Pairing* m, int body_count, int
   const FreeBody f = all->frees[m->one];
   const float theirs = m->two == NO_BODY ? 0.0f : f.mass / (f.mass + all->frees[m->two].mass);
   BodyStep mine = m->step, other = m->step_other;
-  shift(&mine, (1.0f - theirs) * apart);
+  shift(&mine, (1.0f - theirs) * free_ways(f) * apart);
   all->bodies[body_count + f.body] = mine;
   if (m->two == NO_BODY) return;
-  shift(&other, -theirs * apart);
+  shift(&other, -theirs * free_ways(all->frees[m->two]) * apart);
   all->bodies[body_count + j] = other;
 }
 

@@ -61,15 +61,16 @@ static void collide(Contacts* all, constant FluidParams* p, constant BodyShape* 
 
 // One work-item does it all: bodies are few. `force`: of the water on each in this step, and its
 // torque about the centre [N], [N m], from what it `felt`, which begins anew. `contacts`: room for
-// SPLASH_CONTACTS of each free body; `kept`: for one more than these, none at first.
+// SPLASH_CONTACTS of each free body; `kept`: for one more than these, none at first. `friction`:
+// contact.h.
 kernel void move_bodies(constant FluidParams* p, float dt, float piston, float piston_speed,
                         int free_count, constant FreeBody* frees, constant BodyShape* shapes,
                         global const float* meshes, int first_body, int body_count,
                         global BodyStep* bodies, global Contact* contacts, global KeptPush* kept,
-                        global float* felt, global float* force) {
+                        global const float* friction, global float* felt, global float* force) {
   if (get_global_id(0) > 0) return;
   Contacts all = {frees, bodies + first_body, contacts, kept, 0, SPLASH_CONTACTS * free_count,
-                  rebound_speed(p, dt)};
+                  rebound_speed(p, dt), friction, body_count};
   collide(&all, p, shapes, meshes, free_count, body_count, dt, piston, piston_speed);
   for (int k = 0; k < free_count; ++k) {
     BodyStep b = *step_of(&all, k);
@@ -83,7 +84,7 @@ kernel void move_bodies(constant FluidParams* p, float dt, float piston, float p
   for (int k = 0; k < free_count; ++k) {
     const int body = frees[k].body;
     BodyStep b = all.bodies[body_count + body];
-    leave_walls(p, shapes[body], meshes, piston, &b);
+    leave_walls(p, shapes[body], meshes, piston, free_ways(frees[k]), &b);
     note_reach(shapes[body], p->support, &b);
     all.bodies[body_count + body] = b;
     for (int e = 6 * k; e < 6 * k + 6; ++e) {

@@ -43,6 +43,8 @@ typedef struct {
   global KeptPush* kept;    // of the last step; the first one's key is how many follow it
   int count, room;
   float rebound;            // what comes slower does not [m/s]
+  global const float* friction;  // of each free body on each of `body_count`, then on walls [1]
+  int body_count;
 } Contacts;
 
 // What lies on another falls towards it by g dt in each step; were that a knock, it would begin
@@ -57,6 +59,11 @@ static float rebound_speed(constant FluidParams* p, float dt) {
 #define MET_WALLS 1000
 static int contact_key(int body, int met, bool turned, int feature) {
   return ((body * 1024 + met) * 2 + (turned ? 1 : 0)) * 128 + feature + 1;
+}
+
+// Coulomb's coefficient of a free body on body `met`, or on walls from MET_WALLS on.
+static float friction_on(const Contacts* all, int free_body, int met) {
+  return all->friction[free_body * (all->body_count + 1) + min(met, all->body_count)];
 }
 
 static float kept_push(const Contacts* all, int key) {
@@ -92,7 +99,7 @@ static float3 slip_of(const Contacts* all, const Contact* c) {
 }
 
 static void knock(FreeBody f, global BodyStep* b, float3 lever, float3 impulse) {
-  const float3 dv = impulse / f.mass, dw = inertia_solve(f, *b, cross(lever, impulse));
+  const float3 dv = mass_solve(f, impulse), dw = inertia_solve(f, *b, cross(lever, impulse));
   b->vx += dv.x;
   b->vy += dv.y;
   b->vz += dv.z;
@@ -110,16 +117,16 @@ static void knock_both(const Contacts* all, const Contact* c, float3 impulse) {
 // How much an impulse along `way` at the lever speeds a body up [1/kg].
 static float yield_at(FreeBody f, BodyStep b, float3 lever, float3 way) {
   const float3 turn = cross(inertia_solve(f, b, cross(lever, way)), lever);
-  return 1.0f / f.mass + dot(turn, way);
+  return (f.held ? dot(mass_solve(f, way), way) : 1.0f / f.mass) + dot(turn, way);
 }
 
-// Mass that such an impulse meets [kg].
+// Mass that such an impulse meets [kg]; 0: nothing that it meets can move.
 static float mass_at(const Contacts* all, const Contact* c, float3 way) {
   float yield = yield_at(all->frees[c->body], *step_of(all, c->body), c->lever, way);
   if (c->other != NO_BODY) {
     yield += yield_at(all->frees[c->other], *step_of(all, c->other), c->other_lever, way);
   }
-  return 1.0f / yield;
+  return yield > 0.0f ? 1.0f / yield : 0.0f;
 }
 
 // What is nearer than this touches: by as much as edges are round [m].
@@ -128,6 +135,7 @@ static float touching(BodyShape s) {
 }
 
 // Adds the contact `c`, apart by `gap` [m], if it closes within the step or is nearer than `touch`.
+// Its push is still to be found.
 static void add_contact(Contacts* all, Contact c, float gap, float touch, float dt) {
   const float leaving = dot(slip_of(all, &c), c.normal);
   const bool closes = gap + dt * leaving < 0.0f;
@@ -136,8 +144,6 @@ static void add_contact(Contacts* all, Contact c, float gap, float touch, float 
   if (c.other != NO_BODY) restitution = fmax(restitution, all->frees[c.other].restitution);
   const bool rebounds = closes && leaving < -all->rebound && restitution > 0.0f;
   c.wanted = rebounds ? -restitution * leaving : -fmax(gap, 0.0f) / dt;
-  c.friction = all->frees[c.body].friction;
-  if (c.other != NO_BODY) c.friction = sqrt(c.friction * all->frees[c.other].friction);
   c.pushed = rebounds ? 0.0f : kept_push(all, c.key);
   c.rubbed = (float3)(0.0f, 0.0f, 0.0f);
   all->list[all->count++] = c;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/fluid/free_bodies/free_bodies.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/kernel_sources.hpp"
 
@@ -11,11 +14,36 @@ float as_float(double value) {
   return static_cast<float>(value);
 }
 
+/// Coulomb's coefficients as free_bodies/contact.h wants them: a row for each free body, of its own
+/// on what goes its way and on walls, of the geometric mean of both on another free one, but for
+/// pairs that have one of theirs.
+std::vector<float> friction_table(const std::vector<FreeBody>& bodies, int body_count,
+                                  const std::vector<PairFriction>& pairs) {
+  const auto across = static_cast<std::size_t>(body_count) + 1;
+  std::vector<float> table;
+  for (const FreeBody& one : bodies) {
+    std::vector<float> row(across, one.friction);
+    for (const FreeBody& other : bodies) {
+      row[static_cast<std::size_t>(other.body)] = std::sqrt(one.friction * other.friction);
+    }
+    for (const PairFriction& pair : pairs) {
+      for (const auto& [first, second] :
+           {std::pair{pair.one, pair.other}, std::pair{pair.other, pair.one}}) {
+        if (first != one.body) continue;
+        row[second < 0 ? across - 1 : static_cast<std::size_t>(second)] = as_float(pair.friction);
+      }
+    }
+    table.insert(table.end(), row.begin(), row.end());
+  }
+  return table;
+}
+
 }  // namespace
 
 FreeBodies::FreeBodies(Device& device, const FluidParams& params,
                        const std::vector<std::string>& defines, const std::vector<FreeBody>& bodies,
-                       const std::vector<SkinFace>& skin)
+                       const std::vector<SkinFace>& skin, int body_count,
+                       const std::vector<PairFriction>& pairs)
     : list_(bodies),
       count_(static_cast<int>(bodies.size())),
       groups_(device.vectors_of(params.count)),
@@ -27,6 +55,7 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       answer_(device, 6 * bodies.size()),
       contacts_(device, bodies.size() * SPLASH_CONTACTS * SPLASH_CONTACT_FLOATS * sizeof(float)),
       kept_pushes_(device, bodies.size() * SPLASH_CONTACTS + 1),
+      friction_(device, friction_table(bodies, body_count, pairs)),
       felt_(device, 6 * bodies.size()),
       force_(device, 6 * bodies.size()),
       tugs_(device, 6 * bodies.size()),
@@ -182,6 +211,7 @@ void FreeBodies::move(Fluid& fluid, const Step& step) {
                     {"frees", bodies_},
                     {"contacts", contacts_},
                     {"kept", kept_pushes_},
+                    {"friction", friction_},
                     {"felt", felt_},
                     {"force", force_}},
                    boundary.outlines(), boundary.bodies_at(step));

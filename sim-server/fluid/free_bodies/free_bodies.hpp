@@ -30,10 +30,12 @@ struct FreeBodyEnd {
 
 class FreeBodies {
  public:
-  /// `defines`: that its kernels are built with (parts.hpp); `bodies`: at least one; `skin`: of
-  /// these, in any order.
+  /// `defines`: that its kernels are built with (parts.hpp); `bodies`: at least one, of
+  /// `body_count` that are there; `skin`: of these, in any order; `pairs`: whose friction is one of
+  /// their own.
   FreeBodies(Device& device, const FluidParams& params, const std::vector<std::string>& defines,
-             const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
+             const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin, int body_count,
+             const std::vector<PairFriction>& pairs);
 
   /// Where the devices are that bodies hang on by springs: an entry for each free body, of a
   /// frame's first step, then of the next one. Without it none may hang on any.
@@ -86,6 +88,7 @@ class FreeBodies {
   Buffer<float> answer_;
   Buffer<std::byte> contacts_;
   Buffer<KeptPush> kept_pushes_;
+  Buffer<float> friction_;
   Buffer<float> felt_;
   Buffer<float> force_;
   Buffer<float> tugs_;

@@ -49,6 +49,7 @@ static void meet_walls(Contacts* all, constant FluidParams* p, BodyShape shape,
       c.lever = lever[i];
       c.normal = normal;
       c.key = contact_key(all->frees[free_body].body, MET_WALLS + k, false, i);
+      c.friction = friction_on(all, free_body, MET_WALLS);
       c.drift = (k == p->piston ? piston_speed : 0.0f) * normal;
       add_contact(all, c, above_wall(p, k, piston, b, lever[i]), touching(shape), dt);
     }
@@ -56,9 +57,10 @@ static void meet_walls(Contacts* all, constant FluidParams* p, BodyShape shape,
   all->room = room;
 }
 
-// What turned into a wall, or was there, is put back: no motion comes of it.
+// What turned into a wall, or was there, is put back: no motion comes of it. `ways`: 1 along those
+// by which the body is not held.
 static void leave_walls(constant FluidParams* p, BodyShape shape, global const float* meshes,
-                        float piston, BodyStep* b) {
+                        float piston, float3 ways, BodyStep* b) {
   float3 lever[CONTACT_POINTS];
   for (int k = 0; k < p->wall_count; ++k) {
     if (!may_meet(p, k, shape, *b, 0.0f, piston)) continue;
@@ -68,8 +70,8 @@ static void leave_walls(constant FluidParams* p, BodyShape shape, global const f
     for (int i = 0; i < points; ++i) {
       deepest = fmin(deepest, above_wall(p, k, piston, *b, lever[i]));
     }
-    b->px -= deepest * normal.x;
-    b->py -= deepest * normal.y;
-    b->pz -= deepest * normal.z;
+    b->px -= deepest * ways.x * normal.x;
+    b->py -= deepest * ways.y * normal.y;
+    b->pz -= deepest * ways.z * normal.z;
   }
 }

@@ -128,8 +128,9 @@ typedef struct {
   float damper;          // [N s/m]
   float turning_spring;  // [N m/rad]
   float turning_damper;  // [N m s]
+  int held;              // bits of what it does not do: move along x y z, turn about x y z
 } FreeBody;
-SPLASH_SHARED_STRUCT(FreeBody, 16 * 4)
+SPLASH_SHARED_STRUCT(FreeBody, 17 * 4)
 
 // Where a device is that a body hangs on by a spring, when a step begins.
 typedef struct {

@@ -55,7 +55,8 @@ void FreeFloat::start(Device& device) {
                                     std::move(motions), support);
   const std::vector<BoundaryPoint> boundary(bodies->points().begin(), bodies->points().end());
   fluid = std::make_unique<Fluid>(device, params, particles, boundary, body_outlines(scene.bodies));
-  fluid->release(free_bodies(scene.bodies), film_skins(scene.bodies, scene.fluid.spacing));
+  fluid->release(free_bodies(scene.bodies), film_skins(scene.bodies, scene.fluid.spacing),
+                 scene.frictions);
   steps = bodies->at(0.0);
   dt = largest_time_step(params, 3.0, 9.81, 1.0);
 }

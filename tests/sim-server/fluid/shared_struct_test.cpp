@@ -80,6 +80,7 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(FreeBody, size, restitution, friction),
     MEMBERS_4(FreeBody, ax, ay, az, aw),
     MEMBERS_4(FreeBody, spring, damper, turning_spring, turning_damper),
+    MEMBER(FreeBody, held),
 
     MEMBERS_3(Anchor, px, py, pz),
     MEMBERS_4(Anchor, qx, qy, qz, qw),
