@@ -9,6 +9,9 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <variant>
+
+#include "protocol/address.hpp"
 
 namespace splash::pd {
 namespace {
@@ -50,34 +53,29 @@ std::vector<Start> collect(const std::vector<protocol::LogEntry>& log, double sa
 }
 
 /// Nine digits carry a float exactly.
-void print(std::ostream& out, float value) {
+void print(std::ostream& out, const protocol::Argument& argument) {
+  if (const auto* number = std::get_if<std::int32_t>(&argument)) out << ' ' << *number;
+  const auto* value = std::get_if<float>(&argument);
+  if (value == nullptr) return;
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), " %.9g", static_cast<double>(value));
+  std::snprintf(text.data(), text.size(), " %.9g", static_cast<double>(*value));
   out << text.data();
 }
 
-void print(std::ostream& out, const char* kind, std::int32_t id, std::int32_t body, float first,
-           float second, const protocol::Vec3& place) {
-  out << ' ' << kind << ' ' << id << ' ' << body;
-  for (const float value : {first, second, place.x, place.y, place.z}) print(out, value);
+/// The kind and its numbers, but for the moment; optional ones where all of them are known.
+void print(std::ostream& out, const protocol::Event& event) {
+  const protocol::Message message = protocol::to_message(event);
+  const auto rows = protocol::find_address(message.address)->arguments;
+  bool known = true;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    known = known && !(rows[i].optional && message.arguments[i] == protocol::Argument(0.0F));
+  }
+  out << ' ' << protocol::kKindNames[event.index()].name();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].name == "offset_ms" || (rows[i].optional && !known)) continue;
+    print(out, message.arguments[i]);
+  }
 }
-
-struct Line {
-  std::ostream& out;
-  void operator()(const protocol::Impact& e) const {
-    print(out, "impact", e.id, e.body, e.speed, e.approach, e.position);
-    if (e.momentum <= 0.0F || e.rise <= 0.0F) return;
-    print(out, e.momentum);
-    print(out, e.rise);
-  }
-  void operator()(const protocol::Bubble& e) const {
-    print(out, "bubble", e.id, e.body, e.radius, e.epsilon, e.position);
-  }
-  void operator()(const protocol::Cavity& e) const {
-    print(out, "cavity", e.id, e.body, e.radius, e.epsilon, e.position);
-    if (e.life > 0.0F) print(out, e.life);
-  }
-};
 
 }  // namespace
 
@@ -97,7 +95,7 @@ EventListReport write_event_list(const std::vector<protocol::LogEntry>& log, dou
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(delta));
     out << text.data();
-    std::visit(Line{out}, start.event);
+    print(out, start.event);
     out << ";\n";
     ++report.events;
     report.last_sample = start.sample;

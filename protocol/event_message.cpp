@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The order of each message's arguments, written once for both ways; their types and ranges are
-// the address table's.
+// Structs of numbers to messages and back, by the order that each struct tells; types and ranges
+// are the address table's.
+#include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <type_traits>
+#include <tuple>
 #include <utility>
 
 #include "protocol/address.hpp"
@@ -57,56 +58,16 @@ class Giver {
   Message& message_;
 };
 
-constexpr const char* address_of(const Impact&) {
-  return "/impact";
-}
-constexpr const char* address_of(const Bubble&) {
-  return "/bubble";
-}
-constexpr const char* address_of(const Cavity&) {
-  return "/cavity";
-}
-constexpr const char* address_of(const Frame&) {
-  return "/frame";
-}
-constexpr const char* address_of(const BodyPose&) {
-  return "/body/pose";
-}
-constexpr const char* address_of(const Push&) {
-  return "/force/change";
-}
-
-template <class... Values, class Visit>
-void visit_all(Visit& visit, Values&... values) {
-  (visit(values), ...);
-}
-
-// Order of the arguments. `Record` is const when giving, not when taking.
+// Calls `visit` with all numbers in the order of the message's arguments. `Record` is const when
+// giving, not when taking.
 template <class Record, class Visit>
-void visit_arguments(Record& r, Visit visit) {
-  using Plain = std::remove_const_t<Record>;
-  if constexpr (std::is_same_v<Plain, Impact>) {
-    visit_all(visit, r.id, r.body, r.speed, r.approach, r.position.x, r.position.y, r.position.z,
-              r.offset_ms, r.momentum, r.rise);
-  } else if constexpr (std::is_same_v<Plain, Bubble>) {
-    visit_all(visit, r.id, r.body, r.radius, r.epsilon, r.position.x, r.position.y, r.position.z,
-              r.offset_ms);
-  } else if constexpr (std::is_same_v<Plain, Cavity>) {
-    visit_all(visit, r.id, r.body, r.radius, r.epsilon, r.position.x, r.position.y, r.position.z,
-              r.offset_ms, r.life);
-  } else if constexpr (std::is_same_v<Plain, Frame>) {
-    visit_all(visit, r.session, r.sequence, r.step, r.delay_ms);
-  } else if constexpr (std::is_same_v<Plain, Push>) {
-    visit_all(visit, r.body, r.position.x, r.position.y, r.position.z, r.rate);
-  } else {
-    static_assert(std::is_same_v<Plain, BodyPose>, "a message without an order of arguments");
-    visit_all(visit, r.body, r.position.x, r.position.y, r.position.z, r.qx, r.qy, r.qz, r.qw);
-  }
+void visit_arguments(Record& record, Visit visit) {
+  std::apply([&visit](auto&... values) { (visit(values), ...); }, Record::arguments(record));
 }
 
 template <class Record>
 Message give(const Record& record) {
-  Message message{address_of(record), {}};
+  Message message{Record::kAddress, {}};
   message.arguments.reserve(10);
   visit_arguments(record, Giver(message));
   return message;
@@ -122,7 +83,7 @@ Record read(const Message& message) {
 
 template <class Record>
 std::optional<Record> take(const Message& message) {
-  const auto* row = find_address(address_of(Record{}));
+  const auto* row = find_address(Record::kAddress);
   if (row == nullptr || !conforms(message, *row)) return std::nullopt;
   return read<Record>(message);
 }
@@ -132,7 +93,7 @@ template <std::size_t... kinds>
 std::optional<Event> take_any(const Message& message, std::index_sequence<kinds...> /*all*/) {
   std::optional<Event> event;
   const auto try_kind = [&](auto kind) {
-    if (message.address != address_of(kind)) return false;
+    if (message.address != kind.kAddress) return false;
     if (const auto taken = take<decltype(kind)>(message)) event = *taken;
     return true;
   };
@@ -140,9 +101,16 @@ std::optional<Event> take_any(const Message& message, std::index_sequence<kinds.
   return event;
 }
 
+constexpr std::size_t kOffsetIndex = 7;  // of offset_ms in each kind of event
+
+template <class Kind>
+constexpr bool has_offset(const Kind& event) {
+  return &std::get<kOffsetIndex>(Kind::arguments(event)) == &event.offset_ms;
+}
+
 template <std::size_t... kinds>
-bool is_any(std::string_view address, std::index_sequence<kinds...> /*all*/) {
-  return ((address == address_of(std::variant_alternative_t<kinds, Event>())) || ...);
+constexpr bool all_have_offset(std::index_sequence<kinds...> /*all*/) {
+  return (has_offset(std::variant_alternative_t<kinds, Event>()) && ...);
 }
 
 }  // namespace
@@ -166,22 +134,23 @@ std::optional<Event> to_event(const Message& message) {
 }
 
 bool is_event(std::string_view address) {
-  return is_any(address, std::make_index_sequence<kEventKinds>());
+  return std::any_of(kKindNames.begin(), kKindNames.end(),
+                     [&](const KindNames& kind) { return address == kind.address; });
 }
 
 bool conforms(const Event& event) noexcept {
   return std::visit(
       [](const auto& record) {
         bool good = true;
-        visit_arguments(record, Checker(*find_address(address_of(record)), good));
+        visit_arguments(record, Checker(*find_address(record.kAddress), good));
         return good;
       },
       event);
 }
 
 void set_offset(Message& event, float offset_ms) {
-  constexpr std::size_t kIndex = 7;  // of offset_ms in each kind of event
-  event.arguments[kIndex] = offset_ms;
+  static_assert(all_have_offset(std::make_index_sequence<kEventKinds>()));
+  event.arguments[kOffsetIndex] = offset_ms;
 }
 
 std::optional<Frame> to_frame(const Message& message) {
@@ -193,7 +162,7 @@ std::optional<Push> to_push(const Message& message) {
 }
 
 std::optional<BodyPose> to_body_pose(const Message& message) {
-  const auto* row = find_address(address_of(BodyPose{}));
+  const auto* row = find_address(BodyPose::kAddress);
   return row != nullptr && conforms(message, *row) ? conforming_pose(message) : std::nullopt;
 }
 

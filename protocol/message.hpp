@@ -62,8 +62,6 @@ struct DecodeResult {
 /// The pose of a message that conforms to its row. `nullopt`: its quaternion is no rotation.
 [[nodiscard]] std::optional<BodyPose> conforming_pose(const Message& message);
 
-/// Whether all values of an event are within the ranges of the address table.
-[[nodiscard]] bool conforms(const Event& event) noexcept;
 /// Sets the moment of an event's message after its bundle's time [ms].
 void set_offset(Message& event, float offset_ms);
 

@@ -30,9 +30,11 @@ void visit_fields(Status& s, Visit&& visit) {
     all(s.voices, s.events, s.late, s.early, s.lost, s.duplicates, s.refused, s.dropped, s.xruns,
         s.cpu_average, s.cpu_peak, s.sample_rate, s.silenced, s.level, s.loudest, s.most_voices);
   } else {
-    all(s.particles, s.steps, s.impacts, s.bubbles, s.cavities, s.late, s.unsent, s.refused,
-        s.resets, s.skipped, s.real_time_factor, s.steps_per_second, s.density_error,
-        s.bubble_particles, s.thinned);
+    all(s.particles, s.steps, s.events.values[0], s.events.values[1], s.events.values[2], s.late,
+        s.unsent, s.refused, s.resets, s.skipped, s.real_time_factor, s.steps_per_second,
+        s.density_error, s.bubble_particles, s.thinned);
+    // Kinds that came later stand at the end.
+    for (std::size_t k = 3; k < kEventKinds; ++k) all(s.events.values[k]);
   }
 }
 

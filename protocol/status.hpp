@@ -36,9 +36,7 @@ struct SynthStatus {
 struct SimStatus {
   std::uint64_t particles = 0;
   std::uint64_t steps = 0;
-  std::uint64_t impacts = 0;
-  std::uint64_t bubbles = 0;
-  std::uint64_t cavities = 0;
+  ByKind<std::uint64_t> events{};  ///< sent
   std::uint64_t late = 0;
   std::uint64_t unsent = 0;
   std::uint64_t refused = 0;

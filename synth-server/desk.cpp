@@ -15,19 +15,18 @@
 namespace splash::synth {
 namespace {
 
-/// The rows of one component, where they stand among the sound's numbers. What can be nil or counts
-/// in decibels moves as it is, all else in its logarithm.
-template <class Part>
-void add_rows(const std::string& name, const std::vector<Field<Part>>& fields, const Part& part,
-              const Sound& sound, std::vector<Knob>& knobs) {
+/// The rows of a sound, where they stand among its numbers. What can be nil or counts in decibels
+/// moves as it is, all else in its logarithm.
+void add_rows(const Sound& sound, std::vector<Knob>& knobs) {
   const auto* const first = reinterpret_cast<const double*>(&sound);
-  for (const Field<Part>& field : fields) {
-    const double& number = part.*std::get<double Part::*>(field.member);
-    const program::Row& row = field.row;
-    knobs[static_cast<std::size_t>(&number - first)] = {
-        name + '/' + row.key, row.min, row.max, row.min > 0.0 && row.unit != "dB", row.unit,
-        row.meaning};
-  }
+  each_part(sound, [&](const std::string& name, const auto& fields, const auto& part) {
+    for (const auto& field : fields) {
+      const program::Row& row = field.row;
+      knobs[static_cast<std::size_t>(&number_of(part, field) - first)] = {
+          name + '/' + row.key, row.min, row.max, row.min > 0.0 && row.unit != "dB", row.unit,
+          row.meaning};
+    }
+  });
 }
 
 const program::Row& row_of(const std::vector<Field<OutputEntry>>& rows, const char* key) {
@@ -48,18 +47,11 @@ std::vector<Knob> knobs_of(const Rig& rig) {
   const auto channels = static_cast<std::size_t>(channel_count(rig));
   const ControlLayout layout{rig.outputs.size(), channels};
   std::vector<Knob> knobs(layout.count());
-  const Sound sound;
-  add_rows("impact", impact_fields(), sound.impact, sound, knobs);
-  add_rows("bubble", bubble_fields(), sound.bubble, sound, knobs);
-  add_rows("cavity", cavity_fields(), sound.cavity, sound, knobs);
-  add_rows("cloud", cloud_fields(), sound.cloud, sound, knobs);
-  add_rows("fine", fine_fields(), sound.fine, sound, knobs);
-  add_rows("foot", foot_fields(), sound.foot, sound, knobs);
-  constexpr std::array kComponents = {"impact", "bubble", "cavity"};
-  static_assert(kComponents.size() == protocol::kEventKinds);
-  for (std::size_t c = 0; c < kComponents.size(); ++c) {
-    knobs[ControlLayout::mute(c)] = switch_called(kComponents[c], kMuteKey);
-    knobs[ControlLayout::solo(c)] = switch_called(kComponents[c], kSoloKey);
+  add_rows(Sound{}, knobs);
+  for (std::size_t k = 0; k < protocol::kEventKinds; ++k) {
+    const std::string component = protocol::kKindNames[k].name();
+    knobs[ControlLayout::mute(k)] = switch_called(component, kMuteKey);
+    knobs[ControlLayout::solo(k)] = switch_called(component, kSoloKey);
   }
   const auto rows = output_fields();
   const program::Row& gain = row_of(rows, "gain_db");

@@ -16,6 +16,19 @@
 namespace splash::synth {
 namespace {
 
+/// "WAV-impacts, WAV-bubbles and WAV-cavities"
+std::string stems_text() {
+  std::string text;
+  for (std::size_t k = 0; k < protocol::kEventKinds; ++k) {
+    const bool is_last = k + 1 == protocol::kEventKinds;
+    text += std::string(k == 0    ? ""
+                        : is_last ? " and "
+                                  : ", ") +
+            "WAV-" + protocol::kKindNames[k].plural;
+  }
+  return text;
+}
+
 /// The options whose text becomes something else.
 struct Texts {
   std::string listen = "127.0.0.1:" + std::to_string(protocol::kSynthPort);
@@ -75,9 +88,7 @@ void add_sources(CLI::App& app, Options& options, Texts& texts) {
       ->check(program::refuse_nan)
       ->type_name("S")
       ->capture_default_str();
-  app.add_flag("--stems", options.stems,
-               "With --render: also WAV-impacts, WAV-bubbles and WAV-cavities")
-      ->needs(render);
+  app.add_flag("--stems", options.stems, "With --render: also " + stems_text())->needs(render);
 }
 
 void add_output(CLI::App& app, Options& options) {

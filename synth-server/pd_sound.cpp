@@ -26,23 +26,15 @@ struct PdRow {
   [[nodiscard]] std::string name() const { return part + '_' + row.key; }
 };
 
-template <class Part>
-void add(const std::string& name, const std::vector<Field<Part>>& fields, const Part& part,
-         std::vector<PdRow>& rows) {
-  for (const Field<Part>& field : fields) {
-    if (std::find(kUnplayed.begin(), kUnplayed.end(), field.row.key) != kUnplayed.end()) continue;
-    rows.push_back({name, field.row, part.*std::get<double Part::*>(field.member)});
-  }
-}
-
 std::vector<PdRow> rows_of(const Sound& sound) {
   std::vector<PdRow> rows;
-  add("impact", impact_fields(), sound.impact, rows);
-  add("bubble", bubble_fields(), sound.bubble, rows);
-  add("cavity", cavity_fields(), sound.cavity, rows);
-  add("cloud", cloud_fields(), sound.cloud, rows);
-  add("fine", fine_fields(), sound.fine, rows);
-  add("foot", foot_fields(), sound.foot, rows);
+  each_part(sound, [&rows](const char* name, const auto& fields, const auto& part) {
+    for (const auto& field : fields) {
+      const std::string& key = field.row.key;
+      if (std::find(kUnplayed.begin(), kUnplayed.end(), key) != kUnplayed.end()) continue;
+      rows.push_back({name, field.row, number_of(part, field)});
+    }
+  });
   return rows;
 }
 

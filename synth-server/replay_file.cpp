@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "synth-server/replay_file.hpp"
 
-#include <array>
 #include <cstdio>
 #include <string>
 
@@ -11,16 +10,10 @@
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/output_choice.hpp"
 #include "synth-server/replay/replay.hpp"
+#include "synth-server/server_text.hpp"
 
 namespace splash::synth {
 namespace {
-
-struct Stem {
-  const char* name;
-  unsigned components;
-};
-constexpr std::array kStems = {Stem{"impacts", kImpacts}, Stem{"bubbles", kBubbles},
-                               Stem{"cavities", kCavities}};
 
 /// out.wav -> out-impacts.wav
 std::filesystem::path stem_path(const std::filesystem::path& path, const char* name) {
@@ -46,10 +39,8 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
   std::printf("%s: %.3f s, %d channels of rig '%s' at %d Hz\n", path.c_str(),
               static_cast<double>(report.frames) / rate, channel_count(rig), rig.name.c_str(),
               rate);
-  std::printf(
-      "events: %llu in the log; played %llu impacts, %llu bubbles, %llu cavities\n",
-      static_cast<unsigned long long>(report.events), static_cast<unsigned long long>(c.impacts),
-      static_cast<unsigned long long>(c.bubbles), static_cast<unsigned long long>(c.cavities));
+  std::printf("events: %llu in the log; played %s\n",
+              static_cast<unsigned long long>(report.events), to_text(c.started).c_str());
   if (c.crowded != 0) {
     std::printf("crowd: %llu of the bubbles sounded as one noise\n",
                 static_cast<unsigned long long>(c.crowded));
@@ -60,8 +51,8 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
       static_cast<unsigned long long>(c.dropped_band),
       static_cast<unsigned long long>(c.dropped_unheard),
       static_cast<unsigned long long>(c.dropped_pool) + c.dropped_queue,
-      static_cast<unsigned long long>(c.without_place.impacts),
-      static_cast<unsigned long long>(c.without_place.cavities),
+      static_cast<unsigned long long>(c.without_place.of<protocol::Impact>()),
+      static_cast<unsigned long long>(c.without_place.of<protocol::Cavity>()),
       static_cast<unsigned long long>(c.dropped_refused));
 }
 
@@ -97,11 +88,12 @@ void render_log(const Options& options, const Rig& rig) {
   const auto report = render_to(options.render, log, rig, settings);
   print(report, options.render, rig, static_cast<int>(settings.engine.sample_rate));
   if (!options.stems) return;
-  for (const Stem& stem : kStems) {
-    settings.engine.components = stem.components;
-    const auto path = stem_path(options.render, stem.name);
+  for (std::size_t k = 0; k < protocol::kEventKinds; ++k) {
+    const char* const kind = protocol::kKindNames[k].plural;
+    settings.engine.components = 1U << k;
+    const auto path = stem_path(options.render, kind);
     render_to(path, log, rig, settings);
-    std::printf("%s: %s alone\n", path.c_str(), stem.name);
+    std::printf("%s: %s alone\n", path.c_str(), kind);
   }
 }
 

@@ -23,6 +23,14 @@ std::string percent(double part) {
 
 }  // namespace
 
+std::string to_text(const protocol::ByKind<std::uint64_t>& counts) {
+  std::string text;
+  counts.each([&text](const char* kind, std::uint64_t count) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + kind;
+  });
+  return text;
+}
+
 std::string milliseconds_text(double seconds) {
   return decimal(1e3 * seconds, 1) + " ms";
 }
@@ -61,19 +69,19 @@ std::uint64_t dropped(const EngineCounters& engine) noexcept {
 
 std::string summary(const Totals& t) {
   std::ostringstream out;
-  const auto& engine = t.engine.without_place;
-  const auto& queue = t.taken.without_place;
-  out << "ran " << decimal(t.seconds, 1) << " s: played " << t.engine.impacts << " impacts, "
-      << t.engine.bubbles << " bubbles, " << t.engine.cavities << " cavities; at most "
-      << t.player.voices_peak << " voices at once\n";
+  protocol::ByKind<std::uint64_t> without_place = t.engine.without_place;
+  for (std::size_t k = 0; k < protocol::kEventKinds; ++k) {
+    without_place.values[k] += t.taken.without_place.values[k];
+  }
+  out << "ran " << decimal(t.seconds, 1) << " s: played " << to_text(t.engine.started)
+      << "; at most " << t.player.voices_peak << " voices at once\n";
   if (t.engine.crowded != 0) {
     out << "crowd: " << t.engine.crowded << " of the bubbles sounded as one noise\n";
   }
   out << "not played: " << t.player.too_late << " too late, "
       << t.engine.dropped_queue + t.engine.dropped_pool + t.taken.queue_full
-      << " without a voice or place (" << engine.impacts + queue.impacts << " impacts, "
-      << engine.bubbles + queue.bubbles << " bubbles, " << engine.cavities + queue.cavities
-      << " cavities), " << t.engine.dropped_refused << " out of range, " << t.engine.dropped_band
+      << " without a voice or place (" << to_text(without_place) << "), "
+      << t.engine.dropped_refused << " out of range, " << t.engine.dropped_band
       << " above the band, " << t.engine.dropped_unheard << " unheard or out of reach, "
       << t.engine.dropped_cleared << " cleared, " << t.waiting << " still to come at the end\n";
   out << "bundles: " << t.taken.sequence.received << " received, " << t.taken.sequence.lost

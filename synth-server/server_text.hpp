@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/event.hpp"
 #include "synth-server/audio/audio_output.hpp"
 #include "synth-server/play/player.hpp"
 #include "synth-server/receive/intake.hpp"
@@ -25,6 +26,8 @@ struct Totals {
   std::string scheduling;  ///< of the rendering thread
 };
 
+/// "3 impacts, 120 bubbles, 2 cavities"
+[[nodiscard]] std::string to_text(const protocol::ByKind<std::uint64_t>& counts);
 /// "8.0 ms"
 [[nodiscard]] std::string milliseconds_text(double seconds);
 /// "jack device 'system', 36 channels at 48000 Hz, blocks of 256 (5.3 ms)"

@@ -25,8 +25,6 @@ constexpr std::array<std::string_view, 8> kAttributes = {
 constexpr std::array<std::string_view, 5> kToSim = {"/body/grab", "/body/pose", "/pause", "/reset",
                                                     "/scene"};
 constexpr std::array<std::string_view, 4> kToSynth = {"/mute", "/tone", "/preset", "/rig"};
-/// Events; the simulator tells them.
-constexpr std::array<std::string_view, 3> kEvents = {"/impact", "/bubble", "/cavity"};
 
 template <std::size_t N>
 bool is_among(const std::array<std::string_view, N>& all, std::string_view one) {
@@ -78,7 +76,7 @@ void add_commands(Json& root) {
     if (&row != protocol::find_address(row.address)) continue;  // one address has one type
     if (is_among(kToSim, row.address)) add(root, kSim, row, kWrite);
     if (is_among(kToSynth, row.address)) add(root, kSynth, row, kWrite);
-    if (is_among(kEvents, row.address)) add(root, kSim, row, kRead);
+    if (protocol::is_event(row.address)) add(root, kSim, row, kRead);
   }
 }
 
@@ -236,7 +234,7 @@ std::optional<protocol::Message> meant(const protocol::Message& message) {
 }
 
 std::string told_as(const protocol::Message& message) {
-  if (is_among(kEvents, message.address)) return std::string(kSim) + message.address;
+  if (protocol::is_event(message.address)) return std::string(kSim) + message.address;
   if (message.address != "/value" || message.arguments.empty()) return {};
   const auto* name = std::get_if<std::string>(&message.arguments.front());
   if (name == nullptr) return {};

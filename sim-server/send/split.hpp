@@ -23,7 +23,7 @@ struct EventBundle {
   std::vector<double> play_seconds = {};  ///< of each event, simulated time [s]
 };
 
-/// By moment, then kind (impact, bubble, cavity), then id.
+/// By moment, then kind (in the order of protocol::Event), then id.
 void sort_events(std::vector<TimedEvent>& events);
 
 /// Makes each event a message, in its order, and fills bundles with as many as kMaxDatagram and

@@ -346,7 +346,6 @@ void Server::reopen() {
 }
 
 void Server::note_status(const FrameResult& frame) {
-  const protocol::ByKind<std::uint64_t>& sent = sender_.counts().events;
   const RunTotals& totals = simulation_.totals();
   const SkipTotals& skipped = totals.skipped;
   const double now = protocol::monotonic_now();
@@ -356,9 +355,7 @@ void Server::note_status(const FrameResult& frame) {
   const std::lock_guard lock(status_mutex_);
   status_.particles = static_cast<std::uint64_t>(simulation_.particles());
   status_.steps = static_cast<std::uint64_t>(totals.steps);
-  status_.impacts = sent.impacts;
-  status_.bubbles = sent.bubbles;
-  status_.cavities = sent.cavities;
+  status_.events = sender_.counts().events;
   status_.late = pacer_.counts().behind;
   status_.unsent = unsent_now;
   status_.resets = totals.retried + totals.calmed + totals.resets;

@@ -25,9 +25,9 @@ struct IntakeCounters {
   std::uint64_t datagrams = 0;
   std::uint64_t events = 0;      ///< handed to the audio thread
   std::uint64_t queue_full = 0;  ///< events dropped because the audio thread did not take them
-  protocol::ByKind<std::uint64_t> without_place;  ///< same by kind
-  std::uint64_t out_of_table = 0;                 ///< messages the address table refuses
-  std::uint64_t forbidden = 0;                    ///< commands from hosts that are not allowed
+  protocol::ByKind<std::uint64_t> without_place{};  ///< same by kind
+  std::uint64_t out_of_table = 0;                   ///< messages the address table refuses
+  std::uint64_t forbidden = 0;                      ///< commands from hosts that are not allowed
   std::uint64_t withheld = 0;      ///< replies over the limit or longer than their request
   std::uint64_t clock_steps = 0;   ///< times this host's clock was set
   std::uint64_t sender_steps = 0;  ///< times a sender's clock was set, or ours against it

@@ -33,11 +33,13 @@ std::size_t packs_for(const PoolSettings& s) {
 
 /// Samples [from, to) of the cell by the gains of bubbles and cavities.
 void scale(std::uint32_t cavities, const Mix& mix, int from, int to, double* row) noexcept {
-  if (mix.bubbles.is_one() && (mix.cavities.is_one() || cavities == 0)) return;
+  const auto& of_bubbles = mix.gains.of<protocol::Bubble>();
+  const auto& of_cavities = mix.gains.of<protocol::Cavity>();
+  if (of_bubbles.is_one() && (of_cavities.is_one() || cavities == 0)) return;
   std::array<double, kPackLanes> first{};
   std::array<double, kPackLanes> step{};
   for (std::size_t lane = 0; lane < kPackLanes; ++lane) {
-    const CellGain& gain = (cavities >> lane & 1U) != 0 ? mix.cavities : mix.bubbles;
+    const CellGain& gain = (cavities >> lane & 1U) != 0 ? of_cavities : of_bubbles;
     first[lane] = gain.begin;
     step[lane] = (gain.end - gain.begin) / kCell;
   }

@@ -15,8 +15,8 @@
 
 namespace splash::synth {
 
-/// Where each number stands: those of the sound, then mute and solo of impacts, bubbles and
-/// cavities, then those of each output and of each channel of the rig. Mute and solo are 0 or 1.
+/// Where each number stands: those of the sound, then mute and solo of each kind of event, then
+/// those of each output and of each channel of the rig. Mute and solo are 0 or 1.
 struct ControlLayout {
   std::size_t outputs = 0;
   std::size_t channels = 0;

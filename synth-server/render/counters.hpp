@@ -11,11 +11,9 @@ namespace splash::synth {
 
 /// Everything since construction, save the first two, which are of now.
 struct EngineCounters {
-  std::uint64_t voices = 0;            ///< sounding now, fading ones included
-  std::uint64_t scheduled = 0;         ///< events waiting now
-  std::uint64_t impacts = 0;           ///< started
-  std::uint64_t bubbles = 0;           ///< started
-  std::uint64_t cavities = 0;          ///< started
+  std::uint64_t voices = 0;     ///< sounding now, fading ones included
+  std::uint64_t scheduled = 0;  ///< events waiting now
+  protocol::ByKind<std::uint64_t> started{};
   std::uint64_t late = 0;              ///< started after their sample
   std::uint64_t stolen = 0;            ///< voices faded out to make room for louder ones
   std::uint64_t dropped_refused = 0;   ///< a value that is not finite or out of its range
@@ -29,7 +27,7 @@ struct EngineCounters {
   std::uint64_t cells = 0;             ///< times of 64 samples rendered, for the line above
   std::uint64_t resets = 0;            ///< samples that were not finite and reset their channel
   std::uint64_t limited = 0;           ///< samples that a limiter turned down
-  protocol::ByKind<std::uint64_t> without_place;  ///< dropped_queue and dropped_pool by kind
+  protocol::ByKind<std::uint64_t> without_place{};  ///< dropped_queue and dropped_pool by kind
   std::uint64_t crowded = 0;  ///< of the started bubbles, those that sound as noise
 };
 

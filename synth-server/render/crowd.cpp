@@ -149,7 +149,7 @@ void Crowd::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
       if (!channels_[c].sounds) continue;
       mix.touched[c] = 1;
       double* const out = mix.samples.data() + c * kCell + static_cast<std::size_t>(first);
-      add(channels_[c], noises, first, count, mix.bubbles, out);
+      add(channels_[c], noises, first, count, mix.gains.of<protocol::Bubble>(), out);
     }
   }
 }

@@ -12,7 +12,6 @@
 
 #include "synth-server/output/fade.hpp"
 #include "synth-server/output/output_guard.hpp"
-#include "synth-server/render/admission.hpp"
 #include "synth-server/render/ensemble.hpp"
 #include "synth-server/render/event_queue.hpp"
 #include "synth-server/render/flush_denormals.hpp"
@@ -20,6 +19,34 @@
 
 namespace splash::synth {
 namespace {
+
+constexpr double kMostPlace = 1.0e6;  // [m]
+
+void require(bool good, const std::string& name, double value, const std::string& limits) {
+  if (good) return;
+  throw std::invalid_argument("engine: " + name + " = " + std::to_string(value) + ": must be " +
+                              limits);
+}
+
+/// The settings. Throws std::invalid_argument naming the setting, its value and its limits.
+const EngineSettings& checked(const EngineSettings& s) {
+  require(s.sample_rate >= 8000.0 && s.sample_rate <= 384000.0, "sample_rate", s.sample_rate,
+          "8000 to 384000 Hz");
+  require(s.max_block >= 1 && s.max_block <= 65536, "max_block", s.max_block, "1 to 65536 frames");
+  require(s.max_voices >= 1 && s.max_voices <= 131072, "max_voices", s.max_voices, "1 to 131072");
+  require(s.max_impacts >= 1 && s.max_impacts <= 4096, "max_impacts", s.max_impacts, "1 to 4096");
+  require(s.water_level <= kMostPlace, "water_level", s.water_level, "at most 1000000 m");
+  require(s.floor_level <= kMostPlace, "floor_level", s.floor_level, "at most 1000000 m");
+  require(s.max_scheduled >= 1 && s.max_scheduled <= (1 << 20), "max_scheduled", s.max_scheduled,
+          "1 to 1048576");
+  for (const double number : numbers_of(s.sound)) {
+    require(std::isfinite(number), "number of the sound", number, "finite");
+  }
+  require(s.sound.impact.frequency < 0.5 * s.sample_rate, "sound.impact.frequency",
+          s.sound.impact.frequency, "under half the sample rate");
+  require(s.start_ramp >= 0.0 && s.start_ramp <= 60.0, "start_ramp", s.start_ramp, "0 to 60 s");
+  return s;
+}
 
 const Rig& checked(const Rig& rig, double sample_rate) {
   check(rig);
@@ -83,9 +110,9 @@ void Engine::State::begin_cell() noexcept {
   controls.begin_cell();
   ensemble.follow(controls);
   ensemble.limit(most_voices, clock);
-  mix.impacts = controls.component(0);
-  mix.bubbles = controls.component(1);
-  mix.cavities = controls.component(2);
+  for (std::size_t k = 0; k < protocol::kEventKinds; ++k) {
+    mix.gains.values[k] = controls.component(k);
+  }
   std::erase_if(pushes, [this](const TimedPush& waiting) {
     if (waiting.sample >= clock + kCell) return false;
     if (settings.watch != nullptr) settings.watch->pushed({waiting.push, clock});
@@ -163,13 +190,11 @@ Engine::~Engine() = default;
 
 bool Engine::schedule(const TimedEvent& timed) noexcept {
   auto& counts = state_->counts;
-  const auto component = 1U << timed.event.index();
-  static_assert(std::is_same_v<std::variant_alternative_t<1, protocol::Event>, protocol::Bubble>);
-  if ((state_->settings.components & component) == 0) {
+  if ((state_->settings.components & (1U << timed.event.index())) == 0) {
     counts.muted.add();
     return false;
   }
-  if (!renderable(timed.event)) {
+  if (!protocol::conforms(timed.event)) {
     counts.refused.add();
     return false;
   }
@@ -243,31 +268,27 @@ bool Engine::silenced() const noexcept {
 EngineCounters Engine::counters() const noexcept {
   const auto& c = state_->counts;
   const auto& e = state_->ensemble.counts();
-  const auto without_place = [&](auto kind) {
-    return (c.without_place.*kind).get() + (e.without_place.*kind).get();
-  };
-  using Kinds = protocol::ByKind<Count>;
-  return {c.voices.get(),
-          c.scheduled.get(),
-          e.started.impacts.get(),
-          e.started.bubbles.get(),
-          e.started.cavities.get(),
-          c.late.get(),
-          e.stolen.get(),
-          c.refused.get(),
-          c.queue.get(),
-          e.pool.get(),
-          e.band.get(),
-          e.unheard.get(),
-          c.muted.get(),
-          c.cleared.get(),
-          c.skipped.get(),
-          c.cells.get(),
-          c.resets.get(),
-          c.limited.get(),
-          {without_place(&Kinds::impacts), without_place(&Kinds::bubbles),
-           without_place(&Kinds::cavities)},
-          e.crowded.get()};
+  EngineCounters all{.voices = c.voices.get(),
+                     .scheduled = c.scheduled.get(),
+                     .late = c.late.get(),
+                     .stolen = e.stolen.get(),
+                     .dropped_refused = c.refused.get(),
+                     .dropped_queue = c.queue.get(),
+                     .dropped_pool = e.pool.get(),
+                     .dropped_band = e.band.get(),
+                     .dropped_unheard = e.unheard.get(),
+                     .dropped_muted = c.muted.get(),
+                     .dropped_cleared = c.cleared.get(),
+                     .channels_skipped = c.skipped.get(),
+                     .cells = c.cells.get(),
+                     .resets = c.resets.get(),
+                     .limited = c.limited.get(),
+                     .crowded = e.crowded.get()};
+  for (std::size_t k = 0; k < protocol::kEventKinds; ++k) {
+    all.started.values[k] = e.started.values[k].get();
+    all.without_place.values[k] = c.without_place.values[k].get() + e.without_place.values[k].get();
+  }
+  return all;
 }
 
 int Engine::channels() const noexcept {

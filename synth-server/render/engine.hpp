@@ -16,14 +16,13 @@
 
 namespace splash::synth {
 
-/// The paper's three components (section 5) as bits, so that one can be rendered alone.
-enum Component : unsigned {
-  kImpacts = 1U,
-  kBubbles = 2U,
-  kCavities = 4U,
-  kAllComponents = kImpacts | kBubbles | kCavities,
-};
-static_assert(kAllComponents == (1U << protocol::kEventKinds) - 1U);
+/// The kinds of events as bits, so that the sound of one, a component, can be rendered alone.
+inline constexpr unsigned kAllComponents = (1U << protocol::kEventKinds) - 1U;
+template <class Kind>
+inline constexpr unsigned kComponent = 1U << protocol::kIndexOf<Kind>;
+inline constexpr unsigned kImpacts = kComponent<protocol::Impact>;
+inline constexpr unsigned kBubbles = kComponent<protocol::Bubble>;
+inline constexpr unsigned kCavities = kComponent<protocol::Cavity>;
 
 /// An event and the absolute sample of the engine's clock at which it starts.
 struct TimedEvent {

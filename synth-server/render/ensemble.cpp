@@ -129,8 +129,8 @@ Ensemble::Outcome Ensemble::start_tone(const BubbleTone& tone, const Routing::Re
 }
 
 template <class BubbleOrCavity>
-Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
-                                       const TimedEvent& timed) noexcept {
+Ensemble::Outcome Ensemble::start_air(const BubbleOrCavity& event,
+                                      const TimedEvent& timed) noexcept {
   tread(event, timed.sample);
   constexpr bool kIsCavity = std::is_same_v<BubbleOrCavity, protocol::Cavity>;
   const ToneSound& sound = kIsCavity ? settings_.sound.cavity : settings_.sound.bubble;
@@ -155,6 +155,16 @@ Ensemble::Outcome Ensemble::start_kind(const BubbleOrCavity& event,
     fine_.add(settings_.sound, epsilon, reached(reach));
   }
   return start_tone(tone, reach, cavity, timed.sample);
+}
+
+Ensemble::Outcome Ensemble::start_kind(const protocol::Bubble& bubble,
+                                       const TimedEvent& timed) noexcept {
+  return start_air(bubble, timed);
+}
+
+Ensemble::Outcome Ensemble::start_kind(const protocol::Cavity& cavity,
+                                       const TimedEvent& timed) noexcept {
+  return start_air(cavity, timed);
 }
 
 void Ensemble::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {

@@ -62,8 +62,10 @@ class Ensemble {
   /// Left out: counted with its reason.
   enum class Outcome { started, crowded, left_out, no_place };
   Outcome start_kind(const protocol::Impact& impact, const TimedEvent& timed) noexcept;
+  Outcome start_kind(const protocol::Bubble& bubble, const TimedEvent& timed) noexcept;
+  Outcome start_kind(const protocol::Cavity& cavity, const TimedEvent& timed) noexcept;
   template <class BubbleOrCavity>
-  Outcome start_kind(const BubbleOrCavity& event, const TimedEvent& timed) noexcept;
+  Outcome start_air(const BubbleOrCavity& event, const TimedEvent& timed) noexcept;
   /// `cavity`: what the tone is, or null: a bubble.
   Outcome start_tone(const BubbleTone& tone, const Routing::Reach& reach,
                      const protocol::Cavity* cavity, std::int64_t sample) noexcept;

@@ -111,6 +111,7 @@ float FineWater::Channel::next(const FineWater& of, float white) noexcept {
 void FineWater::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
   const double fall = std::exp(-1.0 / (fine_.release * sample_rate_));
   const double follow = -std::expm1(-1.0 / (fine_.attack * sample_rate_));
+  const CellGain gain = mix.gains.of<protocol::Bubble>();
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     Channel& channel = channels_[c];
     if (!channel.sounds) continue;
@@ -125,7 +126,7 @@ void FineWater::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
       running.envelope += follow * (running.falling - running.envelope);
       running.falling *= fall;
       const auto sum = static_cast<double>(running.next(*this, white[now % 2]));
-      out[n] += std::sqrt(running.envelope) * mix.bubbles.at(first + n) * sum;
+      out[n] += std::sqrt(running.envelope) * gain.at(first + n) * sum;
     }
     channel = running;
   }

@@ -58,6 +58,7 @@ ImpactPool::Start ImpactPool::start(const ImpactVoice& voice, const VoiceLife& l
 }
 
 void ImpactPool::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
+  const CellGain gain = mix.gains.of<protocol::Impact>();
   std::array<double, kCell> sound{};
   for (const std::uint32_t place : order_) {
     Seat& seat = seats_[place];
@@ -68,8 +69,8 @@ void ImpactPool::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
     seat.voice.render(sound.data(), count);
     if (seat.span.fade < end) seat.span.shape(begin, count, sound.data());
     const auto first = static_cast<int>(begin % kCell);
-    for (int n = 0; n < count && !mix.impacts.is_one(); ++n) {
-      sound[static_cast<std::size_t>(n)] *= mix.impacts.at(first + n);
+    for (int n = 0; n < count && !gain.is_one(); ++n) {
+      sound[static_cast<std::size_t>(n)] *= gain.at(first + n);
     }
     const auto offset = static_cast<std::size_t>(first);
     for (std::size_t r = 0; r < seat.routes; ++r) {

@@ -122,11 +122,10 @@ void LiveControls::show() noexcept {
   };
 
   const double component_solo = loudest(Layout::kComponents, Layout::solo);
-  const std::array gains = {sound_.impact.gain_db, sound_.bubble.gain_db, sound_.cavity.gain_db};
-  static_assert(gains.size() == Layout::kComponents);
-  for (std::size_t c = 0; c < gains.size(); ++c) {
+  const protocol::ByKind<double> gains = component_gains(sound_);
+  for (std::size_t c = 0; c < Layout::kComponents; ++c) {
     go_to(components_[c],
-          gain_of(gains[c]) * heard(Layout::mute(c), Layout::solo(c), component_solo));
+          gain_of(gains.values[c]) * heard(Layout::mute(c), Layout::solo(c), component_solo));
   }
   const double output_solo = loudest(
       layout_.outputs, [](std::size_t o) { return Layout::of_output(o, Layout::output_solo); });

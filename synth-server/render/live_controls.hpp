@@ -23,7 +23,7 @@ class LiveControls {
   void begin_cell() noexcept;
 
   [[nodiscard]] const Sound& sound() const noexcept { return sound_; }
-  /// Over this cell: of impacts, bubbles and cavities, in this order.
+  /// Over this cell: of a kind of events, in the order of protocol::Event.
   [[nodiscard]] const CellGain& component(std::size_t component) const noexcept {
     return components_[component];
   }

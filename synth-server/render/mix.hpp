@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "protocol/event.hpp"
 #include "synth-server/voices/bubble_pack.hpp"
 
 namespace splash::synth {
@@ -26,9 +27,9 @@ struct CellGain {
 struct Mix {
   explicit Mix(std::size_t channels) : samples(channels * kCell, 0.0), touched(channels, 0) {}
 
-  std::vector<double> samples;          ///< channel by channel, kCell each [full scale]
-  std::vector<char> touched;            ///< per channel: a voice was added
-  CellGain impacts, bubbles, cavities;  ///< by which the voices of each component are added
+  std::vector<double> samples;       ///< channel by channel, kCell each [full scale]
+  std::vector<char> touched;         ///< per channel: a voice was added
+  protocol::ByKind<CellGain> gains;  ///< by which the voices of each component are added
 };
 
 }  // namespace splash::synth

@@ -125,6 +125,7 @@ void Underfoot::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
   const double wash_fall = per_sample(0.5 * sound_.wash_release);
   const double wash_follow = 1.0 - per_sample(kWashAttack);
   const auto first = static_cast<int>(from % kCell);
+  const CellGain gain = mix.gains.of<protocol::Impact>();
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     if (!channels_[c].sounds) continue;
     Channel channel = channels_[c];  // out of memory meanwhile: each sample waits for the last
@@ -134,8 +135,8 @@ void Underfoot::mix(std::int64_t from, std::int64_t to, Mix& mix) noexcept {
       const double white = channel.noise.at(static_cast<std::uint64_t>(from + n));
       const double texture = std::sqrt(channel.texture.next(fall, follow));
       const double wash = std::sqrt(channel.wash.next(wash_fall, wash_follow));
-      out[n] += mix.impacts.at(first + n) * (texture * channel.resonance.process(white) +
-                                             wash * swell_level_ * channel.swell.process(white));
+      out[n] += gain.at(first + n) * (texture * channel.resonance.process(white) +
+                                      wash * swell_level_ * channel.swell.process(white));
     }
     channels_[c] = channel;
   }

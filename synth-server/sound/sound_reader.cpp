@@ -8,12 +8,6 @@ namespace {
 
 using program::ConfigMap;
 
-template <class Part>
-void read_part(const ConfigMap& map, const std::string& key, const std::vector<Field<Part>>& fields,
-               Part& part) {
-  if (const std::optional<ConfigMap> child = map.optional_child(key)) child->read(fields, {}, part);
-}
-
 /// Whoever confuses the kinds of files is told so, not that a key is unknown.
 void refuse_others(const ConfigMap& map) {
   for (const char* key : {"tank", "fluid", "outputs"}) {
@@ -29,13 +23,12 @@ void refuse_others(const ConfigMap& map) {
 NamedSound read_map(const ConfigMap& map) {
   refuse_others(map);
   NamedSound sound;
-  map.read(sound_fields(), {"impact", "bubble", "cavity", "cloud", "fine", "foot"}, sound);
-  read_part(map, "impact", impact_fields(), sound.sound.impact);
-  read_part(map, "bubble", bubble_fields(), sound.sound.bubble);
-  read_part(map, "cavity", cavity_fields(), sound.sound.cavity);
-  read_part(map, "cloud", cloud_fields(), sound.sound.cloud);
-  read_part(map, "fine", fine_fields(), sound.sound.fine);
-  read_part(map, "foot", foot_fields(), sound.sound.foot);
+  std::vector<std::string> parts;
+  each_part(sound.sound, [&](const char* name, auto&&, auto&) { parts.emplace_back(name); });
+  map.read(sound_fields(), parts, sound);
+  each_part(sound.sound, [&](const char* name, const auto& fields, auto& part) {
+    if (const auto child = map.optional_child(name)) child->read(fields, {}, part);
+  });
   return sound;
 }
 

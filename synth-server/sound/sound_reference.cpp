@@ -31,13 +31,11 @@ std::string describe_fields(const std::vector<Field<Part>>& fields, const Part& 
 
 std::string describe_sound_keys() {
   const NamedSound paper;
-  return "### A sound\n\n" + describe_fields(sound_fields(), paper) + "\n### `impact`\n\n" +
-         describe_fields(impact_fields(), paper.sound.impact) + "\n### `bubble`\n\n" +
-         describe_fields(bubble_fields(), paper.sound.bubble) + "\n### `cavity`\n\n" +
-         describe_fields(cavity_fields(), paper.sound.cavity) + "\n### `cloud`\n\n" +
-         describe_fields(cloud_fields(), paper.sound.cloud) + "\n### `fine`\n\n" +
-         describe_fields(fine_fields(), paper.sound.fine) + "\n### `foot`\n\n" +
-         describe_fields(foot_fields(), paper.sound.foot);
+  std::string text = "### A sound\n\n" + describe_fields(sound_fields(), paper);
+  each_part(paper.sound, [&text](const char* name, const auto& fields, const auto& part) {
+    text += "\n### `" + std::string(name) + "`\n\n" + describe_fields(fields, part);
+  });
+  return text;
 }
 
 }  // namespace splash::synth

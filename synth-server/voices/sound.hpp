@@ -8,6 +8,8 @@
 #include <bit>
 #include <cstddef>
 
+#include "protocol/event.hpp"
+
 namespace splash::synth {
 
 /// A body meets the water (impact_voice.hpp).
@@ -82,6 +84,13 @@ struct Sound {
   FineSound fine;
   FootSound foot;
 };
+
+/// Gains of the components, in the order of protocol::Event [dB].
+[[nodiscard]] inline protocol::ByKind<double> component_gains(const Sound& sound) noexcept {
+  const std::array gains = {sound.impact.gain_db, sound.bubble.gain_db, sound.cavity.gain_db};
+  static_assert(gains.size() == protocol::kEventKinds);
+  return {gains};
+}
 
 /// The numbers of a sound in the order of its members.
 inline constexpr std::size_t kSoundNumbers = sizeof(Sound) / sizeof(double);

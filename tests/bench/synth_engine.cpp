@@ -193,7 +193,7 @@ OnsetCase measure_onsets(const std::string& instructions, int tiles) {
       result.voices += static_cast<double>(engine.counters().voices) / kCells;
     }
     const auto counters = engine.counters();
-    if (counters.bubbles != 2U * kCells * kPerCell)
+    if (counters.started.of<protocol::Bubble>() != 2U * kCells * kPerCell)
       throw std::runtime_error("bubbles were dropped");
     times.push_back(spent);
   }

@@ -110,8 +110,9 @@ class Run {
     expect(player.too_late, ledger_.too_late, "events too late");
     expect(player.early, 0, "early events");
     const auto engine = synth_.engine();
-    expect(engine.impacts + engine.bubbles + engine.cavities, ledger_.events() - ledger_.too_late,
-           "voices started");
+    std::uint64_t started = 0;
+    engine.started.each([&started](const char*, std::uint64_t count) { started += count; });
+    expect(started, ledger_.events() - ledger_.too_late, "voices started");
     expect(engine.dropped_cleared, 0, "events forgotten");
     expect(engine.voices, 0, "voices that never end");
     const int silence = synth_.tick() - 1 - synth_.last_sound();

@@ -126,9 +126,9 @@ protocol::SimStatus status_in(const Json& report) {
   protocol::SimStatus status;
   status.particles = report.at("particles");
   status.steps = report.at("steps");
-  status.impacts = count(report.at("events"), "impacts");
-  status.bubbles = count(report.at("events"), "bubbles");
-  status.cavities = count(report.at("events"), "cavities");
+  status.events.of<protocol::Impact>() = count(report.at("events"), "impacts");
+  status.events.of<protocol::Bubble>() = count(report.at("events"), "bubbles");
+  status.events.of<protocol::Cavity>() = count(report.at("events"), "cavities");
   status.late = report.at("behind");
   status.refused =
       sum_of(refused.at("poses")) + sum_of(refused.at("datagrams")) + count(refused, "messages");
@@ -164,7 +164,8 @@ TEST_F(Events, StatusIsThatOfTheReport) {
   Simulator simulator(
       {"--scene", scene.path(), "--target", "255.255.255.255:9", "--report", report_});
   const auto running = status_when(simulator, [](const protocol::SimStatus& now) {
-    return now.impacts >= 2 && now.bubbles > 0 && now.skipped > 0;
+    return now.events.of<protocol::Impact>() >= 2 && now.events.of<protocol::Bubble>() > 0 &&
+           now.skipped > 0;
   });
   EXPECT_GT(running.density_error, 0.0F);
   EXPECT_GT(running.real_time_factor, 0.0F);

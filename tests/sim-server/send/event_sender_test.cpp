@@ -158,7 +158,7 @@ TEST_F(EventSenderTest, ALargeFrameIsSplitUnderOneTag) {
   }
   EXPECT_EQ(next_id, 60);
   EXPECT_EQ(sender().counts().bundles, 3U);
-  EXPECT_EQ(sender().counts().events.bubbles, 60U);
+  EXPECT_EQ(sender().counts().events.of<protocol::Bubble>(), 60U);
 }
 
 TEST_F(EventSenderTest, TagsNeverDecreaseAndOffsetsAreNeverNegative) {
@@ -246,7 +246,7 @@ TEST_F(EventSenderTest, AnEventOutOfRangeDoesNotTakeItsBundleAlong) {
   ASSERT_EQ(heard.events.size(), 1U);
   EXPECT_EQ(std::get<protocol::Bubble>(heard.events[0]).id, 3);
   EXPECT_EQ(sender().counts().invalid, 4U);
-  EXPECT_EQ(sender().counts().events.bubbles, 1U);
+  EXPECT_EQ(sender().counts().events.of<protocol::Bubble>(), 1U);
 }
 
 TEST_F(EventSenderTest, TwoTargetsGetTheSameBytesAndADeadOneHarmsNobody) {

@@ -32,7 +32,7 @@ RunReport example() {
   report.maximum_density_error = 0.03;
   report.divergence_solve = {.solves = 7200, .iterations = 9000, .most = 4, .given_up = 0};
   report.density_solve = {.solves = 7200, .iterations = 36000, .most = 20, .given_up = 3};
-  report.events = {.impacts = 3, .bubbles = 120, .cavities = 2};
+  report.events = {{3, 120, 2}};
   report.no_cavity = {{"stopped", 1}, {"filled", 0}};
   report.air = {.entrapped = 0.0125,
                 .told = 0.012,

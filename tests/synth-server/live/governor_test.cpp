@@ -112,7 +112,7 @@ TEST_F(GovernorTest, LeavesCavitiesAlone) {
   SlowMachine::seconds_per_voice = kBlockSeconds / 200.0;
   for (int block = 0; block < 200; ++block) call(20);
   EXPECT_GT(engine_.counters().stolen, 0U);
-  EXPECT_EQ(engine_.counters().cavities, 1U);
+  EXPECT_EQ(engine_.counters().started.of<protocol::Cavity>(), 1U);
   SlowMachine::seconds_per_voice = 0.0;
   for (int block = 0; block < 250; ++block) call(0);  // bubbles are over, a cavity is not
   EXPECT_EQ(engine_.counters().voices, 1U);

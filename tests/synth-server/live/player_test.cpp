@@ -102,7 +102,7 @@ TEST_F(PlayerTest, CountsAndPlaysTheLateDropsTheTooLate) {
   EXPECT_EQ(player_.counters().late, 1U);
   EXPECT_EQ(player_.counters().too_late, 1U);
   EXPECT_EQ(player_.counters().early, 1U);
-  EXPECT_EQ(engine_.counters().bubbles, 2U);
+  EXPECT_EQ(engine_.counters().started.of<protocol::Bubble>(), 2U);
 }
 
 TEST_F(PlayerTest, AnXrunMovesTheSamplesAndTheClockFollows) {
@@ -152,7 +152,7 @@ TEST_F(PlayerTest, WhatALongStallOvertookIsCountedLateOrDropped) {
   const std::size_t between = before + 16000;  // it has rung out
   const std::int64_t ideal = std::llround((now + 1.9 + kLatency - kStart - shift_) * kRate);
   EXPECT_NEAR(static_cast<double>(onset_after(between) - ideal), 1.0, 1.0);
-  EXPECT_EQ(engine_.counters().bubbles, 2U);
+  EXPECT_EQ(engine_.counters().started.of<protocol::Bubble>(), 2U);
   EXPECT_EQ(engine_.counters().scheduled, 0U);
 }
 
@@ -193,7 +193,7 @@ TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
   }
   EXPECT_EQ(player_.counters().xruns, 1000U);
   EXPECT_EQ(player_.counters().clock_resets, 1000U);
-  EXPECT_EQ(engine_.counters().bubbles, 515U);
+  EXPECT_EQ(engine_.counters().started.of<protocol::Bubble>(), 515U);
   EXPECT_EQ(engine_.counters().voices, 0U) << "none hangs";
   EXPECT_GT(onset_after(0), 0);
   EXPECT_EQ(samples_, expected) << "what sounds does not notice";

@@ -62,9 +62,9 @@ TEST(Realtime, TheCallbackDoesNothingForbidden) {
     time += frames / 48000.0;
   }
   EXPECT_EQ(total, ForbiddenCalls{});
-  EXPECT_GT(engine.counters().impacts, 0U);
-  EXPECT_GT(engine.counters().bubbles, 0U);
-  EXPECT_GT(engine.counters().cavities, 0U);
+  EXPECT_GT(engine.counters().started.of<protocol::Impact>(), 0U);
+  EXPECT_GT(engine.counters().started.of<protocol::Bubble>(), 0U);
+  EXPECT_GT(engine.counters().started.of<protocol::Cavity>(), 0U);
   EXPECT_GT(engine.counters().dropped_pool + engine.counters().stolen, 0U);
 }
 

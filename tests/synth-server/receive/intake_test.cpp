@@ -173,9 +173,9 @@ TEST_F(IntakeTest, AFloodOfBubblesThatNobodyTakesLeavesRoomForImpactsAndCavities
     send(protocol::encode({protocol::to_message(cavity)}));
   }
   EXPECT_EQ(intake_.counters().events, events + 200);
-  EXPECT_EQ(intake_.counters().without_place.impacts, 0U);
-  EXPECT_EQ(intake_.counters().without_place.cavities, 0U);
-  EXPECT_EQ(intake_.counters().without_place.bubbles, intake_.counters().queue_full);
+  EXPECT_EQ(intake_.counters().without_place.of<protocol::Impact>(), 0U);
+  EXPECT_EQ(intake_.counters().without_place.of<protocol::Cavity>(), 0U);
+  EXPECT_EQ(intake_.counters().without_place.of<protocol::Bubble>(), intake_.counters().queue_full);
   EXPECT_GT(intake_.counters().queue_full, 0U);
 }
 

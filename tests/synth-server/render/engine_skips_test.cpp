@@ -49,14 +49,14 @@ TEST(Engine, LeavesOutBubblesAboveTheBandOfEachOutput) {
     for (const float v : out[tile]) ASSERT_EQ(v, 0.0F);
   }
   EXPECT_GT(*std::max_element(out[36].begin(), out[36].end()), 0.01F);
-  EXPECT_EQ(engine.counters().bubbles, 1U);
+  EXPECT_EQ(engine.counters().started.of<protocol::Bubble>(), 1U);
 
   Engine floor(floor_rig(), file_settings());
   floor.schedule({bubble(0.0039F), 0});
   floor.schedule({bubble(0.0041F), 0});
   render(floor, 4800);
   EXPECT_EQ(floor.counters().dropped_band, 1U);
-  EXPECT_EQ(floor.counters().bubbles, 1U);
+  EXPECT_EQ(floor.counters().started.of<protocol::Bubble>(), 1U);
 }
 
 TEST(Engine, NeverStartsWhatNyquistForbids) {

@@ -206,7 +206,7 @@ TEST(Engine, RefusesAndCountsWhatItCannotRender) {
   render(engine, 64);
   EXPECT_EQ(engine.counters().scheduled, 0U);
   EXPECT_EQ(engine.counters().voices, 2U);
-  EXPECT_EQ(engine.counters().bubbles, 2U);
+  EXPECT_EQ(engine.counters().started.of<protocol::Bubble>(), 2U);
 }
 
 TEST(Engine, StartsLateEventsAtOnceAndCountsThem) {
@@ -230,7 +230,9 @@ TEST(Engine, SurvivesAFloodOfSimultaneousEvents) {
   }
   const auto out = render(engine, 9600);
   const auto counters = engine.counters();
-  EXPECT_EQ(counters.bubbles + counters.dropped_pool + counters.dropped_queue, 20000U);
+  EXPECT_EQ(
+      counters.started.of<protocol::Bubble>() + counters.dropped_pool + counters.dropped_queue,
+      20000U);
   EXPECT_LE(counters.voices, 1024U);
   for (const auto& channel : out) {
     for (const float v : channel) ASSERT_LE(std::abs(v), 0.9F);
@@ -260,12 +262,13 @@ TEST(Engine, PlaysAllImpactsAndCavitiesInAFloodOfBubbles) {
     render(engine, kBlock);
   }
   const EngineCounters counters = engine.counters();
-  EXPECT_EQ(counters.impacts, static_cast<std::uint64_t>(others));
-  EXPECT_EQ(counters.cavities, static_cast<std::uint64_t>(others));
-  EXPECT_EQ(counters.without_place.impacts, 0U);
-  EXPECT_EQ(counters.without_place.cavities, 0U);
-  EXPECT_GT(counters.without_place.bubbles, 0U);
-  EXPECT_EQ(counters.without_place.bubbles, counters.dropped_pool + counters.dropped_queue);
+  EXPECT_EQ(counters.started.of<protocol::Impact>(), static_cast<std::uint64_t>(others));
+  EXPECT_EQ(counters.started.of<protocol::Cavity>(), static_cast<std::uint64_t>(others));
+  EXPECT_EQ(counters.without_place.of<protocol::Impact>(), 0U);
+  EXPECT_EQ(counters.without_place.of<protocol::Cavity>(), 0U);
+  EXPECT_GT(counters.without_place.of<protocol::Bubble>(), 0U);
+  EXPECT_EQ(counters.without_place.of<protocol::Bubble>(),
+            counters.dropped_pool + counters.dropped_queue);
 }
 
 // More at once than may start in one of the engine's cells, and more than may wait.
@@ -277,8 +280,8 @@ TEST(Engine, KeepsPlacesForImpactsAndCavitiesBehindBubblesOfOneMoment) {
     EXPECT_TRUE(engine.schedule({cavity(0.05F), 100}));
   }
   render(engine, 4800);
-  EXPECT_EQ(engine.counters().impacts, 30U);
-  EXPECT_EQ(engine.counters().cavities, 30U);
+  EXPECT_EQ(engine.counters().started.of<protocol::Impact>(), 30U);
+  EXPECT_EQ(engine.counters().started.of<protocol::Cavity>(), 30U);
 }
 
 TEST(Engine, RefusesSettingsBeyondTheirLimits) {

@@ -207,10 +207,10 @@ TEST(LiveControls, AnOutputThatIsTurnedUpGetsWeakerVoices) {
   Board board(rig);
   Engine engine(rig, board.settings);
   const auto started = [&] {
-    const std::uint64_t before = engine.counters().bubbles;
+    const std::uint64_t before = engine.counters().started.of<protocol::Bubble>();
     engine.schedule({bubble(0.005F, 0.0005F), engine.clock()});
     render(engine, 4800);
-    return engine.counters().bubbles - before;
+    return engine.counters().started.of<protocol::Bubble>() - before;
   };
   EXPECT_EQ(started(), 0U);
   board.send(Layout::of_output(0, Layout::gain_db), 40.0);

@@ -125,8 +125,8 @@ TEST(Realtime, ScheduleAndRenderDoNothingForbidden) {
   EXPECT_EQ(calls, ForbiddenCalls{});
   const auto counters = engine.counters();
   EXPECT_GT(counters.stolen, 0U) << "the load was too light to prove anything";
-  EXPECT_GT(counters.impacts, 0U);
-  EXPECT_GT(counters.cavities, 0U);
+  EXPECT_GT(counters.started.of<protocol::Impact>(), 0U);
+  EXPECT_GT(counters.started.of<protocol::Cavity>(), 0U);
   EXPECT_GT(counters.late, 0U);
   EXPECT_GT(counters.crowded, 0U);
 }

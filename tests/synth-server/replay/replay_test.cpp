@@ -232,7 +232,7 @@ TEST(Replay, OfALongLogNeedsNoLongQueue) {
   settings.engine.max_scheduled = 100;
   ReplayReport report;
   play(log, open_rig(), settings, &report);
-  EXPECT_EQ(report.counters.bubbles, 5000U);
+  EXPECT_EQ(report.counters.started.of<protocol::Bubble>(), 5000U);
   EXPECT_EQ(report.counters.dropped_queue, 0U);
 }
 
