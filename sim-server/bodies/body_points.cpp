@@ -47,43 +47,16 @@ double distance(const Vector3& a, const Vector3& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// Along each axis in which a point is in the outermost layer it moves to that face; a single layer
-/// shows its underside. So edges and corners, which meet the water first, are where they are.
-Vector3 carried_to_face(const Shape& shape, const Lattice& lattice, const Vector3& place,
-                        const std::array<int, 3>& layer) {
-  Vector3 skin = place;
+/// The layer that it is in along each axis. A single layer is inside, but for z: it shows its
+/// underside.
+std::array<int, 3> side_of(const Lattice& lattice, const std::array<int, 3>& layer) {
+  std::array<int, 3> side = {0, 0, 0};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (lattice.count[axis] == 1 && axis != 2) continue;
-    if (layer[axis] == lattice.count[axis] - 1) skin[axis] = shape.size[axis] / 2.0;
-    if (layer[axis] == 0) skin[axis] = -shape.size[axis] / 2.0;
+    if (layer[axis] == lattice.count[axis] - 1) side[axis] = 1;
+    if (layer[axis] == 0) side[axis] = -1;
   }
-  if (layer[2] == 0) skin[2] += rocker_rise(shape, skin[0]);
-  return skin;
-}
-
-Vector3 carried_to_skin(const Shape& shape, const Lattice& lattice, const Vector3& place,
-                        const std::array<int, 3>& layer) {
-  const double rx = shape.size[0] / 2.0;
-  const double ry = shape.size[1] / 2.0;
-  const double rz = shape.size[2] / 2.0;
-  const double across = std::hypot(place[0] / rx, place[1] / ry);
-  switch (shape.kind) {
-    case ShapeKind::mesh:
-      return shape.mesh->distance.nearest(place).place;
-    case ShapeKind::box:
-      return carried_to_face(shape, lattice, place, layer);
-    case ShapeKind::cylinder: {
-      const bool at_rim = (1.0 - across) * rx < lattice.step[0];
-      const double scale = at_rim && across > 0.0 ? 1.0 / across : 1.0;
-      const Vector3 face = carried_to_face(shape, lattice, place, layer);
-      return {scale * place[0], scale * place[1], face[2]};
-    }
-    case ShapeKind::sphere:
-      break;
-  }
-  const double radius = std::hypot(across, place[2] / rz);
-  if (radius <= 0.0) return {0.0, 0.0, -rz};
-  return {place[0] / radius, place[1] / radius, place[2] / radius};
+  return side;
 }
 
 using Cell = std::array<int, 3>;
@@ -185,7 +158,8 @@ std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacin
         point.place[2] += rise * (1.0 - height / shape.size[2]);
         if (shape.kind != ShapeKind::box && !is_inside(shape, point.place)) continue;
         point.owner = owner;
-        point.skin = carried_to_skin(shape, lattice, point.place, {kx, ky, kz});
+        point.skin =
+            carried_to_skin(shape, {point.place, lattice.step[0], side_of(lattice, {kx, ky, kz})});
         points.push_back(point);
       }
     }

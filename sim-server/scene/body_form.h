@@ -5,16 +5,16 @@
 #ifndef SPLASH_BODY_FORM_H
 #define SPLASH_BODY_FORM_H
 
-// Each as the host and as kernels call it. Meshes last: they are files, the others have names in
-// scene files.
-#define SPLASH_BODY_FORMS(FORM) \
-  FORM(box, SPLASH_BOX)         \
-  FORM(sphere, SPLASH_SPHERE)   \
-  FORM(cylinder, SPLASH_CYLINDER) /* along z */ \
-  FORM(mesh, SPLASH_MESH)
+// Each as the host and as kernels call it, and what its three sizes are. Meshes last: they are
+// files, the others have names in scene files.
+#define SPLASH_BODY_FORMS(FORM)                                          \
+  FORM(box, SPLASH_BOX, "edges x y z")                                   \
+  FORM(sphere, SPLASH_SPHERE, "its diameter thrice")                     \
+  FORM(cylinder, SPLASH_CYLINDER, "diameter, diameter, length along z")  \
+  FORM(mesh, SPLASH_MESH, "")
 
-#define SPLASH_FORM_OF_HOST(name, in_kernels) name,
-#define SPLASH_FORM_IN_KERNELS(name, in_kernels) in_kernels,
+#define SPLASH_FORM_OF_HOST(name, in_kernels, sizes) name,
+#define SPLASH_FORM_IN_KERNELS(name, in_kernels, sizes) in_kernels,
 
 #ifdef __cplusplus
 namespace splash::sim {

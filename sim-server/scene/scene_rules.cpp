@@ -180,33 +180,9 @@ void check_gauge(const ConfigMap& map, const GaugeSettings& gauge, const Scene& 
   if (point) check_sensor(map, gauge, scene);
 }
 
-namespace {
-
-void check_diameters(const ConfigMap& map, const Shape& shape) {
-  if (shape.size[0] == shape.size[1]) return;
-  throw map.error("size", "x and y are diameters and must be equal (got " + text(shape.size[0]) +
-                              " and " + text(shape.size[1]) + ")");
-}
-
-void check_size(const ConfigMap& map, const Shape& shape) {
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      check_diameters(map, shape);
-      if (shape.size[0] == shape.size[2]) return;
-      throw map.error("size", "a sphere's three diameters must be equal");
-    case ShapeKind::cylinder:
-      check_diameters(map, shape);
-      return;
-    case ShapeKind::box:
-    case ShapeKind::mesh:
-      return;
-  }
-}
-
-}  // namespace
-
 void check_shape(const ConfigMap& map, const Shape& shape) {
-  check_size(map, shape);
+  if (const std::string reason = wrong_size(shape); !reason.empty())
+    throw map.error("size", reason);
   const bool round = shape.kind != ShapeKind::box;
   for (const char* key : {"rocker", "flat"}) {
     if (round && map.has(key)) throw map.error(key, "only a box has a sole");

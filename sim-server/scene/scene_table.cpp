@@ -97,8 +97,7 @@ const Fields<ShapeEntry>& shape_fields() {
        &S::kind_name},
       {{.key = "size",
         .unit = "m",
-        .meaning = "box: edges x y z; sphere: its diameter thrice; cylinder: diameter, diameter, "
-                   "length along z.",
+        .meaning = size_meanings() + ".",
         .min = 0.005,
         .max = 10,
         .required = true},

@@ -2,7 +2,9 @@
 #include "sim-server/scene/shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <numbers>
 #include <utility>
@@ -29,13 +31,20 @@ double cylinder_distance(double radius, double half_length, const Vector3& point
   return std::hypot(std::max(side, 0.0), std::max(cap, 0.0)) + std::min(0.0, std::max(side, cap));
 }
 
-}  // namespace
-
-namespace {
-
-#define SPLASH_NAME(name, in_kernels) #name,
+#define SPLASH_NAME(name, in_kernels, sizes) #name,
+#define SPLASH_SIZES(name, in_kernels, sizes) sizes,
 constexpr const char* kNames[] = {SPLASH_BODY_FORMS(SPLASH_NAME)};
+constexpr const char* kSizes[] = {SPLASH_BODY_FORMS(SPLASH_SIZES)};
 #undef SPLASH_NAME
+#undef SPLASH_SIZES
+
+std::string wrong_diameters(const Shape& shape) {
+  if (shape.size[0] == shape.size[1]) return {};
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "x and y are diameters and must be equal (got %g and %g)",
+                shape.size[0], shape.size[1]);
+  return text.data();
+}
 
 }  // namespace
 
@@ -50,6 +59,29 @@ std::vector<std::string> shape_names() {
 ShapeKind shape_kind(const std::string& name) {
   const std::vector<std::string> names = shape_names();
   return static_cast<ShapeKind>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::string size_meanings() {
+  std::string text;
+  for (const std::string& name : shape_names()) {
+    text += (text.empty() ? "" : "; ") + name + ": " +
+            kSizes[static_cast<std::size_t>(shape_kind(name))];
+  }
+  return text;
+}
+
+std::string wrong_size(const Shape& shape) {
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      if (shape.size[0] != shape.size[1]) return wrong_diameters(shape);
+      return shape.size[0] == shape.size[2] ? "" : "a sphere's three diameters must be equal";
+    case ShapeKind::cylinder:
+      return wrong_diameters(shape);
+    case ShapeKind::box:
+    case ShapeKind::mesh:
+      break;
+  }
+  return {};
 }
 
 double rocker_rise(const Shape& shape, double x) {
@@ -115,6 +147,46 @@ Vector3 from_cube(const Shape& shape, const Vector3& cube) {
   // A curved sole squeezes what is above it.
   place[2] += rocker_rise(shape, place[0]) * (1.0 - cube[2]) / 2.0;
   return place;
+}
+
+namespace {
+
+/// Along each axis in which it is in the outermost layer it moves to that face. So edges and
+/// corners, which meet the water first, are where they are.
+Vector3 carried_to_face(const Shape& shape, const LatticePlace& point) {
+  Vector3 skin = point.place;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (point.side[axis] == 0) continue;
+    skin[axis] = point.side[axis] * shape.size[axis] / 2.0;
+  }
+  if (point.side[2] < 0) skin[2] += rocker_rise(shape, skin[0]);
+  return skin;
+}
+
+}  // namespace
+
+Vector3 carried_to_skin(const Shape& shape, const LatticePlace& point) {
+  const Vector3& place = point.place;
+  const double rx = shape.size[0] / 2.0;
+  const double ry = shape.size[1] / 2.0;
+  const double rz = shape.size[2] / 2.0;
+  const double across = std::hypot(place[0] / rx, place[1] / ry);
+  switch (shape.kind) {
+    case ShapeKind::mesh:
+      return shape.mesh->distance.nearest(place).place;
+    case ShapeKind::box:
+      return carried_to_face(shape, point);
+    case ShapeKind::cylinder: {
+      const bool at_rim = (1.0 - across) * rx < point.spacing;
+      const double scale = at_rim && across > 0.0 ? 1.0 / across : 1.0;
+      return {scale * place[0], scale * place[1], carried_to_face(shape, point)[2]};
+    }
+    case ShapeKind::sphere:
+      break;
+  }
+  const double radius = std::hypot(across, place[2] / rz);
+  if (radius <= 0.0) return {0.0, 0.0, -rz};
+  return {place[0] / radius, place[1] / radius, place[2] / radius};
 }
 
 bool has_edges(const Shape& shape) {

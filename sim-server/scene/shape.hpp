@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The geometry of bodies: what of them depends on their shape, but for how they are sampled
-// (bodies/body_points.hpp) and what kernels know of them (fluid/boundary/outline.h).
+// The geometry of bodies: all that the host knows of them that depends on their form. What kernels
+// know of it is in fluid/boundary/outline.h.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ namespace splash::sim {
 /// One of these.
 [[nodiscard]] ShapeKind shape_kind(const std::string& name);
 
+/// What the sizes of each form are: "box: edges x y z; sphere: ...".
+[[nodiscard]] std::string size_meanings();
+/// Why the sizes are none of its form; empty: they are.
+[[nodiscard]] std::string wrong_size(const Shape& shape);
+
 /// Height of a box's underside above its flat middle at `x` of the body's frame [m]: nothing over
 /// the flat share of its length, then a parabola that reaches the rocker at either end.
 [[nodiscard]] double rocker_rise(const Shape& shape, double x);
@@ -32,6 +38,16 @@ namespace splash::sim {
 /// A place on the surface of the cube from -1 to 1, carried to that of the shape [m]; not of a
 /// mesh.
 [[nodiscard]] Vector3 from_cube(const Shape& shape, const Vector3& cube);
+
+/// A place of the lattice that fills the box around a shape, in the body's axes.
+struct LatticePlace {
+  Vector3 place = {0.0, 0.0, 0.0};      ///< [m]
+  double spacing = 0.0;                 ///< of the lattice along x [m]
+  std::array<int, 3> side = {0, 0, 0};  ///< along each axis: in the first layer -1, in the last 1
+};
+/// Such a place inside the shape, carried outwards to its surface if it is in the outermost layer
+/// [m].
+[[nodiscard]] Vector3 carried_to_skin(const Shape& shape, const LatticePlace& point);
 
 /// Whether it has edges or corners that could hit another body's surface.
 [[nodiscard]] bool has_edges(const Shape& shape);

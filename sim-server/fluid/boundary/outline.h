@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The outlines of bodies, in closed form but for meshes (outline_mesh.h). Whatever depends on a
-// body's shape is here: how far its surface is and in which direction (many places at once, or one
-// that is inside), how far it reaches, and with which points it meets a wall. Places and normals in
-// the body's own axes; `meshes`: the numbers of all meshes.
+// body's form is here: how far its surface is and in which direction (many places at once, or one
+// that is inside), how far it reaches, with which points it meets a wall, and with which corners
+// and edges another body. Places and normals in the body's own axes; `meshes`: the numbers of all
+// meshes.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/outline_mesh.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"
+
+#define RIM_PLACES 12
 
 // What is left of up to three faces at right angles to each other: `q` are the distances from them
 // [m], `part` becomes how much of each one's normal is in the normal there.
@@ -190,4 +193,116 @@ static int contact_points(BodyShape s, global const float* meshes, BodyStep b, f
       break;
   }
   return box_contact_points(s, b, lever);
+}
+
+// What of a body can touch another first: corners and edges of a box, rims of a cylinder, and what
+// is round about a place or a line, less its radius: a sphere's centre, the axis of a cylinder's
+// round side. Corners and edges are rounded a little: a sharp corner that touches a face at its
+// edge, as in a stack, would be as near to the face beside it. Meshes meet no others
+// (free_bodies/body_contact.h) and have no corners and edges here.
+
+static float rounding_of(BodyShape s) {
+  switch (form_of(s)) {
+    case SPLASH_SPHERE:
+      return s.half_x;
+    case SPLASH_BOX:
+    case SPLASH_CYLINDER:
+    case SPLASH_MESH:
+      break;
+  }
+  return SPLASH_ROUNDED * fmin(s.half_z, fmin(s.half_x, s.half_y));
+}
+
+// Half sizes of what is inside the rounding.
+static float3 core_of(BodyShape s) {
+  return (float3)(s.half_x, s.half_y, s.half_z) - rounding_of(s);
+}
+
+// Corners of a box, places on the rims of a cylinder, in the body's own axes.
+static int corner_count(BodyShape s) {
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      return 8;
+    case SPLASH_CYLINDER:
+      return 2 * RIM_PLACES;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  return 0;
+}
+
+static float3 rim_place(BodyShape s, bool upper, float angle) {
+  const float3 core = core_of(s);
+  return (float3)(core.x * cos(angle), core.x * sin(angle), upper ? core.z : -core.z);
+}
+
+static float3 corner_of(BodyShape s, int k) {
+  switch (form_of(s)) {
+    case SPLASH_CYLINDER:
+      return rim_place(s, k >= RIM_PLACES, (k % RIM_PLACES) * (6.2831853f / RIM_PLACES));
+    case SPLASH_BOX:
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  return core_of(s) * (float3)(k & 1 ? 1.0f : -1.0f, k & 2 ? 1.0f : -1.0f, k & 4 ? 1.0f : -1.0f);
+}
+
+// Edges of a box, arcs of a cylinder's rims, and what is round about: an axis.
+static int edge_count(BodyShape s) {
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      return 12;
+    case SPLASH_CYLINDER:
+      return 2 * RIM_PLACES + 1;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  return 1;
+}
+
+static float3 on_edge_of_box(BodyShape s, int k, float part) {
+  const float along = 2.0f * part - 1.0f;
+  const float a = k & 1 ? 1.0f : -1.0f, b = k & 2 ? 1.0f : -1.0f;
+  if (k < 4) return core_of(s) * (float3)(along, a, b);
+  if (k < 8) return core_of(s) * (float3)(a, along, b);
+  return core_of(s) * (float3)(a, b, along);
+}
+
+// Place at `part` (0 to 1) of edge `k`, and how far the surface is from there.
+static float3 on_edge(BodyShape s, int k, float part, float* radius) {
+  float reach = 0.0f;  // of the axis
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      *radius = rounding_of(s);
+      return on_edge_of_box(s, k, part);
+    case SPLASH_CYLINDER:
+      *radius = rounding_of(s);
+      if (k < 2 * RIM_PLACES) {
+        return rim_place(s, k >= RIM_PLACES, (k % RIM_PLACES + part) * (6.2831853f / RIM_PLACES));
+      }
+      reach = core_of(s).z;
+      break;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  *radius = s.half_x;
+  return (float3)(0.0f, 0.0f, (2.0f * part - 1.0f) * reach);
+}
+
+// How far the middle of an edge is from its farthest place, at most [m]; 0: it is one place.
+static float half_of_edge(BodyShape s, int k) {
+  switch (form_of(s)) {
+    case SPLASH_BOX:
+      return k < 4 ? s.half_x : k < 8 ? s.half_y : s.half_z;
+    case SPLASH_CYLINDER:
+      return k < 2 * RIM_PLACES ? s.half_x * (3.1415927f / RIM_PLACES) : s.half_z;
+    case SPLASH_SPHERE:
+    case SPLASH_MESH:
+      break;
+  }
+  return 0.0f;
 }
