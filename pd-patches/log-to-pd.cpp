@@ -8,7 +8,7 @@
 #include <string>
 
 #include "pd-patches/event_list.hpp"
-#include "program/refuse_nan.hpp"
+#include "program/command_line.hpp"
 
 namespace {
 

@@ -10,8 +10,7 @@
 
 #include "program/config_tree.hpp"
 #include "program/config_value.hpp"
-#include "program/nearest_name.hpp"
-#include "program/printable.hpp"
+#include "program/text.hpp"
 
 namespace splash::program {
 

@@ -8,9 +8,8 @@
 #include <string_view>
 
 #include "program/failure.hpp"
-#include "program/input_file.hpp"
-#include "program/nearest_name.hpp"
-#include "program/printable.hpp"
+#include "program/files.hpp"
+#include "program/text.hpp"
 #include "program/this_program.hpp"
 
 namespace splash::program {

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <utility>
 
-#include "program/printable.hpp"
+#include "program/text.hpp"
 
 namespace splash::program {
 namespace {

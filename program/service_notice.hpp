@@ -30,7 +30,7 @@ class ServiceNotice {
   void alive();
   /// Reports that the program shuts down on request.
   void stopping();
-  /// The process begins anew (start_anew.hpp), which may take as long as a start: the watchdog
+  /// The process begins anew (this_program.hpp), which may take as long as a start: the watchdog
   /// waits so long, and what the constructor took is in the environment again.
   void beginning_anew();
 

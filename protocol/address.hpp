@@ -44,7 +44,7 @@ struct AddressRow {
 [[nodiscard]] std::span<const AddressRow> address_table() noexcept;
 
 /// Returns whether the row is a command, whose sender waits for a reply. A command may have further
-/// text arguments, which are ignored: they pad the request (filling.hpp).
+/// text arguments, which are ignored: they pad the request (reply_budget.hpp).
 [[nodiscard]] constexpr bool is_command(const AddressRow& row) noexcept {
   return row.direction == Direction::to_both || row.direction == Direction::synth_alone ||
          row.direction == Direction::sim_alone;

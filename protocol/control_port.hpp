@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "program/text_limit.hpp"
+#include "program/text.hpp"
 #include "protocol/address.hpp"
 #include "protocol/gate.hpp"
 #include "protocol/limits.hpp"
@@ -127,5 +127,13 @@ class ControlPort {
   unsigned dump_level_ = 0;       ///< of /dumpOSC, as scsynth counts: bit 1 text, bit 2 hexadecimal
   bool reports_failures_ = true;  ///< /error 1
 };
+
+// Packets as text for people: what /dumpOSC prints.
+
+/// "/bubble ,iifff 1 0 0.004 ...": floats with all their digits. The time tag of its bundle stands
+/// in front, as seconds and fraction in hexadecimal digits.
+[[nodiscard]] std::string to_text(const Message& message, const std::optional<TimeTag>& time = {});
+/// "2f 62 75 ...", one line.
+[[nodiscard]] std::string to_hexadecimal(Bytes bytes);
 
 }  // namespace splash::protocol

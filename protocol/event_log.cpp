@@ -8,7 +8,7 @@
 #include <string>
 
 #include "program/failure.hpp"
-#include "program/write_error.hpp"
+#include "program/files.hpp"
 #include "protocol/limits.hpp"
 
 namespace splash::protocol {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "program/nearest_name.hpp"
+#include "program/text.hpp"
 #include "protocol/event.hpp"
 #include "synth-server/output/rig_rows.hpp"
 #include "synth-server/render/live_controls.hpp"

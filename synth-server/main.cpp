@@ -10,16 +10,16 @@
 #include "program/config_file.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
-#include "program/start_anew.hpp"
+#include "program/this_program.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay_file.hpp"
 #include "synth-server/server.hpp"
-#include "synth-server/sound_choice.hpp"
 #include "synth-server/sweep.hpp"
 #include "synth-server/test_tone.hpp"
+#include "synth-server/voice_options.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "program/failure.hpp"
-#include "program/input_file.hpp"
+#include "program/files.hpp"
 #include "synth-server/figure/wav_reader.hpp"
 #include "synth-server/output/fade.hpp"
 #include "synth-server/server_text.hpp"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the device gets, for viewers: levels of all channels and a stereo mix. The audio thread puts
-// both into lock-free rings while somebody looks; a thread of its own makes frames of them. What
-// does not fit is left out here, never in the output.
+// What viewers get of the synth: its rig, and what the device plays.
 #pragma once
 
 #include <array>
@@ -9,14 +7,37 @@
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "protocol/frame.hpp"
 #include "protocol/frame_stream.hpp"
+#include "synth-server/desk.hpp"
+#include "synth-server/output/rig.hpp"
 #include "synth-server/play/block_tap.hpp"
-#include "synth-server/rig_frame.hpp"
 
 namespace splash::synth {
+
+// The rig as a viewer gets it (view-server/README.md, SPR1), and where its channels lie between
+// left and right.
+
+/// JSON. `sample_rate` [Hz].
+[[nodiscard]] std::string describe_for_viewers(const Rig& rig, const Desk& desk, int sample_rate);
+[[nodiscard]] protocol::ViewFrame rig_frame(const Rig& rig, const Desk& desk, int sample_rate);
+
+/// What a channel gives to either side of a stereo monitor [1].
+struct Pan {
+  float left = 0.0F;
+  float right = 0.0F;
+};
+/// Of each channel, of equal power: tiles by their x, left and right of loudspeakers to their own
+/// sides, all else in the middle.
+[[nodiscard]] std::vector<Pan> pans_of(const Rig& rig);
+
+// What the device gets, for viewers: levels of all channels and a stereo mix. The audio thread puts
+// both into lock-free rings while somebody looks; a thread of its own makes frames of them. What
+// does not fit is left out here, never in the output.
 
 class Monitor final : public BlockTap {
  public:

@@ -6,9 +6,8 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "program/exit_codes.hpp"
-#include "program/refuse_nan.hpp"
-#include "program/unknown_option.hpp"
+#include "program/command_line.hpp"
+#include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 #include "synth-server/voice_options.hpp"

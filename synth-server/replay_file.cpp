@@ -5,7 +5,7 @@
 #include <string>
 
 #include "program/failure.hpp"
-#include "program/input_file.hpp"
+#include "program/files.hpp"
 #include "protocol/event_log.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/output_choice.hpp"

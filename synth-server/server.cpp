@@ -16,7 +16,7 @@
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay/replay.hpp"
 #include "synth-server/replay_file.hpp"
-#include "synth-server/sound_choice.hpp"
+#include "synth-server/voice_options.hpp"
 
 namespace splash::synth {
 namespace {

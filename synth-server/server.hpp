@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "program/start_anew.hpp"
+#include "program/this_program.hpp"
 #include "protocol/event_log.hpp"
 #include "synth-server/audio/device_watch.hpp"
 #include "synth-server/audio/recorder.hpp"

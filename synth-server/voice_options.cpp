@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "program/refuse_nan.hpp"
+#include "program/command_line.hpp"
+#include "program/config_file.hpp"
+#include "program/failure.hpp"
 
 namespace splash::synth {
 
@@ -71,6 +73,21 @@ void apply(const VoiceTexts& texts, EngineSettings& engine) {
     if (kind == "band") engine.skip_out_of_band = false;
     if (kind == "unfelt") engine.skip_unfelt = false;
   }
+}
+
+NamedSound chosen_sound(const SoundOptions& options) {
+  NamedSound chosen;
+  if (!options.file.empty()) {
+    chosen = read_sound(program::find_config("--sound", "sounds", options.file));
+  }
+  apply(options, chosen.sound);
+  return chosen;
+}
+
+NamedSound sound_called(const std::string& name) {
+  const auto path = program::named_config("sounds", name);
+  if (!path) throw program::Failure(program::kExitNoInput, "no sound is called so");
+  return read_sound(*path);
 }
 
 }  // namespace splash::synth

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "synth-server/render/engine.hpp"
+#include "synth-server/sound/sound_reader.hpp"
 
 // Its header takes seconds to compile, and only the command line needs it.
 namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name
@@ -37,5 +38,12 @@ void add_sound(CLI::App& app, SoundOptions& options);
 /// After the parsing.
 void apply(const VoiceTexts& texts, EngineSettings& engine);
 void apply(const SoundOptions& options, Sound& sound);
+
+/// What --sound names, with what other options change of it. Throws program::Failure.
+[[nodiscard]] NamedSound chosen_sound(const SoundOptions& options);
+
+/// The sound called `name` among one's own and the shipped ones: no path, no file elsewhere. Throws
+/// program::Failure, or program::ConfigError where it is wrong.
+[[nodiscard]] NamedSound sound_called(const std::string& name);
 
 }  // namespace splash::synth

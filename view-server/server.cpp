@@ -18,8 +18,8 @@
 
 #include "program/failure.hpp"
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/reply_budget.hpp"
 #include "view-server/admission.hpp"
 #include "view-server/feed.hpp"
 #include "view-server/page_socket.hpp"

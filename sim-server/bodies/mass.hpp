@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The free bodies of a scene: their mass and how hard they are to turn.
+// The free bodies of a scene: their mass, how hard they are to turn, and in how long a step they
+// may lie on each other.
 #pragma once
 
 #include <vector>
@@ -9,6 +10,8 @@
 
 namespace splash::sim {
 
+// The free bodies of a scene: their mass and how hard they are to turn.
+
 /// Of a free body [kg].
 [[nodiscard]] double mass_of(const BodySettings& body);
 
@@ -17,5 +20,14 @@ namespace splash::sim {
 /// Those that go where poses are, then those that poses can take from a motion of their own: their
 /// push is felt, their mass is not known and left out. As many as may be free at most.
 [[nodiscard]] std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies);
+
+// How long a step may be in which bodies lie on each other.
+
+/// The longest step in which no body falls farther into the one beneath it than by half the
+/// rounding r of its edges, sqrt(r / (2 g)) [s]. A corner that is deeper than r is nearer to the
+/// side of what it lies on than to its top, and is put out sideways (free_bodies/outline_gap.h):
+/// with twice the fall a stack of ten stood for most of a second, then its plates went into each
+/// other. Infinite where nothing free can lie on anything, and without `gravity` [m/s2].
+[[nodiscard]] double longest_contact_step(const std::vector<BodySettings>& bodies, double gravity);
 
 }  // namespace splash::sim

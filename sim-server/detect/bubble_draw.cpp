@@ -54,4 +54,23 @@ Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle, int b
   return {shares[0], shares[1], shares[2], shares[3]};
 }
 
+namespace {
+
+/// What is left serves for so long [s].
+constexpr double kBurst = 0.050;
+
+double most(double rate) {
+  return std::max(1.0, kBurst * rate);
+}
+
+}  // namespace
+
+BubbleBudget::BubbleBudget(double rate) : rate_(rate), left_(most(rate)) {}
+
+int BubbleBudget::open(double time) {
+  left_ = std::min(most(rate_), left_ + rate_ * std::max(0.0, time - filled_));
+  filled_ = time;
+  return static_cast<int>(left_);
+}
+
 }  // namespace splash::sim

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Radius and excitation of a bubble, drawn from power laws (paper, section 5.2.2, after Moss et
-// al. 2010): p(r) ~ r^-alpha, p(epsilon) ~ epsilon^-mu between bounds.
+// Which bubbles are told: how large they are and how many.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +7,9 @@
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
+
+// Radius and excitation of a bubble, drawn from power laws (paper, section 5.2.2, after Moss et
+// al. 2010): p(r) ~ r^-alpha, p(epsilon) ~ epsilon^-mu between bounds.
 
 /// The value whose share of a power law x^-exponent on [low, high] is `share` in [0, 1]:
 /// the inverse of its cumulative distribution.
@@ -36,5 +38,25 @@ struct Draws {
 /// Few bubbles for much air: the least radius [m] from which on the law's bubbles have this mean
 /// volume [m3]. Up to half the largest radius: an octave of pitches is left.
 [[nodiscard]] double least_radius(const DetectSettings& settings, double volume);
+
+// How many bubbles may be told: so many a second, and what a quiet moment leaves serves the next
+// burst.
+
+class BubbleBudget {
+ public:
+  /// `rate` [1/s].
+  explicit BubbleBudget(double rate);
+
+  /// Whole bubbles that may be told at `time` [s].
+  [[nodiscard]] int open(double time);
+  void set_rate(double rate) noexcept { rate_ = rate; }  ///< [1/s]
+  /// So many were.
+  void spend(int told) { left_ -= told; }
+
+ private:
+  double rate_;  ///< [1/s]
+  double left_;
+  double filled_ = 0.0;  ///< until then [s]
+};
 
 }  // namespace splash::sim

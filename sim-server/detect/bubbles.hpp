@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim-server/detect/bubble_budget.hpp"
 #include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/detect/detection.hpp"

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -18,6 +19,20 @@
 #include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
+
+Profile cpu_profile(unsigned cores, int lanes) {
+  return {.lanes = lanes,
+          .group = 4,
+          .team = 1,
+          .parts = 64,
+          .judges = 64,
+          .sort_chunks = static_cast<int>(std::clamp(cores, 1U, 64U))};
+}
+
+Profile gpu_profile() {
+  return {};
+}
+
 namespace {
 
 struct Found {

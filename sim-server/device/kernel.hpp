@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A kernel and its arguments, which are passed by the names of its parameters: in any order, each
-// once, and of the parameter's type. The parameters are read (clGetKernelArgInfo) when the kernel
-// is created; names, types and completeness are checked at the first launch of each call site.
-// Later launches compare the addresses of names, and types, and set the arguments that differ.
+// Kernels: programs of them, and calls of one.
 #pragma once
 
 #include <bit>
@@ -15,10 +12,16 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
+#include "sim-server/device/device.hpp"
 #include "sim-server/device/opencl.hpp"
 #include "sim-server/device/shared_struct.h"
 
 namespace splash::sim {
+
+// A kernel and its arguments, which are passed by the names of its parameters: in any order, each
+// once, and of the parameter's type. The parameters are read (clGetKernelArgInfo) when the kernel
+// is created; names, types and completeness are checked at the first launch of each call site.
+// Later launches compare addresses only, and set the arguments that differ from the last launch's.
 
 /// OpenCL on CPUs compiles a kernel when it first runs, which takes seconds for all of them.
 struct KernelCount {
@@ -58,7 +61,7 @@ struct KernelParameter {
   std::string type;
   friend bool operator==(const KernelParameter&, const KernelParameter&) = default;
 };
-/// As the program's source says, for devices that do not tell (program.cpp asks them to).
+/// As the program's source says, for devices that do not tell (kernel.cpp asks them to).
 [[nodiscard]] std::vector<KernelParameter> parameters_in(const std::string& source,
                                                          const std::string& kernel);
 
@@ -162,5 +165,19 @@ class Kernel {
   std::size_t place_ = 0;  ///< in the lists of this launch
   bool is_new_ = true;     ///< this launch's lists differ from the last one's
 };
+
+// Kernel sources to programs, with build errors that name the kernel's own file and line.
+
+struct KernelSource {
+  std::string name;  ///< the file's path in the source tree
+  std::string text;
+};
+
+/// Builds `sources` as one program. `defines`: "NAME=VALUE" build constants; keep them few, each
+/// combination is compiled and cached apart.
+/// Throws DeviceError with the compiler's log.
+[[nodiscard]] cl::Program build_program(const Device& device,
+                                        const std::vector<KernelSource>& sources,
+                                        const std::vector<std::string>& defines);
 
 }  // namespace splash::sim

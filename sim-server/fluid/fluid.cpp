@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 
 namespace splash::sim {
 namespace {

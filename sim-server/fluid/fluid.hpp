@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/boundary/boundary.hpp"
-#include "sim-server/fluid/boundary/outlines.hpp"
 #include "sim-server/fluid/free_bodies/free_bodies.hpp"
 #include "sim-server/fluid/health/health.hpp"
 #include "sim-server/fluid/health/stats_part.h"

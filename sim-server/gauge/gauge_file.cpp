@@ -4,7 +4,7 @@
 #include <cerrno>
 
 #include "program/failure.hpp"
-#include "program/write_error.hpp"
+#include "program/files.hpp"
 
 namespace splash::sim {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/fluid.hpp"
 
 namespace splash::sim {

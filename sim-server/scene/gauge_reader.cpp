@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/scene/gauge_reader.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <set>
 
+#include "sim-server/scene/mapping_readers.hpp"
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "program/nearest_name.hpp"
+#include "program/text.hpp"
 #include "sim-server/scene/scene_rules.hpp"
 
 namespace splash::sim {

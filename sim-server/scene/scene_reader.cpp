@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "program/config.hpp"
-#include "program/printable.hpp"
-#include "sim-server/scene/gauge_reader.hpp"
+#include "program/text.hpp"
+#include "sim-server/scene/mapping_readers.hpp"
 #include "sim-server/scene/mesh/mesh_file.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/mesh/soundness.hpp"
@@ -19,8 +19,6 @@
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "sim-server/scene/tracking_reader.hpp"
-#include "sim-server/scene/water_reader.hpp"
 
 namespace splash::sim {
 

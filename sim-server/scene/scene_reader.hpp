@@ -14,4 +14,9 @@ namespace splash::sim {
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path);
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& file_name);
 
+// The reference page of the scene file, made from the same rows that read it.
+
+/// Markdown: one table for each mapping of a scene file. Part of configs/README.md.
+[[nodiscard]] std::string scene_reference();
+
 }  // namespace splash::sim

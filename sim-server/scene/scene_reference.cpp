@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/scene/scene_reference.hpp"
-
 #include <cstddef>
 #include <iomanip>
 #include <sstream>
 #include <type_traits>
 
+#include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/scene_table.hpp"
 
 namespace splash::sim {

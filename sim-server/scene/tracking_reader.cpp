@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/scene/tracking_reader.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +6,7 @@
 
 #include "protocol/address.hpp"
 #include "protocol/limits.hpp"
+#include "sim-server/scene/mapping_readers.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_table.hpp"
 

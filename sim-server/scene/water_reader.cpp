@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/scene/water_reader.hpp"
-
 #include <map>
 #include <set>
 
+#include "sim-server/scene/mapping_readers.hpp"
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
 

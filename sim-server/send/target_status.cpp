@@ -7,9 +7,9 @@
 #include <array>
 #include <utility>
 
-#include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
+#include "protocol/reply_budget.hpp"
 #include "sim-server/send/lo_packet.hpp"
 #include "sim-server/send/targets.hpp"
 

@@ -11,6 +11,7 @@
 #include "protocol/time_tag.hpp"
 
 namespace splash::sim {
+
 namespace {
 
 void sleep_until_monotonic(double seconds) {
@@ -72,6 +73,25 @@ double Pacer::unix_origin() const {
     origin = unix_time - 0.5 * (before + after) + origin_;
   }
   return origin;
+}
+
+void RecentPace::note(double wall, double simulated, std::int64_t steps) {
+  samples_.push_back({wall, simulated, steps});
+  // The newest of those that are old enough stays: the span is the window and a frame at most.
+  while (samples_.size() > 2 && wall - samples_[1].wall >= window_) samples_.pop_front();
+}
+
+double RecentPace::real_time_factor() const noexcept {
+  if (samples_.size() < 2) return 0.0;
+  const double wall = samples_.back().wall - samples_.front().wall;
+  return wall > 0.0 ? (samples_.back().simulated - samples_.front().simulated) / wall : 0.0;
+}
+
+double RecentPace::steps_per_second() const noexcept {
+  if (samples_.size() < 2) return 0.0;
+  const double wall = samples_.back().wall - samples_.front().wall;
+  const auto steps = static_cast<double>(samples_.back().steps - samples_.front().steps);
+  return wall > 0.0 ? steps / wall : 0.0;
 }
 
 }  // namespace splash::sim

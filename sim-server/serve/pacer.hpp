@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Keeps simulated time on the wall clock. When the simulator falls behind by more than a limit,
-// simulated time slips: the missed time is given up, and no backlog is caught up.
+// Simulated time on the wall clock: kept there, and how fast it goes.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 
 namespace splash::sim {
+
+// Keeps simulated time on the wall clock. When the simulator falls behind by more than a limit,
+// simulated time slips: the missed time is given up, and no backlog is caught up.
 
 /// The machine's clocks; tests replace them.
 struct PacerClock {
@@ -56,6 +59,32 @@ class Pacer {
   PacerClock clock_;
   double origin_ = 0.0;  ///< monotonic time of simulated second 0 [s]
   PacerCounts counts_;
+};
+
+// The speed of the simulation over the last second, in contrast to its mean since the start.
+
+class RecentPace {
+ public:
+  /// `window`: of wall time, over which the rates are taken [s].
+  explicit RecentPace(double window = 1.0) noexcept : window_(window) {}
+
+  /// To be called at the end of each frame with the wall clock, simulated time [s] and the number
+  /// of steps so far.
+  void note(double wall, double simulated, std::int64_t steps);
+
+  /// Simulated time per wall time [1]; 0 before the second frame.
+  [[nodiscard]] double real_time_factor() const noexcept;
+  [[nodiscard]] double steps_per_second() const noexcept;
+
+ private:
+  struct Sample {
+    double wall = 0.0;
+    double simulated = 0.0;
+    std::int64_t steps = 0;
+  };
+
+  double window_;
+  std::deque<Sample> samples_;
 };
 
 }  // namespace splash::sim

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "program/write_error.hpp"
+#include "program/files.hpp"
 
 namespace splash::sim {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "program/config_file.hpp"
 #include "program/failure.hpp"
-#include "program/write_error.hpp"
+#include "program/files.hpp"
 #include "protocol/control.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/serve/run_report.hpp"

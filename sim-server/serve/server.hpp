@@ -24,7 +24,6 @@
 #include "sim-server/serve/overload.hpp"
 #include "sim-server/serve/pacer.hpp"
 #include "sim-server/serve/pose_intake.hpp"
-#include "sim-server/serve/recent_pace.hpp"
 #include "sim-server/serve/report.hpp"
 #include "sim-server/show/show.hpp"
 #include "sim-server/show/vtk_files.hpp"

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "sim-server/show/read_water.hpp"
 #include "sim-server/show/scene_frame.hpp"
+#include "sim-server/show/state_frame.hpp"
 
 namespace splash::sim {
 namespace {

@@ -10,6 +10,7 @@
 #include "protocol/limits.hpp"
 
 namespace splash::sim {
+
 namespace {
 
 constexpr double kCounts = std::numeric_limits<std::uint16_t>::max();
@@ -127,6 +128,26 @@ protocol::ViewFrame state_frame(const ShownWater& water, const ShownState& state
     writer.put(packed(box, bubble) | std::uint64_t{kBubble} << 56U);
   }
   return std::move(writer).take();
+}
+
+void read_water(Fluid& fluid, ShownWater& water) {
+  Device& device = fluid.device();
+  const PointArrays& points = fluid.particles();
+  water.count = static_cast<std::size_t>(fluid.params().count);
+  water.stride = static_cast<std::size_t>(points.stride);
+  water.least_density = fluid.params().least_density;
+  const std::size_t vectors = 2 * water.stride + water.count;
+  water.position.resize(vectors);
+  water.velocity.resize(vectors);
+  water.id.resize(water.count);
+  water.density.resize(water.count);
+  water.moving.resize(water.count);
+  points.position.enqueue_read(device, water.position);
+  points.velocity.enqueue_read(device, water.velocity);
+  points.id.enqueue_read(device, water.id);
+  fluid.density().enqueue_read(device, water.density);
+  fluid.moving().enqueue_read(device, water.moving);
+  device.queue().finish();
 }
 
 }  // namespace splash::sim

@@ -8,6 +8,7 @@
 
 #include "protocol/frame.hpp"
 #include "sim-server/bodies/motion/motion.hpp"
+#include "sim-server/fluid/fluid.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -43,5 +44,10 @@ struct ShownState {
 inline constexpr double kShownSpeed = 8.0;  ///< faster particles are shown at this speed [m/s]
 
 [[nodiscard]] protocol::ViewFrame state_frame(const ShownWater& water, const ShownState& state);
+
+// What viewers and files are shown of the water, as the device holds it.
+
+/// Reads the water back from the device, between two frames; waits.
+void read_water(Fluid& fluid, ShownWater& water);
 
 }  // namespace splash::sim

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <vector>
 
-#include "program/write_error.hpp"
-#include "sim-server/show/read_water.hpp"
+#include "program/files.hpp"
+#include "sim-server/show/state_frame.hpp"
 
 namespace splash::sim {
 namespace {

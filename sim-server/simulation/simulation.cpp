@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "sim-server/bodies/contact_step.hpp"
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/simulation/free_body_watch.hpp"
-#include "sim-server/simulation/recovery/rescue.hpp"
+#include "sim-server/simulation/recovery/step_fault.hpp"
 #include "sim-server/start/come_to_rest.hpp"
 #include "sim-server/start/scene_start.hpp"
 

@@ -15,7 +15,7 @@
 #include "sim-server/detect/detector.hpp"
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/free_bodies/body_pushes.hpp"
-#include "sim-server/fluid/health/checkpoint.hpp"
+#include "sim-server/fluid/health/health.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/step_policy.hpp"
 #include "sim-server/scene/support_state.hpp"
@@ -175,7 +175,7 @@ class Simulation {
   double detected_at_ = 0.0;  ///< time of the last detection [s]
   StepPolicy step_policy_;
   double largest_step_ = 0.0;  ///< [s]
-  double contact_step_ = 0.0;  ///< no step is longer (bodies/contact_step.hpp) [s]
+  double contact_step_ = 0.0;  ///< no step is longer (bodies/mass.hpp) [s]
   double thrown_until_ = 0.0;  ///< water may be as fast as it can be [s]
   double origin_ = 0.0;        ///< our clock when simulated time was 0 [s]
   Recovery recovery_;

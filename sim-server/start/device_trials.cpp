@@ -16,7 +16,7 @@
 #include <sstream>
 #include <utility>
 
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 
 namespace splash::sim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/fluid.hpp"
 
 namespace splash::sim {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "program/printable.hpp"
+#include "program/text.hpp"
 #include "protocol/arrays.hpp"
 #include "protocol/limits.hpp"
 #include "sim-server/tracker_monitor/mapping_lines.hpp"

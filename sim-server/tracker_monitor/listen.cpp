@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "program/exit_codes.hpp"
+#include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/time_tag.hpp"

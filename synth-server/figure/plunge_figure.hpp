@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "synth-server/figure/components.hpp"
 
@@ -22,5 +24,17 @@ struct FigureSettings {
 /// Draws a PNG. Throws GnuplotError, or std::runtime_error when the picture cannot be written.
 void draw_plunge(const Components& components, const FigureSettings& settings,
                  const std::filesystem::path& png);
+
+// A long signal as narrow as a picture: the lowest and highest sample of each column.
+
+struct Extent {
+  double time = 0.0;  ///< of the column's middle, from the first sample [s]
+  float lowest = 0.0F;
+  float highest = 0.0F;
+};
+
+/// At most `columns` extents of equal width; one per sample when there are fewer samples.
+std::vector<Extent> envelope(std::span<const float> signal, double sample_rate,
+                             std::size_t columns);
 
 }  // namespace splash::synth

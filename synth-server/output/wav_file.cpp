@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "program/write_error.hpp"
+#include "program/files.hpp"
 
 namespace splash::synth {
 namespace {

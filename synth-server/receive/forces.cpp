@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "protocol/filling.hpp"
+#include "protocol/reply_budget.hpp"
 
 namespace splash::synth {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "protocol/address.hpp"
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
+#include "protocol/reply_budget.hpp"
 #include "synth-server/receive/oscpack_reader.hpp"
 
 namespace splash::synth {

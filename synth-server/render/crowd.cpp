@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "synth-server/voices/resonator.hpp"
 
 namespace splash::synth {

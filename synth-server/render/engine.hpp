@@ -12,7 +12,7 @@
 #include "synth-server/render/control_box.hpp"
 #include "synth-server/render/counters.hpp"
 #include "synth-server/render/underfoot.hpp"
-#include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 
 namespace splash::synth {
 

@@ -33,7 +33,7 @@ struct ImpactSound {
   double fast_db = 36.0;  ///< ... at this [dB]
 };
 
-/// A bubble, or a cavity, which is the same formula with a large radius (bubble_model.hpp).
+/// A bubble, or a cavity, which is the same formula with a large radius (bubble_tone.hpp).
 struct ToneSound {
   double gain_db = 0.0;     ///< [dB]
   double minnaert = 3.0;    ///< f0 r [m/s]; paper section 5.2.1 (theory gives 3.26 to 3.29)

@@ -6,8 +6,7 @@
 
 #include "protocol/time_tag.hpp"
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/params/parts.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"

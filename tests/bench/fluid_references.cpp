@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/fluid_yardstick.hpp"

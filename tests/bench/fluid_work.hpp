@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim-server/device/profile.hpp"
+#include "sim-server/device/device.hpp"
 #include "tests/bench/fluid_block.hpp"
 
 namespace splash::bench {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/figure/envelope.hpp"
+#include "synth-server/figure/plunge_figure.hpp"
 
 #include <gtest/gtest.h>
 

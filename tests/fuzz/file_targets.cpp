@@ -11,7 +11,6 @@
 #include "sim-server/scene/mesh/mesh_file.hpp"
 #include "sim-server/scene/mesh/mesh_mass.hpp"
 #include "sim-server/scene/mesh/soundness.hpp"
-#include "sim-server/scene/mesh/stl_format.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "synth-server/output/rig_reader.hpp"

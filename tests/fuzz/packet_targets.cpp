@@ -4,9 +4,9 @@
 #include <string>
 
 #include "protocol/address.hpp"
+#include "protocol/control_port.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
-#include "protocol/packet_text.hpp"
 #include "protocol/status.hpp"
 #include "synth-server/receive/oscpack_reader.hpp"
 #include "tests/fuzz/target.hpp"

@@ -126,7 +126,7 @@ TEST_F(Service, KnowsItsScenesAndRigs) {
 /// The numbers in docs/running.md, the units and the header are the same.
 TEST(ExitCodes, AreToldAsTheyAre) {
   const fs::path root = SPLASH_SOURCE_DIR;
-  const std::string header = read_text(root / "program" / "exit_codes.hpp");
+  const std::string header = read_text(root / "program" / "failure.hpp");
   const std::string readme = read_text(root / "docs/running.md");
   static const std::regex kCode(R"(kExit\w+ = (\d+),)");
   int codes = 0;

@@ -14,8 +14,8 @@
 
 #include "protocol/address.hpp"
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/network/on_two_hosts.hpp"

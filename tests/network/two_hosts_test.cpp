@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
+#include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/network/on_two_hosts.hpp"

@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-#include "program/config_number.hpp"
-#include "program/nearest_name.hpp"
+#include "program/config_value.hpp"
+#include "program/text.hpp"
 
 namespace splash::program {
 namespace {

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "program/config.hpp"
-#include "program/write_error.hpp"
+#include "program/files.hpp"
 
 namespace splash::program {
 namespace {

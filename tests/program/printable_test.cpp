@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "program/printable.hpp"
+#include "program/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "program/start_anew.hpp"
+#include "program/this_program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

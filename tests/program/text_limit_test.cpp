@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "program/text_limit.hpp"
+#include "program/text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

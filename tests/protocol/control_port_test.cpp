@@ -10,7 +10,7 @@
 
 #include "protocol/control.hpp"
 #include "protocol/event.hpp"
-#include "protocol/filling.hpp"
+#include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 
 namespace splash::protocol {

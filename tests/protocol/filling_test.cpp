@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "protocol/filling.hpp"
+#include "protocol/reply_budget.hpp"
 
 #include <gtest/gtest.h>
 

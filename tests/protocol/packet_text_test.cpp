@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The text of /dumpOSC loses no digit.
-#include "protocol/packet_text.hpp"
+#include "protocol/control_port.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "sim-server/simulation/missing_water.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "sim-server/simulation/water_notices.hpp"
 
 namespace splash::sim {
 namespace {

@@ -9,7 +9,7 @@
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
-#include "sim-server/simulation/unsupported_water.hpp"
+#include "sim-server/simulation/water_notices.hpp"
 
 namespace splash::sim {
 namespace {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "protocol/control_port.hpp"
 #include "protocol/event_log.hpp"
-#include "protocol/packet_text.hpp"
 #include "protocol/status.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"

@@ -8,14 +8,24 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
-#include "sim-server/fluid/boundary/outlines.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/step.hpp"
+#include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
+
+// The bodies' outlines as the device has them (boundary/outline.h).
+
+struct Outlines {
+  std::vector<BodyShape> shapes;  ///< one for each body
+  std::vector<float> meshes;      ///< distances and vertices of those that are meshes [m]
+};
+
+/// Throws std::length_error where the meshes have more numbers than an int counts.
+[[nodiscard]] Outlines body_outlines(const std::vector<BodySettings>& bodies);
 
 class Boundary {
  public:

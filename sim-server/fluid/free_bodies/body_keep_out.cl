@@ -7,7 +7,7 @@
 // Written over what body_reach.cl found, which has been answered.
 
 #include "sim-server/fluid/boundary/bodies.h"
-#include "sim-server/fluid/boundary/keep_in_tank.h"
+#include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/boundary/keep_out.h"
 #include "sim-server/fluid/free_bodies/body_reach.h"
 #include "sim-server/fluid/lanes/lanes.h"

@@ -2,7 +2,7 @@
 #include "sim-server/fluid/free_bodies/body_pushes.hpp"
 
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 
 namespace splash::sim {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"

@@ -3,7 +3,7 @@
 //   g_i = rho0 (R sum_b V_b grad W_ib + S grad R, if the body is the nearest)     body_image.h
 //   a_i = sum_b V_b K_ib (v_ib . x_ib) / (r^2 + eta^2) grad W_ib
 //   c_i = dt sum_b V_b K |grad W_ib| r / (r^2 + eta^2),  the most that rubbing can yield
-// the same terms as in acceleration.cl (viscosity.h), of this body's points alone.
+// the same terms as in acceleration.cl (pair.h), of this body's points alone.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_image.h"
@@ -12,7 +12,6 @@
 #include "sim-server/fluid/neighbours/group.h"
 #include "sim-server/fluid/neighbours/near.h"
 #include "sim-server/fluid/neighbours/pair.h"
-#include "sim-server/fluid/neighbours/viscosity.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/smoothing.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/step.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 
 namespace splash::sim {
 namespace {

@@ -11,6 +11,7 @@
 #include "sim-server/fluid/time_step.hpp"
 
 namespace splash::sim {
+
 namespace {
 
 static_assert(SPLASH_HEALTH_NOT_FINITE == static_cast<int>(Fault::not_finite) &&
@@ -194,6 +195,28 @@ std::optional<Diagnosis> Health::diagnosis() const {
 
 void Health::accept() {
   if (!read_.empty()) last_ = read_.back().after;
+}
+
+namespace {
+
+std::size_t bytes_of(const cl::Buffer& buffer) {
+  return buffer.getInfo<CL_MEM_SIZE>();
+}
+
+}  // namespace
+
+void Checkpoint::keep(Device& device, const std::vector<cl::Buffer>& state) {
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    const std::size_t bytes = bytes_of(state[k]);
+    if (k == kept_.size()) kept_.emplace_back(device.context(), CL_MEM_READ_WRITE, bytes);
+    device.queue().enqueueCopyBuffer(state[k], kept_[k], 0, 0, bytes);
+  }
+}
+
+void Checkpoint::recall(Device& device, const std::vector<cl::Buffer>& state) const {
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    device.queue().enqueueCopyBuffer(kept_[k], state[k], 0, 0, bytes_of(state[k]));
+  }
 }
 
 }  // namespace splash::sim

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/device.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/boundary/boundary.hpp"
 #include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
@@ -125,6 +126,21 @@ class Health {
   std::vector<double> steps_;          ///< lengths of those that were looked at [s]
   std::optional<std::uint32_t> last_;  ///< the state's bits at the end of the last sound frame
   Kernel check_;
+};
+
+// Keeps the last good state of the water on the device. Keeping and recalling it each cost a copy
+// on the device and do not wait.
+
+class Checkpoint {
+ public:
+  Checkpoint() = default;
+  /// `state`: all buffers that the next step depends on. They may be other buffers at each call, of
+  /// the same sizes in the same order.
+  void keep(Device& device, const std::vector<cl::Buffer>& state);
+  void recall(Device& device, const std::vector<cl::Buffer>& state) const;
+
+ private:
+  std::vector<cl::Buffer> kept_;
 };
 
 }  // namespace splash::sim

@@ -4,7 +4,6 @@
 // chunk needs no atomics, so its order, and with it every sum that follows, is the same on every
 // run.
 
-#include "sim-server/fluid/neighbours/cells_in_use.h"
 #include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/params/fluid_params.h"
 

@@ -3,7 +3,7 @@
 // cells (neighbours/cell_rank.cl).
 #pragma once
 
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/neighbours/point_arrays.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 

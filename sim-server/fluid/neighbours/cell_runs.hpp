@@ -3,7 +3,7 @@
 // (neighbours/cell_count.cl, neighbours/cell_sort.cl).
 #pragma once
 
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/neighbours/point_arrays.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 

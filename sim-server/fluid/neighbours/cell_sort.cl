@@ -3,7 +3,6 @@
 // each came from.
 
 #include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/neighbours/cells_in_use.h"
 #include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/neighbours/points.h"
 #include "sim-server/fluid/params/fluid_params.h"

@@ -22,3 +22,24 @@ static Pair pair_with(constant FluidParams* p, const Group* g, global const floa
   pair.slope = kernel_slope(pair.r2, p->inverse_support);
   return pair;
 }
+
+// The viscous law of a pair (Monaghan 2005, sections 4 and 5), for water against water and bodies:
+//   (10 nu v.x + alpha c0 h min(v.x, 0)) / (r^2 + 0.01 h^2)         v, x: of one less the other's
+// as what approaches rubs more. The factors are given as they are, or over rho0.
+
+// v . x of a pair whose one is as fast as `u`, `v` and `w` and whose other is number `j` [m2/s].
+static lanes closing_with(const Pair* pair, lanes u, lanes v, lanes w,
+                          global const float* velocity, int stride, int j) {
+  return (u - velocity[j]) * pair->dx + (v - velocity[stride + j]) * pair->dy +
+         (w - velocity[2 * stride + j]) * pair->dz;
+}
+
+static lanes rubbing(float viscous, float artificial, lanes closing) {
+  return viscous * closing + artificial * fmin(closing, 0.0f);
+}
+
+// 1 / (r^2 + 0.01 h^2)
+static lanes inverse_square(constant FluidParams* p, const Pair* pair) {
+  const float eta2 = 0.01f * p->length * p->length;
+  return inverse(pair->r2 + eta2);
+}

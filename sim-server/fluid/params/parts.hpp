@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What of the kernels a scene needs. Programs are built without the rest: without bodies nobody
-// asks where they are, without a slope every wall is a mirror, and so on.
+// How the kernels are built: their sources, and what of them a scene needs.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 
 namespace splash::sim {
+
+// What of the kernels a scene needs. Programs are built without the rest: without bodies nobody
+// asks where they are, without a slope every wall is a mirror, and so on.
 
 struct KernelParts {
   bool bodies = true;
@@ -26,5 +29,14 @@ struct KernelParts {
 
 /// What programs with these parts are built with.
 [[nodiscard]] std::vector<std::string> kernel_defines(const KernelParts& parts);
+
+// The fluid's kernels as they are built: the stages of a step, and apart from them those of the
+// divergence-free solver, of free bodies and the statistics.
+
+[[nodiscard]] std::vector<KernelSource> fluid_sources();
+[[nodiscard]] std::vector<KernelSource> divergence_free_sources();
+[[nodiscard]] std::vector<KernelSource> grid_projected_sources();
+[[nodiscard]] std::vector<KernelSource> free_body_sources();
+[[nodiscard]] std::vector<KernelSource> stats_sources();
 
 }  // namespace splash::sim

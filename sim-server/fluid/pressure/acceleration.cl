@@ -17,7 +17,6 @@
 #include "sim-server/fluid/neighbours/group.h"
 #include "sim-server/fluid/neighbours/near.h"
 #include "sim-server/fluid/neighbours/pair.h"
-#include "sim-server/fluid/neighbours/viscosity.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/params/smoothing.h"

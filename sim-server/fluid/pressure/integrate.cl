@@ -3,7 +3,7 @@
 // the speed limit; nobody is caught in a body or goes through it. Sleeping particles stay where
 // they are, and keep their speed for when they wake.
 
-#include "sim-server/fluid/boundary/keep_in_tank.h"
+#include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/boundary/keep_out.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 

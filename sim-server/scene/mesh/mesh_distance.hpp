@@ -1,18 +1,35 @@
 // SPDX-License-Identifier: MIT
+// How far a place is from a triangle, and from a closed mesh of them.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "sim-server/scene/mesh/triangle_mesh.hpp"
+#include "sim-server/scene/scene.hpp"
+
+namespace splash::sim {
+
+// The point of a triangle that is nearest to a place, and on which part of it that is (Ericson
+// 2005, Real-Time Collision Detection, 5.1.5).
+
+/// Corner k, the side from corner k to the next, or what lies between them.
+enum class TrianglePart { corner_0, corner_1, corner_2, side_0, side_1, side_2, inside };
+
+struct TrianglePoint {
+  Vector3 place = {0.0, 0.0, 0.0};  ///< [m]
+  TrianglePart part = TrianglePart::inside;
+};
+
+/// `corner`: of a triangle that has an area [m].
+[[nodiscard]] TrianglePoint nearest_on(const std::array<Vector3, 3>& corner, const Vector3& place);
+
 // The signed distance from a closed mesh, exact: the nearest triangle is found in a tree of boxes,
 // and which side of the surface a place is on by the normal at the nearest point: that of the
 // triangle, of an edge the sum of its two triangles', of a vertex the sum of all, each weighted by
 // its angle there (Baerentzen & Aanaes 2005, "Signed Distance Computation Using the Angle Weighted
 // Pseudonormal"; the nearest triangle's own normal is wrong before edges and vertices).
-#pragma once
-
-#include <limits>
-#include <vector>
-
-#include "sim-server/scene/mesh/triangle_mesh.hpp"
-#include "sim-server/scene/mesh/triangle_point.hpp"
-
-namespace splash::sim {
 
 struct SurfacePlace {
   Vector3 place = {0.0, 0.0, 0.0};  ///< the nearest on the surface [m]

@@ -7,8 +7,6 @@
 #include <iterator>
 
 #include "sim-server/scene/mesh/mesh_text.hpp"
-#include "sim-server/scene/mesh/obj_format.hpp"
-#include "sim-server/scene/mesh/stl_format.hpp"
 
 namespace splash::sim {
 namespace {

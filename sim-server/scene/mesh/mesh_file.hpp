@@ -6,7 +6,9 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
+#include "sim-server/scene/mesh/mesh_text.hpp"
 #include "sim-server/scene/mesh/triangle_mesh.hpp"
 
 namespace splash::sim {
@@ -19,5 +21,23 @@ namespace splash::sim {
 /// The same of a file's bytes; `file` names it, and its ending says which format it is.
 [[nodiscard]] TriangleMesh parse_mesh(const std::string& bytes, const std::string& file,
                                       double scale);
+
+// Wavefront OBJ, the part of it that is a surface of polygons: v and f. Texture, normals, groups,
+// materials, lines and points are passed over; curved surfaces are refused.
+
+/// Throws program::ConfigError at the line that is wrong.
+[[nodiscard]] TriangleMesh parse_obj(MeshText text);
+
+// STL, as text and in binary: triangles by their corners. The normals that it names beside them are
+// not used: the order of the corners says which side is outside.
+
+/// Whether the bytes are as long as their header says: 80 bytes, a count, 50 bytes a triangle.
+[[nodiscard]] bool is_binary_stl(std::string_view bytes);
+
+/// These throw program::ConfigError at the line, or with the number of the triangle, that is
+/// wrong. `scale`: [m per unit of the file].
+[[nodiscard]] TriangleMesh parse_binary_stl(std::string_view bytes, const std::string& file,
+                                            double scale);
+[[nodiscard]] TriangleMesh parse_stl(MeshText text);
 
 }  // namespace splash::sim

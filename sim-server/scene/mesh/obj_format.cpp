@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/scene/mesh/obj_format.hpp"
-
 #include <charconv>
 #include <set>
+
+#include "sim-server/scene/mesh/mesh_file.hpp"
 
 namespace splash::sim {
 namespace {

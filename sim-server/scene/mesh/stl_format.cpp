@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/scene/mesh/stl_format.hpp"
-
 #include <bit>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include "sim-server/scene/mesh/mesh_file.hpp"
 
 namespace splash::sim {
 namespace {

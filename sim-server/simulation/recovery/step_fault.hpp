@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Describes a fault of a frame and how it was recovered, for the log.
+// A fault of a step: where it is, how the water around it is stopped, and how it is described.
 #pragma once
 
 #include <string>
 
+#include "sim-server/bodies/body_steps.hpp"
+#include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/health/health.hpp"
 #include "sim-server/scene/scene.hpp"
 #include "sim-server/simulation/recovery/recovery.hpp"
 
 namespace splash::sim {
+
+// Describes a fault of a frame and how it was recovered, for the log.
 
 struct StepFault {
   Diagnosis what;
@@ -26,5 +30,17 @@ struct StepFault {
 [[nodiscard]] std::string describe_fault(const StepFault& step_fault);
 /// Returns a sentence: time, place, fault, likely cause and recovery.
 [[nodiscard]] std::string describe(const StepFault& step_fault);
+
+// Locates a fault once the water is back in its last good state, and stops the water around it.
+
+/// Adds the place of a fault and the nearest body to `step_fault`, whose diagnosis and time are
+/// known. `sound_at`: time of the water's state [s].
+void locate(StepFault& step_fault, Fluid& fluid, const Bodies& bodies, const Scene& scene,
+            double sound_at);
+
+/// Stops the water and the free bodies around the fault, or all of it when many particles were
+/// wrong. The radius grows with `times`, the number of frames given up in a row; it is stored in
+/// `step_fault`.
+void calm(StepFault& step_fault, Fluid& fluid, Bodies& bodies, int times, double sound_at);
 
 }  // namespace splash::sim

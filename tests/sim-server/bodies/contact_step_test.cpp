@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/bodies/contact_step.hpp"
+#include "sim-server/bodies/mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/detect/bubble_budget.hpp"
+#include "sim-server/detect/bubble_draw.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a start takes out of PoCL's cache.
-#include "sim-server/device/cache_seal.hpp"
+#include "sim-server/device/cache.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

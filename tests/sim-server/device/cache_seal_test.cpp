@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which compiled programs a start trusts.
-#include "sim-server/device/cache_seal.hpp"
+#include "sim-server/device/cache.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim-server/device/program.hpp"
-
 namespace splash::sim {
 namespace {
 

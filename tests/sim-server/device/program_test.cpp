@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Kernels are built from several files, and an error is one of the file it is in.
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include <cstdio>
 
 #include "sim-server/bodies/body_points.hpp"
-#include "sim-server/fluid/boundary/outlines.hpp"
+#include "sim-server/fluid/boundary/boundary.hpp"
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/initial_fluid.hpp"

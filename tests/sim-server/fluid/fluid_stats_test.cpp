@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/reference.hpp"

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sim-server/fluid/health/checkpoint.hpp"
+#include "sim-server/fluid/health/health.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/start/settle.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 
 namespace splash::sim {
 namespace {

@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "sim-server/device/profile.hpp"
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/device/device.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 
 namespace splash::sim {
 

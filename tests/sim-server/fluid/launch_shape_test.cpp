@@ -7,7 +7,7 @@
 
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/bodies/skin.hpp"
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 #include "tests/bench/opencl_ledger.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 

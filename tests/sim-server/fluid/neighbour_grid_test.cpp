@@ -11,7 +11,7 @@
 #include <numeric>
 #include <ostream>
 
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {

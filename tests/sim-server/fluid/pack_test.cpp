@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Water that hangs free begins as a liquid: without rows, as dense as at rest, where it was.
-#include "sim-server/start/pack.hpp"
+#include "sim-server/start/settle.hpp"
 
 #include <gtest/gtest.h>
 

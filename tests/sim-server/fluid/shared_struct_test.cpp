@@ -13,11 +13,11 @@
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/detect/touch.h"
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/health/stats_part.h"
-#include "sim-server/fluid/kernel_sources.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 
 namespace splash::sim {

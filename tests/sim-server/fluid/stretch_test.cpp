@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim-server/fluid/health/checkpoint.hpp"
+#include "sim-server/fluid/health/health.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/scene/initial_fluid.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference page holds what the reader knows.
-#include "sim-server/scene/scene_reference.hpp"
+#include "sim-server/scene/scene_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
+#include "protocol/reply_budget.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/sim-server/send/peer.hpp"
 #include "tests/support/own_address.hpp"

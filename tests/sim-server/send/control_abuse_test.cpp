@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/reply_budget.hpp"
 #include "tests/protocol/killers.hpp"
 #include "tests/sim-server/send/control_fixture.hpp"
 #include "tests/support/own_address.hpp"

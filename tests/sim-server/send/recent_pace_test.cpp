@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The pace of the last second, whatever was before.
-#include "sim-server/serve/recent_pace.hpp"
+#include "sim-server/serve/pacer.hpp"
 
 #include <gtest/gtest.h>
 

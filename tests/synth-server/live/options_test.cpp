@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "program/exit_codes.hpp"
+#include "program/failure.hpp"
 
 namespace splash::synth {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "protocol/address.hpp"
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/reply_budget.hpp"
 
 namespace splash::synth {
 namespace {

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "protocol/control.hpp"
-#include "protocol/filling.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/reply_budget.hpp"
 #include "synth-server/receive/receiver.hpp"
 #include "tests/support/own_address.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "synth-server/voices/resonator.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 

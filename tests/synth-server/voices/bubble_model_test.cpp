@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two models of a bubble against tables that were computed apart from this code, and the two
 // readings of the paper's chirp against what they mean for zero crossings.
-#include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "synth-server/voices/pack_kernels.hpp"
 #include "synth-server/voices/paper_bubble.hpp"
 

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "protocol/event_log.hpp"
-#include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "tests/synth-server/voices/bubble_modes.hpp"
 
 namespace splash::synth {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "synth-server/voices/bubble_model.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 
 namespace splash::synth {
 namespace {

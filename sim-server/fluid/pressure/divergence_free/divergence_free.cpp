@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/fluid/kernel_sources.hpp"
+#include "sim-server/fluid/params/parts.hpp"
 
 namespace splash::sim {
 namespace {

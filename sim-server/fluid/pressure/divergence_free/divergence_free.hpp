@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 

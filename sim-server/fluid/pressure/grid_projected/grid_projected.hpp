@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/device/program.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_layout.hpp"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"

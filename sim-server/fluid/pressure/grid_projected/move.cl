@@ -7,7 +7,7 @@
 // of: the second-order filter (1 - S)^2, which only takes energy and keeps momentum. Spacing is a
 // displacement, of which little becomes speed.
 
-#include "sim-server/fluid/boundary/keep_in_tank.h"
+#include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/boundary/keep_out.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"

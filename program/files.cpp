@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "program/input_file.hpp"
+#include "program/files.hpp"
 
 #include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
-
 #include "program/failure.hpp"
 
 namespace splash::program {
+
 namespace {
 
 std::string nowhere(const std::filesystem::path& path) {
@@ -33,6 +32,35 @@ std::string why_not(const std::filesystem::path& path) {
 void require_readable(const std::string& option, const std::filesystem::path& path) {
   const std::string cause = why_not(path);
   if (!cause.empty()) throw Failure(kExitNoInput, option + " " + path.string() + ": " + cause);
+}
+
+namespace {
+
+const char* cure(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "; free space there or name a file elsewhere";
+    case ENOENT:
+    case ENOTDIR:
+      return "; name a file in a folder that exists";
+    case EISDIR:
+      return "; name a file in it";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; name a file in a folder that you may write to";
+    case EFBIG:
+      return "; the limit of file sizes is reached ('ulimit -f'): raise it";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string write_error(int error) {
+  return (error != 0 ? std::strerror(error) : std::string("input/output error")) + cure(error);
 }
 
 }  // namespace splash::program

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The error of a file that cannot be written: its cause and what to do about it.
+// Files that cannot be read or written: what is said of them.
 #pragma once
 
+#include <filesystem>
 #include <string>
-
 #include "program/failure.hpp"
 
 namespace splash::program {
+
+// Checks a file that the command line names before it is read, so that the error names the option
+// and not only the file.
+
+/// Throws Failure (kExitNoInput) that names option, file and cause unless `path` is a file that can
+/// be read.
+void require_readable(const std::string& option, const std::filesystem::path& path);
+
+// The error of a file that cannot be written: its cause and what to do about it.
 
 /// Returns cause and cure of an errno value: "No space left on device; free space there or ...".
 /// 0: the cause is not known.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "program/unknown_option.hpp"
+#include "program/command_line.hpp"
 
 #include <algorithm>
-
-#include "program/nearest_name.hpp"
-#include "program/printable.hpp"
+#include "program/text.hpp"
 
 namespace splash::program {
+
 namespace {
 
 constexpr std::size_t kLongest = 64;  ///< of a word that is told [bytes]
