@@ -168,13 +168,14 @@ const char* const kHold = R"(
 kernel void hold_out(constant FluidParams* p, constant BodyShape* shapes, global const float* none,
                      global const BodyStep* bodies, int rounds, global const float* in,
                      global float* out) {
-  lanes x = LOAD(in, 0), y = x, z = x, u = 0.0f, v = u, w = u;
+  const Bodies near = {shapes, none, bodies, 0, 1};
+  lanes x[3] = {LOAD(in, 0), LOAD(in, 0), LOAD(in, 0)}, v[3] = {0.0f, 0.0f, 0.0f};
   for (int round = 0; round < rounds; ++round) {
-    const lanes a = x, b = y, c = z;
-    x += 1e-7f;
-    keep_lanes_out(p, shapes, none, bodies, 0, 1, a, b, c, &x, &y, &z, &u, &v, &w);
+    const lanes from[3] = {x[0], x[1], x[2]};
+    x[0] += 1e-7f;
+    keep_lanes_out(p, &near, from, x, v);
   }
-  STORE(x + y + z + u + v + w, out, 0);
+  STORE(x[0] + x[1] + x[2] + v[0] + v[1] + v[2], out, 0);
 }
 )";
 

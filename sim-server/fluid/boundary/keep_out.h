@@ -79,41 +79,40 @@ static bool leave_body(constant FluidParams* p, BodyShape shape, global const fl
 }
 
 // Bodies that the water moves have their own stage (body_keep_out.cl): they are pushed back.
-static void keep_out(constant FluidParams* p, constant BodyShape* shapes,
-                     global const float* meshes, global const BodyStep* bodies, int first_body,
-                     int body_count, float3 from, float3* x, float3* v) {
-  for (int k = 0; k < body_count; ++k) {
-    if (shapes[k].free) continue;
+static void keep_out(constant FluidParams* p, const Bodies* bodies, float3 from, float3* x,
+                     float3* v) {
+  for (int k = 0; k < bodies->count; ++k) {
+    if (bodies->shapes[k].free) continue;
     float3 out;
     float stopped;
-    leave_body(p, shapes[k], meshes, bodies[first_body + k], from, x, v, &out, &stopped);
+    leave_body(p, bodies->shapes[k], bodies->meshes, bodies->steps[bodies->first + k], from, x, v,
+               &out, &stopped);
   }
 }
 
-// Keeps every lane's particle out; most vectors have none near a body. `a`, `b`, `c`: where they
-// were when the step began.
-static void keep_lanes_out(constant FluidParams* p, constant BodyShape* shapes,
-                           global const float* meshes, global const BodyStep* bodies,
-                           int first_body, int body_count, lanes a, lanes b, lanes c, lanes* x,
-                           lanes* y, lanes* z, lanes* u, lanes* v, lanes* w) {
-  const float3 lower = (float3)(least(fmin(*x, a)), least(fmin(*y, b)), least(fmin(*z, c)));
-  const float3 upper = (float3)(most(fmax(*x, a)), most(fmax(*y, b)), most(fmax(*z, c)));
-  if (!bodies_near_box(bodies, first_body, body_count, lower, upper)) return;
+// Keeps every lane's particle out; most vectors have none near a body. `from`: where they were when
+// the step began, `x` and `v`: where they are and how fast.
+static void keep_lanes_out(constant FluidParams* p, const Bodies* bodies, const lanes from[3],
+                           lanes x[3], lanes v[3]) {
+  float3 lower, upper;
+  lower.x = least(fmin(x[0], from[0]));
+  lower.y = least(fmin(x[1], from[1]));
+  lower.z = least(fmin(x[2], from[2]));
+  upper.x = most(fmax(x[0], from[0]));
+  upper.y = most(fmax(x[1], from[1]));
+  upper.z = most(fmax(x[2], from[2]));
+  if (!bodies_near_box(bodies->steps, bodies->first, bodies->count, lower, upper)) return;
   float before[3][LANES], place[3][LANES], speed[3][LANES];
-  STORE(a, before[0], 0);
-  STORE(b, before[1], 0);
-  STORE(c, before[2], 0);
-  STORE(*x, place[0], 0);
-  STORE(*y, place[1], 0);
-  STORE(*z, place[2], 0);
-  STORE(*u, speed[0], 0);
-  STORE(*v, speed[1], 0);
-  STORE(*w, speed[2], 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    STORE(from[axis], before[axis], 0);
+    STORE(x[axis], place[axis], 0);
+    STORE(v[axis], speed[axis], 0);
+  }
   for (int lane = 0; lane < LANES; ++lane) {
-    const float3 from = (float3)(before[0][lane], before[1][lane], before[2][lane]);
+    const float3 start = (float3)(before[0][lane], before[1][lane], before[2][lane]);
     float3 at = (float3)(place[0][lane], place[1][lane], place[2][lane]);
     float3 moving = (float3)(speed[0][lane], speed[1][lane], speed[2][lane]);
-    keep_out(p, shapes, meshes, bodies, first_body, body_count, from, &at, &moving);
+    keep_out(p, bodies, start, &at, &moving);
     place[0][lane] = at.x;
     place[1][lane] = at.y;
     place[2][lane] = at.z;
@@ -121,10 +120,8 @@ static void keep_lanes_out(constant FluidParams* p, constant BodyShape* shapes,
     speed[1][lane] = moving.y;
     speed[2][lane] = moving.z;
   }
-  *x = LOAD(place[0], 0);
-  *y = LOAD(place[1], 0);
-  *z = LOAD(place[2], 0);
-  *u = LOAD(speed[0], 0);
-  *v = LOAD(speed[1], 0);
-  *w = LOAD(speed[2], 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    x[axis] = LOAD(place[axis], 0);
+    v[axis] = LOAD(speed[axis], 0);
+  }
 }

@@ -20,25 +20,22 @@ kernel void integrate(constant FluidParams* p, float dt, float piston, float pis
   const lane_flags move = LOAD(moving, i) != 0;
   if (!any_lane(move)) return;
   const int n = p->capacity;
-  lanes u = LOAD(velocity, i) + dt * LOAD(acceleration, i);
-  lanes v = LOAD(velocity + n, i) + dt * LOAD(acceleration + n, i);
-  lanes w = LOAD(velocity + 2 * n, i) + dt * LOAD(acceleration + 2 * n, i);
-  const lanes slower = fmin(p->speed_limit * rsqrt(u * u + v * v + w * w), 1.0f);
-  u *= slower;
-  v *= slower;
-  w *= slower;
-  const lanes a = LOAD(position, i), b = LOAD(position + n, i), c = LOAD(position + 2 * n, i);
-  lanes x = a + dt * u;
-  lanes y = b + dt * v;
-  lanes z = c + dt * w;
-  keep_lanes_out(p, shapes, meshes, bodies, first_body, body_count, a, b, c, &x, &y, &z, &u, &v,
-                 &w);
-
-  keep_in_tank(p, piston, piston_speed, &x, &y, &z, &u, &v, &w);
-  STORE(select(a, x, move), position, i);
-  STORE(select(b, y, move), position + n, i);
-  STORE(select(c, z, move), position + 2 * n, i);
-  STORE(select(LOAD(velocity, i), u, move), velocity, i);
-  STORE(select(LOAD(velocity + n, i), v, move), velocity + n, i);
-  STORE(select(LOAD(velocity + 2 * n, i), w, move), velocity + 2 * n, i);
+  lanes from[3], x[3], v[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    v[axis] = LOAD(velocity + axis * n, i) + dt * LOAD(acceleration + axis * n, i);
+  }
+  const lanes slower =
+      fmin(p->speed_limit * rsqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), 1.0f);
+  for (int axis = 0; axis < 3; ++axis) {
+    v[axis] *= slower;
+    from[axis] = LOAD(position + axis * n, i);
+    x[axis] = from[axis] + dt * v[axis];
+  }
+  const Bodies near = {shapes, meshes, bodies, first_body, body_count};
+  keep_lanes_out(p, &near, from, x, v);
+  keep_in_tank(p, piston, piston_speed, &x[0], &x[1], &x[2], &v[0], &v[1], &v[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    STORE(select(from[axis], x[axis], move), position + axis * n, i);
+    STORE(select(LOAD(velocity + axis * n, i), v[axis], move), velocity + axis * n, i);
+  }
 }

@@ -71,8 +71,8 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
     x[axis] = from[axis] + dt * way[axis];
   }
   const lanes free[3] = {x[0], x[1], x[2]};
-  keep_lanes_out(p, shapes, meshes, bodies, first_body, body_count, from[0], from[1], from[2],
-                 &x[0], &x[1], &x[2], &u[0], &u[1], &u[2]);
+  const Bodies near = {shapes, meshes, bodies, first_body, body_count};
+  keep_lanes_out(p, &near, from, x, u);
   keep_in_tank(p, piston, piston_speed, &x[0], &x[1], &x[2], &u[0], &u[1], &u[2]);
   const lane_flags here = LANE_NUMBERS < (lane_flags)(p->count - first);
   for (int axis = 0; axis < 3; ++axis) {
