@@ -36,7 +36,7 @@ struct Pan {
 [[nodiscard]] std::vector<Pan> pans_of(const Rig& rig);
 
 // What the device gets, for viewers: levels of all channels and a stereo mix. The audio thread puts
-// both into lock-free rings while somebody looks; a thread of its own makes frames of them. What
+// both into lock-free rings while viewers are there; a thread of its own makes frames of them. What
 // does not fit is left out here, never in the output.
 
 class Monitor final : public BlockTap {

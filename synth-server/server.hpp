@@ -52,7 +52,7 @@ class Server {
   [[nodiscard]] bool played_out() const;
   /// Goes over to another sound [s].
   void play(const NamedSound& sound, double seconds);
-  /// Begins the recording anew, if somebody has moved its file away.
+  /// Begins the recording anew, if its file has been moved away.
   void reopen();
   [[nodiscard]] const Rig& rig() const noexcept { return rig_; }
   [[nodiscard]] protocol::Endpoint local() const noexcept { return receiver_->local(); }

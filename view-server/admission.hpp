@@ -13,7 +13,7 @@ namespace splash::view {
 
 /// Whether a request is from a page of this server's own. `host`: its header; `origin`: the same,
 /// empty where there is none, as from what is no browser. A host that is an IPv4 address or
-/// localhost is ours: a name that somebody made lead here is neither. `ours`: further hosts.
+/// localhost is ours: another name that leads here is neither. `ours`: further hosts.
 [[nodiscard]] bool is_own(std::string_view host, std::string_view origin,
                           const std::vector<std::string>& ours);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames of one of the programs over TCP (protocol/frame_stream.hpp): connected while somebody
+// Frames of one of the programs over TCP (protocol/frame_stream.hpp): connected while a viewer
 // looks, and again when the program comes back.
 #pragma once
 
@@ -30,7 +30,7 @@ class Feed {
   Feed(boost::asio::io_context& context, const protocol::Endpoint& where, std::string_view greeting,
        Actions actions);
 
-  /// Somebody looks, or nobody any more.
+  /// Whether any viewer looks.
   void look(bool looked_at);
   /// Asks for so many frames.
   void ask(std::size_t frames);

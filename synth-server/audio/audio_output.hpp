@@ -14,7 +14,7 @@ struct AudioBlock {
   int frames = 0;
   double time = 0.0;              ///< when the block was asked for [s, monotonic]
   bool xrun = false;              ///< samples were lost before this block
-  bool restart = false;           ///< first block since start(): it continues no other's timing
+  bool restart = false;           ///< first block since start(): its time follows on no other's
   const float* sensor = nullptr;  ///< what the input that was asked for heard; null: none was
 };
 

@@ -48,7 +48,7 @@ struct Equalisation {
 
 enum class Sense { none, touch, hearing };
 
-/// What is known of who feels or hears an output: voices end where nobody would.
+/// The threshold of touch or hearing at an output: voices end where they fall below it.
 struct Threshold {
   Sense sense = Sense::none;
   double level_db = -80.0;  ///< a sine of 250 Hz (touch) or 1 kHz (hearing) is just felt or heard

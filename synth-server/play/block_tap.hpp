@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gets what the device gets, as long as somebody looks on.
+// A copy of the blocks that the device gets, for viewers; made only while there are any.
 #pragma once
 
 namespace splash::synth {

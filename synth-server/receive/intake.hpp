@@ -64,7 +64,7 @@ class Intake {
   [[nodiscard]] IntakeCounters counters() const;
   [[nodiscard]] const protocol::ControlPort& port() const noexcept { return control_.port(); }
   [[nodiscard]] bool sender_present() const noexcept { return senders_.anybody_present(); }
-  /// When tick() next has a lease to end [s, monotonic]; infinity: nobody is present.
+  /// When tick() next has a lease to end [s, monotonic]; infinity: no sender is present.
   [[nodiscard]] double next_expiry() const noexcept { return senders_.next_expiry(); }
 
  private:

@@ -47,9 +47,9 @@ class SenderTable {
   [[nodiscard]] Sender* find(const protocol::Endpoint& from) noexcept;
   [[nodiscard]] std::vector<Sender>& all() noexcept { return senders_; }
 
-  /// Ends leases that ran out by `now`. True when that leaves nobody present.
+  /// Ends leases that ran out by `now`. True when that leaves no sender.
   bool expire(double now) noexcept;
-  /// When the next lease runs out [s, monotonic]; infinity: nobody is present.
+  /// When the next lease runs out [s, monotonic]; infinity: no sender is present.
   [[nodiscard]] double next_expiry() const noexcept;
   [[nodiscard]] bool anybody_present() const noexcept;
   [[nodiscard]] SequenceTotals totals() const noexcept;

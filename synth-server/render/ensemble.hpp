@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All that sounds: from an event to its voices, unless nobody would feel or hear it; and the mix of
-// all voices.
+// All that sounds: from an event to its voices, unless they would be below the thresholds of touch
+// and hearing; and the mix of all voices.
 #pragma once
 
 #include <array>

@@ -50,7 +50,7 @@ class Cloud {
   std::size_t next_ = 0;    ///< where the next one goes: the oldest follow
   std::size_t count_ = 0;   ///< of them
   Column x_{}, y_{}, z_{};  ///< [m]
-  Column radius_{};         ///< [m]; 0: nobody is there
+  Column radius_{};         ///< [m]; 0: the place is free
   Column square_{};         ///< of the frequency [Hz^2]
   std::array<std::int64_t, kMost> born_{};
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The rigid bodies as the water meets them: points that stand for the fluid they displace, carried
 // to where each body is in a step and sorted like particles (Akinci et al. 2012), and the outlines
-// that nothing is caught in.
+// that particles are kept out of.
 #pragma once
 
 #include <array>

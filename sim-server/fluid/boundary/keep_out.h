@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Nobody is caught inside a body. The water around a body pushes with the pressure that the body
+// No particle stays inside a body. The water around a body pushes with the pressure that the body
 // itself causes, and that has no direction deep inside: a drop that got there alone would stay.
-// So what is deeper than half a spacing is put back to that depth below the nearest face, and its
-// motion into the body ends. Water in contact never is that deep (0.35 spacings at 1.5 m/s).
-// Nobody goes through a body, either: what a squeeze throws so far in one step that another side
-// is the nearer one, or that it has come out there, is put back to where it got too deep.
+// So a particle deeper than half a spacing is put back to that depth below the nearest face, and
+// its motion into the body ends. Water in contact never is that deep (0.35 spacings at 1.5 m/s).
+// No particle passes through a body, either: one that is thrown so far in one step that another
+// side is the nearer one, or that it has come out there, is put back to where it got too deep.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/outline.h"
@@ -16,8 +16,9 @@
 #define MOST_PROBES 32      // along a particle's way in a step, one each KEPT_DEPTH
 #define ENTRY_HALVINGS 14   // of the way between two probes: to 1e-4 of it
 
-// Where what goes from `start` by `way`, in the body's axes, is first deeper than `kept`, and the
-// outward normal there: where it was, if the body has come over it. False: it never is.
+// The place, in the body's axes, where a particle that moves from `start` by `way` is first deeper
+// than `kept`, and the outward normal there: `start`, if the body has moved over it. False: it
+// never is that deep.
 static bool entry_of(BodyShape s, global const float* meshes, float kept, float3 start, float3 way,
                      float3* at, float3* out) {
   const float was = depth_inside(s, meshes, start, out);

@@ -23,7 +23,7 @@
 #include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/params/smoothing.h"
 
-#define KEPT_OFF_WALLS 0.05f  // nobody gets nearer to a wall [spacings]
+#define KEPT_OFF_WALLS 0.05f  // least distance of a particle from a wall [spacings]
 
 typedef struct {
   lanes share;       // part of the kernel's weight inside walls [1]
@@ -86,8 +86,8 @@ static WallField wall_field(constant FluidParams* p, lanes x, lanes y, lanes z, 
   return field;
 }
 
-// Nobody is left behind a wall: what came closer is put off it again (walls.h), and its motion into
-// the wall ends.
+// Particles stay in front of the walls: one that came closer than KEPT_OFF_WALLS is put back to
+// that distance, and its motion into the wall ends.
 
 static void keep_in_tank(constant FluidParams* p, float piston, float piston_speed, lanes* x,
                          lanes* y, lanes* z, lanes* u, lanes* v, lanes* w) {

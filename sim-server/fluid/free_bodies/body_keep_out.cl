@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nobody is caught inside a free body or goes through it, either (keep_out.h): what is too deep is
+// No particle stays inside a free body or passes through it (keep_out.h): one that is too deep is
 // put back, and its motion into the body ends, as in a collision without rebound. It then moves
 // along with the body's face, so it yields by all of the body's change in that direction
 // (body_reach.h with g_i = out, b_i = 1 and a_i the change of its speed), and the collision of all
@@ -104,7 +104,7 @@ kernel void keep_out_of_free(constant FluidParams* p, float dt, float piston, fl
                    least(select(far, z, mine)));
   upper = (float3)(most(select(-far, x, mine)), most(select(-far, y, mine)),
                    most(select(-far, z, mine)));
-  lower -= dt * p->speed_limit;  // nobody came from farther away
+  lower -= dt * p->speed_limit;  // no particle came from farther away
   upper += dt * p->speed_limit;
   Crowd crowd;
   bool moved = false;

@@ -45,7 +45,7 @@ static void note_reach(BodyShape s, float support, BodyStep* b) {
       length((float3)(b->vx, b->vy, b->vz)) + far * length((float3)(b->wx, b->wy, b->wz));
 }
 
-// What touches what, and the speeds after that. Walls last: they give way to nobody.
+// What touches what, and the speeds after that. Walls last: they do not give way.
 static void collide(Contacts* all, constant FluidParams* p, constant BodyShape* shapes,
                     global const float* meshes, int free_count, int body_count, float dt,
                     float piston, float piston_speed) {

@@ -46,7 +46,7 @@ static void reach_of_group(constant FluidParams* p, const Group* g, global const
   image_gradient(p, &image, &share, &sum->gx, &sum->gy, &sum->gz);
 }
 
-// b_i; particles without pressure, which pull nobody, do not yield to the state equation.
+// b_i; particles without pressure, which attract none, do not yield to the state equation.
 static lanes yield_of(constant FluidParams* p, float dt, global const float* pressure_term,
                       global const float* density, global const float* response, int first) {
   if (p->solver == SPLASH_DIVERGENCE_FREE) {

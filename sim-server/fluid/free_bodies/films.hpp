@@ -40,7 +40,7 @@ class Films {
   [[nodiscard]] const Buffer<float>& push() const noexcept { return push_; }
   /// What the next step depends on, for checkpoints.
   [[nodiscard]] const cl::Buffer& kept() const noexcept { return kept_.memory(); }
-  /// The next films begin anew.
+  /// Forgets the films of the last step.
   void forget(Device& device) { kept_.enqueue_clear(device); }
   /// Steps in which films were looked for.
   [[nodiscard]] std::uint64_t steps() const noexcept { return steps_; }

@@ -50,7 +50,7 @@ class FreeBodies {
   /// the accelerations of the water next to them, too.
   void answer(Fluid& fluid, const Step& step);
 
-  /// What an answer is to, and where the water's part of it goes.
+  /// What the bodies answer to, and where the change of the water's velocities goes.
   struct Occasion {
     int iteration = 0;  ///< of a solve; nothing is done once `state` says that it is over
     const Buffer<SolveState>* state = nullptr;  ///< null: no solve

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums of the whole state's bits. A group that rests (rest.h) and in which nobody has changed place
+// Sums of the whole state's bits. A group that rests (rest.h) and whose particles are the same ones
 // is looked at in the last step of a frame only. Until then it counts with the bits that it had
 // when it was last looked at: what is done to it meanwhile is seen there, for the bits are others.
 

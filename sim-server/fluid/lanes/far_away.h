@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where points are that are none.
+// The coordinates of padding: entries of an array of points that are no points.
 #ifndef SPLASH_FAR_AWAY_H
 #define SPLASH_FAR_AWAY_H
 

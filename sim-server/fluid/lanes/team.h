@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sums over all particles are found in parts, one to a work-group, whose work-items (at most TEAM;
-// one alone on CPUs) take particles next to each other, so that they read memory together. Who
-// takes what, and in which order parts are added, depends on the launch alone: the same state gives
-// the same bits.
+// one alone on CPUs) take particles next to each other, so that their reads coalesce. Which item
+// takes which particles, and in which order parts are added, depends on the launch alone: the same
+// state gives the same bits.
 
 // What a work-item takes: `first`, `first + step` and so on, before `last`.
 typedef struct {

@@ -2,7 +2,7 @@
 // Which cell a point is in, and which runs of sorted points its neighbours are in. Cells are as
 // wide as the support and sorted x fastest, so the cells around a point are nine runs. Along x each
 // cell is cut into slices: runs end closer to the support, and points that follow each other lie
-// close together. Points beyond the grid count to its outermost inner cells: nobody is lost, no
+// close together. Points beyond the grid count to its outermost inner cells: no point is lost, no
 // index leaves the arrays.
 
 #include "sim-server/fluid/params/fluid_params.h"

@@ -10,8 +10,8 @@
 
 namespace splash::sim {
 
-// What of the kernels a scene needs. Programs are built without the rest: without bodies nobody
-// asks where they are, without a slope every wall is a mirror, and so on.
+// The parts of the kernels that a scene needs. Programs are built without the rest: without bodies
+// no kernel looks for them, without a slope every wall is a mirror, and so on.
 
 struct KernelParts {
   bool bodies = true;

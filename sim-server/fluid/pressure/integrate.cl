@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Symplectic Euler: v += a dt, x += v dt. Then nobody is left behind a wall, and nobody outruns
-// the speed limit; nobody is caught in a body or goes through it. Sleeping particles stay where
-// they are, and keep their speed for when they wake.
+// Symplectic Euler: v += a dt, x += v dt. Speeds are held under the limit, and particles in front
+// of walls and out of bodies. Sleeping particles stay where they are, and keep their velocity for
+// when they wake.
 
 #include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/boundary/keep_out.h"
