@@ -105,13 +105,14 @@ TEST(LiveControls, AGainGoesThereWithin20MillisecondsWithoutAClick) {
 }
 
 TEST(LiveControls, MuteAndSoloOfComponents) {
-  const auto heard = [](std::size_t number) {
+  const std::vector<protocol::Event> events = {impact(2.0F), bubble(0.005F), cavity(0.05F)};
+  ASSERT_EQ(events.size(), protocol::kEventKinds) << "one of each kind, which can be heard";
+  const auto heard = [&](std::size_t number) {
     Board board(open_rig());
     Engine engine(board.rig, board.settings);
     board.send(number, 1.0);
     render(engine, 4800);
     std::vector<bool> sounds;
-    const std::vector<protocol::Event> events = {impact(2.0F), bubble(0.005F), cavity(0.05F)};
     for (const protocol::Event& event : events) {
       engine.schedule({event, engine.clock()});
       sounds.push_back(loudest(render(engine, 2400)[0]) > 1e-4);
@@ -119,9 +120,14 @@ TEST(LiveControls, MuteAndSoloOfComponents) {
     }
     return sounds;
   };
-  EXPECT_EQ(heard(Layout::mute(0)), (std::vector{false, true, true}));
-  EXPECT_EQ(heard(Layout::mute(2)), (std::vector{true, true, false}));
-  EXPECT_EQ(heard(Layout::solo(1)), (std::vector{false, true, false}));
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    ASSERT_EQ(events[k].index(), k);
+    std::vector<bool> others(events.size(), true);
+    others[k] = false;
+    EXPECT_EQ(heard(Layout::mute(k)), others) << protocol::kKindNames[k].plural;
+    others.flip();
+    EXPECT_EQ(heard(Layout::solo(k)), others) << protocol::kKindNames[k].plural;
+  }
 }
 
 TEST(LiveControls, LevelsMuteAndSoloOfOutputsAndChannels) {
