@@ -164,8 +164,9 @@ struct PairFriction {
 struct BodySettings {
   std::string name;
   Shape shape;
-  bool cavity = true;  ///< it parts the water: air may be shut in behind it
-  Keyframe rest;       ///< pose at the start and, for fixed bodies, for ever
+  bool cavity = true;                ///< it parts the water: air may be shut in behind it
+  Keyframe rest;                     ///< pose at the start and, for fixed bodies, for ever
+  Vector3 centre = {0.0, 0.0, 0.0};  ///< spring, mesh: of its mass, from its file's origin [m]
   MotionSettings motion;
 };
 

@@ -50,7 +50,7 @@ std::filesystem::path find_file(const ConfigMap& map, const std::string& key,
 }
 
 /// A free body turns about its centre of mass: that becomes its origin, and it rests where the
-/// file's own origin was meant to.
+/// file's own origin was meant to. A device that it hangs on still says where that origin is.
 Shape read_mesh_shape(const ConfigMap& map, double spacing, BodySettings& body) {
   MeshEntry entry;
   map.read(mesh_fields(), {}, entry);
@@ -62,6 +62,7 @@ Shape read_mesh_shape(const ConfigMap& map, double spacing, BodySettings& body) 
     const Vector3 centre = mesh_mass(surface).centre;
     move_mesh(surface, -1.0 * centre);
     body.rest.position = body.rest.position + rotate(body.rest.rotation, centre);
+    if (is_tied(body)) body.centre = centre;
   }
   return mesh_shape(make_solid(std::move(surface), spacing));
 }
@@ -210,9 +211,6 @@ BodySettings read_body(const ConfigMap& map, double spacing) {
   if (const auto motion = map.optional_child("motion")) body.motion = read_motion(*motion);
   read_rest(map, body);
   if (is_mesh) body.shape = read_mesh_shape(shape, spacing, body);
-  if (is_mesh && is_tied(body)) {
-    throw shape.error("mesh", "a body on a spring is a box, a sphere or a cylinder");
-  }
   if (is_mesh && body.motion.sole) {
     throw map.child("motion").error("sole", "only a box has a sole, not a mesh");
   }

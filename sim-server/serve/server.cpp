@@ -13,6 +13,7 @@
 #include "program/failure.hpp"
 #include "program/files.hpp"
 #include "protocol/control.hpp"
+#include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/serve/run_report.hpp"
 
@@ -72,9 +73,7 @@ std::string grab(const Simulation& simulation, int body, bool on) {
 
 /// Why nobody can feel the water of this scene; empty: one can.
 std::string no_forces(const Simulation& simulation) {
-  if (simulation.can_feel()) return {};
-  const bool grid = simulation.scene().fluid.solver == PressureKind::grid_projected;
-  return grid ? "no forces with solver: grid_projected" : "poses move no body of this scene";
+  return simulation.can_feel() ? "" : "poses move no body of this scene";
 }
 
 }  // namespace
@@ -264,8 +263,9 @@ void Server::send_forces(const FrameResult& frame) {
   for (const BodyPush& push : frame.pushes) {
     const BodyState state =
         simulation_.bodies().state(static_cast<std::size_t>(push.body), frame.seconds);
-    const Vector3& x = state.position;
     const Quaternion& q = state.rotation;
+    const BodySettings& body = simulation_.scene().bodies[static_cast<std::size_t>(push.body)];
+    const Vector3 x = state.position - rotate(q, body.centre);
     const auto six = [](const Vector3& a, const Vector3& b) {
       return std::array<double, 6>{a[0], a[1], a[2], b[0], b[1], b[2]};
     };

@@ -27,7 +27,7 @@ HungBodies::HungBodies(const std::vector<BodySettings>& bodies,
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto body = static_cast<std::size_t>(free[k].body);
     if (!is_tied(bodies[body])) continue;
-    tethers_.push_back({k, free[k], dynamic_cast<const Tether*>(live[body])});
+    tethers_.push_back({k, free[k], dynamic_cast<const Tether*>(live[body]), bodies[body].centre});
   }
 }
 
@@ -53,17 +53,19 @@ std::vector<BodyPush> HungBodies::pushes(const std::vector<FreeBodyEnd>& ends, d
   for (const Hung& hung : tethers_) {
     const BodyState device = hung.tether->at(seconds);
     const FreeBodyEnd& end = ends[hung.free];
-    const auto by = [](float damper) {
-      const double d = -static_cast<double>(damper);
-      return Vector3{d, d, d};
-    };
+    const auto damper = static_cast<double>(hung.body.damper);
+    const auto turning = static_cast<double>(hung.body.turning_damper);
+    const Vector3 arm = rotate(device.rotation, hung.centre);
+    const double square = dot(arm, arm);
     all.push_back({.body = hung.body.body,
-                   .velocity = device.velocity,
+                   .velocity = device.velocity - cross(device.spin, arm),
                    .spin = device.spin,
                    .force = (-1.0 / frame) * end.tug,
-                   .torque = (-1.0 / frame) * end.twist,
-                   .by_speed = by(hung.body.damper),
-                   .by_spin = by(hung.body.turning_damper)});
+                   .torque = (-1.0 / frame) * (end.twist + cross(arm, end.tug)),
+                   .by_speed = {-damper, -damper, -damper},
+                   .by_spin = {-turning - damper * (square - arm[0] * arm[0]),
+                               -turning - damper * (square - arm[1] * arm[1]),
+                               -turning - damper * (square - arm[2] * arm[2])}});
   }
   return all;
 }

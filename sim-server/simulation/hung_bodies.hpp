@@ -32,6 +32,7 @@ class HungBodies {
     std::size_t free = 0;  ///< index among the free bodies
     FreeBody body = {};
     const Tether* tether = nullptr;
+    Vector3 centre = {0.0, 0.0, 0.0};  ///< of its mass, from the origin that devices know [m]
   };
   std::size_t free_count_ = 0;
   std::vector<Hung> tethers_;

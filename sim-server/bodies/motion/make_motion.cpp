@@ -97,7 +97,7 @@ std::unique_ptr<Motion> make_motion(const BodySettings& body,
     case MotionKind::osc:
       if (is_tied(body)) {
         return std::make_unique<TiedMotion>(BodyState{body.rest.position, body.rest.rotation},
-                                            gap_of(motion), motion.delay_limit);
+                                            gap_of(motion), motion.delay_limit, body.centre);
       }
       return std::make_unique<LiveMotion>(body.rest, LiveLimits{}, gap_of(motion),
                                           motion.delay_limit);

@@ -5,6 +5,7 @@
 #include "sim-server/bodies/motion/free_motion.hpp"
 #include "sim-server/bodies/motion/live_motion.hpp"
 #include "sim-server/bodies/motion/posed_motion.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 
@@ -12,12 +13,14 @@ namespace splash::sim {
 /// along a smooth way, so that the spring never pulls at once.
 class Tether : public PosedMotion {
  public:
-  Tether(const Keyframe& rest, const LiveGap& gap, double delay_limit)
-      : hand_(rest, {}, gap, delay_limit) {}
+  /// `centre`: where the spring holds the body, its centre of mass, from where poses say that it is
+  /// [m]. All other states are of that centre.
+  Tether(const Keyframe& rest, const LiveGap& gap, double delay_limit, const Vector3& centre)
+      : centre_(centre), hand_(rest, {}, gap, delay_limit) {}
 
   PoseRefusal push(const Vector3& position, const Quaternion& rotation,
                    const PoseStamp& stamp) override {
-    return hand_.push(position, rotation, stamp);
+    return hand_.push(position + rotate(unit(rotation), centre_), rotation, stamp);
   }
   void begin(const PlayedFrame& frame) override;
   [[nodiscard]] BodyState at(double seconds) const override;
@@ -29,6 +32,7 @@ class Tether : public PosedMotion {
  private:
   void go_over(const BodyState& from, double seconds);
 
+  Vector3 centre_;
   LiveMotion hand_;
   Vector3 way_ = {};    ///< back from the poses to where it was when it last began to go over [m]
   Vector3 turn_ = {};   ///< the same of its rotation [rad]
@@ -38,8 +42,10 @@ class Tether : public PosedMotion {
 
 class TiedMotion : public FreeMotion {
  public:
-  TiedMotion(const BodyState& start, const LiveGap& gap, double delay_limit)
-      : FreeMotion(start), tether_({0.0, start.position, start.rotation}, gap, delay_limit) {}
+  TiedMotion(const BodyState& start, const LiveGap& gap, double delay_limit,
+             const Vector3& centre = {0.0, 0.0, 0.0})
+      : FreeMotion(start),
+        tether_({0.0, start.position, start.rotation}, gap, delay_limit, centre) {}
 
   [[nodiscard]] Tether& tether() noexcept { return tether_; }
   /// The spring is slack, too.
