@@ -115,13 +115,18 @@ class Fluid {
     return solver_->press(device_, static_cast<std::size_t>(boundary_.body_count()));
   }
 
+  /// What PressureSolver says of these.
+  void feel(bool on) { solver_->feel(device_, on); }
+  void add_pushes(const Step& step, const FeltBodies& felt) {
+    solver_->add_pushes(*this, step, felt);
+  }
+
   /// For solvers: accelerations from the present pressure_term() and the given velocities.
   void compute_acceleration(const Step& step, const Buffer<float>& velocity);
   /// Moves the state on as the accelerations say.
   void integrate(const Step& step);
   /// Work-items of the stages that handle a vector of particles at once.
   [[nodiscard]] std::size_t groups() const;
-  /// For tests.
   [[nodiscard]] const PressureSolver& solver() const noexcept { return *solver_; }
   /// Work of the pressure solver until the last statistics, without what was before forget_work.
   [[nodiscard]] SolverWork solver_work() const { return solver_->work(); }

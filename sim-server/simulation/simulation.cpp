@@ -36,14 +36,8 @@ std::vector<SkinPoint> skins_of(const Scene& scene, const FluidParams& p) {
   return sample_skins(scene.bodies, static_cast<double>(p.spacing));
 }
 
-/// Bodies whose push by the water can be felt: none of a grid's water.
-std::vector<FreeBody> felt_by_water(const Scene& scene) {
-  if (scene.fluid.solver == PressureKind::grid_projected) return {};
-  return felt_bodies(scene.bodies);
-}
-
 std::unique_ptr<BodyPushes> make_pushes(Fluid& fluid, const Scene& scene) {
-  const std::vector<FreeBody> felt = felt_by_water(scene);
+  const std::vector<FreeBody> felt = felt_bodies(scene.bodies);
   const auto spacing = static_cast<double>(fluid.params().spacing);
   return std::make_unique<BodyPushes>(fluid, felt, film_skins(scene.bodies, felt, spacing));
 }
@@ -100,7 +94,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
-  can_feel_ = !hung_.empty() || !felt_by_water(scene_).empty();
+  can_feel_ = !hung_.empty() || !felt_bodies(scene_.bodies).empty();
   if (has_tracked(scene_)) feel(true);
   rehearse();
   feel(false);
@@ -165,15 +159,22 @@ void Simulation::set_bodies(const FrameSteps& steps, const std::vector<BodyStep>
 // when somebody asks.
 void Simulation::feel(bool on) {
   feels_ = on && can_feel_;
-  if (feels_ && !pushes_ && !felt_by_water(scene_).empty()) pushes_ = make_pushes(fluid_, scene_);
+  if (feels_ && !pushes_ && !felt_bodies(scene_.bodies).empty()) {
+    pushes_ = make_pushes(fluid_, scene_);
+  }
+  fluid_.feel(feels_ && pushes_ != nullptr);
+}
+
+bool Simulation::is_felt_now(int body) const {
+  const PosedMotion* const motion = live_body(body);
+  return motion != nullptr && (motion->is_tracked() || motion->is_held());
 }
 
 std::vector<BodyPush> Simulation::find_pushes(double seconds) {
   std::vector<BodyPush> all;
   for (BodyPush push : pushes_ ? pushes_->pushes(seconds) : std::vector<BodyPush>{}) {
-    const auto body = static_cast<std::size_t>(push.body);
-    if (!live_[body]->is_tracked() && !live_[body]->is_held()) continue;
-    const BodyState state = bodies_.state(body, seconds_);
+    if (!is_felt_now(push.body)) continue;
+    const BodyState state = bodies_.state(static_cast<std::size_t>(push.body), seconds_);
     push.velocity = state.velocity;
     push.spin = state.spin;
     all.push_back(push);
@@ -235,7 +236,11 @@ FrameResult Simulation::hold_still(double frame) {
 void Simulation::enqueue(const std::vector<Step>& steps, const FramePlan& plan, double since) {
   fluid_.begin_watch(steps.size());
   const bool weighs = feels_ && pushes_;
-  if (weighs) pushes_->begin(fluid_);
+  if (weighs) {
+    std::vector<bool> wanted;
+    for (const FreeBody& body : pushes_->bodies()) wanted.push_back(is_felt_now(body.body));
+    pushes_->begin(fluid_, wanted);
+  }
   for (std::size_t k = 0; k < steps.size(); ++k) {
     Step step = steps[k];
     if (hook_) hook_(fluid_, step, Moment::before);

@@ -93,8 +93,7 @@ class Simulation {
   /// Computes the forces on bodies, or not, from the next frame on. Requires can_feel(). The first
   /// call builds kernels where no body follows poses from the start on.
   void feel(bool on);
-  /// Whether forces can be computed: poses can move a body, in water that is not a grid's, or a
-  /// body hangs on a device.
+  /// Whether forces can be computed: poses can move a body, or a body hangs on a device.
   [[nodiscard]] bool can_feel() const noexcept { return can_feel_; }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
@@ -129,6 +128,8 @@ class Simulation {
                                            std::vector<BodyStep>& poses) const;
   /// Sets where bodies and devices are in the steps of a frame, on the device.
   void set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses);
+  /// Whether poses move the body, so that somebody may feel it.
+  [[nodiscard]] bool is_felt_now(int body) const;
   /// Returns the forces that are felt in a frame of so many seconds that has been computed.
   [[nodiscard]] std::vector<BodyPush> find_pushes(double seconds);
   /// Tries to compute a frame; nullopt: it had a fault.

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "examples/force/splash_force.hpp"
@@ -22,9 +24,12 @@ namespace {
 constexpr double kGravity = 9.81;       // [m/s2]
 constexpr double kFrame = 1.0 / 160.0;  // [s]
 
+constexpr char kOfParticles[] = "spacing: 0.033";
+constexpr char kOnGrid[] = "spacing: 0.025, solver: grid_projected";
+
 /// A cube of a litre on a spring, at this height.
 Scene scene_of(const std::string& height, const std::string& spring,
-               const std::string& fluid = "spacing: 0.033") {
+               const std::string& fluid = kOfParticles) {
   return parse_scene("fluid: {" + fluid + R"(}
 tank: {lower: [0, 0, 0], upper: [0.4, 0.4, 1.6]}
 water: [{lower: [0, 0, 0], upper: [0.4, 0.4, 0.4]}]
@@ -46,25 +51,29 @@ Vector3 felt(const FrameResult& frame) {
   return frame.pushes.size() == 1U ? frame.pushes[0].force : Vector3{NAN, NAN, NAN};
 }
 
+void expect_sag(Device& device, bool wet, const std::string& fluid) {
+  Simulation simulation(
+      device, scene_of(wet ? "0.28" : "1.2", "mass: 2, stiffness: 200, damping: 30", fluid), {});
+  ASSERT_TRUE(simulation.can_feel());
+  simulation.feel(true);
+  while (simulation.seconds() < 2.0) static_cast<void>(simulation.advance());
+  double mean = 0.0, sag = 0.0;
+  constexpr int kFrames = 40;
+  for (int k = 0; k < kFrames; ++k) {
+    mean += felt(simulation.advance())[2] / kFrames;
+    sag += ((wet ? 0.28 : 1.2) - cube(simulation).position[2]) / kFrames;
+  }
+  const double load = (2.0 - (wet ? 0.998 : 0.0)) * kGravity;
+  std::printf("%s, %s: felt %.4f N, sag %.5f m, of %.4f N and %.5f m\n", fluid.c_str(),
+              wet ? "in water" : "in air", mean, sag, -load, load / 200.0);
+  EXPECT_NEAR(mean / -load, 1.0, wet ? 0.03 : 1.0e-3);
+  EXPECT_NEAR(sag / (load / 200.0), 1.0, wet ? 0.03 : 1.0e-3);
+}
+
 TEST(Spring, SagsByTheWeightInTheAirAndByThatLessTheBuoyancyInWater) {
   Device device;
-  for (const bool wet : {false, true}) {
-    Simulation simulation(
-        device, scene_of(wet ? "0.28" : "1.2", "mass: 2, stiffness: 200, damping: 30"), {});
-    ASSERT_TRUE(simulation.can_feel());
-    simulation.feel(true);
-    while (simulation.seconds() < 2.0) static_cast<void>(simulation.advance());
-    double mean = 0.0, sag = 0.0;
-    constexpr int kFrames = 40;
-    for (int k = 0; k < kFrames; ++k) {
-      mean += felt(simulation.advance())[2] / kFrames;
-      sag += ((wet ? 0.28 : 1.2) - cube(simulation).position[2]) / kFrames;
-    }
-    const double load = (2.0 - (wet ? 0.998 : 0.0)) * kGravity;
-    std::printf("%s: felt %.4f N, sag %.5f m, of %.4f N and %.5f m\n", wet ? "in water" : "in air",
-                mean, sag, -load, load / 200.0);
-    EXPECT_NEAR(mean / -load, 1.0, wet ? 0.03 : 1.0e-3);
-    EXPECT_NEAR(sag / (load / 200.0), 1.0, wet ? 0.03 : 1.0e-3);
+  for (const char* fluid : {kOfParticles, kOnGrid}) {
+    for (const bool wet : {false, true}) expect_sag(device, wet, fluid);
   }
 }
 
@@ -116,9 +125,9 @@ TEST(Spring, TurnsAsFastAsItSwings) {
   EXPECT_NEAR(found / period, 1.0, 0.01);
 }
 
-TEST(Spring, TellsAllTheMomentumThatItGives) {
+void expect_all_momentum(const std::string& fluid) {
   Device device;
-  Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 80, damping: 2"), {});
+  Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 80, damping: 2", fluid), {});
   simulation.feel(true);
   PosedMotion* const hand = simulation.live_body(0);
   ASSERT_NE(hand, nullptr);
@@ -141,6 +150,10 @@ TEST(Spring, TellsAllTheMomentumThatItGives) {
   const double inertia = 0.5 * 0.1 * 0.1 / 6.0;
   EXPECT_GT(std::abs(state.spin[2]), 0.1);
   EXPECT_LT(length(turned - inertia * state.spin), 1.0e-5) << "N m s";
+}
+
+TEST(Spring, TellsAllTheMomentumThatItGives) {
+  for (const char* fluid : {kOfParticles, kOnGrid}) expect_all_momentum(fluid);
 }
 
 TEST(Spring, NeverPullsAtOnceWhenPosesBeginOrJump) {
@@ -251,11 +264,10 @@ Outcome push_in_and_out(Simulation& simulation, double factor, double seconds) {
   return run;
 }
 
-void expect_no_energy(double seconds) {
+void expect_no_energy(const Scene& scene, double seconds) {
   Device device;
   for (const double factor : {1.0, 0.3}) {
-    Simulation simulation(
-        device, scene_of("0.45", "mass: 0.6, stiffness: 60, damping: 1", "particles: 600"), {});
+    Simulation simulation(device, scene, {});
     simulation.feel(true);
     const Outcome run = push_in_and_out(simulation, factor, seconds);
     std::printf("x %.1f: gained %.3f mJ of %.2f J\n", factor, 1.0e3 * run.gained, run.work);
@@ -264,12 +276,70 @@ void expect_no_energy(double seconds) {
   }
 }
 
+Scene light(const std::string& solver) {
+  return scene_of("0.45", "mass: 0.6, stiffness: 60, damping: 1", "particles: 600" + solver);
+}
+
+/// The device is where the cube is.
+Scene direct_on_grid() {
+  Scene scene = light(", solver: grid_projected");
+  scene.bodies[0].motion.coupling = CouplingKind::direct;
+  return scene;
+}
+
 TEST(Spring, GivesADeviceNoEnergy) {
-  expect_no_energy(8.0);
+  expect_no_energy(light(""), 8.0);
+  expect_no_energy(light(", solver: grid_projected"), 8.0);
 }
 
 TEST(Spring, GivesADeviceNoEnergyInAMinute) {
-  expect_no_energy(60.0);
+  expect_no_energy(light(""), 60.0);
+  expect_no_energy(light(", solver: grid_projected"), 60.0);
+}
+
+TEST(Direct, WaterOnAGridGivesADeviceNoEnergy) {
+  expect_no_energy(direct_on_grid(), 8.0);
+}
+
+TEST(Direct, WaterOnAGridGivesADeviceNoEnergyInAMinute) {
+  expect_no_energy(direct_on_grid(), 60.0);
+}
+
+// A box as a mesh whose file has its origin in a corner: poses and torques are of that corner.
+TEST(Spring, HoldsAMeshWhereItsFileHasItsOrigin) {
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "cube.obj";
+  std::ofstream(file)
+      << "v 0 0 0\nv .1 0 0\nv .1 .1 0\nv 0 .1 0\nv 0 0 .1\nv .1 0 .1\nv .1 .1 .1\n"
+         "v 0 .1 .1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const std::string motion =
+      "    motion: {kind: osc, coupling: spring, device_damping: 100, mass: 0.5, stiffness: 100, "
+      "damping: 20}\n";
+  const Scene scene = parse_scene(
+      "fluid: {spacing: 0.033}\ntank: {lower: [0, 0, 0], upper: [0.4, 0.4, 1.6]}\n"
+      "water: [{lower: [0, 0, 0], upper: [0.4, 0.4, 0.2]}]\nbodies:\n  - name: cube\n"
+      "    shape: {mesh: " +
+          file.string() + "}\n" + motion + "    rest: {position: [0.2, 0.2, 1.2]}\n",
+      "mesh.yaml");
+  Device device;
+  Simulation simulation(device, scene, {});
+  simulation.feel(true);
+  const Quaternion turn = from_turn({0.0, 0.0, 1.2});
+  const Vector3 corner = {0.25, 0.15, 1.1};
+  FrameResult frame;
+  while (simulation.seconds() < 2.5) {
+    static_cast<void>(simulation.live_body(0)->push(corner, turn, {simulation.seconds(), {}}));
+    frame = simulation.advance();
+  }
+  const BodyState state = cube(simulation);
+  const Vector3 middle = corner + rotate(turn, {0.05, 0.05, 0.05});
+  const Vector3 sag = {0.0, 0.0, -0.5 * kGravity / 100.0};
+  EXPECT_LT(length(state.position - middle - sag), 1.0e-3);
+  EXPECT_LT(length(to_turn(compose(state.rotation, inverse(turn)))), 0.01);
+  const BodyPush& push = frame.pushes.at(0);
+  const Vector3 weight = {0.0, 0.0, -0.5 * kGravity};
+  EXPECT_LT(length(push.force - weight), 0.01);
+  EXPECT_LT(length(push.torque - cross(middle - corner, weight)), 0.003);
+  EXPECT_LT(length(push.velocity), 1.0e-3);
 }
 
 }  // namespace

@@ -14,17 +14,19 @@ constexpr std::size_t kSums = 12;  ///< of each body
 BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies,
                        const std::vector<SkinFace>& skin)
     : list_(bodies),
+      wanted_(bodies.size(), true),
       count_(static_cast<int>(bodies.size())),
       groups_(fluid.groups()),
       bodies_(fluid.device(), std::span<const FreeBody>(bodies)),
-      reach_(fluid.device(), bodies.size() * SPLASH_REACH_FIELDS *
-                                 static_cast<std::size_t>(fluid.params().capacity)),
-      reached_(fluid.device(), bodies.size() * groups_),
-      parts_(fluid.device(), bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES),
       sums_(fluid.device(), kSums * bodies.size()),
-      no_solve_(fluid.device(), 1),
       read_(kSums * bodies.size()) {
+  if (fluid.solver().has_pushes()) return;
   Device& device = fluid.device();
+  reach_ = Buffer<float>(device, bodies.size() * SPLASH_REACH_FIELDS *
+                                     static_cast<std::size_t>(fluid.params().capacity));
+  reached_ = Buffer<int>(device, bodies.size() * groups_);
+  parts_ = Buffer<float>(device, bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES);
+  no_solve_ = Buffer<SolveState>(device, 1);
   const cl::Program program =
       build_program(device, free_body_sources(), kernel_defines(fluid.parts()));
   films_ = Films(device, program, bodies, skin);
@@ -33,11 +35,20 @@ BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies,
   sum_pushes_ = Kernel(program, "sum_pushes", 1);
 }
 
-void BodyPushes::begin(Fluid& fluid) {
+void BodyPushes::begin(Fluid& fluid, const std::vector<bool>& wanted) {
+  wanted_ = wanted;
   sums_.enqueue_clear(fluid.device());
 }
 
 void BodyPushes::add(Fluid& fluid, const Step& step) {
+  if (fluid.solver().has_pushes()) {
+    fluid.add_pushes(step, {list_, bodies_, wanted_, sums_});
+  } else {
+    add_particles(fluid, step);
+  }
+}
+
+void BodyPushes::add_particles(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
   const Boundary& boundary = fluid.boundary();
   const Buffer<FluidParams>& params = fluid.params_buffer();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the water does to bodies that go their own way, found on the device while somebody wants to
-// feel it (free_bodies/body_push.cl). Not of water on a grid, whose particles do not push.
+// feel it: by the particles' pushes (free_bodies/body_push.cl), or by the pressures of a solver
+// whose particles do not push.
 #pragma once
 
 #include <string>
@@ -37,25 +38,32 @@ class BodyPushes {
   /// these, in any order; without it no film of water pushes them.
   BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies, const std::vector<SkinFace>& skin);
 
-  /// A frame begins.
-  void begin(Fluid& fluid);
+  /// A frame begins. `wanted`: of each body, in their order, whether somebody feels it.
+  void begin(Fluid& fluid, const std::vector<bool>& wanted);
   /// Between the fluid's accelerate and move of a step.
   void add(Fluid& fluid, const Step& step);
   void enqueue_read(Fluid& fluid);
   /// Once the queue is finished; of a frame of so many seconds.
   [[nodiscard]] std::vector<BodyPush> pushes(double seconds) const;
+  [[nodiscard]] const std::vector<FreeBody>& bodies() const noexcept { return list_; }
 
  private:
+  /// Of the particles, with their films.
+  void add_particles(Fluid& fluid, const Step& step);
+
   std::vector<FreeBody> list_;
+  std::vector<bool> wanted_;
   int count_ = 0;
   std::size_t groups_ = 0;  ///< of particles
   Buffer<FreeBody> bodies_;
+  Buffer<float> sums_;
+  std::vector<float> read_;
+
+  // Of particles that push.
   Buffer<float> reach_;
   Buffer<int> reached_;
   Buffer<float> parts_;
-  Buffer<float> sums_;
   Buffer<SolveState> no_solve_;
-  std::vector<float> read_;
   Films films_;
   Kernel reach_bodies_;
   Kernel weigh_water_;

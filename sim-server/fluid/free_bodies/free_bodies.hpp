@@ -74,6 +74,9 @@ class FreeBodies {
   [[nodiscard]] const Buffer<FreeBody>& on_device() const noexcept { return bodies_; }
   /// What the water gave each in this step so far, its momentum and angular momentum.
   [[nodiscard]] const Buffer<float>& felt() const noexcept { return felt_; }
+  /// Where the devices are, and what springs gave bodies in this frame so far.
+  [[nodiscard]] const Buffer<Anchor>& anchors() const noexcept { return anchors_; }
+  [[nodiscard]] const Buffer<float>& tugs() const noexcept { return tugs_; }
   [[nodiscard]] Films& films() noexcept { return films_; }
 
  private:

@@ -39,6 +39,15 @@ struct Press {
   Vector3 torque = {0.0, 0.0, 0.0};  ///< [N m]
 };
 
+/// Bodies that go their own way, and what is summed of the water's push on each
+/// (free_bodies/body_pushes.hpp).
+struct FeltBodies {
+  const std::vector<FreeBody>& list;
+  const Buffer<FreeBody>& on_device;
+  const std::vector<bool>& wanted;  ///< of each, whether its derivative by speed is, too
+  const Buffer<float>& sums;        ///< twelve of each
+};
+
 class PressureSolver {
  public:
   PressureSolver() = default;
@@ -66,6 +75,14 @@ class PressureSolver {
   [[nodiscard]] virtual std::vector<Press> press(Device& /*device*/, std::size_t /*bodies*/) {
     return {};
   }
+
+  /// Whether bodies feel pressures of the solver's own and not the particles': those are added by
+  /// add_pushes.
+  [[nodiscard]] virtual bool has_pushes() const { return false; }
+  /// From the next step on somebody feels them, or nobody does.
+  virtual void feel(Device& /*device*/, bool /*on*/) {}
+  /// Between accelerate and move of such a step.
+  virtual void add_pushes(Fluid& /*fluid*/, const Step& /*step*/, const FeltBodies& /*felt*/) {}
 
   /// Enqueues the read of the work done; work() tells it once the queue is finished.
   virtual void enqueue_work(Device& device) = 0;

@@ -45,12 +45,21 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
       body.motion.kind = MotionKind::free;
       body.motion.density = 300.0;
     }
+    MotionSettings& hung = water.scene.bodies.back().motion;
+    hung.kind = MotionKind::osc;
+    hung.coupling = CouplingKind::spring;
+    hung.stiffness = 50.0;
+    hung.damping = 1.0;
     water.fluid->release(free_bodies(water.scene.bodies),
                          film_skins(water.scene.bodies, water.scene.fluid.spacing));
     std::vector<FreeBody> felt = free_bodies(water.scene.bodies);
     for (FreeBody& body : felt) body.mass = 0.0F;
     pushes.emplace(*water.fluid, felt, film_skins(water.scene.bodies, water.scene.fluid.spacing));
-    pushes->begin(*water.fluid);
+    pushes->begin(*water.fluid, std::vector<bool>(felt.size(), true));
+    water.fluid->feel(true);
+    water.fluid->free_bodies()->hang(
+        device, std::vector<Anchor>(felt.size(), {0.2F, 0.2F, 0.2F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F,
+                                                  0.0F, 0.0F, 0.0F, 0.0F, 0.0F}));
   }
   water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);
   PinnedParticles pinned(*water.fluid, every_third(water.particles.size()));

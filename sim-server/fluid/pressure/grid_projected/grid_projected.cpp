@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim-server/fluid/fluid.hpp"
@@ -16,6 +17,8 @@ constexpr double kGravity = 9.81;  ///< [m/s2]
 
 /// Of a solve, at most.
 constexpr int kIterations = 40;
+/// Of one for how bodies' pushes change: its error counts by its square (felt.cl).
+constexpr int kAnswerIterations = 4;
 
 float as_float(double value) {
   return static_cast<float>(value);
@@ -75,6 +78,12 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
       no_body_(device, 1),
       grip_(device, 1),
       stopped_(device, 1),
+      tied_(device, 1),
+      tuggings_(device, 1),
+      felt_grip_(device, 1),
+      surface_(device, 1),
+      answer_(device, 1),
+      answer_state_(device, 1),
       link_(device, 3 * room_),
       open_(device, room_),
       damped_(device, room_),
@@ -97,6 +106,11 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
   let_fall_ = Kernel(program, "let_fall", 1);
   grip_water_ = Kernel(program, "grip_water");
   push_bodies_ = Kernel(program, "push_bodies", solvers(device));
+  tie_bodies_ = Kernel(program, "tie_bodies", 1);
+  tell_tugs_ = Kernel(program, "tell_tugs", 1);
+  weigh_pressure_ = Kernel(program, "weigh_pressure", solvers(device));
+  ask_for_answer_ = Kernel(program, "ask_for_answer");
+  weigh_answer_ = Kernel(program, "weigh_answer", solvers(device));
   push_faces_ = Kernel(program, "push_faces");
   lay_system_ = Kernel(program, "lay_system");
   solve_pressure_ = Kernel(program, "solve_pressure", solvers(device));
@@ -109,6 +123,8 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
 void GridProjected::release(Device& device, std::size_t count) {
   grip_ = Buffer<float>(device, 6 * room_);
   stopped_ = Buffer<float>(device, SPLASH_KEPT_FLOATS * count);
+  tied_ = Buffer<FreeBody>(device, count);
+  tuggings_ = Buffer<float>(device, SPLASH_TUG_FLOATS * count);
 }
 
 void GridProjected::recall_pressure(Fluid& fluid, const Step& step) {
@@ -170,19 +186,52 @@ const Buffer<FreeBody>& GridProjected::frees(Fluid& fluid) const {
   return bodies == nullptr ? no_body_ : bodies->on_device();
 }
 
+bool GridProjected::has_hung(Fluid& fluid) const {
+  const FreeBodies* bodies = fluid.free_bodies();
+  return bodies != nullptr && std::any_of(bodies->bodies().begin(), bodies->bodies().end(),
+                                          [](const FreeBody& body) { return body.spring > 0.0F; });
+}
+
+const Buffer<FreeBody>& GridProjected::solved_frees(Fluid& fluid) const {
+  return has_hung(fluid) ? tied_ : frees(fluid);
+}
+
 void GridProjected::let_fall(Fluid& fluid, const Step& step) {
   const int count = free_count(fluid);
   let_fall_.run(fluid.device().queue(), static_cast<std::size_t>(count),
                 fluid.params_buffer().memory(), as_float(step.dt), count, frees(fluid).memory(),
                 fluid.boundary().steps().memory(), step.first_body, stopped_.memory());
+  if (!has_hung(fluid)) return;
+  const int first_anchor = step.first_body / fluid.boundary().body_count() * count;
+  tie_bodies_.run(fluid.device().queue(), static_cast<std::size_t>(count),
+                  {{"p", fluid.params_buffer()},
+                   {"dt", as_float(step.dt)},
+                   {"free_count", count},
+                   {"frees", frees(fluid)},
+                   {"bodies", fluid.boundary().steps()},
+                   {"first_body", step.first_body},
+                   {"kept", stopped_},
+                   {"anchors", fluid.free_bodies()->anchors()},
+                   {"first_anchor", first_anchor},
+                   {"tied", tied_},
+                   {"tuggings", tuggings_}});
 }
 
 void GridProjected::push_bodies(Fluid& fluid, const Step& step) {
   push_bodies_.run_teams(fluid.device().queue(), 1, fluid.params_buffer().memory(),
-                         grid_buffer_.memory(), free_count(fluid), frees(fluid).memory(),
+                         grid_buffer_.memory(), free_count(fluid), solved_frees(fluid).memory(),
                          fluid.boundary().steps().memory(), step.first_body, owner_.memory(),
                          grip_.memory(), found_.memory(), stopped_.memory(),
                          fluid.free_bodies()->felt().memory());
+  if (!has_hung(fluid)) return;
+  const auto count = static_cast<std::size_t>(free_count(fluid));
+  tell_tugs_.run(fluid.device().queue(), count,
+                 {{"free_count", free_count(fluid)},
+                  {"frees", frees(fluid)},
+                  {"bodies", fluid.boundary().steps()},
+                  {"first_body", step.first_body},
+                  {"tuggings", tuggings_},
+                  {"tugs", fluid.free_bodies()->tugs()}});
 }
 
 void GridProjected::solve(Fluid& fluid, const Step& step) {
@@ -206,15 +255,57 @@ void GridProjected::solve(Fluid& fluid, const Step& step) {
     grip_water_.run(queue, cells_, grid_buffer_.memory(), free, frees(fluid).memory(), bodies,
                     step.first_body, gap_.memory(), owner_.memory(), wet_.memory(), grip_.memory());
   }
-  solve_pressure_.run_teams(queue, 1, params, grid_buffer_.memory(), kIterations, room, free,
-                            frees(fluid).memory(), bodies, step.first_body, owner_.memory(),
-                            grip_.memory(), most_.memory(), link_.memory(), open_.memory(),
-                            damped_.memory(), x_.memory(), b_.memory(), r_.memory(),
-                            found_.memory(), way_.memory(), along_.memory(), state_.memory());
+  if (feels_) {
+    queue.enqueueCopyBuffer(open_.memory(), surface_.memory(), 0, 0, room_ * sizeof(float));
+  }
+  run_solve(fluid, step, kIterations, found_, state_);
   if (free > 0) push_bodies(fluid, step);
   project_faces_.run(queue, cells_, params, grid_buffer_.memory(), dt, gap_.memory(), fill,
                      mean_.memory(), weight_.memory(), found_.memory(), wet_.memory(),
                      change_.memory(), pressure_.memory());
+}
+
+void GridProjected::run_solve(Fluid& fluid, const Step& step, int iterations,
+                              const Buffer<float>& found, const Buffer<SolveState>& state) {
+  solve_pressure_.run_teams(
+      fluid.device().queue(), 1, fluid.params_buffer().memory(), grid_buffer_.memory(), iterations,
+      static_cast<int>(room_), free_count(fluid), solved_frees(fluid).memory(),
+      fluid.boundary().steps().memory(), step.first_body, owner_.memory(), grip_.memory(),
+      most_.memory(), link_.memory(), open_.memory(), damped_.memory(), x_.memory(), b_.memory(),
+      r_.memory(), found.memory(), way_.memory(), along_.memory(), state.memory());
+}
+
+void GridProjected::feel(Device& device, bool on) {
+  feels_ = on && solids_;
+  if (!feels_ || surface_.size() == room_) return;
+  felt_grip_ = Buffer<float>(device, 6 * room_);
+  surface_ = Buffer<float>(device, room_);
+  answer_ = Buffer<float>(device, room_);
+}
+
+void GridProjected::add_pushes(Fluid& fluid, const Step& step, const FeltBodies& felt) {
+  if (!feels_) return;
+  cl::CommandQueue& queue = fluid.device().queue();
+  const cl::Buffer& params = fluid.params_buffer().memory();
+  const cl::Buffer& bodies = fluid.boundary().steps().memory();
+  const cl::Buffer& those = felt.on_device.memory();
+  const auto count = static_cast<int>(felt.list.size());
+  grip_water_.run(queue, cells_, grid_buffer_.memory(), count, those, bodies, step.first_body,
+                  gap_.memory(), owner_.memory(), wet_.memory(), felt_grip_.memory());
+  weigh_pressure_.run_teams(queue, 1, params, grid_buffer_.memory(), count, those, bodies,
+                            step.first_body, owner_.memory(), felt_grip_.memory(), found_.memory(),
+                            felt.sums.memory());
+  for (int k = 0; k < count; ++k) {
+    for (int part = 0; felt.wanted[static_cast<std::size_t>(k)] && part < 6; ++part) {
+      ask_for_answer_.run(queue, cells_, grid_buffer_.memory(), k, part, those, owner_.memory(),
+                          felt_grip_.memory(), surface_.memory(), open_.memory(), x_.memory(),
+                          b_.memory(), r_.memory(), answer_.memory(), way_.memory());
+      run_solve(fluid, step, kAnswerIterations, answer_, answer_state_);
+      weigh_answer_.run_teams(queue, 1, params, grid_buffer_.memory(), k, part, count, those,
+                              bodies, step.first_body, owner_.memory(), felt_grip_.memory(),
+                              answer_.memory(), felt.sums.memory());
+    }
+  }
 }
 
 void GridProjected::move(Fluid& fluid, const Step& step) {
@@ -302,7 +393,8 @@ void GridProjected::restore_pressure(Device& device, const std::vector<float>& /
 
 // What a step that went wrong left in its own arrays would go on from one to the next.
 void GridProjected::note_recalled(Device& device) {
-  for (Buffer<float>* array : {&link_, &open_, &damped_, &x_, &b_, &r_, &found_, &way_, &along_}) {
+  for (Buffer<float>* array :
+       {&link_, &open_, &damped_, &x_, &b_, &r_, &found_, &way_, &along_, &answer_}) {
     array->enqueue_clear(device);
   }
 }

@@ -44,6 +44,9 @@ class GridProjected : public PressureSolver {
   void move(Fluid& fluid, const Step& step) override;
   [[nodiscard]] const Buffer<float>& carried(const Fluid& fluid) const override;
   [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) override;
+  [[nodiscard]] bool has_pushes() const override { return true; }
+  void feel(Device& device, bool on) override;
+  void add_pushes(Fluid& fluid, const Step& step, const FeltBodies& felt) override;
   void enqueue_work(Device& device) override;
   [[nodiscard]] SolverWork work() const override;
   void forget_work(Device& device) override;
@@ -73,11 +76,18 @@ class GridProjected : public PressureSolver {
   /// Free bodies as they would be without water.
   void let_fall(Fluid& fluid, const Step& step);
   void solve(Fluid& fluid, const Step& step);
+  /// Of the system as it is laid, from what is in `found` to its solution there.
+  void run_solve(Fluid& fluid, const Step& step, int iterations, const Buffer<float>& found,
+                 const Buffer<SolveState>& state);
   /// What the water does to them.
   void push_bodies(Fluid& fluid, const Step& step);
+  /// Whether any hangs on a device.
+  [[nodiscard]] bool has_hung(Fluid& fluid) const;
   /// Those of the water, none before it lets them go.
   [[nodiscard]] int free_count(Fluid& fluid) const;
   [[nodiscard]] const Buffer<FreeBody>& frees(Fluid& fluid) const;
+  /// The same with what their springs add to their inertia.
+  [[nodiscard]] const Buffer<FreeBody>& solved_frees(Fluid& fluid) const;
 
   MacGrid grid_;
   double part_;  ///< of the default step's length, by the scene's factor [1]
@@ -111,6 +121,15 @@ class GridProjected : public PressureSolver {
   Buffer<FreeBody> no_body_;
   Buffer<float> grip_;
   Buffer<float> stopped_;
+  Buffer<FreeBody> tied_;  ///< as heavy as springs make them (hang.cl)
+  Buffer<float> tuggings_;
+
+  // Of bodies that are felt (felt.cl), once there are some.
+  bool feels_ = false;
+  Buffer<float> felt_grip_;
+  Buffer<float> surface_;  ///< open_ before a solve
+  Buffer<float> answer_;
+  Buffer<SolveState> answer_state_;
 
   // The solve's, over all levels; the last three over the finest.
   Buffer<float> link_;
@@ -135,6 +154,11 @@ class GridProjected : public PressureSolver {
   Kernel let_fall_;
   Kernel grip_water_;
   Kernel push_bodies_;
+  Kernel tie_bodies_;
+  Kernel tell_tugs_;
+  Kernel weigh_pressure_;
+  Kernel ask_for_answer_;
+  Kernel weigh_answer_;
   Kernel push_faces_;
   Kernel lay_system_;
   Kernel solve_pressure_;

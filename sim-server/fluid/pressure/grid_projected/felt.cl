@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What a step's pressures do to bodies that go their own way, and how that would change if these
+// were faster from the step's beginning on. With coupling.h's K, and A of the pressures' system,
+//   dt F = - rho0 V K^T f,      d(dt F)/dq = - rho0 V K^T A^-1 K
+// of which the diagonal is kept: the mass of the water that goes with the body. A^-1 K is found as f
+// is, one part of q at a time; K^T A^-1 K is the energy that conjugate gradients come nearer to from
+// below, by the square of their error.
+
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/grid_projected/coupling.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+
+// Adds dt F of each body to the first half of its twelve `sums`, its torque about the body's centre
+// with it [N s], [N m s]. One work-group.
+kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int body_count,
+                           constant FreeBody* felt, global BodyStep* bodies, int first_body,
+                           global const int* owner, global const float* grip,
+                           global const float* found, global float* sums) {
+  local float parts[JUDGES];
+  const float heavy = p->rest_density * g->hx * g->hy * g->hz;
+  const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy};
+  for (int k = 0; k < body_count; ++k) {
+    float push[6];
+    find_push(g, &all, k, found, parts, push);
+    if (FIRST_ITEM > 0) continue;
+    for (int e = 0; e < 6; ++e) {
+      sums[12 * k + e] -= (e < 3 ? 1.0f : felt[k].size) * heavy * push[e];
+    }
+  }
+}
+
+// The system's right side becomes K of one `part` of the speeds of felt body `k`, its solution
+// begins at zero, and `open` is what it was before the last solve.
+kernel void ask_for_answer(constant MacGrid* g, int k, int part, constant FreeBody* felt,
+                           global const int* owner, global const float* grip,
+                           global const float* surface, global float* open, global float* x,
+                           global float* right, global float* rest, global float* start,
+                           global float* way) {
+  const int4 at = cell_of(g, get_global_id(0));
+  if (at.w == 0) return;
+  const MacLevel l = g->level[0];
+  const int c = number_of(l, at);
+  const bool beside = owner[c] == felt[k].body && open[c] > 0.0f;  // it has an equation
+  right[c] = beside ? grip[part * l.cells + c] : 0.0f;
+  open[c] = surface[c];
+  x[c] = rest[c] = start[c] = way[c] = 0.0f;
+}
+
+// Adds rho0 V K^T A^-1 K of that part to the second half of the body's sums [kg], [kg m2]. One
+// work-group.
+kernel void weigh_answer(constant FluidParams* p, constant MacGrid* g, int k, int part,
+                         int body_count, constant FreeBody* felt, global BodyStep* bodies,
+                         int first_body, global const int* owner, global const float* grip,
+                         global const float* found, global float* sums) {
+  local float parts[JUDGES];
+  const float heavy = p->rest_density * g->hx * g->hy * g->hz;
+  const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy};
+  float push[6];
+  find_push(g, &all, k, found, parts, push);
+  if (FIRST_ITEM > 0) return;
+  const float lever = part < 3 ? 1.0f : felt[k].size;
+  sums[12 * k + 6 + part] += lever * lever * heavy * push[part];
+}
