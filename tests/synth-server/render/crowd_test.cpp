@@ -93,10 +93,11 @@ TEST(Crowd, IsAsLoudInEachThirdOfAnOctaveAsWithAVoiceEach) {
     const auto frames = static_cast<int>(kSeconds * kRate);
     const auto voices = rendered(quiet_rig(), crowd_settings(kAll), events, frames);
     const auto crowd = rendered(quiet_rig(), crowd_settings(rate / 4.0), events, frames);
-    EXPECT_EQ(crowd.counters.bubbles, voices.counters.bubbles);
-    EXPECT_NEAR(
-        static_cast<double>(crowd.counters.crowded) / static_cast<double>(crowd.counters.bubbles),
-        0.75, 0.02);
+    EXPECT_EQ(crowd.counters.started.of<protocol::Bubble>(),
+              voices.counters.started.of<protocol::Bubble>());
+    EXPECT_NEAR(static_cast<double>(crowd.counters.crowded) /
+                    static_cast<double>(crowd.counters.started.of<protocol::Bubble>()),
+                0.75, 0.02);
     std::map<int, double> levels;
     for (int third = -11; third <= 1; ++third) {
       levels[third] = level_db(voices.out[0], third, 24000);
@@ -128,7 +129,7 @@ TEST(Crowd, LeavesAsManySingleAsTheSoundSays) {
   const auto count = [](double rate) {
     const auto counters =
         rendered(quiet_rig(), crowd_settings(10000.0), births(rate, 3.0), 144000).counters;
-    return static_cast<double>(counters.bubbles - counters.crowded) / 3.0;
+    return static_cast<double>(counters.started.of<protocol::Bubble>() - counters.crowded) / 3.0;
   };
   EXPECT_NEAR(count(20000.0), 10000.0, 500.0);
   EXPECT_NEAR(count(40000.0), 10000.0, 1000.0) << "more at first, before the rate is known";
@@ -187,7 +188,7 @@ TEST(Crowd, TakesNoVoicesAndNoCavities) {
   const auto crowd = rendered(quiet_rig(), crowd_settings(10000.0), events, 96000).counters;
   const auto quarter =
       rendered(quiet_rig(), crowd_settings(kAll), births(10000.0, 2.0), 96000).counters;
-  EXPECT_EQ(crowd.cavities, 20U);
+  EXPECT_EQ(crowd.started.of<protocol::Cavity>(), 20U);
   EXPECT_LT(crowd.voices, quarter.voices + quarter.voices / 10 + 20);
 }
 
@@ -196,7 +197,7 @@ TEST(Crowd, LeavesVoicesToBubblesUnderItsBands) {
   std::vector<TimedEvent> events;
   for (std::int64_t i = 0; i < 4000; ++i) events.push_back({bubble(0.1F, 0.001F), 4 * i});
   const auto counters = rendered(quiet_rig(), crowd_settings(1000.0), events, 16000).counters;
-  EXPECT_EQ(counters.bubbles, 4000U);
+  EXPECT_EQ(counters.started.of<protocol::Bubble>(), 4000U);
   EXPECT_EQ(counters.crowded, 0U);
 }
 
