@@ -10,6 +10,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "program/config.hpp"
 #include "program/config_file.hpp"
@@ -29,6 +30,7 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/serve/server.hpp"
+#include "sim-server/serve/stopwatch.hpp"
 #include "sim-server/simulation/water_notices.hpp"
 #include "sim-server/start/device_trials.hpp"
 #include "sim-server/start/self_test.hpp"
@@ -159,13 +161,15 @@ std::function<void(const KernelCount&)> telling_how_far_compiling_is() {
 
 /// Much water takes minutes to come to rest: nobody is to wonder what is going on, and no service
 /// manager to give up.
-Progress telling_how_it_settles(program::ServiceNotice& service) {
+Progress telling_how_it_settles(program::ServiceNotice& service,
+                                std::optional<Stopwatch>& settling) {
   constexpr double kPeriod = 3.0;    // [s]
   constexpr double kTimeout = 60.0;  // between two words, some steps of four million particles [s]
-  return [&service, start = 0.0, done = 0.0, last = 0.0](double share) mutable {
+  return [&service, &settling, start = 0.0, done = 0.0, last = 0.0](double share) mutable {
     const double now = protocol::monotonic_now();
     if (done == 0.0) {  // the first step says nothing of the others: kernels are compiled in it
       start = last = now;
+      settling.emplace();
       done = share;
       service.starting(kTimeout);
     }
@@ -180,7 +184,9 @@ Progress telling_how_it_settles(program::ServiceNotice& service) {
   };
 }
 
-void serve(Server& server, program::ServiceNotice& service) {
+/// `start`, `settling`: what it took until now.
+void serve(Server& server, program::ServiceNotice& service, const Cost& start,
+           const Cost& settling) {
   server.run([&] {
     if (service.is_due() && server.listens()) service.alive();
     if (asked_to_reopen != 0) {
@@ -194,7 +200,9 @@ void serve(Server& server, program::ServiceNotice& service) {
   } else {
     service.beginning_anew();
   }
-  const RunReport report = server.finish();
+  RunReport report = server.finish();
+  report.start = start;
+  report.settling = settling;
   std::printf("%s", summary(report).c_str());
   std::fflush(stdout);
   server.leave(report);
@@ -325,16 +333,19 @@ program::OptionValues simulate(const Options& options) {
   }
   say_what_digs(scene, options.tracker);
   require_free(options.listen);
-  const double begin = protocol::monotonic_now();
+  const Stopwatch stopwatch;
+  std::optional<Stopwatch> settling;
   Start start(options, scene, prepare_kernel_cache());
-  const auto [device, simulation] = start.start(telling_how_it_settles(service));
+  const auto [device, simulation] = start.start(telling_how_it_settles(service, settling));
+  const Cost settled = settling ? settling->passed() : Cost{};
   const bool compiled = start.end();
   Server server(options, *simulation, device->facts().name);
   take_signals();
-  say_hello(*simulation, server, protocol::monotonic_now() - begin, compiled);
+  const Cost started = stopwatch.passed();
+  say_hello(*simulation, server, started.wall, compiled);
   service.ready(scene.name + ", " + std::to_string(simulation->particles()) + " particles, on " +
                 protocol::to_string(server.local()));
-  serve(server, service);
+  serve(server, service, started, settled);
   start.renew_seal();
   return next_of(server);
 }

@@ -77,6 +77,11 @@ void write_text(const std::filesystem::path& file_path, const std::filesystem::p
   throw cannot_write(path, error);
 }
 
+Json cost_of(const Cost& cost) {
+  return {{"wall_seconds", finite_or_null(cost.wall)},
+          {"processor_seconds", finite_or_null(cost.processor)}};
+}
+
 }  // namespace
 
 std::uint64_t sum_of(const NamedCounts& counts) noexcept {
@@ -105,6 +110,9 @@ std::string to_json(const RunReport& report) {
   json["frames"] = report.frames;
   json["simulated_seconds"] = finite_or_null(report.simulated_seconds);
   json["wall_seconds"] = finite_or_null(report.wall_seconds);
+  json["processor_seconds"] = finite_or_null(report.processor_seconds);
+  json["start"] = cost_of(report.start);
+  json["settling"] = cost_of(report.settling);
   json["steps_per_second"] = finite_or_null(report.steps_per_second());
   json["real_time_factor"] = finite_or_null(report.real_time_factor());
   json["mean_density_error"] = finite_or_null(report.mean_density_error);
@@ -171,6 +179,10 @@ std::string summary(const RunReport& report) {
   text << "time      " << report.simulated_seconds << " s simulated in " << report.wall_seconds
        << " s: real-time factor " << report.real_time_factor() << ", " << std::setprecision(0)
        << report.steps_per_second() << " steps/s\n";
+  text << std::setprecision(2) << "cost      " << report.processor_seconds
+       << " s of processor; before, ready after " << report.start.wall << " s ("
+       << report.start.processor << " s of processor), of which the water took "
+       << report.settling.wall << " s (" << report.settling.processor << ") to come to rest\n";
   text << std::setprecision(2) << "density   error mean " << 100.0 * report.mean_density_error
        << " %, maximum " << 100.0 * report.maximum_density_error << " %\n";
   if (report.density_solve.solves > 0) {

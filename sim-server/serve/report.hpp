@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "protocol/event.hpp"
+#include "sim-server/serve/stopwatch.hpp"
 
 namespace splash::sim {
 
@@ -45,6 +46,9 @@ struct RunReport {
   std::int64_t frames = 0;
   double simulated_seconds = 0.0;
   double wall_seconds = 0.0;
+  double processor_seconds = 0.0;      ///< same, of all processors
+  Cost start;                          ///< before: until kernels and water were ready
+  Cost settling;                       ///< of it, the water coming to rest
   double mean_density_error = 0.0;     ///< of the compressed part, in the rest density [1]
   double maximum_density_error = 0.0;  ///< same [1]
   SolveTotals divergence_solve;

@@ -164,6 +164,7 @@ bool Server::is_over() const {
 void Server::run(const std::function<bool()>& ended) {
   target_status_.begin(kAnswerTimeout);
   pacer_.start(simulation_.seconds());
+  const Stopwatch stopwatch;
   started_ = protocol::monotonic_now();
   next_line_ = started_ + kLinePeriod;
   note_gauges();
@@ -194,7 +195,7 @@ void Server::run(const std::function<bool()>& ended) {
     if (end >= next_line_) print_progress();
     note_load(frame.seconds - before, computed - begin + end - due);
   }
-  wall_seconds_ = protocol::monotonic_now() - started_;
+  run_cost_ = stopwatch.passed();
 }
 
 void Server::take_rows() {
@@ -405,7 +406,8 @@ RunReport Server::finish() {
   target_status_.finish(kAnswerTimeout);
   RunReport report = report_on(simulation_, sender_.counts(), pacer_.counts(), overload_);
   report.device = device_;
-  report.wall_seconds = wall_seconds_;
+  report.wall_seconds = run_cost_.wall;
+  report.processor_seconds = run_cost_.processor;
   report.send_failures = unsent();
   report.late = target_status_.late();
   report.lost = target_status_.lost();

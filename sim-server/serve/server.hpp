@@ -25,6 +25,7 @@
 #include "sim-server/serve/pacer.hpp"
 #include "sim-server/serve/pose_intake.hpp"
 #include "sim-server/serve/report.hpp"
+#include "sim-server/serve/stopwatch.hpp"
 #include "sim-server/show/show.hpp"
 #include "sim-server/show/vtk_files.hpp"
 #include "sim-server/simulation/simulation.hpp"
@@ -116,12 +117,12 @@ class Server {
   protocol::SimStatus status_;
   std::filesystem::path next_scene_;  ///< under status_mutex_
   std::uint64_t turns_seen_ = 0;
-  std::string unwritten_;      ///< the reason why a file ends early; empty: none does
-  double started_ = 0.0;       ///< monotonic [s]
-  double wall_seconds_ = 0.0;  ///< of run()
-  double next_line_ = 0.0;     ///< monotonic [s]
-  double next_fault_ = 0.0;    ///< monotonic [s]
-  int unreported_ = 0;         ///< faults since the last line on one
+  std::string unwritten_;    ///< the reason why a file ends early; empty: none does
+  double started_ = 0.0;     ///< monotonic [s]
+  Cost run_cost_;            ///< of run()
+  double next_line_ = 0.0;   ///< monotonic [s]
+  double next_fault_ = 0.0;  ///< monotonic [s]
+  int unreported_ = 0;       ///< faults since the last line on one
   ClockAnswers clock_answers_;
   ControlServer control_;  ///< last: its thread uses all of the above
 };

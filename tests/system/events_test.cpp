@@ -107,6 +107,12 @@ TEST_F(Events, ReportStatesTheRun) {
   // The wall clock may run on while time slips, never the other way round.
   EXPECT_GE(report.at("wall_seconds").get<double>(), 2.95);
   EXPECT_GT(report.at("steps_per_second").get<double>(), 0.0);
+  const auto cost = [](const Json& of, const char* clock) { return of.at(clock).get<double>(); };
+  EXPECT_GT(cost(report, "processor_seconds"), 0.0);
+  for (const char* clock : {"wall_seconds", "processor_seconds"}) {
+    EXPECT_GT(cost(report.at("settling"), clock), 0.0) << "the water came to rest";
+    EXPECT_GT(cost(report.at("start"), clock), cost(report.at("settling"), clock));
+  }
   EXPECT_TRUE(report.at("late").is_number_unsigned()) << "the synth answered";
 }
 

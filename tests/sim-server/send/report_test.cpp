@@ -28,6 +28,9 @@ RunReport example() {
   report.frames = 7500;
   report.simulated_seconds = 30.0;
   report.wall_seconds = 24.0;
+  report.processor_seconds = 31.5;
+  report.start = {.wall = 5.0, .processor = 6.5};
+  report.settling = {.wall = 2.25, .processor = 4.0};
   report.mean_density_error = 0.004;
   report.maximum_density_error = 0.03;
   report.divergence_solve = {.solves = 7200, .iterations = 9000, .most = 4, .given_up = 0};
@@ -58,6 +61,9 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(read.at("particles"), 7000);
   EXPECT_EQ(read.at("steps"), 7200);
   EXPECT_EQ(read.at("frames"), 7500);
+  EXPECT_EQ(read.at("processor_seconds"), 31.5);
+  EXPECT_EQ(read.at("start"), (json{{"wall_seconds", 5.0}, {"processor_seconds", 6.5}}));
+  EXPECT_EQ(read.at("settling"), (json{{"wall_seconds", 2.25}, {"processor_seconds", 4.0}}));
   EXPECT_DOUBLE_EQ(read.at("steps_per_second"), 300.0);
   EXPECT_DOUBLE_EQ(read.at("real_time_factor"), 1.25);
   EXPECT_DOUBLE_EQ(read.at("mean_density_error"), 0.004);
