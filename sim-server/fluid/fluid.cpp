@@ -100,6 +100,7 @@ void Fluid::prepare(const Step& step) {
 
 void Fluid::accelerate(const Step& step) {
   prepared_ = false;
+  if (turning_) turning_->push(*this);
   solver_->accelerate(*this, step);
 }
 
@@ -211,6 +212,16 @@ void Fluid::integrate(const Step& step) {
                   {"moving", moving_},
                   {"resting", sleep_.resting()}},
                  boundary_.outlines(), boundary_.bodies_at(step));
+}
+
+void Fluid::set_tank(const TankState& tank, const Vector3& pivot, bool turns, double dt) {
+  params_.gravity_x = as_float(tank.gravity[0]);
+  params_.gravity_y = as_float(tank.gravity[1]);
+  params_.gravity_z = as_float(tank.gravity[2]);
+  params_buffer_.enqueue_write(device_, std::span<const FluidParams>(&params_, 1));
+  if (!turns) return;
+  if (!turning_) turning_ = std::make_unique<TankTurning>(device_);
+  turning_->set(device_, turn_of(tank, pivot, dt));
 }
 
 void Fluid::zero_velocities() {

@@ -16,6 +16,7 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
+#include "sim-server/fluid/pressure/tank_turn.hpp"
 #include "sim-server/fluid/sleep/sleep.hpp"
 #include "sim-server/fluid/step.hpp"
 
@@ -94,6 +95,10 @@ class Fluid {
   [[nodiscard]] std::vector<cl::Buffer> state() const;
   /// A checkpoint was put back: all that slept is awake.
   void note_recalled();
+
+  /// How the tank moves in the coming steps, of `dt` [s] each: gravity in its axes and, if it
+  /// `turns`, what that does to the water.
+  void set_tank(const TankState& tank, const Vector3& pivot, bool turns, double dt);
 
   /// Stops all particles where they are.
   void zero_velocities();
@@ -184,6 +189,7 @@ class Fluid {
   Boundary boundary_;
   std::unique_ptr<PressureSolver> solver_;
   std::unique_ptr<FreeBodies> free_;
+  std::unique_ptr<TankTurning> turning_;  ///< null: the tank does not turn
 
   Kernel compute_density_;
   Kernel compute_acceleration_;

@@ -7,6 +7,7 @@
 
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/step_policy.hpp"
+#include "sim-server/scene/tank_motion.hpp"
 
 namespace splash::sim {
 
@@ -133,7 +134,7 @@ double water_depth(const Scene& scene) {
 }
 
 double longest_wave(const Scene& scene) {
-  double energy = length(scene.fluid.gravity) * water_depth(scene);
+  double energy = strongest_field(scene) * water_depth(scene);
   for (const WaterBlock& block : scene.water) {
     energy = std::max(energy, pull_drop(scene.fluid, block));
   }
@@ -188,8 +189,8 @@ double suitable_sound_speed(const Scene& scene, double fastest_body, double soun
   constexpr double kRatio = 8.0;
   constexpr double kLeast = 13.0;
   constexpr double kMach = 0.3;
-  const double fastest =
-      std::max({fastest_body, fastest_fall(scene), fastest_piston(scene.wave_maker)});
+  const double fastest = std::max(
+      {fastest_body, fastest_fall(scene), fastest_piston(scene.wave_maker), fastest_wall(scene)});
   const double slow = std::max(kRatio * longest_wave(scene), kLeast);
   return std::max(sound_factor * slow, fastest / kMach);
 }

@@ -68,6 +68,25 @@ struct WaveMaker {
   double period = 2.0;  ///< [s]
 };
 
+/// How a tank that moves does so at one time.
+struct TankSample {
+  double time = 0.0;                       ///< [s]
+  Vector3 acceleration = {0.0, 0.0, 0.0};  ///< of its pivot, in its own axes [m/s2]
+  Vector3 spin = {0.0, 0.0, 0.0};          ///< in its own axes [rad/s]
+};
+
+/// A tank that is shaken, rocked or turned: scene/tank_motion.hpp has the formulas. All else in a
+/// scene is told in the tank's axes.
+struct TankMotionSettings {
+  bool present = false;
+  Vector3 pivot = {0.0, 0.0, 0.0};  ///< about which it turns [m]
+  Vector3 sway = {0.0, 0.0, 0.0};   ///< amplitude along x y z [m]
+  Vector3 roll = {0.0, 0.0, 0.0};   ///< amplitude about x y z [deg]
+  double period = 2.0;              ///< of both [s]
+  double ramp = 0.0;                ///< time in which they grow from nothing [s]
+  std::vector<TankSample> samples;  ///< besides; in between along straight lines
+};
+
 enum class WaterForm { box, cylinder, sphere };
 
 /// Water fills the form that touches the box between `lower` and `upper` from within, cut by the
@@ -309,6 +328,7 @@ struct Scene {
   Tank tank;
   Slope slope;
   WaveMaker wave_maker;
+  TankMotionSettings tank_motion;
   std::vector<WaterBlock> water;
   Gate gate;
   Flow flow;

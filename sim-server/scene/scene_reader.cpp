@@ -278,6 +278,20 @@ void read_bodies(const ConfigMap& map, Scene& scene) {
   }
 }
 
+void read_tank_motion(const ConfigMap& map, TankMotionSettings& motion) {
+  map.read(tank_motion_fields(), {"samples"}, motion);
+  motion.present = true;
+  for (const ConfigMap& entry : map.list("samples")) {
+    TankSample sample;
+    entry.read(tank_sample_fields(), {}, sample);
+    if (!motion.samples.empty() && sample.time <= motion.samples.back().time) {
+      throw entry.error("time", "is not later than that of the sample before");
+    }
+    motion.samples.push_back(sample);
+  }
+  check_tank_motion(map, motion);
+}
+
 void read_basin(const ConfigMap& map, Scene& scene) {
   const ConfigMap tank = map.child("tank");
   tank.read(tank_fields(), {}, scene.tank);
@@ -291,6 +305,9 @@ void read_basin(const ConfigMap& map, Scene& scene) {
     maker->read(wave_maker_fields(), {}, scene.wave_maker);
     scene.wave_maker.present = true;
     check_wave_maker(*maker, scene.wave_maker, scene.tank);
+  }
+  if (const auto motion = map.optional_child("tank_motion")) {
+    read_tank_motion(*motion, scene.tank_motion);
   }
   read_water(map, scene);
   read_flow(map, scene);
@@ -357,8 +374,8 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   refuse_rig(map);
   Scene scene;
   map.read(scene_fields(),
-           {"fluid", "tank", "slope", "wave_maker", "water", "gate", "flow", "bodies", "frictions",
-            "gauges", "detect", "skip", "serve", "tracking"},
+           {"fluid", "tank", "slope", "wave_maker", "tank_motion", "water", "gate", "flow",
+            "bodies", "frictions", "gauges", "detect", "skip", "serve", "tracking"},
            scene);
   if (scene.name.empty()) scene.name = file_stem;
   read_basin(map, scene);
@@ -367,6 +384,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   check_resolution(fluid, scene);
   read_bodies(map, scene);
   read_frictions(map, scene);
+  if (scene.tank_motion.present) check_turning(map.child("tank_motion"), scene);
   check_sound(fluid, scene);
   if (const auto gauges = map.optional_child("gauges")) {
     scene.gauges = read_gauges(*gauges, scene);

@@ -80,6 +80,9 @@ std::string scene_reference() {
          section("### `tank`", tank_fields()) + section("### `slope` (optional)", slope_fields()) +
          section("### `wave_maker` (optional): the wall at the smallest x is a piston",
                  wave_maker_fields()) +
+         section("### `tank_motion` (optional): the tank is shaken, rocked or turned",
+                 tank_motion_fields()) +
+         section("### `samples` of the tank's motion (optional): a list", tank_sample_fields()) +
          section("### `water`: a list", water_fields()) +
          section("### `gate` (optional): a wall that keeps water back until time begins",
                  gate_fields()) +

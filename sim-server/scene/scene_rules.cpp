@@ -7,8 +7,10 @@
 #include <string>
 
 #include "sim-server/scene/resolution.hpp"
+#include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/step_policy.hpp"
+#include "sim-server/scene/tank_motion.hpp"
 
 namespace splash::sim {
 
@@ -89,6 +91,29 @@ void check_wave_maker(const ConfigMap& map, const WaveMaker& maker, const Tank& 
   if (maker.stroke < half) return;
   throw map.error(
       "stroke", text(maker.stroke) + " is not below half the tank's length (" + text(half) + " m)");
+}
+
+void check_tank_motion(const ConfigMap& map, const TankMotionSettings& motion) {
+  const bool swings = length(motion.sway) > 0.0 || length(motion.roll) > 0.0;
+  for (const char* key : {"period", "ramp"}) {
+    if (map.has(key) && !swings) throw map.error(key, "has no meaning without 'sway' or 'roll'");
+  }
+  if (swings && !map.has("period")) throw map.error("period", "is missing: sway and roll need it");
+  if (swings || !motion.samples.empty()) return;
+  throw map.error("samples",
+                  "nothing moves the tank: give 'sway', 'roll' or 'samples', or leave "
+                  "out 'tank_motion'");
+}
+
+void check_turning(const ConfigMap& motion, const Scene& scene) {
+  if (!turns(scene.tank_motion)) return;
+  for (const BodySettings& body : scene.bodies) {
+    if (!is_free(body)) continue;
+    throw motion.error(motion.has("roll") ? "roll" : "samples",
+                       "the tank turns, in which the free body '" + body.name +
+                           "' cannot be yet; it may sway and be accelerated, or the body may go "
+                           "its own way");
+  }
 }
 
 void check_water(const ConfigMap& map, const WaterBlock& block, const Scene& scene) {

@@ -13,6 +13,10 @@ namespace splash::sim {
 void check_tank(const program::ConfigMap& map, const Tank& tank);
 void check_slope(const program::ConfigMap& map, const Slope& slope, const Tank& tank);
 void check_wave_maker(const program::ConfigMap& map, const WaveMaker& maker, const Tank& tank);
+/// Something in it moves the tank.
+void check_tank_motion(const program::ConfigMap& map, const TankMotionSettings& motion);
+/// No free body is in a tank that turns. `scene` has its bodies.
+void check_turning(const program::ConfigMap& motion, const Scene& scene);
 /// `scene` holds the tank, the slope and the blocks before it in the file.
 void check_water(const program::ConfigMap& map, const WaterBlock& block, const Scene& scene);
 /// No block of water on both sides of it, and no wave maker there.

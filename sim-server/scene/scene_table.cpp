@@ -76,6 +76,71 @@ const Fields<WaveMaker>& wave_maker_fields() {
   return kFields;
 }
 
+const Fields<TankMotionSettings>& tank_motion_fields() {
+  using T = TankMotionSettings;
+  static const Fields<T> kFields = {
+      {{.key = "pivot",
+        .unit = "m",
+        .meaning = "Place in the tank about which it turns.",
+        .min = -100,
+        .max = 100},
+       &T::pivot},
+      {{.key = "sway",
+        .unit = "m",
+        .meaning = "Amplitudes along the tank's x y z: it goes there and back by sway sin(2 pi "
+                   "t / period).",
+        .min = -5,
+        .max = 5},
+       &T::sway},
+      {{.key = "roll",
+        .unit = "deg",
+        .meaning = "Amplitudes of its turns about its own x y z: its angular velocity is the rate "
+                   "of roll sin(2 pi t / period). About y it dips to larger x at first, about x to "
+                   "smaller y.",
+        .min = -90,
+        .max = 90},
+       &T::roll},
+      {{.key = "period", .unit = "s", .meaning = "Of sway and roll.", .min = 0.05, .max = 3600},
+       &T::period},
+      {{.key = "ramp",
+        .unit = "s",
+        .meaning = "Sway and roll grow smoothly from nothing within this; 0: the tank and the "
+                   "water in it move at once.",
+        .min = 0,
+        .max = 3600},
+       &T::ramp},
+  };
+  return kFields;
+}
+
+const Fields<TankSample>& tank_sample_fields() {
+  using T = TankSample;
+  static const Fields<T> kFields = {
+      {{.key = "time",
+        .unit = "s",
+        .meaning = "Later than the sample before. In between it is as on a straight line, before "
+                   "the first and after the last one as in these.",
+        .min = 0,
+        .max = 86400,
+        .required = true},
+       &T::time},
+      {{.key = "acceleration",
+        .unit = "m/s2",
+        .meaning = "Of the tank's pivot, in the tank's own axes. What is in it feels the opposite: "
+                   "gravity that changes in time is told so, too.",
+        .min = -100,
+        .max = 100},
+       &T::acceleration},
+      {{.key = "spin",
+        .unit = "rad/s",
+        .meaning = "Angular velocity, in the tank's own axes.",
+        .min = -50,
+        .max = 50},
+       &T::spin},
+  };
+  return kFields;
+}
+
 const Fields<BodySettings>& body_fields() {
   static const Fields<BodySettings> kFields = {
       {{.key = "name", .unit = "", .meaning = "Its name, unlike any other's.", .required = true},

@@ -87,6 +87,8 @@ struct TrackerEntry {
 [[nodiscard]] const Fields<Tank>& tank_fields();
 [[nodiscard]] const Fields<Slope>& slope_fields();
 [[nodiscard]] const Fields<WaveMaker>& wave_maker_fields();
+[[nodiscard]] const Fields<TankMotionSettings>& tank_motion_fields();
+[[nodiscard]] const Fields<TankSample>& tank_sample_fields();
 [[nodiscard]] const Fields<WaterEntry>& water_fields();
 [[nodiscard]] const Fields<Gate>& gate_fields();
 [[nodiscard]] const Fields<FlowEntry>& flow_fields();

@@ -71,6 +71,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
       hung_(scene_.bodies, live_),
+      tank_motion_(scene_.tank_motion, scene_.fluid.gravity),
       fluid_(make_fluid(device, scene_, bodies_, support_states_)),
       detector_(fluid_, skins_of(scene_, fluid_.params()), scene_.detect, scene_.seed,
                 !scene_.skip.cavities),
@@ -91,7 +92,9 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   start_ = fluid_.snapshot();
   sound_.keep(device, state());
   // The divergence-free solver balances all of the water in every step: none of it may sleep.
-  const bool may_sleep = scene_.fluid.solver == PressureKind::weakly_compressible;
+  // Water that is shaken does not rest.
+  const bool may_sleep =
+      scene_.fluid.solver == PressureKind::weakly_compressible && !scene_.tank_motion.present;
   if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
   can_feel_ = !hung_.empty() || !felt_bodies(scene_.bodies).empty();
@@ -151,6 +154,12 @@ std::vector<Step> Simulation::steps_of(const FrameSteps& division,
 
 void Simulation::set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses) {
   fluid_.set_bodies(poses);
+  if (scene_.tank_motion.present) {
+    // For the whole frame as in its middle.
+    const double middle = seconds_ - begun_ + 0.5 * steps.count * steps.dt;
+    fluid_.set_tank(tank_motion_.at(middle), scene_.tank_motion.pivot, turns(scene_.tank_motion),
+                    steps.dt);
+  }
   if (hung_.empty()) return;
   fluid_.free_bodies()->hang(fluid_.device(), hung_.anchors(seconds_, steps.count, steps.dt));
 }

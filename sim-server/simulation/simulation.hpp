@@ -19,6 +19,7 @@
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/step_policy.hpp"
 #include "sim-server/scene/support_state.hpp"
+#include "sim-server/scene/tank_motion.hpp"
 #include "sim-server/simulation/frame_plan.hpp"
 #include "sim-server/simulation/hung_bodies.hpp"
 #include "sim-server/simulation/recovery/recovery.hpp"
@@ -126,7 +127,8 @@ class Simulation {
  private:
   [[nodiscard]] std::vector<Step> steps_of(const FrameSteps& division,
                                            std::vector<BodyStep>& poses) const;
-  /// Sets where bodies and devices are in the steps of a frame, on the device.
+  /// Sets where bodies and devices are in the steps of a frame, and how the tank moves, on the
+  /// device.
   void set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses);
   /// Whether poses move the body, so that somebody may feel it.
   [[nodiscard]] bool is_felt_now(int body) const;
@@ -161,6 +163,7 @@ class Simulation {
   std::vector<PosedMotion*> live_;
   Bodies bodies_;
   HungBodies hung_;
+  TankMotion tank_motion_;
   std::vector<SupportState> support_states_;
   Fluid fluid_;
   Detector detector_;

@@ -35,6 +35,7 @@ std::vector<KernelSource> fluid();
 std::vector<KernelSource> free_bodies();
 std::vector<KernelSource> grid_projected();
 std::vector<KernelSource> stats();
+std::vector<KernelSource> tank_turn();
 }  // namespace kernels
 
 std::vector<KernelSource> fluid_sources() {
@@ -48,6 +49,9 @@ std::vector<KernelSource> grid_projected_sources() {
 }
 std::vector<KernelSource> free_body_sources() {
   return kernels::free_bodies();
+}
+std::vector<KernelSource> tank_turn_sources() {
+  return kernels::tank_turn();
 }
 std::vector<KernelSource> stats_sources() {
   return kernels::stats();

@@ -19,6 +19,7 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+#include "sim-server/fluid/pressure/tank_turn.h"
 
 namespace splash::sim {
 
@@ -88,6 +89,9 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(Anchor, wx, wy, wz),
 
     MEMBERS_2(KeptPush, key, pushed),
+
+    MEMBERS_2(TankTurn, turned, pushed),
+    MEMBERS_3(TankTurn, px, py, pz),
 
     MEMBERS_4(SolveState, done, iterations, error, solves),
     MEMBERS_4(SolveState, total, most, given_up, unused),
