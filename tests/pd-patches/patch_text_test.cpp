@@ -12,6 +12,8 @@
 #include <sstream>
 #include <string>
 
+#include "protocol/event.hpp"
+
 namespace splash::pd {
 namespace {
 
@@ -48,6 +50,24 @@ std::set<std::string> used_abstractions(const std::string& text) {
     }
   }
   return names;
+}
+
+// A kind that no outlet is there for would be lost without a word.
+TEST(Patches, RouteEachKindOfEvent) {
+  int routes = 0;
+  for (const char* file : {"splash-events.pd", "offline.pd", "offline-stereo.pd"}) {
+    std::istringstream text(read(kFolder / file));
+    for (std::string line; std::getline(text, line);) {
+      if (line.find(" route ") == std::string::npos || line.find(" impact ") == std::string::npos)
+        continue;
+      ++routes;
+      for (const protocol::KindNames& kind : protocol::kKindNames) {
+        EXPECT_THAT(line, ::testing::ContainsRegex(std::string(" ") + kind.name() + "[ ;]"))
+            << file;
+      }
+    }
+  }
+  EXPECT_EQ(routes, 3);
 }
 
 TEST(PatchText, EveryAbstractionIsThere) {

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "protocol/address.hpp"
@@ -130,6 +132,25 @@ TEST(Query, ABrokenRigSaysNothing) {
   for (const char* text : {"", "{", "[]", "{\"rows\": 3}", "{\"rows\": [[]]}"}) {
     note_rig(text, all);
     EXPECT_THAT(all.rows, IsEmpty()) << text;
+  }
+}
+
+// The page draws each kind by its address.
+TEST(Page, DrawsRingsForEachKindOfEvent) {
+  for (const char* name : {"main.js", "rings.js"}) {
+    std::ifstream file(std::filesystem::path(SPLASH_SOURCE_DIR) / "view-server/page" / name);
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::vector<int> lists;  // in which each kind stands
+    for (const protocol::KindNames& kind : protocol::kKindNames) {
+      const std::string entry = "'" + std::string(kind.address) + "': ";
+      int count = 0;
+      for (std::size_t at = text.find(entry); at != std::string::npos; ++count) {
+        at = text.find(entry, at + 1);
+      }
+      lists.push_back(count);
+    }
+    EXPECT_GT(lists.front(), 0) << name;
+    EXPECT_THAT(lists, testing::Each(lists.front())) << name;
   }
 }
 
