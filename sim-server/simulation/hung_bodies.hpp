@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bodies of a scene that hang on devices by springs: where the devices are, for the kernels
-// (fluid/free_bodies/body_spring.h), and what they feel.
+// (fluid/boundary/body_spring.h), and what they feel.
 #pragma once
 
 #include <vector>

@@ -25,7 +25,7 @@ std::string first_line(const std::string& command) {
   return text;
 }
 
-/// With "-dirty" where anything but docs/, into which the benchmarks themselves write, differs from it.
+/// With "-dirty" where anything differs from it but docs/, which the benchmarks themselves write.
 std::string commit() {
   const std::string git = "git -C '" + tests::source_folder().string() + "' ";
   const std::string told = first_line(git + "describe --always 2>&1");

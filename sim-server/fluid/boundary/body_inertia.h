@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A free body's inertia in the world: R diag(ix, iy, iz) R^T, R from its principal axes, which are
-// its own but for a mesh's. Along, or about, axes of the world by which it is held it does not move,
-// whatever pushes: what holds it pushes back.
+// its own but for a mesh's. Along, or about, axes of the world by which it is held it does not
+// move, whatever pushes: what holds it pushes back.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/six.h"

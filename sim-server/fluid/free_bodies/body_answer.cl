@@ -9,7 +9,7 @@
 #include "sim-server/fluid/boundary/body_inertia.h"
 #include "sim-server/fluid/boundary/six.h"
 #include "sim-server/fluid/free_bodies/body_reach.h"
-#include "sim-server/fluid/free_bodies/body_spring.h"
+#include "sim-server/fluid/boundary/body_spring.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"

@@ -123,7 +123,7 @@ typedef struct {
   float restitution;     // of its speed, after a knock against a wall or another body [1]
   float friction;        // on those, Coulomb [1]
   float ax, ay, az, aw;  // its own axes to the principal ones, of which the moments are
-  // On the device that it hangs on; all 0: on none (free_bodies/body_spring.h).
+  // On the device that it hangs on; all 0: on none (boundary/body_spring.h).
   float spring;          // [N/m]
   float damper;          // [N s/m]
   float turning_spring;  // [N m/rad]

@@ -10,8 +10,8 @@ namespace splash::sim {
 #endif
 
 typedef struct {
-  float turned[9];  // rotation of velocities, row by row [1]
-  float pushed[9];  // of places from the pivot, to speeds [1/s]
+  float turned[9];   // rotation of velocities, row by row [1]
+  float pushed[9];   // of places from the pivot, to speeds [1/s]
   float px, py, pz;  // the pivot [m]
 } TankTurn;
 SPLASH_SHARED_STRUCT(TankTurn, 21 * 4)

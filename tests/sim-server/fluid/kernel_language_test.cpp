@@ -53,6 +53,7 @@ std::vector<NamedProgram> programs() {
           {"reduce_stats", stats_sources()},
           {"pin", kernels::pin()},
           {"grid_projected", grid_projected_sources()},
+          {"tank_turn", tank_turn_sources()},
           {"detect", kernels::detect()},
           {"gauge", kernels::gauge()}};
 }

@@ -2,9 +2,9 @@
 // What a step's pressures do to bodies that go their own way, and how that would change if these
 // were faster from the step's beginning on. With coupling.h's K, and A of the pressures' system,
 //   dt F = - rho0 V K^T f,      d(dt F)/dq = - rho0 V K^T A^-1 K
-// of which the diagonal is kept: the mass of the water that goes with the body. A^-1 K is found as f
-// is, one part of q at a time; K^T A^-1 K is the energy that conjugate gradients come nearer to from
-// below, by the square of their error.
+// of which the diagonal is kept: the mass of the water that goes with the body. A^-1 K is found as
+// f is, one part of q at a time; K^T A^-1 K is the energy that conjugate gradients come nearer to
+// from below, by the square of their error.
 
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"

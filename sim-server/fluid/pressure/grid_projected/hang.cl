@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Free bodies that hang on devices by springs (free_bodies/body_spring.h), in the pressures' system
-// (coupling.h). A spring that is taken at the step's end gives less by I for each change of speed, so
-// its body is heavier by that, and falls along
+// Free bodies that hang on devices by springs (boundary/body_spring.h), in the pressures' system
+// (coupling.h). A spring that is taken at the step's end gives less by I for each change of speed,
+// so its body is heavier by that, and falls along
 //   (M + I) dq = M g dt + tug
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_inertia.h"
-#include "sim-server/fluid/free_bodies/body_spring.h"
+#include "sim-server/fluid/boundary/body_spring.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
@@ -24,8 +24,8 @@ static BodyStep before_falling(BodyStep b, float3 fall, global const float* own)
   return b;
 }
 
-// After let_fall: one work-item for each free body. `tied`: the bodies as heavy as their springs make
-// them; `tuggings`: SPLASH_TUG_FLOATS of each, for tell_tugs.
+// After let_fall: one work-item for each free body. `tied`: the bodies as heavy as their springs
+// make them; `tuggings`: SPLASH_TUG_FLOATS of each, for tell_tugs.
 kernel void tie_bodies(constant FluidParams* p, float dt, int free_count, constant FreeBody* frees,
                        global BodyStep* bodies, int first_body, global const float* kept,
                        global const Anchor* anchors, int first_anchor, global FreeBody* tied,
