@@ -15,7 +15,7 @@ const std::vector<Case>& all_cases() {
                                            oscillating_drop(),  vortex(),        dam_martin_moyce(),
                                            dam_koshizuka_oka(), spheric2(),      slap(),
                                            pinch_off(),         closed_box(),    floating(),
-                                           sinking_cube()};
+                                           sinking_cube(),      sinking_ball()};
   return kCases;
 }
 

@@ -68,5 +68,6 @@ struct Case {
 [[nodiscard]] Case closed_box();
 [[nodiscard]] Case floating();
 [[nodiscard]] Case sinking_cube();
+[[nodiscard]] Case sinking_ball();
 
 }  // namespace splash::validation
