@@ -59,6 +59,7 @@ void look(const std::string& scene, const Settings& settings) {
     throw std::runtime_error("the page hears nothing of " + scene);
   }
   sleep(5.0);  // both have settled
+  std::vector<double> arrival;
   std::vector<double> age;
   std::vector<double> picture;
   std::vector<double> sound;
@@ -67,6 +68,7 @@ void look(const std::string& scene, const Settings& settings) {
   for (int second = 0; second < settings.seconds; ++second) {
     sleep(1.0);
     const auto now = browser.evaluate("splash.latency()");
+    arrival.push_back(now.at("arrival"));
     age.push_back(now.at("age"));
     picture.push_back(now.at("picture"));
     sound.push_back(now.at("sound"));
@@ -74,8 +76,8 @@ void look(const std::string& scene, const Settings& settings) {
   }
   const double pictures = browser.evaluate("splash.pictures()").get<double>() - before;
   const auto ms = [](const std::vector<double>& values) { return 1e3 * median(values); };
-  std::printf("%-8s %10.1f %10.1f %14.1f %12.1f %10.1f %10.1f\n", scene.c_str(),
-              pictures / settings.seconds, ms(age), ms(picture), ms(sound), ms(apart),
+  std::printf("%-8s %10.1f %12.1f %10.1f %14.1f %12.1f %10.1f %10.1f\n", scene.c_str(),
+              pictures / settings.seconds, ms(arrival), ms(age), ms(picture), ms(sound), ms(apart),
               1e3 * *std::max_element(apart.begin(), apart.end()));
   std::fflush(stdout);
 }
@@ -97,8 +99,10 @@ int main(int argc, char** argv) {
     if (!Chromium::is_there())
       throw std::runtime_error("there is no chromium: apt-get install chromium");
     std::printf(
-        "scene    pictures/s  95 %% age  event-picture  event-sound      apart  most apart\n"
-        "                         [ms]           [ms]         [ms]       [ms]        [ms]\n");
+        "scene    pictures/s  95 %% arrive  are drawn  event-picture  event-sound      apart"
+        "  most apart\n"
+        "                            [ms]       [ms]           [ms]         [ms]       [ms]"
+        "        [ms]\n");
     for (const std::string& scene : settings.scenes) look(scene, settings);
     return 0;
   } catch (const std::exception& error) {

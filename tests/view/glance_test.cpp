@@ -76,7 +76,7 @@ TEST_F(Glance, ShownPicturesAreYoungWhereFramesComeInTime) {
         const now = 100 + k / 60;
         const jitter = 0.004 * Math.sin(7 * k);
         playout.push({ moment: now - late - jitter, count: 1 }, now);
-        playout.at(now + 0.008);
+        playout.finished(playout.at(now + 0.008).moment, now + 0.008);
       }
       ages.push(playout.age);
     }

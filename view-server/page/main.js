@@ -2,6 +2,7 @@
 // Puts the parts of the page together and draws a picture whenever the browser takes one.
 import { Camera } from './camera.js';
 import { Strip, drawMeters, drawScope } from './charts.js';
+import { Fences } from './fences.js';
 import { Gamepads } from './gamepad.js';
 import { Grabs } from './grab.js';
 import { LightMaps } from './light.js';
@@ -9,7 +10,7 @@ import { Link } from './link.js';
 import { Pace } from './pace.js';
 import { Panel } from './panel.js';
 import { Particles } from './particles.js';
-import { Playout } from './playout.js';
+import { EVEN, Playout } from './playout.js';
 import { Points } from './points.js';
 import { Pointers } from './pointer.js';
 import { Film, savePicture } from './record.js';
@@ -38,6 +39,7 @@ const particles = new Particles(gl);
 const solids = new Solids(gl);
 const rings = new Rings(gl);
 const playout = new Playout();
+const fences = new Fences(gl);
 const strip = new Strip(at('strip'));
 const lights = smooth ? new LightMaps(gl) : null;
 const water = smooth ? new Water(gl) : null;
@@ -56,7 +58,7 @@ let middle = null; // of the scene, as the synth has it; null: no loudspeaker de
 let going = null; // the scene or rig that was chosen here and is not there yet
 let centres = false; // the synth is told the middle of the scene that was chosen here
 const words = new Words();
-const shown = []; // lag of events to the picture [s]
+const shown = []; // lag of events to the finished picture [s]
 
 const link = new Link({
   open: () => grabs.again(),
@@ -189,14 +191,14 @@ function tellState() {
 /// [s]
 function latency() {
   const picture = shown.length ? shown.reduce((a, b) => a + b) / shown.length : 0;
-  return { age: playout.age, picture, sound: sound.lag };
+  return { arrival: playout.arrival, age: playout.age, picture, sound: sound.lag };
 }
 
 function tellFigures() {
   const ms = (x) => `${Math.round(1000 * x)} ms`;
   const sim = words.last('sim-server');
   const parts = [`${world.particles} particles`, `${pace.rate.toFixed(0)} pictures/s${points && smooth ? ' (points: the water is too much for these graphics)' : ''}`,
-    `95 % of pictures younger than ${ms(playout.age)}`];
+    `95 % of states come within ${ms(playout.arrival)}, are drawn within ${ms(playout.age)}`];
   if (sound.lag !== null) {
     const { picture } = latency();
     parts.push(`event to picture ${ms(picture)}, to sound ${ms(sound.lag)}, apart ${
@@ -222,17 +224,28 @@ let pictures = 0;
 let answered = null; // the newest state that was drawn and answered with a question for the next
 function picture() {
   requestAnimationFrame(picture);
+  gamepads.poll();
+  fences.look(finished);
+  // Where graphics are slow, no picture waits for another: it would show an older state.
+  if (fences.pending.length > (pace.rate < EVEN ? 0 : 1)) return;
   pace.step();
   if (pace.isTooSlow && !points && !headset.session) points = new Points(gl);
-  gamepads.poll();
   const dense = Math.min(window.devicePixelRatio, 2) * (points ? pace.share : 1);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   camera.aspect = width / height;
   if (headset.session || !prepare()) return;
   drawAll({ width, height, share: pace.share }, camera.matrices());
+  fences.add(moment);
   if (wantsPicture) savePicture(canvas, world.name);
   wantsPicture = false;
+}
+
+function finished(seen) {
+  const now = link.now();
+  playout.finished(seen, now);
+  shown.push(now - seen);
+  if (shown.length > 60) shown.shift();
 }
 
 let moment = 0; // that is shown
@@ -247,8 +260,7 @@ function prepare() {
   }
   if (!view) return false;
   moment = view.moment;
-  shown.push(now - moment);
-  if (shown.length > 60) shown.shift();
+  if (headset.session) finished(moment);
   particles.show(view);
   poseBodies(view);
   if (++pictures % 3 === 0) drawCharts(now);

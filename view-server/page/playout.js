@@ -3,12 +3,17 @@
 // nine of ten of them came late after the one before them, so that motion is even.
 
 const HOLD_MAX = 0.055; // [s]
-const EVEN = 25; // pictures a second, below which no motion is even and the newest state is shown
-const KEEP = 90; // arrivals, and shown ages, that are looked at
+export const EVEN = 40; // pictures a second, below which there is no time to hold a state
+const KEEP = 90; // states, and pictures, that are looked at
 
 export function quantile(values, share) {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 0;
+}
+
+function note(values, value) {
+  values.push(value);
+  if (values.length > KEEP) values.shift();
 }
 
 export class Playout {
@@ -19,15 +24,16 @@ export class Playout {
   clear() {
     this.states = [];
     this.lateness = [];
-    this.ages = [];
+    this.arrivals = []; // ages of states when they come [s]
+    this.ages = []; // of finished pictures [s]
     this.hold = 0;
   }
 
   push(state, now) {
     const last = this.states.at(-1);
+    note(this.arrivals, now - state.moment);
     if (last && (state.moment <= last.moment || state.count !== last.count)) this.states = [];
-    else if (last) this.lateness.push(now - last.moment);
-    if (this.lateness.length > KEEP) this.lateness.shift();
+    else if (last) note(this.lateness, now - last.moment);
     this.states.push(state);
     if (this.states.length > 8) this.states.shift();
   }
@@ -43,14 +49,21 @@ export class Playout {
     const [older, newer = older] = this.states;
     const span = newer.moment - older.moment;
     const share = span > 0 ? Math.min(Math.max((shown - older.moment) / span, 0), 1) : 1;
-    const moment = older.moment + share * span;
-    this.ages.push(now - moment);
-    if (this.ages.length > KEEP) this.ages.shift();
-    return { older, newer, share, moment };
+    return { older, newer, share, moment: older.moment + share * span };
   }
 
-  /// How old 95 of 100 shown pictures were at most [s].
+  /// The graphics have drawn a picture of this moment.
+  finished(moment, now) {
+    note(this.ages, now - moment);
+  }
+
+  /// How old 95 of 100 pictures were at most when they were drawn [s].
   get age() {
     return quantile(this.ages, 0.95);
+  }
+
+  /// How old 95 of 100 states were at most when they came [s].
+  get arrival() {
+    return quantile(this.arrivals, 0.95);
   }
 }
