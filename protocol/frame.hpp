@@ -48,6 +48,11 @@ class FrameWriter {
   template <class Number>
   void put_all(std::span<const Number> values) {
     std::size_t at = bytes_.size();
+    if constexpr (std::endian::native == std::endian::little) {
+      const auto bytes = std::as_bytes(values);
+      bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+      return;
+    }
     bytes_.resize(at + values.size_bytes());
     for (const Number value : values) {
       const auto bits = std::bit_cast<FrameBits<Number>>(value);

@@ -16,6 +16,8 @@ namespace {
 constexpr double kCounts = std::numeric_limits<std::uint16_t>::max();
 constexpr std::size_t kBodyBytes = 32;
 constexpr std::size_t kParticleBytes = 8;
+constexpr std::size_t kLanes = 8;   ///< numbers that are compared at once
+constexpr std::size_t kBlock = 64;  ///< particles that are counted at once
 
 /// The box that places are counted on.
 class Box {
@@ -24,6 +26,24 @@ class Box {
     if (!std::isfinite(place)) return;
     lower_[axis] = std::min(lower_[axis], place);
     upper_[axis] = std::max(upper_[axis], place);
+  }
+  /// Lane by lane, which compilers turn into vector instructions.
+  void add(std::size_t axis, std::span<const float> places) {
+    std::array<float, kLanes> low;
+    std::array<float, kLanes> high;
+    low.fill(kMost);
+    high.fill(-kMost);
+    std::size_t i = 0;
+    for (; i + kLanes <= places.size(); i += kLanes) {
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        const float x = places[i + k];
+        low[k] = x < low[k] && x >= -kMost ? x : low[k];
+        high[k] = x > high[k] && x <= kMost ? x : high[k];
+      }
+    }
+    for (; i < places.size(); ++i) add(axis, static_cast<double>(places[i]));
+    for (const float x : low) lower_[axis] = std::min(lower_[axis], static_cast<double>(x));
+    for (const float x : high) upper_[axis] = std::max(upper_[axis], static_cast<double>(x));
   }
   /// All is added: the corner and the unit are those that the frame tells.
   void close() {
@@ -36,17 +56,19 @@ class Box {
     unit_ = extent > 0.0 ? static_cast<float>(extent / kCounts) : 1.0F;
     per_metre_ = 1.0 / static_cast<double>(unit_);
   }
-  [[nodiscard]] std::uint64_t counts(std::size_t axis, double place) const {
-    const double way = (place - static_cast<double>(corner_[axis])) * per_metre_;
-    if (!(way > 0.0)) return 0;  // nor a number that is none
+  [[nodiscard]] std::int32_t counts(std::size_t axis, double place) const {
+    double way = (place - static_cast<double>(corner_[axis])) * per_metre_;
+    way = way > 0.0 ? way : 0.0;  // so is what is no number
+    way = way < kCounts ? way : kCounts;
     // Not std::lround, a call for each particle: the sum is positive and small.
     // NOLINTNEXTLINE(bugprone-incorrect-roundings)
-    return static_cast<std::uint64_t>(std::min(way, kCounts) + 0.5);
+    return static_cast<std::int32_t>(way + 0.5);
   }
   [[nodiscard]] const std::array<float, 3>& corner() const noexcept { return corner_; }
   [[nodiscard]] float unit() const noexcept { return unit_; }
 
  private:
+  static constexpr float kMost = std::numeric_limits<float>::max();
   Vector3 lower_ = {1e30, 1e30, 1e30};
   Vector3 upper_ = {-1e30, -1e30, -1e30};
   std::array<float, 3> corner_ = {};  // [m]
@@ -54,24 +76,29 @@ class Box {
   double per_metre_ = 1.0;            // counts
 };
 
-double part(const std::vector<float>& vector, const ShownWater& water, std::size_t axis,
-            std::size_t i) {
-  return static_cast<double>(vector[axis * water.stride + i]);
+std::span<const float> part(const std::vector<float>& vector, const ShownWater& water,
+                            std::size_t axis) {
+  return std::span(vector).subspan(axis * water.stride, water.count);
 }
 
 Box box_around(const ShownWater& water, const std::vector<Vector3>& bubbles) {
   Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < water.count; ++i)
-      box.add(axis, part(water.position, water, axis, i));
+    box.add(axis, part(water.position, water, axis));
     for (const Vector3& bubble : bubbles) box.add(axis, bubble[axis]);
   }
   box.close();
   return box;
 }
 
+/// Counts on the three axes, each within 16 bits.
+std::uint64_t packed(std::int32_t x, std::int32_t y, std::int32_t z) {
+  return static_cast<std::uint64_t>(x) | static_cast<std::uint64_t>(y) << 16U |
+         static_cast<std::uint64_t>(z) << 32U;
+}
+
 std::uint64_t packed(const Box& box, const Vector3& place) {
-  return box.counts(0, place[0]) | box.counts(1, place[1]) << 16U | box.counts(2, place[2]) << 32U;
+  return packed(box.counts(0, place[0]), box.counts(1, place[1]), box.counts(2, place[2]));
 }
 
 /// (s / 255)^2 of kShownSpeed.
@@ -82,22 +109,41 @@ std::uint64_t speed_code(float speed) {
   return static_cast<std::uint64_t>(255.0F * std::min(share, 1.0F) + 0.5F);
 }
 
+/// Of a block of particles, axis by axis.
+struct Counted {
+  std::array<std::array<std::int32_t, kBlock>, 3> place;
+  std::array<float, kBlock> square;  ///< of the speed [m2/s2]
+};
+
+void count(const ShownWater& water, const Box& box, std::size_t first, std::size_t size,
+           Counted& counted) {
+  counted.square.fill(0.0F);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto place = part(water.position, water, axis).subspan(first, size);
+    const auto speed = part(water.velocity, water, axis).subspan(first, size);
+    for (std::size_t k = 0; k < size; ++k) {
+      counted.place[axis][k] = box.counts(axis, static_cast<double>(place[k]));
+      counted.square[k] += speed[k] * speed[k];
+    }
+  }
+}
+
 /// In the order of their ids.
 std::vector<std::uint64_t> packed(const ShownWater& water, const Box& box) {
   std::vector<std::uint64_t> all(water.count);
-  for (std::size_t i = 0; i < water.count; ++i) {
-    Vector3 place;
-    float square = 0.0F;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      place[axis] = part(water.position, water, axis, i);
-      const float speed = water.velocity[axis * water.stride + i];
-      square += speed * speed;
+  Counted counted;
+  for (std::size_t first = 0; first < water.count; first += kBlock) {
+    const std::size_t size = std::min(kBlock, water.count - first);
+    count(water, box, first, size, counted);
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t i = first + k;
+      std::uint64_t flags = 0;
+      if (water.moving[i] == 0) flags |= kAsleep;
+      if (water.density[i] < water.least_density) flags |= kSpray;
+      all[static_cast<std::size_t>(water.id[i])] =
+          packed(counted.place[0][k], counted.place[1][k], counted.place[2][k]) |
+          speed_code(std::sqrt(counted.square[k])) << 48U | flags << 56U;
     }
-    std::uint64_t flags = 0;
-    if (water.moving[i] == 0) flags |= kAsleep;
-    if (water.density[i] < water.least_density) flags |= kSpray;
-    all[static_cast<std::size_t>(water.id[i])] =
-        packed(box, place) | speed_code(std::sqrt(square)) << 48U | flags << 56U;
   }
   return all;
 }
