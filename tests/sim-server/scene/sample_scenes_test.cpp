@@ -44,6 +44,10 @@ TEST_P(SampleScene, IsNamedAfterItsFileAndDescribed) {
   EXPECT_FALSE(scene_.description.empty());
 }
 
+TEST_P(SampleScene, HasABodyToGrab) {
+  EXPECT_FALSE(scene_.bodies.empty());
+}
+
 TEST_P(SampleScene, StartsWithTheParticlesItWants) {
   std::vector<Keyframe> poses;
   for (const auto& motion : motions_) {
