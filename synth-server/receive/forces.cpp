@@ -21,7 +21,8 @@ std::optional<protocol::Message> ForceQuestion::due(double now) {
   if (!source_.simulator) return std::nullopt;
   if (!source_.wanted()) return last();
   if (now < next_) return std::nullopt;
-  next_ = now + kPeriod;
+  asked_at_ = now;
+  next_ = now + kEager;
   asked_ = true;
   return notify(2);
 }
@@ -34,6 +35,8 @@ std::optional<protocol::Message> ForceQuestion::last() {
 
 std::string ForceQuestion::refusal(const protocol::Message& reply, const protocol::Endpoint& from) {
   if (!source_.simulator || !(from == *source_.simulator)) return {};
+  const bool answers = reply.address == "/done" || reply.address == "/fail";
+  if (asked_ && answers) next_ = asked_at_ + kPeriod;
   if (reply.address == "/done") refused_.clear();
   if (reply.address != "/fail" || reply.arguments.size() != 2) return {};
   const auto* const reason = std::get_if<std::string>(&reply.arguments[1]);

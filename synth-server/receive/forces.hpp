@@ -27,14 +27,18 @@ class ForceQuestion {
   /// At the end: that no more is wanted, if it was.
   [[nodiscard]] std::optional<protocol::Message> last();
   [[nodiscard]] const protocol::Endpoint& simulator() const { return *source_.simulator; }
-  /// A line for people where the simulator refuses for another reason than before; else empty.
+  /// Takes a reply of anybody's. A line for people where the simulator refuses for another reason
+  /// than before; else empty.
   [[nodiscard]] std::string refusal(const protocol::Message& reply, const protocol::Endpoint& from);
 
-  static constexpr double kPeriod = 5.0;  ///< between two questions [s]
+  static constexpr double kPeriod = 5.0;  ///< between two questions [s] ...
+  static constexpr double kEager =
+      1.0;  ///< ... while none is answered: it may not be there yet [s]
 
  private:
   ForceSource source_;
-  double next_ = 0.0;  ///< [s, monotonic]
+  double asked_at_ = 0.0;  ///< [s, monotonic]
+  double next_ = 0.0;      ///< [s, monotonic]
   bool asked_ = false;
   std::string refused_;
 };

@@ -93,13 +93,18 @@ TEST(Forces, AreAskedForWhileTheyAreWanted) {
   EXPECT_EQ(std::get<std::int32_t>(first->arguments.at(0)), 2);
   EXPECT_GE(protocol::encoded_size(*first),
             protocol::encoded_size(protocol::fail("/notify", std::string(64, 'x'))));
-  EXPECT_FALSE(question.due(101.0));
-  EXPECT_TRUE(question.due(100.1 + ForceQuestion::kPeriod));
+  EXPECT_FALSE(question.due(100.9));
+  EXPECT_TRUE(question.due(101.0)) << "nobody has answered";
+  (void)question.refusal(protocol::done("/notify", 2), kSending);
+  EXPECT_TRUE(question.due(102.0)) << "nor has the simulator";
+  (void)question.refusal(protocol::done("/notify", 2), kSim);
+  EXPECT_FALSE(question.due(106.0));
+  EXPECT_TRUE(question.due(102.1 + ForceQuestion::kPeriod));
   wanted = false;
-  const auto last = question.due(106.0);
+  const auto last = question.due(107.5);
   ASSERT_TRUE(last);
   EXPECT_EQ(std::get<std::int32_t>(last->arguments.at(0)), 0);
-  EXPECT_FALSE(question.due(107.0)) << "said once";
+  EXPECT_FALSE(question.due(108.0)) << "said once";
   EXPECT_FALSE(ForceQuestion({}).due(1.0)) << "nobody to ask";
 }
 
