@@ -29,8 +29,8 @@ class Box {
   }
   /// Lane by lane, which compilers turn into vector instructions.
   void add(std::size_t axis, std::span<const float> places) {
-    std::array<float, kLanes> low;
-    std::array<float, kLanes> high;
+    std::array<float, kLanes> low{};
+    std::array<float, kLanes> high{};
     low.fill(kMost);
     high.fill(-kMost);
     std::size_t i = 0;
@@ -111,8 +111,8 @@ std::uint64_t speed_code(float speed) {
 
 /// Of a block of particles, axis by axis.
 struct Counted {
-  std::array<std::array<std::int32_t, kBlock>, 3> place;
-  std::array<float, kBlock> square;  ///< of the speed [m2/s2]
+  std::array<std::array<std::int32_t, kBlock>, 3> place{};
+  std::array<float, kBlock> square{};  ///< of the speed [m2/s2]
 };
 
 void count(const ShownWater& water, const Box& box, std::size_t first, std::size_t size,
