@@ -39,15 +39,17 @@ set bmargin at screen 0.770
 set format x ""
 set ylabel "impacts  [m/s]" textcolor rgb ink
 set yrange [0:*]
+set ytics impact_step
 set grid xtics linecolor rgb "#cbd0d8" linewidth 0.6
 plot "impact.dat" using 1:2 with impulses linewidth 2 linecolor rgb "#d55e00" notitle
 unset label
 set tmargin at screen 0.745
 set bmargin at screen 0.480
+set ytics autofreq
 set logscale y
 set ylabel "radius  [mm]" textcolor rgb ink
 set yrange [0.5:200]
-set key at screen 0.915,0.7525 right bottom horizontal Left reverse samplen 1 textcolor rgb ink
+set key at screen 0.915,0.740 right top horizontal Left reverse samplen 1 textcolor rgb ink
 plot "bubble.dat" using 1:2 with points pointtype 7 pointsize 0.35 linecolor rgb "#0072b2" \
        title "bubbles", \
      "cavity.dat" using 1:2 with points pointtype 7 pointsize 1.3 linecolor rgb "#009e73" \
@@ -76,14 +78,15 @@ unset multiplot
 /// A kind of event, and what of it is drawn.
 struct Kind {
   const char* address;
+  const char* many;
   const char* file;
   std::size_t value;  ///< its argument
   double scale;
   std::size_t offset;  ///< argument: moment after its bundle's time [ms]
 };
-constexpr Kind kKinds[] = {{"/impact", "impact.dat", 3, 1.0, 7},
-                           {"/bubble", "bubble.dat", 2, 1000.0, 7},
-                           {"/cavity", "cavity.dat", 2, 1000.0, 7}};
+constexpr Kind kKinds[] = {{"/impact", "impacts", "impact.dat", 3, 1.0, 7},
+                           {"/bubble", "bubbles", "bubble.dat", 2, 1000.0, 7},
+                           {"/cavity", "cavities", "cavity.dat", 2, 1000.0, 7}};
 
 double number(const protocol::Message& message, std::size_t argument) {
   const auto* value = argument < message.arguments.size()
@@ -92,22 +95,36 @@ double number(const protocol::Message& message, std::size_t argument) {
   return value == nullptr ? 0.0 : static_cast<double>(*value);
 }
 
-/// The events of a kind, a line each; how many.
-int write_events(const std::filesystem::path& folder, const Kind& kind,
-                 const std::vector<protocol::LogEntry>& log) {
-  std::ofstream out(folder / kind.file);
+struct Written {
   int count = 0;
+  double largest = 0.0;  ///< of what is drawn
+};
+
+/// The events of a kind, a line each.
+Written write_events(const std::filesystem::path& folder, const Kind& kind,
+                     const std::vector<protocol::LogEntry>& log) {
+  std::ofstream out(folder / kind.file);
+  Written written;
   for (const protocol::LogEntry& entry : log) {
     for (const protocol::Message& message : entry.messages) {
       if (message.address != kind.address) continue;
       out << entry.seconds + 1e-3 * number(message, kind.offset) << ' '
           << kind.scale * number(message, kind.value) << '\n';
-      ++count;
+      ++written.count;
+      written.largest = std::max(written.largest, kind.scale * number(message, kind.value));
     }
   }
-  if (count == 0) out << "NaN NaN\n";  // gnuplot wants a line
+  if (written.count == 0) out << "NaN NaN\n";  // gnuplot wants a line
   if (!out) throw std::runtime_error("cannot write " + (folder / kind.file).string());
-  return count;
+  return written;
+}
+
+/// Between two marks of an axis from 0 to `largest`, so that there are three to six.
+double step_to(double largest) {
+  if (!(largest > 0.0)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(largest)));
+  if (largest < 2.0 * power) return 0.5 * power;
+  return largest < 5.0 * power ? power : 2.0 * power;
 }
 
 }  // namespace
@@ -138,9 +155,11 @@ void draw_events(const EventFigure& figure, const std::filesystem::path& png) {
   const LevelMap map = level_map(signal, kColumns);
   const ScratchFolder folder;
   std::ostringstream subtitle;
+  double impact_step = 1.0;  // [m/s]
   for (const Kind& kind : kKinds) {
-    const int count = write_events(folder.path(), kind, log);
-    subtitle << count << ' ' << std::string_view(kind.address).substr(1) << "(s)   ";
+    const Written written = write_events(folder.path(), kind, log);
+    if (&kind == &kKinds[0]) impact_step = step_to(written.largest);
+    subtitle << written.count << ' ' << kind.many << "   ";
   }
   write_floats(folder.path() / "levels.bin", map.level_db);
   const float top = *std::max_element(map.level_db.begin(), map.level_db.end());
@@ -150,7 +169,7 @@ void draw_events(const EventFigure& figure, const std::filesystem::path& png) {
       << "\nsubtitle = " << quoted(subtitle.str()) << "\ncolumns = " << map.columns
       << "\nchannels = " << map.channels << "\ndx = " << duration / static_cast<double>(kColumns)
       << "\ntop_db = " << std::ceil(top / 5.0F) * 5.0F << "\nrange_db = " << figure.range_db
-      << "\nset xrange [0:" << duration << "]\n"
+      << "\nimpact_step = " << impact_step << "\nset xrange [0:" << duration << "]\n"
       << kSetup << "set output " << quoted(std::filesystem::absolute(png).string()) << '\n'
       << kPanels;
   out.close();
