@@ -69,7 +69,7 @@ const link = new Link({
   },
   SPC1: (scene) => {
     world = scene;
-    world.level = null;
+    Object.assign(world, { level: null, paddle: 0 });
     grabs.letAllGo();
     grabs.bound(scene.tank);
     playout.clear();
@@ -263,6 +263,8 @@ function prepare() {
   if (headset.session) finished(moment);
   particles.show(view);
   poseBodies(view);
+  const { older, newer, share } = view;
+  world.paddle = solids.drive(older.simulated + share * (newer.simulated - older.simulated));
   if (++pictures % 3 === 0) drawCharts(now);
   return true;
 }

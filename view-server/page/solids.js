@@ -167,6 +167,13 @@ function edgesOf({ tank: { lower: l, upper: u } }) {
   return joined(bars);
 }
 
+/// The wave maker's board, its face at x = 0.
+function boardOf({ tank: { lower: l, upper: u } }) {
+  const thick = 0.008 * Math.hypot(u[0] - l[0], u[1] - l[1]);
+  return bar([-1.5 * thick, l[1] + thick / 2, l[2] + thick / 2],
+    [-thick / 2, u[1] - thick / 2, l[2] + 0.7 * (u[2] - l[2])], thick);
+}
+
 export class Solids {
   constructor(gl) {
     this.gl = gl;
@@ -188,6 +195,11 @@ export class Solids {
       { material: 0, tint: [0.030, 0.043, 0.058], draw: draw(ground) },
       { material: 1, tint: sand, draw: draw(floorOf(world)) },
     ];
+    this.board = null;
+    if (world.wave_maker) {
+      this.board = { material: 2, tint: [0.16, 0.24, 0.30], pose: STILL, draw: draw(boardOf(world)) };
+      this.still.push(this.board);
+    }
     this.edges = { material: 3, tint: [0.55, 0.66, 0.72], draw: draw(edgesOf(world)) };
     this.bodies = world.bodies.map((body, index) => {
       const mesh = trianglesOf(body);
@@ -198,6 +210,15 @@ export class Solids {
 
   pose(index, place, turn) {
     Object.assign(this.bodies[index], { place, turn, pose: poseMatrix(place, turn) });
+  }
+
+  /// Where the wave maker is after so many simulated seconds; what it has gone from its wall [m].
+  drive(seconds) {
+    if (!this.board) return 0;
+    const { stroke, period } = this.world.wave_maker;
+    const gone = 0.5 * stroke * (1 - Math.cos(2 * Math.PI * seconds / period));
+    this.board.pose = poseMatrix([this.world.tank.lower[0] + gone, 0, 0], [0, 0, 0, 1]);
+    return gone;
   }
 
   /// All but the tank's edges: thin bars would be seen torn by the water in front of them.

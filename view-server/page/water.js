@@ -319,7 +319,8 @@ export class Water {
   draw({ width, height, share, frame = null, x = 0, y = 0 }, camera, world, particles, light, { solids, edges, marks }) {
     const gl = this.gl;
     const slope = [camera.aspect / camera.focal, 1 / camera.focal];
-    const { lower, upper } = world.tank;
+    const { upper } = world.tank;
+    const lower = world.tank.lower.map((x, i) => (i === 0 ? x + world.paddle : x));
     const [w, h] = [Math.ceil(width * share), Math.ceil(height * share)];
     const pixels = [w, h];
     const shared = { ...camera, ...particles.uniforms, ...light, radius: 0.78 * world.spacing,
