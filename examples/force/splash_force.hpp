@@ -130,6 +130,8 @@ class ForceModel {
     return given_;
   }
 
+  /// Since the simulator last spoke; 0 before it did [s].
+  double silence(double now) const { return heard_ ? now - last_ : 0.0; }
   /// What the hand has given the water and not got back, as far as it counts [J].
   double energy() const { return energy_; }
 
@@ -363,6 +365,11 @@ class Client {
   Wrench force(const Vector& place, const Vector& velocity, const Vector& spin) {
     const std::lock_guard<std::mutex> lock(mutex_);
     return model_.force(place, velocity, spin, now());
+  }
+  /// How long the simulator has been silent: nothing is left of the force after Safety's [s].
+  double silence() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return model_.silence(now());
   }
 
  private:
