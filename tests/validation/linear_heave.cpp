@@ -33,10 +33,10 @@ class Quarter {
   [[nodiscard]] int wide() const noexcept { return wide_; }
   [[nodiscard]] bool under_body(int x, int y) const noexcept { return x < body_ && y < body_; }
   [[nodiscard]] Column zeros() const {
-    return Column(static_cast<std::size_t>(wide_) * wide_ * high_, 0.0);
+    return Column(cell(0, 0, high_), 0.0);
   }
   [[nodiscard]] std::size_t cell(int x, int y, int z) const noexcept {
-    return (static_cast<std::size_t>(z) * wide_ + y) * wide_ + x;
+    return static_cast<std::size_t>((z * wide_ + y) * wide_ + x);
   }
   [[nodiscard]] std::size_t top(int x, int y) const noexcept { return cell(x, y, high_ - 1); }
 
@@ -126,7 +126,7 @@ Column heave_passages(const Heave& heave, double end) {
   const Quarter water(heave);
   const double area = 4.0 * heave.half_width * heave.half_width;
   const double tank = 4.0 * heave.half_tank * heave.half_tank;
-  const auto columns = static_cast<std::size_t>(water.wide()) * water.wide();
+  const auto columns = water.cell(0, 0, 1);
   Column unit = water.zeros();
   water.solve(Column(columns, 0.0), 1.0, unit);
   const double inertia = heave.draft * area + water.below_body(unit, 1.0);  // over the density
