@@ -32,9 +32,7 @@ class Quarter {
 
   [[nodiscard]] int wide() const noexcept { return wide_; }
   [[nodiscard]] bool under_body(int x, int y) const noexcept { return x < body_ && y < body_; }
-  [[nodiscard]] Column zeros() const {
-    return Column(cell(0, 0, high_), 0.0);
-  }
+  [[nodiscard]] Column zeros() const { return Column(cell(0, 0, high_), 0.0); }
   [[nodiscard]] std::size_t cell(int x, int y, int z) const noexcept {
     return static_cast<std::size_t>((z * wide_ + y) * wide_ + x);
   }
