@@ -194,7 +194,7 @@ void main() {
 const COMPOSE = `${LIGHT}${LIT}
 in vec2 uv;
 uniform sampler2D solids, solidDepth, surface, depth, thickness;
-uniform mat4 viewBack, projection, both;
+uniform mat4 viewBack, projection;
 uniform vec2 slope, skew;
 uniform vec3 eye, absorbed; // [1/m] of red, green, blue
 uniform vec3 tankLower, tankUpper;
@@ -228,19 +228,11 @@ void main() {
   if (dot(n, view) > 0.0) n = normalize(n - 1.05 * dot(n, view) * view);
   vec2 thick = texture(thickness, uv).rg;
 
-  // What the refracted ray meets, if that lies as deep as what is straight behind, and not below
-  // the floor. Walls mirror what comes steeply through the surface.
+  // What the refracted ray meets, if that lies as deep as what is straight behind.
   float straight = max(solidDistance(uv) - z, 0.0) / max(-view.z, 0.2);
   float path = min(mix(thick.r, straight, 0.5), 1.1 * straight);
-  vec3 bent = mat3(viewBack) * refract(view, n, 0.75);
-  path = min(path, max(world.z - tankLower.z, 0.0) / max(-bent.z, 0.05));
-  vec3 meets = world + path * bent;
-  if (bent.z < -0.6) {
-    meets.xy = tankLower.xy + abs(meets.xy - tankLower.xy);
-    meets.xy = tankUpper.xy - abs(tankUpper.xy - meets.xy);
-  }
-  vec4 drawn = both * vec4(meets, 1.0);
-  vec2 there = clamp(drawn.xy / drawn.w * 0.5 + 0.5, vec2(0.001), vec2(0.999));
+  vec3 meets = p + refract(view, n, 0.75) * path;
+  vec2 there = clamp((meets.xy / (-meets.z * slope) - skew) * 0.5 + 0.5, vec2(0.001), vec2(0.999));
   if (solidDistance(there) < z) there = uv;
   vec3 through = texture(solids, there).rgb;
   vec3 kept = exp(-absorbed * path);
