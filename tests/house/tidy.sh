@@ -33,9 +33,13 @@ key_of() {  # options, source: the mark that the unit is clean
   printf '%s/%s' "$clean" "${digest%% *}"
 }
 
+unquoted() {  # options as JSON has them: a shell's \" within them is a quote
+  sed 's/\\\\\\"/"/g; s/\\"/"/g' <<<"$1"
+}
+
 read_alone() {  # options, source: silent when clean
   local output words
-  read -ra words <<<"${1//\\\"/\"}"  # one of its commands: tests may compile it, too
+  read -ra words <<<"$(unquoted "$1")"  # one of its commands: tests may compile it, too
   if output=$(clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option "$2" -- "${words[@]}" 2>&1); then
     touch "$(key_of "$@")"
   else
@@ -47,7 +51,7 @@ read_alone() {  # options, source: silent when clean
 # Units read as one text; what each includes again is no duplicate.
 read_together() {  # options, sources
   local options=$1 words source text failed=0
-  read -ra words <<<"${options//\\\"/\"}"
+  read -ra words <<<"$(unquoted "$options")"
   shift
   text=$(mktemp "$joined/XXXXXX.cpp")
   for source in "$@"; do printf '#line 1 "%s"\n%s\n' "$source" "$(<"$source")"; done >"$text"
@@ -60,7 +64,7 @@ read_together() {  # options, sources
   fi
   return "$failed"
 }
-export -f key_of read_alone read_together
+export -f key_of unquoted read_alone read_together
 export build clean joined rules
 
 # Lines "source, options" -> lines "options, sources": units that define no name twice together;

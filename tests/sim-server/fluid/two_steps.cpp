@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Two steps, or more, of a small fluid with walls, slope, piston and bodies, a third of it in a
-// pinned particles, and two in which it may sleep: every kernel once, small enough for an OpenCL
-// interpreter. Arguments: particles per vector (1, 8 or 16), the solver (0: weakly compressible, 1:
-// divergence free, 2: grid projected), whether the water moves the bodies (1), and how many steps.
+// Two steps, or more, of a small fluid with walls, slope, piston and bodies, a third of its
+// particles pinned, in a tank that turns if no body is free, and two in which it may sleep: every
+// kernel once, small enough for an OpenCL interpreter. Arguments: particles per vector (1, 8 or
+// 16), the solver (0: weakly compressible, 1: divergence free, 2: grid projected), whether the
+// water moves the bodies (1), and how many steps.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/bodies/skin.hpp"
 #include "sim-server/fluid/free_bodies/body_pushes.hpp"
+#include "sim-server/fluid/pressure/tank_turn.hpp"
 #include "sim-server/start/pinned_particles.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
@@ -63,7 +65,11 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
   }
   water.fluid->begin_watch(static_cast<std::size_t>(steps) + 2);
   PinnedParticles pinned(*water.fluid, every_third(water.particles.size()));
+  TankTurning turning(device);
+  turning.set(device, turn_of({{0.0, 0.0, -9.81}, {0.5, 0.0, 1.0}, {2.0, 0.0, 0.0}},
+                              {0.2, 0.2, 0.0}, 1.0e-3));
   for (int k = 0; k < steps; ++k) {
+    if (!free) turning.push(*water.fluid);
     water.step(1.0e-3, [&](Fluid& fluid) {
       if (pushes) pushes->add(fluid, water.step_at(1.0e-3));
     });
