@@ -84,7 +84,7 @@ struct Cavity {
 using Event = std::variant<Impact, Bubble, Cavity>;
 inline constexpr std::size_t kEventKinds = std::variant_size_v<Event>;
 
-/// Whether all values of an event are within the ranges of the address table.
+/// Returns whether all values of an event are within the ranges of the address table.
 [[nodiscard]] bool conforms(const Event& event) noexcept;
 
 /// Returns whether an event is a bubble. There may be thousands of bubbles a second, and few

@@ -51,12 +51,12 @@ std::vector<Push> ForceChanges::take(const std::vector<Message>& messages, doubl
   for (const Message& message : messages) {
     if (message.address != "/force") continue;
     const std::int32_t body = body_of(message);
-    Told& last = last_[static_cast<std::size_t>(body)];
+    Last& last = last_[static_cast<std::size_t>(body)];
     const double passed = time - last.time;
     const bool goes_on = last.session == session;
     if (goes_on && std::abs(passed) < kLeast) continue;
-    const Told now = {session, time, vector_of(message)};
-    const Told before = std::exchange(last, now);
+    const Last now = {session, time, vector_of(message)};
+    const Last before = std::exchange(last, now);
     const auto place = place_of(messages, body);
     if (!goes_on || passed < 0.0 || passed > kGap || !place) continue;
     const double rate = std::hypot(now.force[0] - before.force[0], now.force[1] - before.force[1],

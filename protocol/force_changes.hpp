@@ -20,17 +20,18 @@ class ForceChanges {
   /// comes twice report none.
   [[nodiscard]] std::vector<Push> take(const std::vector<Message>& messages, double time);
 
-  static constexpr double kGap = 0.1;       ///< a body that is told again so late begins anew [s]
-  static constexpr double kLeast = 1e-4;    ///< forces are told further apart [s]
-  static constexpr float kMostRate = 1e6F;  ///< no body bears more; what is over it is cut [N/s]
+  static constexpr double kGap =
+      0.1;  ///< after a longer gap a body's force counts as its first [s]
+  static constexpr double kLeast = 1e-4;  ///< two forces on a body less far apart count as one [s]
+  static constexpr float kMostRate = 1e6F;  ///< faster changes are reported as this [N/s]
 
  private:
-  struct Told {
+  struct Last {
     std::int32_t session = -1;  ///< of the sender; -1: never
     double time = 0.0;          ///< [s]
     std::array<double, 3> force{};
   };
-  std::array<Told, 256> last_;
+  std::array<Last, 256> last_;  ///< by index of the body
 };
 
 }  // namespace splash::protocol

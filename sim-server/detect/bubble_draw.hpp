@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which bubbles are told: how large they are and how many.
+// Which bubbles are sent as events: how large they are, and how many there are.
 #pragma once
 
 #include <cstdint>
@@ -39,19 +39,18 @@ struct Draws {
 /// volume [m3]. Up to half the largest radius: an octave of pitches is left.
 [[nodiscard]] double least_radius(const DetectSettings& settings, double volume);
 
-// How many bubbles may be told: so many a second, and what a quiet moment leaves serves the next
-// burst.
+// A limit of the rate of bubbles (token bucket): what a quiet moment leaves serves the next burst.
 
 class BubbleBudget {
  public:
   /// `rate` [1/s].
   explicit BubbleBudget(double rate);
 
-  /// Whole bubbles that may be told at `time` [s].
+  /// How many bubbles may be sent at `time` [s].
   [[nodiscard]] int open(double time);
   void set_rate(double rate) noexcept { rate_ = rate; }  ///< [1/s]
-  /// So many were.
-  void spend(int told) { left_ -= told; }
+  /// This many bubbles were sent.
+  void spend(int sent) { left_ -= sent; }
 
  private:
   double rate_;  ///< [1/s]

@@ -157,7 +157,8 @@ std::optional<std::uint64_t> checksum(const fs::path& path) {
 
 using Sums = std::map<std::string, std::uint64_t>;  // file, relative to the cache
 
-/// Of a program, relative to the cache; nullopt: they cannot be listed.
+/// Returns the files of a cached program, relative to the cache; nullopt if its folder cannot be
+/// read.
 std::optional<std::vector<std::string>> files_of(const fs::path& folder, const fs::path& program) {
   std::vector<std::string> files;
   std::error_code error;

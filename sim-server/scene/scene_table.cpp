@@ -126,8 +126,9 @@ const Fields<TankSample>& tank_sample_fields() {
        &T::time},
       {{.key = "acceleration",
         .unit = "m/s2",
-        .meaning = "Of the tank's pivot, in the tank's own axes. What is in it feels the opposite: "
-                   "gravity that changes in time is told so, too.",
+        .meaning = "Of the tank's pivot, in the tank's own axes. The water feels the opposite "
+                   "acceleration, so "
+                   "that this also describes gravity that changes in time.",
         .min = -100,
         .max = 100},
        &T::acceleration},

@@ -230,12 +230,12 @@ std::vector<Field<CloudSound>> cloud_fields() {
            &CloudSound::company},
           {{.key = "singles",
             .unit = "1/s",
-            .meaning = "where more bubbles than this are born in a second (by a tenth, over a "
-                       "tenth of a second), so many of them sound one by one, and all others "
-                       "together as a noise of the same level and colour",
+            .meaning = "bubbles a second that sound one by one; where a tenth more than this are "
+                       "born, counted over 0.1 s, all others sound together, as noise of the "
+                       "same level and colour",
             .min = 100.0,
             .max = 1e6,
-            .source = "ours: more than 2,000 cannot be told from noise"},
+            .source = "ours: more than 2,000 cannot be distinguished from noise"},
            &CloudSound::singles}};
 }
 

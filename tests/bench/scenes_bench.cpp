@@ -116,9 +116,10 @@ bool run(bench::Bench& bench, const Options& options) {
   Device device;
   bench.set_device(describe(device.facts()));
   char what[128];
-  std::snprintf(what, sizeof what,
-                "Median of %d runs of %g s; water, bodies and detectors, nobody listening.",
-                options.runs, options.seconds);
+  std::snprintf(
+      what, sizeof what,
+      "Median of %d runs of %g s; water, bodies and detectors; events are sent to no synth.",
+      options.runs, options.seconds);
   std::printf("%s\n\n", what);
   auto table = bench.table("scenes.csv",
                            {"scene", "particles", "steps/s", "paper's", "real-time factor",

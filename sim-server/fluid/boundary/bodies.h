@@ -37,6 +37,16 @@ static float size_of(BodyStep b) { return 1.0f - b.lacks; }
 static float3 into_body(BodyStep b, float3 v) { return rotate_by(v, -b.qx, -b.qy, -b.qz, b.qw); }
 static float3 out_of_body(BodyStep b, float3 v) { return rotate_by(v, b.qx, b.qy, b.qz, b.qw); }
 
+// Gives a body this velocity [m/s] and this angular velocity [rad/s].
+static void set_speeds(float3 v, float3 w, BodyStep* b) {
+  b->vx = v.x;
+  b->vy = v.y;
+  b->vz = v.z;
+  b->wx = w.x;
+  b->wy = w.y;
+  b->wz = w.z;
+}
+
 // The rotation by a vector of any length, then `b`'s.
 static void turn_body(float3 turn, BodyStep* b) {
   const float angle = length(turn);

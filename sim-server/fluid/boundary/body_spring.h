@@ -38,3 +38,11 @@ static Tug tug_of(FreeBody f, BodyStep b, Anchor a, float dt) {
   tug.turn = dt * f.turning_spring * turn_to(a, b) + tug.turn_inertia * turns_slower;
   return tug;
 }
+
+// Adds what the spring of free body `k` gave it [N s], [N m s] to the frame's sum, which its first
+// step begins.
+static void sum_tug(bool begins, float3 push, float3 turn, int k, global float* tugs) {
+  const float3 none = (float3)(0.0f);
+  vstore3((begins ? none : vload3(2 * k, tugs)) + push, 2 * k, tugs);
+  vstore3((begins ? none : vload3(2 * k + 1, tugs)) + turn, 2 * k + 1, tugs);
+}

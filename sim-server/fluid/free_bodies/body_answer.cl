@@ -153,18 +153,8 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
   vstore3(dw, 2 * item + 1, answer);
   vstore3(vload3(2 * item, felt) + pushed, 2 * item, felt);
   vstore3(vload3(2 * item + 1, felt) + turned, 2 * item + 1, felt);
-  if (tied) {
-    const bool begins = first_body == 0;
-    const float3 none = (float3)(0.0f);
-    vstore3((begins ? none : vload3(2 * item, tugs)) + tugged, 2 * item, tugs);
-    vstore3((begins ? none : vload3(2 * item + 1, tugs)) + twisted, 2 * item + 1, tugs);
-  }
-  b.vx += dv.x;
-  b.vy += dv.y;
-  b.vz += dv.z;
-  b.wx += dw.x;
-  b.wy += dw.y;
-  b.wz += dw.z;
+  if (tied) sum_tug(first_body == 0, tugged, twisted, item, tugs);
+  set_speeds((float3)(b.vx, b.vy, b.vz) + dv, (float3)(b.wx, b.wy, b.wz) + dw, &b);
   bodies[first_body + f.body] = b;
 }
 

@@ -18,16 +18,6 @@ const Shape kBall = {ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0};
 const Shape kBrick = {ShapeKind::box, {0.16, 0.12, 0.08}, 0.0, 0.0};
 const Shape kDrum = {ShapeKind::cylinder, {0.12, 0.12, 0.14}, 0.0, 0.0};
 
-/// A large tank with one particle of water in its corner, far from where the bodies are: more would
-/// not bear steps of 10 ms.
-FreeFloat dry_world(double gravity) {
-  FreeFloat world;
-  world.scene = tank_scene(0.05, {3.0, 3.0, 2.0}, 0.1);
-  world.scene.water = {{{0.0, 0.0, 0.0}, {0.05, 0.05, 0.05}}};
-  world.scene.fluid.gravity = {0.0, 0.0, gravity};
-  return world;
-}
-
 void set_surface(FreeFloat& world, double restitution, double friction) {
   for (BodySettings& body : world.scene.bodies) {
     body.motion.restitution = restitution;

@@ -37,4 +37,14 @@ struct FreeFloat {
   [[nodiscard]] Balance balance();
 };
 
+/// A large tank with one particle of water in its corner, far from where the bodies are: more would
+/// not bear steps of 10 ms.
+inline FreeFloat dry_world(double gravity) {
+  FreeFloat world;
+  world.scene = tank_scene(0.05, {3.0, 3.0, 2.0}, 0.1);
+  world.scene.water = {{{0.0, 0.0, 0.0}, {0.05, 0.05, 0.05}}};
+  world.scene.fluid.gravity = {0.0, 0.0, gravity};
+  return world;
+}
+
 }  // namespace splash::sim

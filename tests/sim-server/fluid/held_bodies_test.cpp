@@ -19,15 +19,6 @@ const Shape kBrick = {ShapeKind::box, {0.3, 0.2, 0.1}, 0.0, 0.0};
 constexpr int kAlongX = 1, kAlongY = 2, kAlongZ = 4, kAboutX = 8, kAboutY = 16, kAboutZ = 32;
 constexpr int kTurns = kAboutX | kAboutY | kAboutZ;
 
-/// A large tank with one particle of water in its corner, far from where the bodies are.
-FreeFloat dry_world(double gravity) {
-  FreeFloat world;
-  world.scene = tank_scene(0.05, {3.0, 3.0, 2.0}, 0.1);
-  world.scene.water = {{{0.0, 0.0, 0.0}, {0.05, 0.05, 0.05}}};
-  world.scene.fluid.gravity = {0.0, 0.0, gravity};
-  return world;
-}
-
 MotionSettings& last_motion(FreeFloat& world) {
   return world.scene.bodies.back().motion;
 }

@@ -99,12 +99,7 @@ kernel void push_bodies(constant FluidParams* p, constant MacGrid* g, int free_c
     vstore3(vload3(2 * k + 1, felt) + inertia_times(f, b, dw), 2 * k + 1, felt);
     const float3 v = (float3)(b.vx, b.vy, b.vz) + dv - vload3(0, own + KEPT_HELD);
     const float3 w = (float3)(b.wx, b.wy, b.wz) + dw - vload3(0, own + KEPT_TURNED);
-    b.vx = v.x;
-    b.vy = v.y;
-    b.vz = v.z;
-    b.wx = w.x;
-    b.wy = w.y;
-    b.wz = w.z;
+    set_speeds(v, w, &b);
     bodies[first_body + f.body] = b;
     vstore3(v, 0, own + KEPT_SPEED);
     vstore3(w, 0, own + KEPT_SPIN);

@@ -15,12 +15,7 @@
 static BodyStep before_falling(BodyStep b, float3 fall, global const float* own) {
   const float3 v = (float3)(b.vx, b.vy, b.vz) - fall - vload3(0, own + KEPT_HELD);
   const float3 w = (float3)(b.wx, b.wy, b.wz) - vload3(0, own + KEPT_TURNED);
-  b.vx = v.x;
-  b.vy = v.y;
-  b.vz = v.z;
-  b.wx = w.x;
-  b.wy = w.y;
-  b.wz = w.z;
+  set_speeds(v, w, &b);
   return b;
 }
 
@@ -45,12 +40,7 @@ kernel void tie_bodies(constant FluidParams* p, float dt, int free_count, consta
   f.iz += tug.turn_inertia;
   const float3 dv = (tug.push - tug.inertia * fall) / f.mass;
   const float3 dw = inertia_solve(f, b, tug.turn);
-  b.vx += dv.x;
-  b.vy += dv.y;
-  b.vz += dv.z;
-  b.wx += dw.x;
-  b.wy += dw.y;
-  b.wz += dw.z;
+  set_speeds((float3)(b.vx, b.vy, b.vz) + dv, (float3)(b.wx, b.wy, b.wz) + dw, &b);
   bodies[first_body + f.body] = b;
   tied[k] = f;
   vstore3((float3)(before.vx, before.vy, before.vz), 0, own);
@@ -70,10 +60,5 @@ kernel void tell_tugs(int free_count, constant FreeBody* frees, global const Bod
   const BodyStep b = bodies[first_body + frees[k].body];
   const float3 dv = (float3)(b.vx, b.vy, b.vz) - vload3(0, own);
   const float3 dw = (float3)(b.wx, b.wy, b.wz) - vload3(1, own);
-  const bool begins = first_body == 0;
-  const float3 none = (float3)(0.0f);
-  const float3 pushed = begins ? none : vload3(2 * k, tugs);
-  const float3 turned = begins ? none : vload3(2 * k + 1, tugs);
-  vstore3(pushed + vload3(2, own) - own[12] * dv, 2 * k, tugs);
-  vstore3(turned + vload3(3, own) - own[13] * dw, 2 * k + 1, tugs);
+  sum_tug(first_body == 0, vload3(2, own) - own[12] * dv, vload3(3, own) - own[13] * dw, k, tugs);
 }
