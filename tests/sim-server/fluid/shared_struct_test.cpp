@@ -19,6 +19,7 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/divergence_free/solve_state.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/tank_turn.h"
 
 namespace splash::sim {
@@ -89,6 +90,14 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(Anchor, wx, wy, wz),
 
     MEMBERS_2(KeptPush, key, pushed),
+
+    MEMBERS_3(MacLevel, nx, ny, nz),
+    MEMBERS_4(MacLevel, row, layer, cells, first),
+
+    MEMBERS_3(MacGrid, x, y, z),
+    MEMBERS_3(MacGrid, hx, hy, hz),
+    MEMBERS_3(MacGrid, ix, iy, iz),
+    MEMBERS_3(MacGrid, share, levels, level),
 
     MEMBERS_2(TankTurn, turned, pushed),
     MEMBERS_3(TankTurn, px, py, pz),

@@ -11,8 +11,6 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(SolveState) == 32);
-
 constexpr double kGravity = 9.81;  ///< [m/s2]
 
 /// Of a solve, at most.
@@ -30,7 +28,7 @@ std::size_t cells_in(const MacGrid& grid) {
          static_cast<std::size_t>(level.nz + 1);
 }
 
-/// Of two cells where vectors are, else of one (kernels/gather.cl).
+/// Of two cells where vectors are, else of one (gather.cl).
 std::size_t strips_in(const MacGrid& grid, const Device& device) {
   const MacLevel& level = grid.level[0];
   const int across = level.nx / (device.lanes() > 1 ? 2 : 1) + 1;
@@ -129,51 +127,102 @@ void GridProjected::release(Device& device, std::size_t count) {
 
 void GridProjected::recall_pressure(Fluid& fluid, const Step& step) {
   if (step.dt > 0.0) return;
-  sample_pressure_.run(fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(),
-                       grid_buffer_.memory(), fluid.particles().position.memory(),
-                       fluid.density().memory(), wet_.memory(), pressure_.memory(),
-                       fluid.pressure_term().memory());
+  sample_pressure_.run(fluid.device().queue(), fluid.groups(),
+                       {{"p", fluid.params_buffer()},
+                        {"g", grid_buffer_},
+                        {"position", fluid.particles().position},
+                        {"density", fluid.density()},
+                        {"wet", wet_},
+                        {"pressure", pressure_},
+                        {"term", fluid.pressure_term()}});
 }
 
 void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
   const PointArrays& particles = fluid.particles();
   const Boundary& boundary = fluid.boundary();
-  const cl::Buffer& cells = fluid.grid().cell_start().memory();
-  const cl::Buffer& places = particles.position.memory();
-  gather_faces_.run(queue, strips_, params, grid_buffer_.memory(), cells, places,
-                    particles.velocity.memory(), mean_.memory(), weight_.memory(), fill_.memory());
-  find_deviation_.run(queue, fluid.groups(), params, grid_buffer_.memory(),
-                      particles.position.memory(), particles.velocity.memory(), mean_.memory(),
-                      deviation_.memory());
-  gather_again_.run(queue, strips_, params, grid_buffer_.memory(), cells, places,
-                    deviation_.memory(), weight_.memory(), seen_.memory());
+  const Buffer<int>& cells = fluid.grid().cell_start();
+  const Buffer<float>& places = particles.position;
+  gather_faces_.run(queue, strips_,
+                    {{"p", params},
+                     {"g", grid_buffer_},
+                     {"cell_start", cells},
+                     {"position", places},
+                     {"value", particles.velocity},
+                     {"mean", mean_},
+                     {"weight", weight_},
+                     {"fill", fill_}});
+  find_deviation_.run(queue, fluid.groups(),
+                      {{"p", params},
+                       {"g", grid_buffer_},
+                       {"position", particles.position},
+                       {"velocity", particles.velocity},
+                       {"mean", mean_},
+                       {"deviation", deviation_}});
+  gather_again_.run(queue, strips_,
+                    {{"p", params},
+                     {"g", grid_buffer_},
+                     {"cell_start", cells},
+                     {"position", places},
+                     {"value", deviation_},
+                     {"weight", weight_},
+                     {"mean", seen_}});
   if (solids_) place_solids(fluid, step);
   solve(fluid, step);
   const double sound = kSpacingWay * static_cast<double>(fluid.params().support) / step.dt;
   const double slower = sound / static_cast<double>(fluid.params().sound_speed);
-  find_spacing_.run(queue, fluid.groups(), params, as_float(part_ * slower * slower),
-                    fluid.grid().cell_start().memory(), particles.position.memory(),
-                    fluid.pressure_term().memory(), fluid.body_images().memory(),
-                    boundary.grid().cell_start().memory(), boundary.points().position.memory(),
-                    boundary.volume().memory(), boundary.points().stride, boundary.steps().memory(),
-                    step.first_body, boundary.body_count(), as_float(step.piston),
-                    fluid.acceleration().memory(), fluid.moving().memory());
+  find_spacing_.run(queue, fluid.groups(),
+                    {{"p", params},
+                     {"slower", as_float(part_ * slower * slower)},
+                     {"cell_start", fluid.grid().cell_start()},
+                     {"position", particles.position},
+                     {"term", fluid.pressure_term()},
+                     {"images", fluid.body_images()},
+                     {"body_start", boundary.grid().cell_start()},
+                     {"body_position", boundary.points().position},
+                     {"body_volume", boundary.volume()},
+                     {"body_stride", boundary.points().stride},
+                     {"bodies", boundary.steps()},
+                     {"first_body", step.first_body},
+                     {"body_count", boundary.body_count()},
+                     {"piston", as_float(step.piston)},
+                     {"acceleration", fluid.acceleration()},
+                     {"moving", fluid.moving()}});
 }
 
 void GridProjected::place_solids(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
   const Boundary& boundary = fluid.boundary();
-  cut_cells_.run(queue, cells_, params, grid_buffer_.memory(), boundary.shapes().memory(),
-                 boundary.meshes().memory(), boundary.steps().memory(), step.first_body,
-                 boundary.body_count(), as_float(step.piston), gap_.memory(), upper_.memory(),
-                 space_.memory(), owner_.memory());
-  open_faces_.run(queue, cells_, params, grid_buffer_.memory(), owner_.memory(), upper_.memory(),
-                  space_.memory(), gap_.memory(), seen_space_.memory());
-  fill_beside_solids_.run(queue, cells_, grid_buffer_.memory(), gap_.memory(), space_.memory(),
-                          seen_space_.memory(), fill_.memory(), filled_.memory());
+  cut_cells_.run(queue, cells_,
+                 {{"p", params},
+                  {"g", grid_buffer_},
+                  {"shapes", boundary.shapes()},
+                  {"meshes", boundary.meshes()},
+                  {"bodies", boundary.steps()},
+                  {"first_body", step.first_body},
+                  {"body_count", boundary.body_count()},
+                  {"piston", as_float(step.piston)},
+                  {"lower", gap_},
+                  {"upper", upper_},
+                  {"room", space_},
+                  {"owner", owner_}});
+  open_faces_.run(queue, cells_,
+                  {{"p", params},
+                   {"g", grid_buffer_},
+                   {"owner", owner_},
+                   {"upper", upper_},
+                   {"room", space_},
+                   {"gap", gap_},
+                   {"seen", seen_space_}});
+  fill_beside_solids_.run(queue, cells_,
+                          {{"g", grid_buffer_},
+                           {"gap", gap_},
+                           {"room", space_},
+                           {"seen", seen_space_},
+                           {"fill", fill_},
+                           {"filled", filled_}});
 }
 
 int GridProjected::free_count(Fluid& fluid) const {
@@ -199,8 +248,13 @@ const Buffer<FreeBody>& GridProjected::solved_frees(Fluid& fluid) const {
 void GridProjected::let_fall(Fluid& fluid, const Step& step) {
   const int count = free_count(fluid);
   let_fall_.run(fluid.device().queue(), static_cast<std::size_t>(count),
-                fluid.params_buffer().memory(), as_float(step.dt), count, frees(fluid).memory(),
-                fluid.boundary().steps().memory(), step.first_body, stopped_.memory());
+                {{"p", fluid.params_buffer()},
+                 {"dt", as_float(step.dt)},
+                 {"free_count", count},
+                 {"frees", frees(fluid)},
+                 {"bodies", fluid.boundary().steps()},
+                 {"first_body", step.first_body},
+                 {"kept", stopped_}});
   if (!has_hung(fluid)) return;
   const int first_anchor = step.first_body / fluid.boundary().body_count() * count;
   tie_bodies_.run(fluid.device().queue(), static_cast<std::size_t>(count),
@@ -218,11 +272,18 @@ void GridProjected::let_fall(Fluid& fluid, const Step& step) {
 }
 
 void GridProjected::push_bodies(Fluid& fluid, const Step& step) {
-  push_bodies_.run_teams(fluid.device().queue(), 1, fluid.params_buffer().memory(),
-                         grid_buffer_.memory(), free_count(fluid), solved_frees(fluid).memory(),
-                         fluid.boundary().steps().memory(), step.first_body, owner_.memory(),
-                         grip_.memory(), found_.memory(), stopped_.memory(),
-                         fluid.free_bodies()->felt().memory());
+  push_bodies_.run_teams(fluid.device().queue(), 1,
+                         {{"p", fluid.params_buffer()},
+                          {"g", grid_buffer_},
+                          {"free_count", free_count(fluid)},
+                          {"frees", solved_frees(fluid)},
+                          {"bodies", fluid.boundary().steps()},
+                          {"first_body", step.first_body},
+                          {"owner", owner_},
+                          {"grip", grip_},
+                          {"found", found_},
+                          {"kept", stopped_},
+                          {"felt", fluid.free_bodies()->felt()}});
   if (!has_hung(fluid)) return;
   const auto count = static_cast<std::size_t>(free_count(fluid));
   tell_tugs_.run(fluid.device().queue(), count,
@@ -237,42 +298,97 @@ void GridProjected::push_bodies(Fluid& fluid, const Step& step) {
 void GridProjected::solve(Fluid& fluid, const Step& step) {
   const float dt = as_float(step.dt);
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
-  const cl::Buffer& bodies = fluid.boundary().steps().memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
+  const Buffer<BodyStep>& bodies = fluid.boundary().steps();
   const auto room = static_cast<int>(room_);
   const int free = free_count(fluid);
-  const cl::Buffer& fill = (solids_ ? filled_ : fill_).memory();
-  push_faces_.run(queue, cells_, params, grid_buffer_.memory(), dt, mean_.memory(),
-                  weight_.memory(), change_.memory());
+  const Buffer<float>& fill = solids_ ? filled_ : fill_;
+  push_faces_.run(queue, cells_,
+                  {{"p", params},
+                   {"g", grid_buffer_},
+                   {"dt", dt},
+                   {"mean", mean_},
+                   {"weight", weight_},
+                   {"pushed", change_}});
   most_.enqueue_clear(fluid.device());
   if (free > 0) let_fall(fluid, step);
-  lay_system_.run(queue, cells_, params, grid_buffer_.memory(), dt, bodies, step.first_body,
-                  as_float(step.piston_speed), gap_.memory(), owner_.memory(), fill,
-                  change_.memory(), pressure_.memory(), room, link_.memory(), open_.memory(),
-                  x_.memory(), b_.memory(), r_.memory(), found_.memory(), way_.memory(),
-                  wet_.memory(), most_.memory());
+  lay_system_.run(queue, cells_,
+                  {{"p", params},
+                   {"g", grid_buffer_},
+                   {"dt", dt},
+                   {"bodies", bodies},
+                   {"first_body", step.first_body},
+                   {"piston_speed", as_float(step.piston_speed)},
+                   {"gap", gap_},
+                   {"owner", owner_},
+                   {"fill", fill},
+                   {"pushed", change_},
+                   {"pressure", pressure_},
+                   {"room", room},
+                   {"link", link_},
+                   {"open", open_},
+                   {"x", x_},
+                   {"right", b_},
+                   {"rest", r_},
+                   {"start", found_},
+                   {"way", way_},
+                   {"wet", wet_},
+                   {"most", most_}});
   if (free > 0) {
-    grip_water_.run(queue, cells_, grid_buffer_.memory(), free, frees(fluid).memory(), bodies,
-                    step.first_body, gap_.memory(), owner_.memory(), wet_.memory(), grip_.memory());
+    grip_water_.run(queue, cells_,
+                    {{"g", grid_buffer_},
+                     {"free_count", free},
+                     {"frees", frees(fluid)},
+                     {"bodies", bodies},
+                     {"first_body", step.first_body},
+                     {"gap", gap_},
+                     {"owner", owner_},
+                     {"wet", wet_},
+                     {"grip", grip_}});
   }
   if (feels_) {
     queue.enqueueCopyBuffer(open_.memory(), surface_.memory(), 0, 0, room_ * sizeof(float));
   }
   run_solve(fluid, step, kIterations, found_, state_);
   if (free > 0) push_bodies(fluid, step);
-  project_faces_.run(queue, cells_, params, grid_buffer_.memory(), dt, gap_.memory(), fill,
-                     mean_.memory(), weight_.memory(), found_.memory(), wet_.memory(),
-                     change_.memory(), pressure_.memory());
+  project_faces_.run(queue, cells_,
+                     {{"p", params},
+                      {"g", grid_buffer_},
+                      {"dt", dt},
+                      {"gap", gap_},
+                      {"fill", fill},
+                      {"mean", mean_},
+                      {"weight", weight_},
+                      {"found", found_},
+                      {"wet", wet_},
+                      {"pushed", change_},
+                      {"pressure", pressure_}});
 }
 
 void GridProjected::run_solve(Fluid& fluid, const Step& step, int iterations,
                               const Buffer<float>& found, const Buffer<SolveState>& state) {
-  solve_pressure_.run_teams(
-      fluid.device().queue(), 1, fluid.params_buffer().memory(), grid_buffer_.memory(), iterations,
-      static_cast<int>(room_), free_count(fluid), solved_frees(fluid).memory(),
-      fluid.boundary().steps().memory(), step.first_body, owner_.memory(), grip_.memory(),
-      most_.memory(), link_.memory(), open_.memory(), damped_.memory(), x_.memory(), b_.memory(),
-      r_.memory(), found.memory(), way_.memory(), along_.memory(), state.memory());
+  solve_pressure_.run_teams(fluid.device().queue(), 1,
+                            {{"p", fluid.params_buffer()},
+                             {"g", grid_buffer_},
+                             {"iterations", iterations},
+                             {"room", static_cast<int>(room_)},
+                             {"free_count", free_count(fluid)},
+                             {"frees", solved_frees(fluid)},
+                             {"bodies", fluid.boundary().steps()},
+                             {"first_body", step.first_body},
+                             {"owner", owner_},
+                             {"grip", grip_},
+                             {"most", most_},
+                             {"link", link_},
+                             {"open", open_},
+                             {"damped", damped_},
+                             {"x", x_},
+                             {"b", b_},
+                             {"r", r_},
+                             {"found", found},
+                             {"way", way_},
+                             {"along", along_},
+                             {"state", state}});
 }
 
 void GridProjected::feel(Device& device, bool on) {
@@ -286,38 +402,87 @@ void GridProjected::feel(Device& device, bool on) {
 void GridProjected::add_pushes(Fluid& fluid, const Step& step, const FeltBodies& felt) {
   if (!feels_) return;
   cl::CommandQueue& queue = fluid.device().queue();
-  const cl::Buffer& params = fluid.params_buffer().memory();
-  const cl::Buffer& bodies = fluid.boundary().steps().memory();
-  const cl::Buffer& those = felt.on_device.memory();
+  const Buffer<FluidParams>& params = fluid.params_buffer();
+  const Buffer<BodyStep>& bodies = fluid.boundary().steps();
+  const Buffer<FreeBody>& those = felt.on_device;
   const auto count = static_cast<int>(felt.list.size());
-  grip_water_.run(queue, cells_, grid_buffer_.memory(), count, those, bodies, step.first_body,
-                  gap_.memory(), owner_.memory(), wet_.memory(), felt_grip_.memory());
-  weigh_pressure_.run_teams(queue, 1, params, grid_buffer_.memory(), count, those, bodies,
-                            step.first_body, owner_.memory(), felt_grip_.memory(), found_.memory(),
-                            felt.sums.memory());
+  grip_water_.run(queue, cells_,
+                  {{"g", grid_buffer_},
+                   {"free_count", count},
+                   {"frees", those},
+                   {"bodies", bodies},
+                   {"first_body", step.first_body},
+                   {"gap", gap_},
+                   {"owner", owner_},
+                   {"wet", wet_},
+                   {"grip", felt_grip_}});
+  weigh_pressure_.run_teams(queue, 1,
+                            {{"p", params},
+                             {"g", grid_buffer_},
+                             {"body_count", count},
+                             {"felt", those},
+                             {"bodies", bodies},
+                             {"first_body", step.first_body},
+                             {"owner", owner_},
+                             {"grip", felt_grip_},
+                             {"found", found_},
+                             {"sums", felt.sums}});
   for (int k = 0; k < count; ++k) {
     for (int part = 0; felt.wanted[static_cast<std::size_t>(k)] && part < 6; ++part) {
-      ask_for_answer_.run(queue, cells_, grid_buffer_.memory(), k, part, those, owner_.memory(),
-                          felt_grip_.memory(), surface_.memory(), open_.memory(), x_.memory(),
-                          b_.memory(), r_.memory(), answer_.memory(), way_.memory());
+      ask_for_answer_.run(queue, cells_,
+                          {{"g", grid_buffer_},
+                           {"k", k},
+                           {"part", part},
+                           {"felt", those},
+                           {"owner", owner_},
+                           {"grip", felt_grip_},
+                           {"surface", surface_},
+                           {"open", open_},
+                           {"x", x_},
+                           {"right", b_},
+                           {"rest", r_},
+                           {"start", answer_},
+                           {"way", way_}});
       run_solve(fluid, step, kAnswerIterations, answer_, answer_state_);
-      weigh_answer_.run_teams(queue, 1, params, grid_buffer_.memory(), k, part, count, those,
-                              bodies, step.first_body, owner_.memory(), felt_grip_.memory(),
-                              answer_.memory(), felt.sums.memory());
+      weigh_answer_.run_teams(queue, 1,
+                              {{"p", params},
+                               {"g", grid_buffer_},
+                               {"k", k},
+                               {"part", part},
+                               {"body_count", count},
+                               {"felt", those},
+                               {"bodies", bodies},
+                               {"first_body", step.first_body},
+                               {"owner", owner_},
+                               {"grip", felt_grip_},
+                               {"found", answer_},
+                               {"sums", felt.sums}});
     }
   }
 }
 
 void GridProjected::move(Fluid& fluid, const Step& step) {
   const double rate = filter_rate(static_cast<double>(fluid.params().spacing));
-  move_particles_.run(
-      fluid.device().queue(), fluid.groups(), fluid.params_buffer().memory(), grid_buffer_.memory(),
-      as_float(step.dt), as_float(-std::expm1(-rate * step.dt)), as_float(part_ * kSpacingKick),
-      as_float(step.piston), as_float(step.piston_speed), fluid.boundary().shapes().memory(),
-      fluid.boundary().meshes().memory(), fluid.boundary().steps().memory(), step.first_body,
-      fluid.boundary().body_count(), change_.memory(), seen_.memory(), deviation_.memory(),
-      fluid.acceleration().memory(), fluid.particles().position.memory(),
-      fluid.particles().velocity.memory(), carried_.memory());
+  move_particles_.run(fluid.device().queue(), fluid.groups(),
+                      {{"p", fluid.params_buffer()},
+                       {"g", grid_buffer_},
+                       {"dt", as_float(step.dt)},
+                       {"filtered", as_float(-std::expm1(-rate * step.dt))},
+                       {"kick", as_float(part_ * kSpacingKick)},
+                       {"piston", as_float(step.piston)},
+                       {"piston_speed", as_float(step.piston_speed)},
+                       {"shapes", fluid.boundary().shapes()},
+                       {"meshes", fluid.boundary().meshes()},
+                       {"bodies", fluid.boundary().steps()},
+                       {"first_body", step.first_body},
+                       {"body_count", fluid.boundary().body_count()},
+                       {"change", change_},
+                       {"seen", seen_},
+                       {"deviation", deviation_},
+                       {"acceleration", fluid.acceleration()},
+                       {"position", fluid.particles().position},
+                       {"velocity", fluid.particles().velocity},
+                       {"carried", carried_}});
 }
 
 const Buffer<float>& GridProjected::carried(const Fluid& /*fluid*/) const {

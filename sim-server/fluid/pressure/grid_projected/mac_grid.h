@@ -2,9 +2,11 @@
 // The grid that carries the water's weight, shared by host and kernels word for word. Pressures are
 // in the middles of its cells, velocities on their faces (Harlow & Welch 1965). One layer of cells
 // surrounds those of the tank: the lower faces of the upper ones are the tank's last. Only 4-byte
-// members; the host asserts the size.
+// members.
 #ifndef SPLASH_MAC_GRID_H
 #define SPLASH_MAC_GRID_H
+
+#include "sim-server/device/shared_struct.h"
 
 #define SPLASH_MAC_LEVELS 12
 #define SPLASH_KEPT_FLOATS 16  // of each free body, from step to step (coupling.h)
@@ -22,6 +24,7 @@ typedef struct {
   int cells;       // with those around
   int first;       // where it begins in the arrays of all levels
 } MacLevel;
+SPLASH_SHARED_STRUCT(MacLevel, 7 * 4)
 
 typedef struct {
   float x, y, z;     // lower corner [m]
@@ -31,6 +34,7 @@ typedef struct {
   int levels;
   MacLevel level[SPLASH_MAC_LEVELS];
 } MacGrid;
+SPLASH_SHARED_STRUCT(MacGrid, 11 * 4 + SPLASH_MAC_LEVELS * 7 * 4)
 
 #ifdef __cplusplus
 }  // namespace splash::sim

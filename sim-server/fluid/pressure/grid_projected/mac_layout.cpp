@@ -9,8 +9,6 @@
 namespace splash::sim {
 namespace {
 
-static_assert(sizeof(MacGrid) == 11 * sizeof(float) + SPLASH_MAC_LEVELS * sizeof(MacLevel));
-
 /// Between levels, so that a vector that begins in one and reads past its end finds nothing of the
 /// next.
 constexpr int kGap = 32;
