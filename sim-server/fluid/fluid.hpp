@@ -85,6 +85,8 @@ class Fluid {
 
   /// From now on water at rest may sleep: steps that open a frame say when that is looked at.
   void let_sleep(const SleepRule& rule);
+  /// No steps follow for a while: moving() says of all particles that they sleep.
+  void note_asleep() { moving_.enqueue_clear(device_); }
 
   /// A frame of so many steps begins: from now on the health of each is looked at
   /// (Health::diagnosis, once the statistics is there).

@@ -265,14 +265,14 @@ struct GaugesSettings {
 
 /// What is left undone where a scene does not need it.
 struct SkipSettings {
-  bool sleep = true;          ///< water at rest is not moved
-  double sleep_speed = 0.02;  ///< what counts as rest [m/s]
-  double sleep_after = 1.0;   ///< for so long [s]
-  bool idle = true;           ///< nothing at all is done while everything sleeps and nothing moves
-  bool contacts = true;       ///< no look for impacts while no body is near the water
-  bool bubbles = true;        ///< none for bubbles while no water is fast and no bubble lives
-  bool cavities = true;       ///< none for cavities while none can close
-  bool kernels = true;        ///< kernels are built without what the scene lacks
+  bool sleep = true;         ///< water at rest is not moved
+  double sleep_speed = 0.0;  ///< what counts as rest [m/s]; 0: as suits the solver
+  double sleep_after = 1.0;  ///< for so long [s]
+  bool idle = true;          ///< nothing at all is done while everything sleeps and nothing moves
+  bool contacts = true;      ///< no look for impacts while no body is near the water
+  bool bubbles = true;       ///< none for bubbles while no water is fast and no bubble lives
+  bool cavities = true;      ///< none for cavities while none can close
+  bool kernels = true;       ///< kernels are built without what the scene lacks
 };
 
 /// Pacing and sending.

@@ -12,7 +12,8 @@ const Fields<SkipSettings>& skip_fields() {
        &S::sleep},
       {{.key = "sleep_speed",
         .unit = "m/s",
-        .meaning = "Water slower than this is at rest.",
+        .meaning = "Water slower than this is at rest; left out: 0.02, with grid_projected 0.003. "
+                   "With that solver all water sleeps or none, and only with `idle`.",
         .min = 0.0001,
         .max = 1},
        &S::sleep_speed},

@@ -23,6 +23,12 @@ bool meets(const BodyStep& b, const FluidStats& water, double margin) {
          along(b.lower_z, b.upper_z, 2);
 }
 
+/// Whether a body has just appeared anywhere: where it was it has left a hole.
+bool any_jumped(const std::vector<BodyStep>& bodies) {
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const BodyStep& b) { return b.grows > 0.0F; });
+}
+
 }  // namespace
 
 bool near_water(const std::vector<BodyStep>& bodies, const FluidStats& water, double margin) {
@@ -36,17 +42,27 @@ bool moving_near_water(const std::vector<BodyStep>& bodies, const FluidStats& wa
   });
 }
 
+bool FramePlanner::all_sleep(const FluidStats& last, double frame, bool disturbed) {
+  // Not the other way round: what is no number stays awake.
+  const bool rests = !disturbed && last.speed <= whole_.speed;
+  const bool sleeps = rests && rested_ >= whole_.after;
+  rested_ = rests ? rested_ + frame : 0.0;
+  return sleeps;
+}
+
 FramePlan FramePlanner::plan(const std::vector<BodyStep>& bodies, const FluidStats& last,
                              double frame, bool driven, std::size_t bubbles) {
   FramePlan plan;
   if (!known_) {
     known_ = true;
     calm_before_ = false;
+    rested_ = 0.0;
     return plan;
   }
-  const bool asleep = last.asleep == particles_;
-  plan.steps = !(skip_.idle && skip_.sleep && asleep && bubbles == 0 && !driven &&
-                 !moving_near_water(bodies, last));
+  const bool disturbed = bubbles > 0 || driven || moving_near_water(bodies, last);
+  const bool asleep = whole_.speed > 0.0 ? all_sleep(last, frame, disturbed || any_jumped(bodies))
+                                         : last.asleep == particles_ && !disturbed;
+  plan.steps = !(skip_.idle && skip_.sleep && asleep);
   plan.contacts = !skip_.contacts || near_water(bodies, last, last.speed * frame);
   double fastest = last.speed;
   for (const BodyStep& b : bodies) {

@@ -36,10 +36,17 @@ struct SkipTotals {
 /// The same for bodies that move.
 [[nodiscard]] bool moving_near_water(const std::vector<BodyStep>& bodies, const FluidStats& water);
 
+/// When all water sleeps, where its cells cannot do so one by one.
+struct WholeSleep {
+  double speed = 0.0;  ///< slower water is at rest [m/s]; 0: it never sleeps as a whole
+  double after = 0.0;  ///< after so long in which nothing is at it [s]
+};
+
 class FramePlanner {
  public:
-  FramePlanner(const SkipSettings& skip, double bubble_speed, int particles)
-      : skip_(skip), bubble_speed_(bubble_speed), particles_(particles) {}
+  FramePlanner(const SkipSettings& skip, double bubble_speed, int particles,
+               const WholeSleep& whole = {})
+      : skip_(skip), bubble_speed_(bubble_speed), particles_(particles), whole_(whole) {}
 
   /// `bodies`: those of all steps of the next frame; `last`: the statistics of the last frame,
   /// which lasts `frame` seconds; `driven`: the wave maker moves, or a free body moved recently;
@@ -52,9 +59,15 @@ class FramePlanner {
   void forget() noexcept { known_ = false; }
 
  private:
+  /// Whether water that sleeps as a whole does. `disturbed`: something is at it in this frame of
+  /// `frame` seconds.
+  [[nodiscard]] bool all_sleep(const FluidStats& last, double frame, bool disturbed);
+
   SkipSettings skip_;
   double bubble_speed_ = 0.0;
   int particles_ = 0;
+  WholeSleep whole_;
+  double rested_ = 0.0;       ///< for how long nothing was at the water, by `whole_` [s]
   bool known_ = false;        ///< the last frame's statistics are known
   bool calm_before_ = false;  ///< the last frame searched for bubbles and all water was slow
 };

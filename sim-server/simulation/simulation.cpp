@@ -23,9 +23,33 @@ namespace {
 constexpr double kThrows = 1.0 / 8.0;
 constexpr double kFlight = 1.0;
 
-SleepRule sleep_rule(const Scene& scene) {
-  return {scene.skip.sleep_speed,
-          static_cast<int>(std::ceil(scene.skip.sleep_after * scene.serve.frame_rate))};
+/// What counts as rest where the scene does not say it: packings that carry weight creep [m/s].
+constexpr double kRestOfPackings = 0.02;
+constexpr double kRestOnGrid = 0.003;
+
+/// Slower water may sleep; 0: none may. Water that is shaken does not rest; the divergence-free
+/// solver balances all of it in every step.
+double sleep_speed(const Scene& scene) {
+  const PressureKind solver = scene.fluid.solver;
+  if (!scene.skip.sleep || scene.tank_motion.present || solver == PressureKind::divergence_free) {
+    return 0.0;
+  }
+  const double usual = solver == PressureKind::grid_projected ? kRestOnGrid : kRestOfPackings;
+  return scene.skip.sleep_speed > 0.0 ? scene.skip.sleep_speed : usual;
+}
+
+/// The grid's pressures are those of all water: all of it sleeps or none.
+bool sleeps_whole(const Scene& scene) {
+  return scene.fluid.solver == PressureKind::grid_projected;
+}
+
+SleepRule cells_sleep(const Scene& scene) {
+  const double frames = std::ceil(scene.skip.sleep_after * scene.serve.frame_rate);
+  return {sleeps_whole(scene) ? 0.0 : sleep_speed(scene), static_cast<int>(frames)};
+}
+
+WholeSleep all_sleep(const Scene& scene) {
+  return {sleeps_whole(scene) ? sleep_speed(scene) : 0.0, scene.skip.sleep_after};
 }
 
 double particle_volume(const FluidParams& p) {
@@ -77,7 +101,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
                 !scene_.skip.cavities),
       cavity_watch_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
                     !scene_.skip.cavities),
-      planner_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count),
+      planner_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count, all_sleep(scene_)),
       step_policy_(scene_.fluid) {
   come_to_rest(fluid_, scene_, bodies_, support_states_, tell);
   fluid_.forget_work();
@@ -91,11 +115,7 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
   set_largest_step(fastest, std::abs(scene_.fluid.gravity[2]));
   start_ = fluid_.snapshot();
   sound_.keep(device, state());
-  // The divergence-free solver balances all of the water in every step: none of it may sleep.
-  // Water that is shaken does not rest.
-  const bool may_sleep =
-      scene_.fluid.solver == PressureKind::weakly_compressible && !scene_.tank_motion.present;
-  if (scene_.skip.sleep && may_sleep) fluid_.let_sleep(sleep_rule(scene_));
+  if (!sleeps_whole(scene_)) fluid_.let_sleep(cells_sleep(scene_));
   totals_.skipped.kernel_parts = fluid_.parts().left_out();
   can_feel_ = !hung_.empty() || !felt_bodies(scene_.bodies).empty();
   if (has_tracked(scene_)) feel(true);
@@ -232,6 +252,10 @@ FrameResult Simulation::advance() {
 
 FrameResult Simulation::hold_still(double frame) {
   FrameResult still;
+  if (stats_.asleep < particles()) {  // they begin to
+    stats_.asleep = particles();
+    fluid_.note_asleep();
+  }
   seconds_ += frame;
   bodies_.hold(seconds_, true);
   detected_at_ = seconds_;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace splash::sim {
 namespace {
 
@@ -91,6 +93,37 @@ TEST(FramePlanner, EverythingWithTheSwitchesOff) {
     const FramePlan all = look(planner, {body(5.0F, 0.0F)}, water(0.0, kParticles));
     EXPECT_TRUE(all.steps && all.contacts && all.bubbles);
   }
+}
+
+// Where cells do not sleep by themselves: after three frames of rest, until something is at it.
+TEST(FramePlanner, AllWaterSleepsAsAWhole) {
+  FramePlanner planner({}, kBubbleSpeed, kParticles, {.speed = 0.003, .after = 2.5 * kFrame});
+  const FluidStats slow = water(0.0029, 0), fast = water(0.0031, 0);
+  const auto frames_to_sleep = [&] {
+    int frames = 1;
+    while (look(planner, {}, slow).steps && frames < 100) ++frames;
+    return frames;
+  };
+  static_cast<void>(look(planner, {}, slow));  // knows nothing
+  EXPECT_EQ(frames_to_sleep(), 4);
+  EXPECT_FALSE(look(planner, {body(1.1F, 5.0F)}, slow).steps) << "far above";
+  EXPECT_FALSE(look(planner, {body(0.9F, 0.0F)}, slow).steps) << "it stands in the water";
+  BodyStep appeared = body(1.1F, 0.0F);
+  appeared.grows = 1.0F;
+  EXPECT_TRUE(look(planner, {appeared}, slow).steps) << "it left a hole";
+  EXPECT_EQ(frames_to_sleep(), 4);
+  EXPECT_TRUE(look(planner, {body(0.9F, 0.01F)}, slow).steps);
+  EXPECT_EQ(frames_to_sleep(), 4);
+  EXPECT_TRUE(look(planner, {}, slow, true).steps) << "the wave maker moves";
+  EXPECT_EQ(frames_to_sleep(), 4);
+  EXPECT_TRUE(look(planner, {}, slow, false, 1).steps) << "a bubble lives";
+  EXPECT_EQ(frames_to_sleep(), 4);
+  EXPECT_TRUE(look(planner, {}, fast).steps);
+  EXPECT_EQ(frames_to_sleep(), 4);
+  EXPECT_TRUE(look(planner, {}, water(std::nan(""), 0)).steps);
+  planner.forget();
+  EXPECT_TRUE(look(planner, {}, slow).steps);
+  EXPECT_EQ(frames_to_sleep(), 4);
 }
 
 TEST(FramePlanner, EverythingAfterAFailure) {
