@@ -184,9 +184,9 @@ Progress telling_how_it_settles(program::ServiceNotice& service,
   };
 }
 
-/// `start`, `settling`: what it took until now.
-void serve(Server& server, program::ServiceNotice& service, const Cost& start,
-           const Cost& settling) {
+/// `start`, `settling`: what it took until now; `settled_file`: where the water at rest is from.
+void serve(Server& server, program::ServiceNotice& service, const Cost& start, const Cost& settling,
+           const std::string& settled_file) {
   server.run([&] {
     if (service.is_due() && server.listens()) service.alive();
     if (asked_to_reopen != 0) {
@@ -203,6 +203,7 @@ void serve(Server& server, program::ServiceNotice& service, const Cost& start,
   RunReport report = server.finish();
   report.start = start;
   report.settling = settling;
+  report.settled_file = settled_file;
   std::printf("%s", summary(report).c_str());
   std::fflush(stdout);
   server.leave(report);
@@ -298,7 +299,8 @@ class Start {
     std::fflush(stdout);
     tell_of_kernels(telling_how_far_compiling_is());
     started.simulation = doubting(seal_, [&] {
-      return std::make_unique<Simulation>(*started.device, scene_, options_.tracker, tell);
+      return std::make_unique<Simulation>(*started.device, scene_, options_.tracker, tell,
+                                          options_.settled);
     });
     tell_of_kernels({});
     return started;
@@ -345,7 +347,8 @@ program::OptionValues simulate(const Options& options) {
   say_hello(*simulation, server, started.wall, compiled);
   service.ready(scene.name + ", " + std::to_string(simulation->particles()) + " particles, on " +
                 protocol::to_string(server.local()));
-  serve(server, service, started, settled);
+  serve(server, service, started, settled,
+        simulation->took_up_water() ? options.settled.string() : "");
   start.renew_seal();
   return next_of(server);
 }

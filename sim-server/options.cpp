@@ -31,6 +31,10 @@ void add_scene(CLI::App& app, Options& options) {
   app.add_option("--tracker", options.tracker,
                  "Recorded markers (TRC) that move the scene's bodies of motion kind trc")
       ->type_name("FILE.trc");
+  app.add_option("--settled", options.settled,
+                 "Keep the water that has come to rest in this file, and begin with it the next "
+                 "time; written anew if its water is of another scene, device or program")
+      ->type_name("FILE");
   app.add_option("--duration", options.duration,
                  "End after so many simulated seconds (default: never)")
       ->check(CLI::Range(0.0, 1e9))

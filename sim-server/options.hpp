@@ -21,12 +21,13 @@ struct Options {
 
   std::optional<protocol::Endpoint> show;  ///< where viewers are let in; empty: nowhere
 
-  std::filesystem::path record;  ///< event log to write; empty: none
-  bool record_forces = false;    ///< with the forces on bodies
-  std::filesystem::path report;  ///< JSON to write; empty: none
-  std::filesystem::path vtk;     ///< folder for the water, for ParaView; empty: none
-  std::filesystem::path gauges;  ///< CSV to write the scene's gauges to; empty: none
-  double duration = 0.0;         ///< simulated seconds; 0: until it is stopped
+  std::filesystem::path record;   ///< event log to write; empty: none
+  bool record_forces = false;     ///< with the forces on bodies
+  std::filesystem::path report;   ///< JSON to write; empty: none
+  std::filesystem::path vtk;      ///< folder for the water, for ParaView; empty: none
+  std::filesystem::path gauges;   ///< CSV to write the scene's gauges to; empty: none
+  std::filesystem::path settled;  ///< keeps the water at rest; empty: none
+  double duration = 0.0;          ///< simulated seconds; 0: until it is stopped
   bool real_time = true;
 
   bool check = false;  ///< say what the scene is, and end

@@ -113,6 +113,7 @@ std::string to_json(const RunReport& report) {
   json["processor_seconds"] = finite_or_null(report.processor_seconds);
   json["start"] = cost_of(report.start);
   json["settling"] = cost_of(report.settling);
+  json["settled_file"] = report.settled_file;
   json["steps_per_second"] = finite_or_null(report.steps_per_second());
   json["real_time_factor"] = finite_or_null(report.real_time_factor());
   json["mean_density_error"] = finite_or_null(report.mean_density_error);
@@ -182,7 +183,8 @@ std::string summary(const RunReport& report) {
   text << std::setprecision(2) << "cost      " << report.processor_seconds
        << " s of processor; before, ready after " << report.start.wall << " s ("
        << report.start.processor << " s of processor), of which the water took "
-       << report.settling.wall << " s (" << report.settling.processor << ") to come to rest\n";
+       << report.settling.wall << " s (" << report.settling.processor << ") to come to rest"
+       << (report.settled_file.empty() ? "" : ", as it is from " + report.settled_file) << '\n';
   text << std::setprecision(2) << "density   error mean " << 100.0 * report.mean_density_error
        << " %, maximum " << 100.0 * report.maximum_density_error << " %\n";
   if (report.density_solve.solves > 0) {

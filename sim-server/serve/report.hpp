@@ -49,6 +49,7 @@ struct RunReport {
   double processor_seconds = 0.0;      ///< same, of all processors
   Cost start;                          ///< before: until kernels and water were ready
   Cost settling;                       ///< of it, the water coming to rest
+  std::string settled_file;            ///< that the water at rest is from; empty: none
   double mean_density_error = 0.0;     ///< of the compressed part, in the rest density [1]
   double maximum_density_error = 0.0;  ///< same [1]
   SolveTotals divergence_solve;

@@ -136,8 +136,9 @@ ControlActions Server::actions() {
 
 // What a run writes, and its length, belong to one scene.
 std::string Server::go_over_to(const std::string& scene) {
-  const bool writes = !(options_.record.empty() && options_.report.empty() &&
-                        options_.gauges.empty() && options_.vtk.empty());
+  const bool writes =
+      !(options_.record.empty() && options_.report.empty() && options_.gauges.empty() &&
+        options_.vtk.empty() && options_.settled.empty());
   if (writes) return "this run writes a file: it keeps its scene";
   if (!options_.tracker.empty()) return "this run has --tracker: it keeps its scene";
   if (options_.duration > 0.0) return "this run has --duration: it keeps its scene";

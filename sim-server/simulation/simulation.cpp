@@ -14,6 +14,7 @@
 #include "sim-server/simulation/recovery/step_fault.hpp"
 #include "sim-server/start/come_to_rest.hpp"
 #include "sim-server/start/scene_start.hpp"
+#include "sim-server/start/settled_water.hpp"
 
 namespace splash::sim {
 namespace {
@@ -91,7 +92,7 @@ std::vector<Vector3> read_places(Fluid& fluid) {
 }  // namespace
 
 Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
-                       const Progress& tell)
+                       const Progress& tell, const std::filesystem::path& settled)
     : scene_(scene),
       bodies_(make_bodies(scene_, tracker, live_)),
       hung_(scene_.bodies, live_),
@@ -103,7 +104,11 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
                     !scene_.skip.cavities),
       planner_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count, all_sleep(scene_)),
       step_policy_(scene_.fluid) {
-  come_to_rest(fluid_, scene_, bodies_, support_states_, tell);
+  if (settled.empty()) {
+    come_to_rest(fluid_, scene_, bodies_, support_states_, tell);
+  } else {
+    took_up_water_ = rest_from_file(settled, fluid_, scene_, bodies_, support_states_, tell);
+  }
   fluid_.forget_work();
   const std::vector<FreeBody> free = free_bodies(scene_.bodies);
   if (!free.empty()) {

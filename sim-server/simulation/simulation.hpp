@@ -65,11 +65,12 @@ using StepHook = std::function<void(Fluid&, Step&, Moment)>;
 class Simulation {
  public:
   /// Builds all kernels and lets the water settle. `tracker`: a marker file that replaces the
-  /// scene's, or empty; `tell` is called with the progress of the settling. Throws
-  /// program::ConfigError for what the scene says wrong, program::Failure for water that does not
-  /// come to rest, DeviceError for the device.
+  /// scene's, or empty; `tell` is called with the progress of the settling; `settled`: a file that
+  /// keeps the water at rest (start/settled_water.hpp), or empty. Throws program::ConfigError for
+  /// what the scene says wrong, program::Failure for water that does not come to rest and for the
+  /// file, DeviceError for the device.
   Simulation(Device& device, const Scene& scene, const std::filesystem::path& tracker,
-             const Progress& tell = {});
+             const Progress& tell = {}, const std::filesystem::path& settled = {});
 
   /// Simulates one frame: some equal steps, with the detectors in the last one. A try with a fault
   /// is repeated or given up (Recovery); its events are discarded.
@@ -98,6 +99,8 @@ class Simulation {
   [[nodiscard]] bool can_feel() const noexcept { return can_feel_; }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
 
+  /// Whether the water at rest came from a file.
+  [[nodiscard]] bool took_up_water() const noexcept { return took_up_water_; }
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
   [[nodiscard]] const RunTotals& totals() const noexcept { return totals_; }
   /// The work of the pressure solver, without the settling.
@@ -171,6 +174,7 @@ class Simulation {
   FramePlanner planner_;
   FluidStats stats_;                    ///< the last one
   std::unique_ptr<BodyPushes> pushes_;  ///< null until forces are asked for
+  bool took_up_water_ = false;
   bool can_feel_ = false;
   bool feels_ = false;
   std::vector<BodyPush> felt_;  ///< of the last frame that was computed
