@@ -8,10 +8,10 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define MAC_LIGHT 1e-6f     // faces with less weight than this hold nothing [particles]
-#define MAC_FULL 0.5f       // cells that are fuller than this hold water [1]
-#define MAC_UNKNOWN 1e30f   // what stands where a step found no change of a face's velocity
-#define MAC_KNOWN 1e29f     // less is known
+#define MAC_LIGHT 1e-6f    // faces with less weight than this hold nothing [particles]
+#define MAC_FULL 0.5f      // cells that are fuller than this hold water [1]
+#define MAC_UNKNOWN 1e30f  // what stands where a step found no change of a face's velocity
+#define MAC_KNOWN 1e29f    // less is known
 
 #if LANES == 16
 #define WHOLE(a) convert_int16(a)
@@ -47,10 +47,34 @@ static Between between_middles(lanes x, float from, float inverse, int n) {
   return b;
 }
 
+// The lanes of a vector in another order, where that is one instruction.
+#if LANES == 16 && defined(__AVX512F__)
+#define PICKS
+static lanes picked(lanes a, lane_flags which) {
+  typedef float native __attribute__((__vector_size__(64)));
+  typedef int numbers __attribute__((__vector_size__(64)));
+  union {
+    lanes f;
+    native n;
+  } from, to;
+  union {
+    lane_flags f;
+    numbers n;
+  } by;
+  from.f = a;
+  by.f = which;
+  to.n = __builtin_ia32_permvarsf512(from.n, by.n);
+  return to.f;
+}
+#endif
+
 // Particles among the places of the three faces, and of the middles.
 typedef struct {
   Between face[3], middle[3];
   lane_flags on_grid;  // not above it
+#ifdef PICKS
+  int4 first[2], last[2];  // least and largest `lower` along each axis, of faces and of middles
+#endif
 } Placed;
 
 static Placed place_on_grid(constant MacGrid* g, lanes x, lanes y, lanes z) {
@@ -63,6 +87,13 @@ static Placed place_on_grid(constant MacGrid* g, lanes x, lanes y, lanes z) {
   at.middle[1] = between_middles(y, g->y, g->iy, l.ny);
   at.middle[2] = between_middles(z, g->z, g->iz, l.nz);
   at.on_grid = z < (lanes)(g->z + g->hz * ((float)l.nz - 0.5f));
+#ifdef PICKS
+  for (int k = 0; k < 2; ++k) {
+    const Between* b = k ? at.middle : at.face;
+    at.first[k] = (int4)((int)least(b[0].lower), (int)least(b[1].lower), (int)least(b[2].lower), 0);
+    at.last[k] = (int4)((int)most(b[0].lower), (int)most(b[1].lower), (int)most(b[2].lower), 0);
+  }
+#endif
   return at;
 }
 
@@ -150,13 +181,70 @@ static bool is_wall(const MacLevel l, int4 at, int axis) {
   return at.z == 0;
 }
 
-// Mean of the faces along an axis around particles, by the hat; nothing above the grid.
-static lanes from_faces(constant MacGrid* g, const Placed* at, int axis,
-                        global const float* mean) {
+// Of a field on the faces along an axis, the sum over the eight places around particles by their
+// weights, where it is known, and the `weight` of those.
+static lanes sum_by_place(constant MacGrid* g, const Placed* at, int axis,
+                          global const float* field, lanes* weight) {
   const Around a = around(g, at, axis);
   lanes value[8];
-  load_around(&a, mean + axis * g->level[0].cells, value);
+  load_around(&a, field, value);
+  const lanes none = 0.0f;
   lanes sum = 0.0f;
-  for (int k = 0; k < 8; ++k) sum += a.weight[k] * value[k];
+  *weight = 0.0f;
+  for (int k = 0; k < 8; ++k) {
+    const lane_flags known = value[k] < (lanes)(MAC_KNOWN);
+    sum += select(none, a.weight[k] * value[k], known);
+    *weight += select(none, a.weight[k], known);
+  }
   return sum;
+}
+
+#ifdef PICKS
+static lanes hat_at(Between b, int place) {
+  return fmax(1.0f - fabs(b.lower - place + b.share), (lanes)(0.0f));
+}
+
+// The same, row by row of the box around all particles of a vector: each lane picks its two of a
+// row's values.
+static lanes sum_by_row(constant MacGrid* g, const Placed* at, int axis, global const float* field,
+                        lanes* weight) {
+  const MacLevel l = g->level[0];
+  const Between bx = axis == 0 ? at->face[0] : at->middle[0];
+  const Between by = axis == 1 ? at->face[1] : at->middle[1];
+  const Between bz = axis == 2 ? at->face[2] : at->middle[2];
+  const int x = at->first[axis != 0].x;
+  const lane_flags lower = WHOLE(bx.lower) - x, upper = lower + 1;
+  const lanes none = 0.0f;
+  lanes sum = 0.0f;
+  *weight = 0.0f;
+  for (int z = at->first[axis != 2].z; z <= at->last[axis != 2].z + 1; ++z) {
+    const lanes wz = hat_at(bz, z);
+    for (int y = at->first[axis != 1].y; y <= at->last[axis != 1].y + 1; ++y) {
+      const lanes here = wz * hat_at(by, y), above = here * bx.share, below = here - above;
+      const lanes row = LOAD(field, (z + 1) * l.layer + (y + 1) * l.row + x + 1);
+      const lanes a = picked(row, lower), b = picked(row, upper);
+      const lane_flags knows_a = a < (lanes)(MAC_KNOWN), knows_b = b < (lanes)(MAC_KNOWN);
+      sum += select(none, below * a, knows_a) + select(none, above * b, knows_b);
+      *weight += select(none, below, knows_a) + select(none, above, knows_b);
+    }
+  }
+  return sum;
+}
+#endif
+
+static lanes sum_of_faces(constant MacGrid* g, const Placed* at, int axis,
+                          global const float* faces, lanes* weight) {
+  global const float* field = faces + axis * g->level[0].cells;
+#ifdef PICKS
+  if (at->last[axis != 0].x - at->first[axis != 0].x < LANES - 1) {
+    return sum_by_row(g, at, axis, field, weight);
+  }
+#endif
+  return sum_by_place(g, at, axis, field, weight);
+}
+
+// Mean of the faces along an axis around particles, by the hat; nothing above the grid.
+static lanes from_faces(constant MacGrid* g, const Placed* at, int axis, global const float* mean) {
+  lanes weight;
+  return sum_of_faces(g, at, axis, mean, &weight);
 }

@@ -7,8 +7,8 @@
 // of: the second-order filter (1 - S)^2, which only takes energy and keeps momentum. Spacing is a
 // displacement, of which little becomes speed.
 
-#include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/boundary/keep_out.h"
+#include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
@@ -19,29 +19,20 @@
 // Mean change of the known faces around particles along an axis; where there is none they fall.
 static lanes change_along(constant MacGrid* g, const Placed* at, int axis,
                           global const float* change, lanes falls) {
-  const Around a = around(g, at, axis);
-  lanes value[8];
-  load_around(&a, change + axis * g->level[0].cells, value);
-  const lanes none = 0.0f;
-  lanes sum = 0.0f, weight = 0.0f;
-  for (int k = 0; k < 8; ++k) {
-    const lanes w = select(none, a.weight[k], value[k] < (lanes)(MAC_KNOWN));
-    sum += select(none, w * value[k], w > none);
-    weight += w;
-  }
+  lanes weight;
+  const lanes sum = sum_of_faces(g, at, axis, change, &weight);
   return select(falls, sum / weight, at->on_grid & (weight > (lanes)(SEEN)));
 }
 
 // `filtered`: 1 - exp(-rate dt). `kick`: part of the spacing's push that stays as speed. `carried`:
 // the velocity that took each particle where it is.
 kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float dt, float filtered,
-                           float kick, float piston, float piston_speed,
-                           constant BodyShape* shapes, global const float* meshes,
-                           global const BodyStep* bodies, int first_body, int body_count,
-                           global const float* change, global const float* seen,
-                           global const float* deviation, global float* acceleration,
-                           global float* position, global float* velocity,
-                           global float* carried) {
+                           float kick, float piston, float piston_speed, constant BodyShape* shapes,
+                           global const float* meshes, global const BodyStep* bodies,
+                           int first_body, int body_count, global const float* change,
+                           global const float* seen, global const float* deviation,
+                           global float* acceleration, global float* position,
+                           global float* velocity, global float* carried) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   if (first >= p->count) return;
@@ -61,8 +52,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
     way[axis] = v - d + dt * a;
     u[axis] = v - filtered * twice + kick * dt * a;
   }
-  const lanes slower =
-      fmin(p->speed_limit * rsqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]), 1.0f);
+  const lanes slower = fmin(p->speed_limit * rsqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]), 1.0f);
   const lanes shorter =
       fmin(p->speed_limit * rsqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]), 1.0f);
   for (int axis = 0; axis < 3; ++axis) {
