@@ -36,6 +36,13 @@ std::size_t strips_in(const MacGrid& grid, const Device& device) {
          static_cast<std::size_t>(level.nz + 1);
 }
 
+/// Vectors of cells from the lowest layer to the one above the last (mac_cell.h).
+std::size_t vectors_in(const MacGrid& grid, const Device& device) {
+  const MacLevel& level = grid.level[0];
+  return static_cast<std::size_t>(level.layer / device.lanes()) *
+         static_cast<std::size_t>(level.nz + 1);
+}
+
 /// Work-items of the work-group that solves.
 std::size_t solvers(const Device& device) {
   return device.profile().team > 1 ? device.profile().judges : 1;
@@ -54,6 +61,7 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
       particles_(static_cast<std::size_t>(params.count)),
       cells_(cells_in(grid_)),
       strips_(strips_in(grid_, device)),
+      vectors_(vectors_in(grid_, device)),
       room_(mac_room(grid_)),
       grid_buffer_(device, std::span<const MacGrid>(&grid_, 1)),
       mean_(device, 3 * room_),
@@ -109,10 +117,10 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
   weigh_pressure_ = Kernel(program, "weigh_pressure", solvers(device));
   ask_for_answer_ = Kernel(program, "ask_for_answer");
   weigh_answer_ = Kernel(program, "weigh_answer", solvers(device));
-  push_faces_ = Kernel(program, "push_faces");
-  lay_system_ = Kernel(program, "lay_system");
+  push_faces_ = Kernel(program, "push_faces", group);
+  lay_system_ = Kernel(program, "lay_system", group);
   solve_pressure_ = Kernel(program, "solve_pressure", solvers(device));
-  project_faces_ = Kernel(program, "project_faces");
+  project_faces_ = Kernel(program, "project_faces", group);
   find_spacing_ = Kernel(program, "find_spacing", group);
   move_particles_ = Kernel(program, "move_particles", group);
   sample_pressure_ = Kernel(program, "sample_pressure", group);
@@ -303,7 +311,7 @@ void GridProjected::solve(Fluid& fluid, const Step& step) {
   const auto room = static_cast<int>(room_);
   const int free = free_count(fluid);
   const Buffer<float>& fill = solids_ ? filled_ : fill_;
-  push_faces_.run(queue, cells_,
+  push_faces_.run(queue, vectors_,
                   {{"p", params},
                    {"g", grid_buffer_},
                    {"dt", dt},
@@ -312,7 +320,7 @@ void GridProjected::solve(Fluid& fluid, const Step& step) {
                    {"pushed", change_}});
   most_.enqueue_clear(fluid.device());
   if (free > 0) let_fall(fluid, step);
-  lay_system_.run(queue, cells_,
+  lay_system_.run(queue, vectors_,
                   {{"p", params},
                    {"g", grid_buffer_},
                    {"dt", dt},
@@ -351,7 +359,7 @@ void GridProjected::solve(Fluid& fluid, const Step& step) {
   }
   run_solve(fluid, step, kIterations, found_, state_);
   if (free > 0) push_bodies(fluid, step);
-  project_faces_.run(queue, cells_,
+  project_faces_.run(queue, vectors_,
                      {{"p", params},
                       {"g", grid_buffer_},
                       {"dt", dt},
@@ -509,7 +517,7 @@ std::vector<Press> GridProjected::press(Device& device, std::size_t bodies) {
       continue;
     }
     Press& press = all[static_cast<std::size_t>(owner[c])];
-    const std::array<std::size_t, 3> at = {c % step[1], c / step[1] % (step[2] / step[1]),
+    const std::array<std::size_t, 3> at = {c % step[2] % step[1], c % step[2] / step[1],
                                            c / step[2]};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double area = edge[0] * edge[1] * edge[2] / edge[axis];

@@ -92,8 +92,9 @@ class GridProjected : public PressureSolver {
   MacGrid grid_;
   double part_;  ///< of the default step's length, by the scene's factor [1]
   std::size_t particles_;
-  std::size_t cells_;   ///< inside, and one more along each axis
-  std::size_t strips_;  ///< of these that are gathered for together
+  std::size_t cells_;    ///< inside, and one more along each axis
+  std::size_t strips_;   ///< of these that are gathered for together
+  std::size_t vectors_;  ///< of them and those around
   std::size_t room_;
 
   Buffer<MacGrid> grid_buffer_;

@@ -15,10 +15,13 @@
 
 #if LANES == 16
 #define WHOLE(a) convert_int16(a)
+#define CONVERT(a) convert_float16(a)
 #elif LANES == 8
 #define WHOLE(a) convert_int8(a)
+#define CONVERT(a) convert_float8(a)
 #else
 #define WHOLE(a) convert_int(a)
+#define CONVERT(a) convert_float(a)
 #endif
 
 // What is no number becomes the least: no index leaves the arrays.
@@ -167,18 +170,54 @@ static int number_of(const MacLevel l, int4 at) {
   return (at.z + 1) * l.layer + (at.y + 1) * l.row + at.x + 1;
 }
 
-// Acceleration from afar along an axis, at a face.
-static float field_on_face(constant FluidParams* p, constant MacGrid* g, int4 at, int axis) {
-  if (axis == 0) return p->gravity_x - p->pull_x * (g->x + at.x * g->hx - p->centre_x);
-  if (axis == 1) return p->gravity_y - p->pull_y * (g->y + at.y * g->hy - p->centre_y);
-  return p->gravity_z - p->pull_z * (g->z + at.z * g->hz - p->centre_z);
+// A vector of cells of one layer: the number of the first, and where they are.
+typedef struct {
+  int first, z;
+  lane_flags x, y;
+  lane_flags real;  // inside, or above those inside along an axis
+  lane_flags inside;
+} Cells;
+
+// Vector number `item`, from the lowest layer on.
+static Cells cells_of(constant MacGrid* g, int item) {
+  const MacLevel l = g->level[0];
+  const int many = l.layer / LANES;
+  Cells at;
+  at.z = item / many;
+  const int from = item % many * LANES;
+  at.first = (at.z + 1) * l.layer + from;
+  const lane_flags k = from + LANE_NUMBERS;
+  // Exact: half a cell is farther from a whole row than rounding takes it.
+  const lanes row = floor((lanes)(1.0f / l.row) * (CONVERT(k) + 0.5f));
+  const lane_flags y = WHOLE(row);
+  at.x = k - y * l.row - 1;
+  at.y = y - 1;
+  const lane_flags none = 0;
+  at.real = (at.x >= none) & (at.x <= (lane_flags)(l.nx)) & (at.y >= none) &
+            (at.y <= (lane_flags)(l.ny)) & ((lane_flags)(at.z) <= (lane_flags)(l.nz));
+  at.inside = at.real & (at.x < (lane_flags)(l.nx)) & (at.y < (lane_flags)(l.ny)) &
+              ((lane_flags)(at.z) < (lane_flags)(l.nz));
+  return at;
 }
 
-// Whether the lower face of a cell along an axis is a wall. Upwards there is none.
-static bool is_wall(const MacLevel l, int4 at, int axis) {
-  if (axis == 0) return at.x == 0 || at.x == l.nx;
-  if (axis == 1) return at.y == 0 || at.y == l.ny;
-  return at.z == 0;
+// Acceleration from afar along an axis, at faces.
+static lanes field_on_faces(constant FluidParams* p, constant MacGrid* g, const Cells* at,
+                            int axis) {
+  if (axis == 0) {
+    return p->gravity_x - p->pull_x * (g->x + CONVERT(at->x) * g->hx - p->centre_x);
+  }
+  if (axis == 1) {
+    return p->gravity_y - p->pull_y * (g->y + CONVERT(at->y) * g->hy - p->centre_y);
+  }
+  return (lanes)(p->gravity_z - p->pull_z * (g->z + at->z * g->hz - p->centre_z));
+}
+
+// Whether the lower faces of cells along an axis are walls. Upwards there is none.
+static lane_flags are_walls(const MacLevel l, const Cells* at, int axis) {
+  const lane_flags none = 0;
+  if (axis == 0) return (at->x == none) | (at->x == (lane_flags)(l.nx));
+  if (axis == 1) return (at->y == none) | (at->y == (lane_flags)(l.ny));
+  return (lane_flags)(at->z) == none;
 }
 
 // Of a field on the faces along an axis, the sum over the eight places around particles by their

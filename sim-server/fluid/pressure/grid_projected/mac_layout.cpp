@@ -12,6 +12,8 @@ namespace {
 /// Between levels, so that a vector that begins in one and reads past its end finds nothing of the
 /// next.
 constexpr int kGap = 32;
+/// A layer of cells is whole vectors: none reaches from one into the next.
+constexpr int kWhole = 16;
 /// The coarsest level has no more cells along any axis.
 constexpr int kCoarsest = 2;
 
@@ -44,7 +46,8 @@ Box room_of(const FluidParams& p) {
 }
 
 MacLevel level_of(int nx, int ny, int nz, int first) {
-  MacLevel level = {nx, ny, nz, nx + 2, (nx + 2) * (ny + 2), 0, first};
+  const int layer = ((nx + 2) * (ny + 2) + kWhole - 1) / kWhole * kWhole;
+  MacLevel level = {nx, ny, nz, nx + 2, layer, 0, first};
   level.cells = level.layer * (nz + 2);
   return level;
 }

@@ -9,37 +9,40 @@
 #include "sim-server/fluid/pressure/grid_projected/room.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
-// How fast f grows across the lower face of a cell along an axis [edges].
-static float growth(global const float* fill, global const float* wet, global const float* found,
-                    int c, int below) {
-  const bool here = wet[c] > 0.0f, there = wet[below] > 0.0f;
-  if (here && there) return found[c] - found[below];
-  if (here) return found[c] / way_to_surface(fill[c], fill[below]);
-  return -found[below] / way_to_surface(fill[below], fill[c]);
+// How fast f grows across the lower faces of cells, `s` from those below [edges].
+static lanes growth(global const float* fill, global const float* wet, global const float* found,
+                    int c, int s) {
+  const lanes none = 0.0f;
+  const lane_flags here = LOAD(wet, c) > none, there = LOAD(wet, c - s) > none;
+  const lanes f = LOAD(found, c), below = LOAD(found, c - s);
+  const lanes full = LOAD(fill, c), full_below = LOAD(fill, c - s);
+  const lanes rise = f / way_to_surface(full, full_below);
+  const lanes fall = -below / way_to_surface(full_below, full);
+  return select(select(fall, rise, here), f - below, here & there);
 }
-
 
 kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt,
                           global const float* gap, global const float* fill,
                           global const float* mean, global const float* weight,
-                          global const float* found, global const float* wet,
-                          global float* pushed, global float* pressure) {
-  const int4 at = cell_of(g, get_global_id(0));
-  if (at.w == 0) return;
+                          global const float* found, global const float* wet, global float* pushed,
+                          global float* pressure) {
+  const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
-  const int c = number_of(l, at);
+  if (at.z > l.nz) return;
+  const int c = at.first;
   const int step[3] = {1, l.row, l.layer};
   const float inverse[3] = {g->ix, g->iy, g->iz};
+  const lanes none = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const int below = c - step[axis], face = axis * l.cells + c;
-    const bool wall = is_wall(l, at, axis);
-    float change = MAC_UNKNOWN;
-    const bool open = open_of(gap, face) > 0.0f && (wall || wet[c] + wet[below] > 0.0f);
-    if (weight[face] > MAC_LIGHT && open) {
-      change = pushed[face] - mean[face];
-      if (!wall) change -= growth(fill, wet, found, c, below) * inverse[axis];
-    }
-    pushed[face] = change;
+    const int face = axis * l.cells + c;
+    const lane_flags wall = are_walls(l, &at, axis);
+    const lane_flags beside = LOAD(wet, c) + LOAD(wet, c - step[axis]) > none;
+    const lane_flags open = (open_of(gap, face) > none) & (wall | beside);
+    const lanes by = inverse[axis] * growth(fill, wet, found, c, step[axis]);
+    const lanes change = LOAD(pushed, face) - LOAD(mean, face) - select(by, none, wall);
+    const lane_flags known = at.real & open & (LOAD(weight, face) > (lanes)(MAC_LIGHT));
+    STORE(select((lanes)(MAC_UNKNOWN), change, known), pushed, face);
   }
-  pressure[c] = wet[c] * found[c] * p->rest_density / dt;
+  const float density = p->rest_density / dt;
+  STORE(select(none, LOAD(wet, c) * LOAD(found, c) * density, at.real), pressure, c);
 }

@@ -15,18 +15,20 @@
 #define OF_SLOPE -2
 #define OF_PISTON -3
 
-// What solids leave open of a face, where there are any.
-static float open_of(global const float* gap, int face) { return HAS_SOLIDS ? gap[face] : 1.0f; }
+// What solids leave open of faces, where there are any.
+static lanes open_of(global const float* gap, int face) {
+  return HAS_SOLIDS ? LOAD(gap, face) : (lanes)(1.0f);
+}
 
-// Whether any face of cell `c` is open.
-static bool is_open(const MacLevel l, global const float* gap, int c) {
-  if (!HAS_SOLIDS) return true;
+// Which cells from `c` on have a face that is open.
+static lane_flags are_open(const MacLevel l, global const float* gap, int c) {
   const int step[3] = {1, l.row, l.layer};
+  lanes open = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const int face = axis * l.cells + c;
-    if (gap[face] + gap[face + step[axis]] > 0.0f) return true;
+    open += open_of(gap, face) + open_of(gap, face + step[axis]);
   }
-  return false;
+  return open > (lanes)(0.0f);
 }
 
 // Middle of the lower face of a cell along an axis.

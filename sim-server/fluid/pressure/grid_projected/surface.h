@@ -6,15 +6,17 @@
 
 #define LEAST_WAY 0.1f  // to the surface, between two middles [1]
 
-// How far above the middle of a cell of this fill the surface is, -1 to 1 [edges].
-static float surface_above(float fill) {
-  const float e = clamp(fill - MAC_FULL, -0.5f, 0.5f);
-  const float s = 1.0f - sqrt(fmax(1.0f - 2.0f * fabs(e), 0.0f));
-  return e < 0.0f ? -s : s;
+// How far above the middle of cells of this fill the surface is, -1 to 1 [edges].
+static lanes surface_above(lanes fill) {
+  const lanes none = 0.0f;
+  const lanes e = within(fill - MAC_FULL, -0.5f, 0.5f);
+  const lanes s = 1.0f - sqrt(fmax(1.0f - 2.0f * fabs(e), none));
+  return select(s, -s, e < none);
 }
 
-// Part of the way from the middle of a cell with water to that of one without where the surface is.
-static float way_to_surface(float water, float air) {
-  const float under = surface_above(water), over = -surface_above(air);
-  return clamp(under / fmax(under + over, 1e-3f), LEAST_WAY, 1.0f);
+// Part of the way from the middles of cells with water to those of ones without where the surface
+// is.
+static lanes way_to_surface(lanes water, lanes air) {
+  const lanes under = surface_above(water), over = -surface_above(air);
+  return within(under / fmax(under + over, (lanes)(1e-3f)), LEAST_WAY, 1.0f);
 }

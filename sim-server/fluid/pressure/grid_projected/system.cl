@@ -15,50 +15,84 @@
 #include "sim-server/fluid/pressure/grid_projected/room.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
-#define REGAINED 1.0f     // [1/s]
-#define MOST_LACK 0.2f    // of a cell's fill, that counts [1]
+#define REGAINED 1.0f   // [1/s]
+#define MOST_LACK 0.2f  // of a cell's fill, that counts [1]
 
 // Velocities on the faces as gravity and viscosity leave them.
 kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
-                       global const float* mean, global const float* weight,
-                       global float* pushed) {
-  const int4 at = cell_of(g, get_global_id(0));
-  if (at.w == 0) return;
+                       global const float* mean, global const float* weight, global float* pushed) {
+  const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
-  const int c = number_of(l, at);
+  if (at.z > l.nz) return;
   const float nu = 0.1f * p->viscous;
   const int step[3] = {1, l.row, l.layer};
   const float edge[3] = {g->hx, g->hy, g->hz};
+  const lanes none = 0.0f, light = MAC_LIGHT;
   for (int axis = 0; axis < 3; ++axis) {
-    global const float* u = mean + axis * l.cells + c;
-    global const float* w = weight + axis * l.cells + c;
-    float rub = 0.0f;
-    if (nu > 0.0f && *w > MAC_LIGHT) {
-      for (int other = 0; other < 3; ++other) {
-        const int s = step[other];
-        const float up = w[s] > MAC_LIGHT ? u[s] - *u : 0.0f;
-        const float down = w[-s] > MAC_LIGHT ? u[-s] - *u : 0.0f;
-        rub += (up + down) / (edge[other] * edge[other]);
-      }
+    const int face = axis * l.cells + at.first;
+    const lanes here = LOAD(mean, face);
+    lanes rub = 0.0f;
+    for (int other = 0; nu > 0.0f && other < 3; ++other) {
+      const int s = step[other];
+      const lanes up = LOAD(mean, face + s) - here, down = LOAD(mean, face - s) - here;
+      rub += (select(none, up, LOAD(weight, face + s) > light) +
+              select(none, down, LOAD(weight, face - s) > light)) /
+             (edge[other] * edge[other]);
     }
-    pushed[axis * l.cells + c] =
-        is_wall(l, at, axis) ? 0.0f : *u + dt * (field_on_face(p, g, at, axis) + nu * rub);
+    rub = select(none, rub, LOAD(weight, face) > light);
+    const lanes v = here + dt * (field_on_faces(p, g, &at, axis) + nu * rub);
+    STORE(select(select(none, v, at.real), none, are_walls(l, &at, axis)), pushed, face);
   }
 }
 
-// Whether all cells around one, but for those behind walls, hold water.
-static bool is_inner(const MacLevel l, global const float* fill, int4 at) {
-  for (int z = max(at.z - 1, 0); z <= at.z + 1; ++z) {
-    for (int y = max(at.y - 1, 0); y <= min(at.y + 1, l.ny - 1); ++y) {
-      for (int x = max(at.x - 1, 0); x <= min(at.x + 1, l.nx - 1); ++x) {
-        if (!(fill[number_of(l, (int4)(x, y, z, 0))] > MAC_FULL)) return false;
+static lane_flags hold_water(global const float* fill, int c) {
+  return LOAD(fill, c) > (lanes)(MAC_FULL);
+}
+
+// The last lane that is marked, if any is.
+static int last_of(lane_flags marked) {
+  return (int)most(select((lanes)(-1.0f), CONVERT(LANE_NUMBERS), marked));
+}
+
+// Whether all cells around, but for those behind walls, hold water.
+static lane_flags are_inner(const MacLevel l, global const float* fill, const Cells* at) {
+  const lane_flags none = 0;
+  lanes least_full = 1.0f;
+  for (int z = max(-1, -at->z); z <= 1; ++z) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) {
+        const lane_flags i = at->x + x, j = at->y + y;
+        const lane_flags behind =
+            (i < none) | (i >= (lane_flags)(l.nx)) | (j < none) | (j >= (lane_flags)(l.ny));
+        const lanes there = LOAD(fill, at->first + z * l.layer + y * l.row + x);
+        least_full = fmin(least_full, select(there, (lanes)(1.0f), behind));
       }
     }
   }
-  return true;
+  return least_full > (lanes)(MAC_FULL);
 }
 
-static bool holds_water(global const float* fill, int c) { return fill[c] > MAC_FULL; }
+// How fast solids go at the faces of cells that they cut, below and above along an axis [m/s].
+static void solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
+                            global const int* owner, float piston_speed, const Cells* at,
+                            lane_flags cut, int axis, lanes* low, lanes* high) {
+  int x[LANES], y[LANES], is_cut[LANES];
+  float below[LANES], above[LANES];
+  STORE(at->x, x, 0);
+  STORE(at->y, y, 0);
+  STORE(cut, is_cut, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    below[lane] = above[lane] = 0.0f;
+    if (!is_cut[lane]) continue;
+    const int whose = owner[at->first + lane];
+    const int4 here = (int4)(x[lane], y[lane], at->z, 0);
+    const int4 next = here + (int4)(axis == 0, axis == 1, axis == 2, 0);
+    below[lane] = solid_at_face(g, bodies, whose, piston_speed, here, axis);
+    above[lane] = solid_at_face(g, bodies, whose, piston_speed, next, axis);
+  }
+  *low = LOAD(below, 0);
+  *high = LOAD(above, 0);
+}
 
 // Row by row the system A f = b: `link`, 1 / h^2 between a cell and the one below it along an axis
 // where both hold water, by the open part of the face; `open`, what its surface adds to the
@@ -68,63 +102,65 @@ static bool holds_water(global const float* fill, int c) { return fill[c] > MAC_
 // solve works with begins at zero.
 kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
                        global const BodyStep* bodies, int first_body, float piston_speed,
-                       global const float* gap, global const int* owner,
-                       global const float* fill, global const float* pushed,
-                       global const float* pressure, int room, global float* link,
-                       global float* open, global float* x, global float* right,
+                       global const float* gap, global const int* owner, global const float* fill,
+                       global const float* pushed, global const float* pressure, int room,
+                       global float* link, global float* open, global float* x, global float* right,
                        global float* rest, global float* start, global float* way,
                        global float* wet, global int* most) {
-  const int4 at = cell_of(g, get_global_id(0));
-  if (at.w == 0) return;
+  const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
-  const int c = number_of(l, at);
-  const bool inside = at.x < l.nx && at.y < l.ny && at.z < l.nz;
-  const bool fluid = inside && holds_water(fill, c) && is_open(l, gap, c);
-  const bool cut = HAS_SOLIDS && fluid && owner[c] != OF_NOBODY;
+  if (at.z > l.nz) return;
+  const int c = at.first;
+  const lanes none = 0.0f, one = 1.0f;
+  const lane_flags fluid = at.inside & hold_water(fill, c) & are_open(l, gap, c);
+  const bool any = any_lane(fluid);
+  const lane_flags cut = HAS_SOLIDS ? fluid & (LOAD(owner, c) != (lane_flags)(OF_NOBODY)) : fluid;
+  const bool any_cut = HAS_SOLIDS && any && any_lane(cut);
   const int step[3] = {1, l.row, l.layer};
   const float inverse[3] = {g->ix, g->iy, g->iz};
-  const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
-  float b = 0.0f, surface = 0.0f, links = 0.0f;
+  const lane_flags here[3] = {at.x, at.y, at.z};
+  const int last[3] = {l.nx - 1, l.ny - 1, l.nz};  // upwards no wall ends it
+  const lanes full = LOAD(fill, c);
+  lanes b = 0.0f, surface = 0.0f, links = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const int below = c - step[axis], above = c + step[axis], face = axis * l.cells + c;
-    const float each = inverse[axis] * inverse[axis];
-    float between = 0.0f;
-    if (fluid) {
-      const float low = open_of(gap, face), high = open_of(gap, face + step[axis]);
-      const bool closed_above = axis < 2 && here[axis] == count[axis] - 1;
-      if (here[axis] > 0) {
-        if (holds_water(fill, below)) {
-          between = each * low;
-        } else {
-          surface += each * low / way_to_surface(fill[c], fill[below]);
-        }
-      }
-      if (!closed_above) {
-        if (holds_water(fill, above)) {
-          links += each * high;
-        } else {
-          surface += each * high / way_to_surface(fill[c], fill[above]);
-        }
-      }
-      float in = pushed[face], out = pushed[face + step[axis]];
-      if (cut) {
-        global const BodyStep* now = bodies + first_body;
-        const int4 next = at + (int4)(axis == 0, axis == 1, axis == 2, 0);
-        in -= solid_at_face(g, now, owner[c], piston_speed, at, axis);
-        out -= solid_at_face(g, now, owner[c], piston_speed, next, axis);
+    const int s = step[axis], face = axis * l.cells + c;
+    lanes between = 0.0f;
+    if (any) {
+      const float each = inverse[axis] * inverse[axis];
+      const lanes low = open_of(gap, face), high = open_of(gap, face + s);
+      const lane_flags reaches_down = here[axis] > (lane_flags)(0);
+      const lane_flags reaches_up = here[axis] < (lane_flags)(last[axis]);
+      const lanes down = select(none, each * low, reaches_down);
+      const lanes up = select(none, each * high, reaches_up);
+      const lane_flags wet_below = hold_water(fill, c - s), wet_above = hold_water(fill, c + s);
+      between = select(none, down, fluid & wet_below);
+      links += between + select(none, up, wet_above);
+      surface += select(down / way_to_surface(full, LOAD(fill, c - s)), none, wet_below) +
+                 select(up / way_to_surface(full, LOAD(fill, c + s)), none, wet_above);
+      lanes in = LOAD(pushed, face), out = LOAD(pushed, face + s);
+      if (any_cut) {
+        lanes below, above;
+        solids_at_faces(g, bodies + first_body, owner, piston_speed, &at, cut, axis, &below,
+                        &above);
+        in -= below;
+        out -= above;
       }
       b -= (high * out - low * in) * inverse[axis];
-      links += between;
     }
-    link[axis * room + c] = between;
+    STORE(between, link, axis * room + c);
   }
-  if (fluid && is_inner(l, fill, at)) {
-    b -= REGAINED * clamp(1.0f - fill[c], 0.0f, MOST_LACK);
+  if (any) {
+    const lanes lack = REGAINED * within(1.0f - full, 0.0f, MOST_LACK);
+    if (any_lane(fluid & (lack > none))) {
+      b -= select(none, lack, are_inner(l, fill, &at));
+    }
+    atomic_max(most, c + last_of(fluid));
   }
-  open[c] = surface;
-  right[c] = links + surface > 0.0f ? b : 0.0f;
-  x[c] = rest[c] = way[c] = 0.0f;
-  start[c] = fluid ? pressure[c] * dt / p->rest_density : 0.0f;
-  wet[c] = fluid ? 1.0f : 0.0f;
-  if (fluid) atomic_max(most, c);
+  STORE(select(none, surface, fluid), open, c);
+  STORE(select(none, b, fluid & (links + surface > none)), right, c);
+  STORE(none, x, c);
+  STORE(none, rest, c);
+  STORE(none, way, c);
+  STORE(select(none, LOAD(pressure, c) * (dt / p->rest_density), fluid), start, c);
+  STORE(select(none, one, fluid), wet, c);
 }
