@@ -13,7 +13,7 @@ namespace splash::bench {
 namespace {
 
 // Colours that people with colour blindness tell apart: Okabe and Ito 2008.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00"};  // by solver
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73"};  // by solver
 
 /// Of the paper's section 6: 15,000 particles in the pool and on the beach, 7,000 in the basin.
 constexpr const char* kPaper = "$paper << EOD\n15000 152\n15000 147\n7000 240\nEOD\n";
@@ -32,7 +32,7 @@ unset key
 )gp";
 
 std::string style(const Quality& q) {
-  const auto solver = static_cast<std::size_t>(q.solver == sim::PressureKind::divergence_free);
+  const auto solver = static_cast<std::size_t>(q.solver);
   const bool scalar = q.kernels == sim::KernelKind::reference;
   std::ostringstream text;
   text << "linecolor rgb \"" << kColours[solver] << "\" linewidth 1.6 dashtype "
@@ -164,7 +164,8 @@ void draw(const std::filesystem::path& folder, const ChartSettings& settings,
 }
 
 double per_solve(const sim::SolveWork& work) {
-  return static_cast<double>(work.iterations) / static_cast<double>(work.solves);
+  return static_cast<double>(work.iterations) /
+         static_cast<double>(std::max<std::int64_t>(work.solves, 1));
 }
 
 void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
@@ -175,10 +176,7 @@ void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
     const Quality& q = p.quality;
     const validation::Result& r = p.result;
     out << p.item->name << ",\"" << p.item->figure << "\"," << resolution(p) << ',' << r.particles
-        << ','
-        << (q.solver == sim::PressureKind::divergence_free ? "divergence_free"
-                                                           : "weakly_compressible")
-        << ',' << q.time_step_factor << ','
+        << ',' << validation::name_of(q.solver) << ',' << q.time_step_factor << ','
         << (q.kernels == sim::KernelKind::reference ? "reference" : "vector") << ',' << r.simulated
         << ',' << r.steps << ',' << r.steps_alone.wall << ',' << r.steps_alone.processor << ','
         << p.error() << ',' << r.mean_density_error << ',';

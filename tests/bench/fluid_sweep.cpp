@@ -19,8 +19,8 @@ using sim::KernelKind;
 using sim::PressureKind;
 
 constexpr PressureKind kSolvers[] = {PressureKind::weakly_compressible,
-                                     PressureKind::divergence_free};
-/// A frame has whole steps: a thousand a second would shorten those of the divergence-free solver.
+                                     PressureKind::divergence_free, PressureKind::grid_projected};
+/// A frame has whole steps: a thousand a second would shorten those of the last two.
 constexpr double kFrames = 200.0;
 constexpr double kHalf = 0.5;
 constexpr double kLonger = 1.25;
@@ -42,7 +42,8 @@ class Line {
                 point.result.particles, point.wall_cost(), point.processor_cost(1), point.error());
     if (work.density.solves > 0) {
       const auto mean = [](const sim::SolveWork& w) {
-        return static_cast<double>(w.iterations) / static_cast<double>(w.solves);
+        return static_cast<double>(w.iterations) /
+               static_cast<double>(std::max<std::int64_t>(w.solves, 1));
       };
       std::printf("  %.1f (%d) + %.1f (%d)", mean(work.divergence), work.divergence.most,
                   mean(work.density), work.density.most);
@@ -81,8 +82,9 @@ validation::Setting setting_of(const Quality& quality, double spacing) {
 }  // namespace
 
 std::string Quality::name() const {
-  std::string text =
-      solver == PressureKind::divergence_free ? "divergence-free" : "weakly compressible";
+  std::string text = solver == PressureKind::divergence_free  ? "divergence-free"
+                     : solver == PressureKind::grid_projected ? "grid-projected"
+                                                              : "weakly compressible";
   if (time_step_factor != 1.0) {
     char factor[32];
     std::snprintf(factor, sizeof factor, ", dt x %g", time_step_factor);

@@ -45,7 +45,7 @@ struct SweepPlan {
 };
 
 [[nodiscard]] const std::vector<SweepCase>& sweep_cases();
-/// Both solvers, and of the default one half the time step and the reference kernels.
+/// All solvers, and of the default one half the time step and the reference kernels.
 [[nodiscard]] std::vector<Quality> quick_qualities();
 /// Solver x time-step factor 0.5, 1 and 1.25, and each solver with the reference kernels.
 [[nodiscard]] std::vector<Quality> all_qualities();

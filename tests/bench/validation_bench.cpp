@@ -18,6 +18,7 @@ struct Options {
   std::vector<std::string> cases;
   int resolutions = 100;
   int device = -1;
+  std::vector<sim::PressureKind> solvers = {sim::PressureKind::weakly_compressible};
   Setting setting;
 };
 
@@ -51,10 +52,12 @@ void print(const std::string& what, const Result& result) {
 }
 
 /// What is not the default.
-std::string described(const Setting& setting) {
+std::string described(const std::vector<sim::PressureKind>& solvers) {
+  if (solvers == Options{}.solvers) return {};
   std::string text;
-  if (setting.solver == sim::PressureKind::divergence_free) text += "; solver: divergence_free";
-  if (setting.solver == sim::PressureKind::grid_projected) text += "; solver: grid_projected";
+  for (const sim::PressureKind solver : solvers) {
+    text += (text.empty() ? "; solver: " : ", ") + name_of(solver);
+  }
   return text;
 }
 
@@ -64,25 +67,30 @@ void run(bench::Bench& bench, const Options& options) {
   if (wanted.empty()) {
     for (const Case& item : all_cases()) wanted.push_back(&item);
   }
-  std::filesystem::create_directories(bench.out() / "series");
   sim::Device device(options.device);
-  bench.set_device(describe(device.facts()) + described(options.setting));
+  bench.set_device(describe(device.facts()) + described(options.solvers));
   std::vector<Result> results;
   for (const Case* item : wanted) {
     const auto count =
         std::min(static_cast<std::size_t>(std::max(options.resolutions, 1)), item->spacings.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      char what[96];
-      std::snprintf(what, sizeof what, "%-18s %s/dp = %-4.0f", item->name.c_str(),
-                    item->size_name.c_str(), item->size / item->spacings[k]);
-      Progress progress(what);
-      Setting setting = options.setting;
-      setting.spacing = item->spacings[k];
-      results.push_back(run_case(device, *item, setting, bench.out() / "series",
-                                 [&](double share) { progress(share); }));
-      print(what, results.back());
-      // After every run, so that a run that is broken off leaves what it found.
-      write_report(bench.out(), device.facts().name + described(options.setting), results);
+    for (const sim::PressureKind solver : options.solvers) {
+      for (std::size_t k = 0; k < count; ++k) {
+        char what[112];
+        std::snprintf(what, sizeof what, "%-18s %-20s %s/dp = %-4.0f", item->name.c_str(),
+                      name_of(solver).c_str(), item->size_name.c_str(),
+                      item->size / item->spacings[k]);
+        Progress progress(what);
+        Setting setting = options.setting;
+        setting.solver = solver;
+        setting.spacing = item->spacings[k];
+        const auto series = bench.out() / "series" / name_of(solver);
+        std::filesystem::create_directories(series);
+        results.push_back(
+            run_case(device, *item, setting, series, [&](double share) { progress(share); }));
+        print(what, results.back());
+        // After every run, so that a run that is broken off leaves what it found.
+        write_report(bench.out(), device.facts().name + described(options.solvers), results);
+      }
     }
   }
   bench.tell(
@@ -103,12 +111,15 @@ int main(int argc, char** argv) {
   app.add_option("--resolutions", options.resolutions, "Only so many, coarse ones first")
       ->check(CLI::Range(1, 100));
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
-  const std::map<std::string, sim::PressureKind> solvers = {
-      {"weakly_compressible", sim::PressureKind::weakly_compressible},
-      {"divergence_free", sim::PressureKind::divergence_free},
-      {"grid_projected", sim::PressureKind::grid_projected}};
-  app.add_option("--solver", options.setting.solver,
-                 "Instead of the default: weakly_compressible, divergence_free or grid_projected")
+  std::map<std::string, sim::PressureKind> solvers;
+  for (const auto solver :
+       {sim::PressureKind::weakly_compressible, sim::PressureKind::divergence_free,
+        sim::PressureKind::grid_projected}) {
+    solvers[name_of(solver)] = solver;
+  }
+  app.add_option("--solver", options.solvers,
+                 "Instead of the default: weakly_compressible, divergence_free or grid_projected "
+                 "(repeatable: side by side)")
       ->transform(CLI::CheckedTransformer(solvers));
   app.add_option("--time-step-factor", options.setting.time_step_factor,
                  "Steps so much longer than the default ones")

@@ -14,8 +14,8 @@ const std::vector<Case>& all_cases() {
   static const std::vector<Case> kCases = {hydrostatic(),       standing_wave(), elliptical_drop(),
                                            oscillating_drop(),  vortex(),        dam_martin_moyce(),
                                            dam_koshizuka_oka(), spheric2(),      slap(),
-                                           pinch_off(),         closed_box(),    floating(),
-                                           sinking_cube(),      sinking_ball()};
+                                           pinch_off(),         closed_box(),    pressure_noise(),
+                                           floating(),          sinking_cube(),  sinking_ball()};
   return kCases;
 }
 

@@ -66,6 +66,7 @@ struct Case {
 [[nodiscard]] Case slap();
 [[nodiscard]] Case pinch_off();
 [[nodiscard]] Case closed_box();
+[[nodiscard]] Case pressure_noise();
 [[nodiscard]] Case floating();
 [[nodiscard]] Case sinking_cube();
 [[nodiscard]] Case sinking_ball();

@@ -21,6 +21,13 @@ std::string resolution(const Result& result) {
   return digits;
 }
 
+/// With the solver's name, where there are several.
+std::string heading(const Result& result, const std::vector<const Result*>& all) {
+  const bool several = std::any_of(
+      all.begin(), all.end(), [&](const Result* other) { return other->solver != result.solver; });
+  return several ? name_of(result.solver) + ", " + resolution(result) : resolution(result);
+}
+
 std::string gate(const Figure& figure) {
   if (!figure.has_gate()) return "";
   if (figure.lowest == 0.0) return "<= " + bench::number(figure.highest);
@@ -31,7 +38,7 @@ std::string gate(const Figure& figure) {
 std::string table(const std::vector<const Result*>& results) {
   const Case& item = *results.front()->item;
   bench::Row head = {"figure", "unit", "wanted"};
-  for (const Result* result : results) head.push_back(resolution(*result));
+  for (const Result* result : results) head.push_back(heading(*result, results));
   std::vector<bench::Row> rows = {head};
   for (std::size_t k = 0; k < results.front()->outcome.figures.size(); ++k) {
     const Figure& first = results.front()->outcome.figures[k];
@@ -82,7 +89,7 @@ void draw_case(const std::filesystem::path& folder, const std::vector<const Resu
   };
   for (const Result* result : results) {
     for (const Curve& curve : result->outcome.curves) {
-      add(curve, curve.title + resolution(*result),
+      add(curve, curve.title + heading(*result, results),
           std::string("lines linewidth 1.6 linecolor rgb \"") + bench::colour(number++) + '"');
     }
   }
@@ -99,14 +106,15 @@ void draw_case(const std::filesystem::path& folder, const std::vector<const Resu
 
 void write_figures(const std::filesystem::path& path, const std::vector<Result>& results) {
   std::ofstream out(path);
-  out << "case,spacing_m,size_over_spacing,particles,simulated_s,wall_s,processor_s,figure,unit,"
+  out << "case,solver,spacing_m,size_over_spacing,particles,simulated_s,wall_s,processor_s,figure,"
+         "unit,"
          "value,lowest,highest,passes\n";
   for (const Result& r : results) {
     for (const Figure& figure : r.outcome.figures) {
-      out << r.item->name << ',' << r.spacing << ',' << r.item->size / r.spacing << ','
-          << r.particles << ',' << r.simulated << ',' << r.all.wall << ',' << r.all.processor
-          << ",\"" << figure.name << "\"," << figure.unit << ',' << figure.value << ','
-          << figure.lowest << ',' << figure.highest << ','
+      out << r.item->name << ',' << name_of(r.solver) << ',' << r.spacing << ','
+          << r.item->size / r.spacing << ',' << r.particles << ',' << r.simulated << ','
+          << r.all.wall << ',' << r.all.processor << ",\"" << figure.name << "\"," << figure.unit
+          << ',' << figure.value << ',' << figure.lowest << ',' << figure.highest << ','
           << (figure.has_gate() ? (figure.passes() ? "1" : "0") : "") << '\n';
     }
   }
@@ -115,11 +123,24 @@ void write_figures(const std::filesystem::path& path, const std::vector<Result>&
 
 }  // namespace
 
+std::string name_of(sim::PressureKind solver) {
+  switch (solver) {
+    case sim::PressureKind::divergence_free:
+      return "divergence_free";
+    case sim::PressureKind::grid_projected:
+      return "grid_projected";
+    case sim::PressureKind::weakly_compressible:
+      break;
+  }
+  return "weakly_compressible";
+}
+
 Result run_case(sim::Device& device, const Case& item, const Setting& setting,
                 const std::filesystem::path& series_folder,
                 const std::function<void(double)>& progress) {
   Result result;
   result.item = &item;
+  result.solver = setting.solver;
   result.spacing = setting.spacing;
   std::vector<Run> runs;
   const double scenes = static_cast<double>(item.scenes.size());

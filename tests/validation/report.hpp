@@ -10,9 +10,10 @@
 
 namespace splash::validation {
 
-/// One case at one resolution.
+/// One case at one resolution, by one solver.
 struct Result {
   const Case* item = nullptr;
+  sim::PressureKind solver = sim::PressureKind::weakly_compressible;
   double spacing = 0.0;             ///< [m]
   int particles = 0;                ///< of the largest scene of a sweep
   double simulated = 0.0;           ///< all scenes of a sweep together [s]
@@ -24,12 +25,15 @@ struct Result {
   Outcome outcome;
 };
 
+/// As scenes name it.
+[[nodiscard]] std::string name_of(sim::PressureKind solver);
+
 /// Runs one case at one resolution. `progress` gets the share done [0, 1].
 [[nodiscard]] Result run_case(sim::Device& device, const Case& item, const Setting& setting,
                               const std::filesystem::path& series_folder,
                               const std::function<void(double)>& progress = {});
 
-/// What each case gave, at all resolutions, and its run time: Markdown.
+/// What each case gave, at all resolutions and by all solvers, and its run time: Markdown.
 [[nodiscard]] std::string tables(const std::vector<Result>& results);
 
 /// Writes report.md, figures.csv and a picture per case into `folder`. Throws std::runtime_error.
