@@ -59,7 +59,8 @@ TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
-// Pictures come 60 times a second, states 60 times, each 5 ms before or after its moment.
+// Pictures come 60 times a second and take 25 ms to be drawn, states 60 times, each up to 5 ms
+// before its moment or 24 ms after.
 TEST_F(Glance, ShownPicturesAreYoungWhereFramesComeInTime) {
   view::Options options;
   view::Server server(options);
@@ -76,7 +77,8 @@ TEST_F(Glance, ShownPicturesAreYoungWhereFramesComeInTime) {
         const now = 100 + k / 60;
         const jitter = 0.004 * Math.sin(7 * k);
         playout.push({ moment: now - late - jitter, count: 1 }, now);
-        playout.finished(playout.at(now + 0.008).moment, now + 0.008);
+        const begun = now + 0.008;
+        playout.finished(playout.at(begun).moment, begun, begun + 0.025);
       }
       ages.push(playout.age);
     }

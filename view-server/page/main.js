@@ -10,7 +10,7 @@ import { Link } from './link.js';
 import { Pace } from './pace.js';
 import { Panel } from './panel.js';
 import { Particles } from './particles.js';
-import { EVEN, Playout } from './playout.js';
+import { Playout } from './playout.js';
 import { Points } from './points.js';
 import { Pointers } from './pointer.js';
 import { Film, savePicture } from './record.js';
@@ -39,7 +39,7 @@ const particles = new Particles(gl);
 const solids = new Solids(gl);
 const rings = new Rings(gl);
 const playout = new Playout();
-const fences = new Fences(gl);
+const fences = new Fences(gl, finished);
 const strip = new Strip(at('strip'));
 const lights = smooth ? new LightMaps(gl) : null;
 const water = smooth ? new Water(gl) : null;
@@ -198,7 +198,7 @@ function tellFigures() {
   const ms = (x) => `${Math.round(1000 * x)} ms`;
   const sim = words.last('sim-server');
   const parts = [`${world.particles} particles`, `${pace.rate.toFixed(0)} pictures/s${points && smooth ? ' (points: the water is too much for these graphics)' : ''}`,
-    `95 % of states come within ${ms(playout.arrival)}, are drawn within ${ms(playout.age)}`];
+    paused() ? 'paused' : `95 % of states come within ${ms(playout.arrival)}, are drawn within ${ms(playout.age)}`];
   if (sound.lag !== null) {
     const { picture } = latency();
     parts.push(`event to picture ${ms(picture)}, to sound ${ms(sound.lag)}, apart ${
@@ -225,10 +225,10 @@ let answered = null; // the newest state that was drawn and answered with a ques
 function picture() {
   requestAnimationFrame(picture);
   gamepads.poll();
-  fences.look(finished);
-  // Where graphics are slow, no picture waits for another: it would show an older state.
-  if (fences.pending.length > (pace.rate < EVEN ? 0 : 1)) return;
-  pace.step();
+  fences.look();
+  // No picture waits for another: it would show an older state.
+  if (fences.pending.length > 0) return;
+  pace.step(playout.drawing);
   if (pace.isTooSlow && !points && !headset.session) points = new Points(gl);
   const dense = Math.min(window.devicePixelRatio, 2) * (points ? pace.share : 1);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
@@ -236,19 +236,21 @@ function picture() {
   camera.aspect = width / height;
   if (headset.session || !prepare()) return;
   drawAll({ width, height, share: pace.share }, camera.matrices());
-  fences.add(moment);
+  fences.add(moment, begun);
   if (wantsPicture) savePicture(canvas, world.name);
   wantsPicture = false;
 }
 
-function finished(seen) {
+function finished(seen, since) {
+  if (paused()) return; // nothing gets older in it
   const now = link.now();
-  playout.finished(seen, now);
+  playout.finished(seen, since, now);
   shown.push(now - seen);
   if (shown.length > 60) shown.shift();
 }
 
 let moment = 0; // that is shown
+let begun = 0; // its picture [Unix s]
 /// Everything as it is to be shown now; whether there is anything. Asks for the next state.
 function prepare() {
   const now = link.now();
@@ -260,7 +262,8 @@ function prepare() {
   }
   if (!view) return false;
   moment = view.moment;
-  if (headset.session) finished(moment);
+  begun = now;
+  if (headset.session) finished(moment, begun);
   particles.show(view);
   poseBodies(view);
   const { older, newer, share } = view;

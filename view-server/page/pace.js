@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // How sharp pictures may be, and when to ask for the next state, on a machine that draws as fast as
 // this one does.
-import { quantile } from './playout.js';
+import { KEEP, quantile } from './playout.js';
 
 const SHARES = [1, 0.71, 0.5, 0.35, 0.25]; // of the pixels along each axis: each has half as many
 const SLOW = 40; // pictures a second, below which they get coarser
 const FAST = 57; // above which they get sharper
+const LONG = 0.035; // that drawing 95 of 100 pictures takes, above which they get coarser [s]
+const SHORT = 0.015; // below which they may get sharper: half as many pixels again [s]
 const TOO_SLOW = 24; // of the coarsest water, after which points are drawn
 const SETTLE = 0.5; // after each change before the rate counts [s]
 const SHARPER_AFTER = 5; // of a fast rate [s]
@@ -34,8 +36,8 @@ export class Pace {
     return 1 / Math.max(this.took, 1e-3);
   }
 
-  /// Once a picture.
-  step() {
+  /// Once a picture. `drawing`: what 95 of 100 pictures took at most [s].
+  step(drawing) {
     const now = performance.now() / 1000;
     const took = Math.min(now - this.before, 2);
     this.before = now;
@@ -49,8 +51,10 @@ export class Pace {
       this.go(Math.min(this.level + Math.ceil(Math.log2(SLOW / meanRate)), coarsest));
     } else if (meanRate < TOO_SLOW && !this.isTooSlow) {
       this.go(0, true);
+    } else if (drawing > LONG && this.pictures > KEEP && this.level < coarsest) {
+      this.go(this.level + 1);
     } else if (this.since > SHARPER_AFTER) {
-      this.go(Math.max(this.level - (meanRate > FAST ? 1 : 0), 0));
+      this.go(Math.max(this.level - (meanRate > FAST && drawing < SHORT ? 1 : 0), 0));
     }
   }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Which two states a picture lies between. States are shown by their moments, held back by what
-// nine of ten of them came late after the one before them, so that motion is even.
+// nine of ten of them came late after the one before them, so that motion is even, but no longer
+// than leaves the time for drawing within the age that a picture may have.
 
 const HOLD_MAX = 0.055; // [s]
-export const EVEN = 40; // pictures a second, below which there is no time to hold a state
-const KEEP = 90; // states, and pictures, that are looked at
+const AGE_MAX = 0.055; // that pictures are meant to have when they are drawn [s]
+const EVEN = 40; // pictures a second, below which there is no time to hold a state
+export const KEEP = 90; // states, and pictures, that are looked at
 
 export function quantile(values, share) {
   const sorted = [...values].sort((a, b) => a - b);
@@ -26,6 +28,7 @@ export class Playout {
     this.lateness = [];
     this.arrivals = []; // ages of states when they come [s]
     this.ages = []; // of finished pictures [s]
+    this.drawn = []; // how long the graphics took for them [s]
     this.hold = 0;
   }
 
@@ -42,7 +45,8 @@ export class Playout {
   at(now, rate, extra = 0) {
     if (this.states.length === 0) return null;
     const late = rate < EVEN ? 0 : quantile(this.lateness, 0.9);
-    const wanted = Math.min(Math.max(late, extra, 0), HOLD_MAX);
+    const free = Math.max(AGE_MAX - this.drawing, 0);
+    const wanted = Math.min(Math.max(Math.min(late, free), extra - this.drawing, 0), HOLD_MAX);
     this.hold += 0.05 * (wanted - this.hold);
     const shown = now - this.hold;
     while (this.states.length > 2 && this.states[1].moment <= shown) this.states.shift();
@@ -52,9 +56,15 @@ export class Playout {
     return { older, newer, share, moment: older.moment + share * span };
   }
 
-  /// The graphics have drawn a picture of this moment.
-  finished(moment, now) {
+  /// The graphics have drawn a picture of this moment, which they were given at `begun`.
+  finished(moment, begun, now) {
     note(this.ages, now - moment);
+    note(this.drawn, now - begun);
+  }
+
+  /// How long 95 of 100 pictures took at most until they were drawn [s].
+  get drawing() {
+    return quantile(this.drawn, 0.95);
   }
 
   /// How old 95 of 100 pictures were at most when they were drawn [s].
