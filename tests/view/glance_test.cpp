@@ -3,9 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <thread>
 
+#include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
+#include "tests/support/frame_viewer.hpp"
+#include "tests/support/process_use.hpp"
+#include "tests/support/recording.hpp"
 #include "tests/view/stage.hpp"
 #include "view-server/server.hpp"
 
@@ -21,8 +28,21 @@ class Glance : public testing::Test {
   }
 };
 
-/// Whether the second tile is brighter while it sounds, again and again, since software may draw
-/// less than a picture in a tone's second.
+constexpr std::uint32_t kGrabbed = 4;
+
+/// Whether it becomes true in time, however slow the machine is.
+template <typename Condition>
+bool becomes(const Condition& condition) {
+  const double end = protocol::monotonic_now() + kTimeout;
+  while (protocol::monotonic_now() < end) {
+    if (condition()) return true;
+    sleep(0.02);
+  }
+  return false;
+}
+
+/// Whether a picture shows the second tile brighter while it sounds, again and again, since
+/// software may draw less than a picture in a tone's second.
 bool lights_a_tile(Stage& stage) {
   Chromium& browser = stage.browser();
   const Json tile = stage.seen({{0.1, -0.1, 0.0}});
@@ -31,14 +51,32 @@ bool lights_a_tile(Stage& stage) {
   browser.evaluate(
       "setInterval(() => [...document.querySelectorAll('#channels button')]"
       ".find((one) => one.textContent === '2').click(), 300)");
-  EXPECT_TRUE(browser.wait_for("splash.peaks()[1] > 0.02", 30.0));
-  const std::string drawn = browser.evaluate("splash.pictures() + 2").dump();
-  EXPECT_TRUE(browser.wait_for("splash.pictures() > " + drawn, kTimeout));
-  return stage.drawn(tile)[0][0].get<int>() > before + 20;
+  return becomes([&] { return stage.drawn(tile)[0][0].get<int>() > before + 20; });
+}
+
+/// Whether the mouse, which holds the disc, drags it into the water so that the page is told of an
+/// impact and of a level of the first tile. A busy machine may leave out a drag's poses or its
+/// sound; then it is dragged again.
+bool splashes(Stage& stage, const Json& way) {
+  Chromium& browser = stage.browser();
+  browser.evaluate(
+      "{ window.level = 0; setInterval(() => "
+      "{ level = Math.max(level, splash.peaks()?.[0] ?? 0); }, 10); }");
+  for (int i = 0; i < 10; ++i) {
+    drag(browser, way[0], way[1], 0.3);
+    if (browser.wait_for("level > 1e-3 && splash.events.some((event) => event.kind === '/impact')",
+                         5.0)) {
+      return true;
+    }
+    drag(browser, way[1], way[0], 0.3);
+    sleep(1.0);
+  }
+  return false;
 }
 
 TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
-  Stage stage(kWaits, "?share=0.4", "420,300");
+  const std::string wav = temporary_path("glance.wav");
+  Stage stage(kWaits, "?share=0.4", "420,300", wav);
   Chromium& browser = stage.browser();
   EXPECT_EQ(browser.evaluate("document.title"), "small - splash");
   const Json water = stage.seen({{0.0, -0.2, 0.1}, {-0.1, -0.2, 0.1}, {0.2, 0.0, 0.1}});
@@ -53,10 +91,33 @@ TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
   const Json way = stage.way_down();
   browser.mouse("mouseMoved", way[0][0], way[0][1]);
   browser.mouse("mousePressed", way[0][0], way[0][1]);
-  EXPECT_TRUE(browser.wait_for("splash.grabs.holds(0)", 10.0));
-  drag(browser, way[0], way[1], 0.3);
-  EXPECT_TRUE(browser.wait_for("splash.events.some((event) => event.kind === '/impact')", 20.0));
+  EXPECT_TRUE(browser.wait_for("splash.grabs.holds(0)", kTimeout));
+  EXPECT_TRUE(splashes(stage, way));
   EXPECT_THAT(browser.errors(), IsEmpty());
+
+  // The page dies with the disc in its hand: the disc goes back to its own way.
+  const FrameViewer viewer(protocol::parse_endpoint(stage.sim_show(), 0));
+  static_cast<void>(viewer.read());
+  const auto is_held = [&] {
+    viewer.ask();
+    const protocol::ViewFrame frame = viewer.read();
+    return frame.size() > 56 + 28 + 4 &&
+           (protocol::frame_number<std::uint32_t>(&frame[56 + 28]) & kGrabbed) != 0;
+  };
+  EXPECT_TRUE(becomes(is_held));
+  browser.kill();
+  EXPECT_TRUE(becomes([&] { return !is_held(); })) << "still grabbed, though the page is gone";
+  EXPECT_TRUE(becomes([&] {
+    viewer.ask();
+    const protocol::ViewFrame frame = viewer.read();
+    return frame.size() > 56 + 28 + 4 &&
+           std::abs(protocol::frame_number<float>(&frame[56 + 8]) - 0.35F) < 0.01F;
+  })) << "not back on its own way";
+
+  stage.synth().process().signal(SIGTERM);
+  EXPECT_EQ(stage.synth().process().wait_for_end(), 0) << stage.synth().process().output();
+  EXPECT_GT(peak(read_recording(wav).channels.at(0)), 1e-3F) << "the tone was the second tile's";
+  std::filesystem::remove(wav);
 }
 
 // Pictures come 60 times a second and take 25 ms to be drawn, states 60 times, each up to 5 ms

@@ -32,7 +32,7 @@ std::string iwer() {
   const fs::path folder = temporary_path("iwer");
   fs::create_directories(folder);
   ChildProcess npm({"sh", "-c",
-                    "cd '" + folder.string() + "' && npm pack " + kPackage +
+                    "cd '" + folder.string() + "' && npm pack --fetch-retries=0 " + kPackage +
                         " && tar xzf iwer-*.tgz package/build/iwer.min.js"});
   std::string text;
   if (npm.wait(60.0) == 0) text = text_of(folder / "package/build/iwer.min.js");
@@ -53,32 +53,32 @@ constexpr const char* kWear = R"js(
 TEST(Iwer, AControllerHoldsABodyAndMovesIt) {
   if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
   const std::string script = iwer();
-  if (script.empty()) GTEST_SKIP() << "npm cannot fetch " << kPackage;
+  if (script.empty()) GTEST_SKIP() << "there is no npm, or it cannot fetch " << kPackage;
   Stage stage(kWaits, "?points", "240,180");
   Chromium& browser = stage.browser();
   browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", script + ';' + kWear}});
   stage.load("?share=0.4");
-  ASSERT_TRUE(browser.wait_for("!document.getElementById('headset').hidden", 10.0));
+  ASSERT_TRUE(browser.wait_for("!document.getElementById('headset').hidden", kTimeout));
   browser.evaluate("document.getElementById('headset').click()");
-  ASSERT_TRUE(browser.wait_for("splash.headset.session", 10.0)) << stage.words();
+  ASSERT_TRUE(browser.wait_for("splash.headset.session", kTimeout)) << stage.words();
   // The disc as WebXR sees it: 0.35 m over the tank's lower side, which stands on a table.
   browser.evaluate("hand.position.set(0, 0.75 + 0.35, -0.35 - 0.2)");
   browser.evaluate(
       "new Promise((done) => device.activeSession?.requestAnimationFrame(done) ?? "
       "splash.headset.session.requestAnimationFrame(() => done()))");
   browser.evaluate("hand.updateButtonValue('trigger', 1)");
-  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", 10.0));
+  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", kTimeout));
   browser.evaluate("hand.position.set(0.08, 0.75 + 0.30, -0.35 - 0.2 + 0.03)");
   // To the right is to the right, up is up, and towards the viewer is the scene's -y.
   EXPECT_TRUE(browser.wait_for(R"js((() => {
     const [x, y, z] = splash.playout.states.at(-1).bodies[0].place;
     return Math.hypot(x - 0.08, y + 0.03, z - 0.30) < 0.01;
   })())js",
-                               30.0))
+                               kTimeout))
       << browser.evaluate("splash.playout.states.at(-1).bodies[0].place").dump();
   EXPECT_EQ(browser.evaluate("splash.playout.states.at(-1).bodies[0].flags & 4"), 4);
   browser.evaluate("hand.updateButtonValue('trigger', 0)");
-  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", 10.0));
+  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", kTimeout));
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 

@@ -94,18 +94,25 @@ Json Stage::seen(const Json& places) {
 
 Json Stage::drawn(const Json& places) {
   // Asked for behind the page's own picture, it comes after it, while the canvas still holds it.
-  return browser_->evaluate(R"js(((places) => new Promise((done) => requestAnimationFrame(() => {
-    const canvas = document.getElementById('water');
-    const gl = canvas.getContext('webgl2');
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    const dense = canvas.width / innerWidth;
-    done(places.map(([x, y]) => {
-      const pixel = new Uint8Array(4);
-      gl.readPixels(Math.round(x * dense), Math.round(canvas.height - 1 - y * dense), 1, 1, gl.RGBA,
-        gl.UNSIGNED_BYTE, pixel);
-      return [...pixel.slice(0, 3)];
-    }));
-  }))))js" + ("(" + places.dump() + ")"));
+  // Where the page drew none, since graphics were not done with the last, the canvas is black: look
+  // again.
+  return browser_->evaluate(R"js(((places) => new Promise((done) => {
+    const look = () => requestAnimationFrame(() => {
+      const canvas = document.getElementById('water');
+      const gl = canvas.getContext('webgl2');
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      const dense = canvas.width / innerWidth;
+      const colours = places.map(([x, y]) => {
+        const pixel = new Uint8Array(4);
+        gl.readPixels(Math.round(x * dense), Math.round(canvas.height - 1 - y * dense), 1, 1,
+          gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        return [...pixel.slice(0, 3)];
+      });
+      if (colours.flat().some((value) => value > 0)) done(colours);
+      else look();
+    });
+    look();
+  })))js" + ("(" + places.dump() + ")"));
 }
 
 Json Stage::way_down() {
