@@ -77,12 +77,12 @@ const Kernels kPairs = {"compute_acceleration", "integrate"};
 const Kernels kSolve = {
     "correct_pressure",       "push_by_pressure",    "measure_response", "recall_pressure",
     "begin_divergence_solve", "begin_density_solve", "end_solves",       "judge_solve"};
-const Kernels kGrid = {"cut_cells",       "open_faces",     "fill_beside_solids", "find_deviation",
-                       "gather_faces",    "gather_again",   "move_particles",     "project_faces",
-                       "sample_pressure", "solve_pressure", "find_spacing",       "push_faces",
-                       "lay_system",      "let_fall",       "grip_water",         "push_bodies",
-                       "tie_bodies",      "tell_tugs",      "weigh_pressure",     "ask_for_answer",
-                       "weigh_answer"};
+const Kernels kGrid = {
+    "cut_cells",    "open_faces",     "fill_beside_solids", "find_deviation",  "gather_faces",
+    "gather_again", "move_particles", "project_faces",      "sample_pressure", "solve_pressure",
+    "find_spacing", "push_faces",     "lay_system",         "let_fall",        "grip_water",
+    "push_bodies",  "tie_bodies",     "tell_tugs",          "weigh_pressure",  "ask_for_answer",
+    "weigh_answer", "mark_faces",     "weigh_faces",        "weigh_given",     "sum_given"};
 /// Of a scene with bodies that the water moves.
 const Kernels kMoved = {"weigh_water", "answer_bodies", "carry_water", "keep_out_of_free",
                         "move_bodies"};

@@ -90,6 +90,11 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
       surface_(device, 1),
       answer_(device, 1),
       answer_state_(device, 1),
+      jolt_(device, 1),
+      given_(device, 1),
+      taken_(device, 1),
+      whose_(device, 1),
+      parts_(device, 1),
       link_(device, 3 * room_),
       open_(device, room_),
       damped_(device, room_),
@@ -117,6 +122,10 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
   weigh_pressure_ = Kernel(program, "weigh_pressure", solvers(device));
   ask_for_answer_ = Kernel(program, "ask_for_answer");
   weigh_answer_ = Kernel(program, "weigh_answer", solvers(device));
+  mark_faces_ = Kernel(program, "mark_faces");
+  weigh_faces_ = Kernel(program, "weigh_faces", solvers(device));
+  weigh_given_ = Kernel(program, "weigh_given", device.profile().team);
+  sum_given_ = Kernel(program, "sum_given", 1);
   push_faces_ = Kernel(program, "push_faces", group);
   lay_system_ = Kernel(program, "lay_system", group);
   solve_pressure_ = Kernel(program, "solve_pressure", solvers(device));
@@ -196,7 +205,9 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
                      {"body_count", boundary.body_count()},
                      {"piston", as_float(step.piston)},
                      {"acceleration", fluid.acceleration()},
-                     {"moving", fluid.moving()}});
+                     {"moving", fluid.moving()},
+                     {"told", static_cast<int>(feels_)},
+                     {"by_bodies", jolt_}});
 }
 
 void GridProjected::place_solids(Fluid& fluid, const Step& step) {
@@ -405,68 +416,14 @@ void GridProjected::feel(Device& device, bool on) {
   felt_grip_ = Buffer<float>(device, 6 * room_);
   surface_ = Buffer<float>(device, room_);
   answer_ = Buffer<float>(device, room_);
+  jolt_ = Buffer<float>(device, carried_.size());
+  given_ = Buffer<float>(device, 3 * room_);
+  taken_ = Buffer<float>(device, 3 * room_);
+  whose_ = Buffer<float>(device, 3 * room_);
 }
 
-void GridProjected::add_pushes(Fluid& fluid, const Step& step, const FeltBodies& felt) {
-  if (!feels_) return;
-  cl::CommandQueue& queue = fluid.device().queue();
-  const Buffer<FluidParams>& params = fluid.params_buffer();
-  const Buffer<BodyStep>& bodies = fluid.boundary().steps();
-  const Buffer<FreeBody>& those = felt.on_device;
-  const auto count = static_cast<int>(felt.list.size());
-  grip_water_.run(queue, cells_,
-                  {{"g", grid_buffer_},
-                   {"free_count", count},
-                   {"frees", those},
-                   {"bodies", bodies},
-                   {"first_body", step.first_body},
-                   {"gap", gap_},
-                   {"owner", owner_},
-                   {"wet", wet_},
-                   {"grip", felt_grip_}});
-  weigh_pressure_.run_teams(queue, 1,
-                            {{"p", params},
-                             {"g", grid_buffer_},
-                             {"body_count", count},
-                             {"felt", those},
-                             {"bodies", bodies},
-                             {"first_body", step.first_body},
-                             {"owner", owner_},
-                             {"grip", felt_grip_},
-                             {"found", found_},
-                             {"sums", felt.sums}});
-  for (int k = 0; k < count; ++k) {
-    for (int part = 0; felt.wanted[static_cast<std::size_t>(k)] && part < 6; ++part) {
-      ask_for_answer_.run(queue, cells_,
-                          {{"g", grid_buffer_},
-                           {"k", k},
-                           {"part", part},
-                           {"felt", those},
-                           {"owner", owner_},
-                           {"grip", felt_grip_},
-                           {"surface", surface_},
-                           {"open", open_},
-                           {"x", x_},
-                           {"right", b_},
-                           {"rest", r_},
-                           {"start", answer_},
-                           {"way", way_}});
-      run_solve(fluid, step, kAnswerIterations, answer_, answer_state_);
-      weigh_answer_.run_teams(queue, 1,
-                              {{"p", params},
-                               {"g", grid_buffer_},
-                               {"k", k},
-                               {"part", part},
-                               {"body_count", count},
-                               {"felt", those},
-                               {"bodies", bodies},
-                               {"first_body", step.first_body},
-                               {"owner", owner_},
-                               {"grip", felt_grip_},
-                               {"found", answer_},
-                               {"sums", felt.sums}});
-    }
-  }
+void GridProjected::add_pushes(Fluid& /*fluid*/, const Step& /*step*/, const FeltBodies& felt) {
+  if (feels_) felt_now_.emplace(felt);
 }
 
 void GridProjected::move(Fluid& fluid, const Step& step) {
@@ -490,7 +447,131 @@ void GridProjected::move(Fluid& fluid, const Step& step) {
                        {"acceleration", fluid.acceleration()},
                        {"position", fluid.particles().position},
                        {"velocity", fluid.particles().velocity},
-                       {"carried", carried_}});
+                       {"carried", carried_},
+                       {"told", static_cast<int>(feels_)},
+                       {"jolt", jolt_}});
+  if (felt_now_) weigh_felt(fluid, step);
+  felt_now_.reset();
+}
+
+void GridProjected::weigh_felt(Fluid& fluid, const Step& step) {
+  cl::CommandQueue& queue = fluid.device().queue();
+  const FeltBodies& felt = *felt_now_;
+  const int count = static_cast<int>(felt.list.size());
+  const std::size_t entries = 6 * (SPLASH_PUSH_PARTS + 1) * felt.list.size();
+  if (parts_.size() != entries) parts_ = Buffer<float>(fluid.device(), entries);
+  grip_water_.run(queue, cells_,
+                  {{"g", grid_buffer_},
+                   {"free_count", count},
+                   {"frees", felt.on_device},
+                   {"bodies", fluid.boundary().steps()},
+                   {"first_body", step.first_body},
+                   {"gap", gap_},
+                   {"owner", owner_},
+                   {"wet", wet_},
+                   {"grip", felt_grip_}});
+  weigh_pressure_.run_teams(queue, 1,
+                            {{"p", fluid.params_buffer()},
+                             {"g", grid_buffer_},
+                             {"body_count", count},
+                             {"felt", felt.on_device},
+                             {"bodies", fluid.boundary().steps()},
+                             {"first_body", step.first_body},
+                             {"owner", owner_},
+                             {"grip", felt_grip_},
+                             {"found", found_},
+                             {"sums", felt.sums}});
+  weigh_given(fluid, step, found_, -1, 0);
+  for (int k = 0; k < count; ++k) {
+    for (int part = 0; felt.wanted[static_cast<std::size_t>(k)] && part < 6; ++part) {
+      ask_for_answer_.run(queue, cells_,
+                          {{"g", grid_buffer_},
+                           {"k", k},
+                           {"part", part},
+                           {"felt", felt.on_device},
+                           {"owner", owner_},
+                           {"grip", felt_grip_},
+                           {"surface", surface_},
+                           {"open", open_},
+                           {"x", x_},
+                           {"right", b_},
+                           {"rest", r_},
+                           {"start", answer_},
+                           {"way", way_}});
+      run_solve(fluid, step, kAnswerIterations, answer_, answer_state_);
+      weigh_answer_.run_teams(queue, 1,
+                              {{"p", fluid.params_buffer()},
+                               {"g", grid_buffer_},
+                               {"k", k},
+                               {"part", part},
+                               {"body_count", count},
+                               {"felt", felt.on_device},
+                               {"bodies", fluid.boundary().steps()},
+                               {"first_body", step.first_body},
+                               {"owner", owner_},
+                               {"grip", felt_grip_},
+                               {"found", answer_},
+                               {"sums", felt.sums}});
+      weigh_given(fluid, step, answer_, k, part);
+    }
+  }
+}
+
+void GridProjected::weigh_given(Fluid& fluid, const Step& step, const Buffer<float>& found,
+                                int only, int part) {
+  cl::CommandQueue& queue = fluid.device().queue();
+  const std::size_t count = felt_now_->list.size();
+  const KernelArg felt = {"felt", felt_now_->on_device};
+  const KernelArg felt_count = {"felt_count", static_cast<int>(count)};
+  mark_faces_.run(queue, cells_,
+                  {{"p", fluid.params_buffer()},
+                   {"g", grid_buffer_},
+                   {"falls", only < 0 ? as_float(step.dt) : 0.0F},
+                   felt_count,
+                   felt,
+                   {"bodies", fluid.boundary().steps()},
+                   {"first_body", step.first_body},
+                   {"owner", owner_},
+                   {"gap", gap_},
+                   {"fill", filled_},
+                   {"wet", wet_},
+                   {"found", found},
+                   {"change", change_},
+                   {"given", given_},
+                   {"taken", taken_},
+                   {"whose", whose_}});
+  weigh_faces_.run_teams(queue, 1,
+                         {{"g", grid_buffer_},
+                          felt_count,
+                          {"only", only},
+                          felt,
+                          {"bodies", fluid.boundary().steps()},
+                          {"first_body", step.first_body},
+                          {"taken", taken_},
+                          {"whose", whose_},
+                          {"parts", parts_}});
+  weigh_given_.run_teams(queue, count * SPLASH_PUSH_PARTS,
+                         {{"p", fluid.params_buffer()},
+                          {"g", grid_buffer_},
+                          {"dt", as_float(step.dt)},
+                          {"only", only},
+                          {"counts", static_cast<int>(only < 0)},
+                          felt,
+                          {"change", change_},
+                          {"given", given_},
+                          {"whose", whose_},
+                          {"position", fluid.particles().position},
+                          {"carried", carried_},
+                          {"jolt", jolt_},
+                          {"parts", parts_}},
+                         fluid.boundary().outlines(), fluid.boundary().bodies_at(step));
+  sum_given_.run(queue, count,
+                 {felt_count,
+                  {"only", only},
+                  {"part", part},
+                  felt,
+                  {"parts", parts_},
+                  {"sums", felt_now_->sums}});
 }
 
 const Buffer<float>& GridProjected::carried(const Fluid& /*fluid*/) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sim-server/device/buffer.hpp"
@@ -81,6 +82,11 @@ class GridProjected : public PressureSolver {
                  const Buffer<SolveState>& state);
   /// What the water does to them.
   void push_bodies(Fluid& fluid, const Step& step);
+  /// What the water did to felt bodies in this step.
+  void weigh_felt(Fluid& fluid, const Step& step);
+  /// What they gave it beyond the pressures `found`; of one of them, with the answer to a part of
+  /// its speed, or of all (-1).
+  void weigh_given(Fluid& fluid, const Step& step, const Buffer<float>& found, int only, int part);
   /// Whether any hangs on a device.
   [[nodiscard]] bool has_hung(Fluid& fluid) const;
   /// Those of the water, none before it lets them go.
@@ -132,6 +138,14 @@ class GridProjected : public PressureSolver {
   Buffer<float> answer_;
   Buffer<SolveState> answer_state_;
 
+  // Of what bodies that are felt give the water (given.cl).
+  Buffer<float> jolt_;   ///< of particles [m/s]
+  Buffer<float> given_;  ///< of faces [m/s]
+  Buffer<float> taken_;  ///< of faces [N s]
+  Buffer<float> whose_;
+  Buffer<float> parts_;
+  std::optional<FeltBodies> felt_now_;  ///< of this step, until it has moved the particles
+
   // The solve's, over all levels; the last three over the finest.
   Buffer<float> link_;
   Buffer<float> open_;
@@ -160,6 +174,10 @@ class GridProjected : public PressureSolver {
   Kernel weigh_pressure_;
   Kernel ask_for_answer_;
   Kernel weigh_answer_;
+  Kernel mark_faces_;
+  Kernel weigh_faces_;
+  Kernel weigh_given_;
+  Kernel sum_given_;
   Kernel push_faces_;
   Kernel lay_system_;
   Kernel solve_pressure_;

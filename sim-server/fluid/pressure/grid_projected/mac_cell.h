@@ -8,10 +8,11 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define MAC_LIGHT 1e-6f    // faces with less weight than this hold nothing [particles]
-#define MAC_FULL 0.5f      // cells that are fuller than this hold water [1]
-#define MAC_UNKNOWN 1e30f  // what stands where a step found no change of a face's velocity
-#define MAC_KNOWN 1e29f    // less is known
+#define MAC_LIGHT 1e-6f     // faces with less weight than this hold nothing [particles]
+#define MAC_FULL 0.5f       // cells that are fuller than this hold water [1]
+#define MAC_SEEN 1e-3f      // faces around a particle weigh this at least, or it falls freely [1]
+#define MAC_UNKNOWN 1e30f   // what stands where a step found no change of a face's velocity
+#define MAC_KNOWN 1e29f     // less is known
 
 #if LANES == 16
 #define WHOLE(a) convert_int16(a)

@@ -14,25 +14,26 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-#define SEEN 1e-3f  // faces around a particle weigh this at least, or it falls freely [1]
-
 // Mean change of the known faces around particles along an axis; where there is none they fall.
 static lanes change_along(constant MacGrid* g, const Placed* at, int axis,
                           global const float* change, lanes falls) {
   lanes weight;
   const lanes sum = sum_of_faces(g, at, axis, change, &weight);
-  return select(falls, sum / weight, at->on_grid & (weight > (lanes)(SEEN)));
+  return select(falls, sum / weight, at->on_grid & (weight > (lanes)(MAC_SEEN)));
 }
 
 // `filtered`: 1 - exp(-rate dt). `kick`: part of the spacing's push that stays as speed. `carried`:
-// the velocity that took each particle where it is.
+// the velocity that took each particle where it is. `jolt`: the bodies' part of the spacing's push;
+// where somebody wants to be `told` it becomes what they changed of the velocity by that and by
+// putting particles back.
 kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float dt, float filtered,
-                           float kick, float piston, float piston_speed, constant BodyShape* shapes,
-                           global const float* meshes, global const BodyStep* bodies,
-                           int first_body, int body_count, global const float* change,
-                           global const float* seen, global const float* deviation,
-                           global float* acceleration, global float* position,
-                           global float* velocity, global float* carried) {
+                           float kick, float piston, float piston_speed,
+                           constant BodyShape* shapes, global const float* meshes,
+                           global const BodyStep* bodies, int first_body, int body_count,
+                           global const float* change, global const float* seen,
+                           global const float* deviation, global float* acceleration,
+                           global float* position, global float* velocity,
+                           global float* carried, int told, global float* jolt) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   if (first >= p->count) return;
@@ -62,7 +63,12 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
   }
   const lanes free[3] = {x[0], x[1], x[2]};
   const Bodies near = {shapes, meshes, bodies, first_body, body_count};
+  const lanes loose[3] = {u[0], u[1], u[2]};
   keep_lanes_out(p, &near, from, x, u);
+  for (int axis = 0; axis < 3 && told; ++axis) {
+    const lanes push = kick * dt * LOAD(jolt + axis * n, first);
+    STORE(push + u[axis] - loose[axis], jolt + axis * n, first);
+  }
   keep_in_tank(p, piston, piston_speed, &x[0], &x[1], &x[2], &u[0], &u[1], &u[2]);
   const lane_flags here = LANE_NUMBERS < (lane_flags)(p->count - first);
   for (int axis = 0; axis < 3; ++axis) {

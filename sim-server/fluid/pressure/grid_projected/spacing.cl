@@ -31,21 +31,22 @@ static BodyShare share_of_bodies(constant FluidParams* p, const Group* g,
 }
 
 
-// `slower`: square of that sound over the scene's. All particles move.
+// `slower`: square of that sound over the scene's. All particles move. `by_bodies`: the bodies' part,
+// where somebody wants to be told.
 kernel void find_spacing(constant FluidParams* p, float slower, global const int* cell_start,
                          global const float* position, global const float* term,
                          global const float* images, global const int* body_start,
                          global const float* body_position, global const float* body_volume,
                          int body_stride, global const BodyStep* bodies, int first_body,
                          int body_count, float piston, global float* acceleration,
-                         global int* moving) {
+                         global int* moving, int told, global float* by_bodies) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last) return;
   const float gradient = slower * gradient_norm(p) * p->mass;
   const lanes own = LOAD(term, first);
-  lanes ax = 0.0f, ay = 0.0f, az = 0.0f;
+  lanes ax = 0.0f, ay = 0.0f, az = 0.0f, bodies_x = 0.0f, bodies_y = 0.0f, bodies_z = 0.0f;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
     lanes x = 0.0f, y = 0.0f, z = 0.0f;
@@ -73,10 +74,17 @@ kernel void find_spacing(constant FluidParams* p, float slower, global const int
     ax = select(ax, gradient * x - by_wall * (wall.gx + bx), g.mine);
     ay = select(ay, gradient * y - by_wall * (wall.gy + by), g.mine);
     az = select(az, gradient * z - by_wall * (wall.gz + bz), g.mine);
+    bodies_x = select(bodies_x, -by_wall * bx, g.mine);
+    bodies_y = select(bodies_y, -by_wall * by, g.mine);
+    bodies_z = select(bodies_z, -by_wall * bz, g.mine);
     turn = g.next;
   }
   STORE(LANE_NUMBERS < (lane_flags)(last - first), moving, first);
   STORE(ax, acceleration, first);
   STORE(ay, acceleration + n, first);
   STORE(az, acceleration + 2 * n, first);
+  if (!told) return;
+  STORE(bodies_x, by_bodies, first);
+  STORE(bodies_y, by_bodies + n, first);
+  STORE(bodies_z, by_bodies + 2 * n, first);
 }

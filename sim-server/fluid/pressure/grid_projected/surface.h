@@ -20,3 +20,8 @@ static lanes way_to_surface(lanes water, lanes air) {
   const lanes under = surface_above(water), over = -surface_above(air);
   return within(under / fmax(under + over, (lanes)(1e-3f)), LEAST_WAY, 1.0f);
 }
+
+// The same of one pair of cells.
+static float way_to_surface_of(float water, float air) {
+  return most(way_to_surface((lanes)(water), (lanes)(air)));
+}
