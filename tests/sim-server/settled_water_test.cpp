@@ -2,6 +2,7 @@
 // Water that is taken up from a file is, to the bit, that which came to rest; a file that is not
 // what it should be is refused and stays as it is.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -34,7 +35,7 @@ void write(const fs::path& path, const std::string& bytes) {
 class SettledWater : public ::testing::TestWithParam<const char*> {
  protected:
   SettledWater()
-      : file_(fs::temp_directory_path() / ("settled-" + std::string(GetParam()) + ".water")) {
+      : file_(fs::temp_directory_path() / ("settled-" + std::to_string(::getpid()) + ".water")) {
     fs::remove(file_);
   }
   ~SettledWater() override { fs::remove(file_); }

@@ -34,14 +34,15 @@ export class Film {
     const kind = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/webm']
       .find((type) => MediaRecorder.isTypeSupported(type));
     this.recorder = new MediaRecorder(stream, { mimeType: kind, videoBitsPerSecond: 12e6 });
+    const end = setTimeout(() => this.stop(), FILM * 1000);
     const parts = [];
     this.recorder.ondataavailable = ({ data }) => parts.push(data);
     this.recorder.onstop = () => {
+      clearTimeout(end);
       save(new Blob(parts, { type: 'video/webm' }), stamped(scene, 'webm'));
       ended();
     };
     this.recorder.start(1000);
-    setTimeout(() => this.stop(), FILM * 1000);
   }
 
   stop() {
