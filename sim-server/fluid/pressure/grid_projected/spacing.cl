@@ -31,8 +31,8 @@ static BodyShare share_of_bodies(constant FluidParams* p, const Group* g,
 }
 
 
-// `slower`: square of that sound over the scene's. All particles move. `by_bodies`: the bodies' part,
-// where somebody wants to be told.
+// `slower`: square of that sound over the scene's. All particles move. `by_bodies`: the bodies'
+// part, where somebody wants to be told.
 kernel void find_spacing(constant FluidParams* p, float slower, global const int* cell_start,
                          global const float* position, global const float* term,
                          global const float* images, global const int* body_start,
