@@ -458,7 +458,7 @@ void GridProjected::weigh_felt(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
   const FeltBodies& felt = *felt_now_;
   const int count = static_cast<int>(felt.list.size());
-  const std::size_t entries = 6 * (SPLASH_PUSH_PARTS + 1) * felt.list.size();
+  const std::size_t entries = felt.list.size() * 6 * (SPLASH_PUSH_PARTS + 1);
   if (parts_.size() != entries) parts_ = Buffer<float>(fluid.device(), entries);
   grip_water_.run(queue, cells_,
                   {{"g", grid_buffer_},
