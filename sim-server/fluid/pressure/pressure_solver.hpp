@@ -81,8 +81,8 @@ class PressureSolver {
   [[nodiscard]] virtual bool has_pushes() const { return false; }
   /// From the next step on somebody feels them, or nobody does.
   virtual void feel(Device& /*device*/, bool /*on*/) {}
-  /// Between accelerate and move of such a step; what it is told of is there until the step has
-  /// moved.
+  /// Between accelerate and move of such a step. The buffers of `felt` must exist until move has
+  /// been called.
   virtual void add_pushes(Fluid& /*fluid*/, const Step& /*step*/, const FeltBodies& /*felt*/) {}
 
   /// Enqueues the read of the work done; work() tells it once the queue is finished.

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What bodies that go their own way give the water beyond the pressures on them (felt.cl). A face
-// stands for the water in what solids leave open of the volume around it, but its change goes to
-// the particles there: fewer where water comes apart behind a body, more where it is pressed
-// together before one. And particles get speed from a body by spacing, and where they are put back
-// out of it. With these, a body gets what the water around it loses:
+// The momentum that felt bodies give the particles beyond the grid's pressures on them (felt.cl).
+// The pressure at a face acts on the open part of the volume around it, but its change of velocity
+// goes to the particles there: too few behind a body, too many in front of it. Spacing, and moving
+// particles that have entered a body back out of it, also change velocities. A body's force F that
+// counts all this is the momentum that the water around it loses per second:
 //   dt F = - rho0 V K^T f - sum_faces (sum_i m w_i du / W_i - I) - sum_i m jolt_i
 //   I = rho0 V open ((f' - f) / h + dt g t)
-// over the faces of the cells that are the body's (room.h) or near it, with the weights of move.cl,
-// and over the particles that are nearer to it than to any other body; t: part of the way between
-// the cells' middles that is water. Where water is at rest du and I are none: the weight of a few
-// particles more or less is no push of the body's. With A^-1 K of a part of the body's speed for f,
-// without g and jolt, it is what that part adds to it.
+// over the faces of the cells that the body owns (room.h) or that are near it, with the weights w
+// of move.cl, and over the particles that are nearer to it than to any other body. du: change of
+// velocity at a face by pressure and gravity; t: part of the distance between the two cell centres
+// that is water. In water at rest du and I are zero, so that the weight of a few particles too many
+// or too few does not count as a force. The derivative of F by a component of the body's velocity
+// is the same sum with A^-1 K of that component for f, and without g and jolt.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_face.h"
@@ -29,10 +30,10 @@ static float3 edge_of(constant MacGrid* g) {
   return (float3)(g->hx, g->hy, g->hz);
 }
 
-// Whose each face is, its change by pressures and, for `falls` seconds, gravity, `given`, and I,
-// `taken`. A face is of the body that the cell above it belongs to, or else the one below it, and,
-// where these are nobody's, of the first that is near; `whose`: its number among the felt ones, or
-// OF_NOBODY.
+// For each face: `whose`, the index among the felt bodies of the one it belongs to, or OF_NOBODY;
+// `given`, du [m/s]; `taken`, I [N s]. A face belongs to the owner of the cell above it, else of
+// the cell below it, and, if no body owns either, to the first felt body near it. `falls`: the time
+// for which gravity acts [s].
 kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls, int felt_count,
                        constant FreeBody* felt, global const BodyStep* bodies, int first_body,
                        global const int* owner, global const float* gap, global const float* fill,
@@ -78,7 +79,8 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
 
 #define GIVEN_PARTS (SPLASH_PUSH_PARTS + 1)  // of each body: the water's, and that of the faces
 
-// - I of the faces, of all bodies or of `only` that one. One work-group.
+// Sum of -I over the faces of each felt body, or of body `only` if that is not negative. One
+// work-group.
 kernel void weigh_faces(constant MacGrid* g, int felt_count, int only, constant FreeBody* felt,
                         global const BodyStep* bodies, int first_body, global const float* taken,
                         global const float* whose, global float* parts) {
@@ -123,7 +125,7 @@ kernel void weigh_faces(constant MacGrid* g, int felt_count, int only, constant 
   }
 }
 
-// What pressures change of particles' velocity along an axis by the faces of felt body `k`.
+// Change of the particles' velocity along an axis through the faces of felt body `k` [m/s].
 static lanes given_along(constant MacGrid* g, const Placed* at, int axis, int k,
                          global const float* change, global const float* given,
                          global const float* whose) {
@@ -143,9 +145,10 @@ static lanes given_along(constant MacGrid* g, const Placed* at, int axis, int k,
   return select(none, sum / weight, at->on_grid & (weight > (lanes)(MAC_SEEN)));
 }
 
-// Of one part of the water, what it got of one body: one work-group for each body and part. The
-// step has moved the particles, as `carried` says. `jolt`: what else bodies changed of their
-// velocities (move.cl), which `counts` or not.
+// Momentum that one part of the particles got from one body [N s]: one work-group for each body
+// and part. The particles have been moved by `carried` [m/s]; the grid's weights are those of the
+// places before. `jolt`: the bodies' other changes of velocity (move.cl) [m/s], added if `counts`
+// is not 0.
 kernel void weigh_given(constant FluidParams* p, constant MacGrid* g, float dt, int only,
                         int counts, constant FreeBody* felt, constant BodyShape* shapes,
                         global const float* meshes, global const BodyStep* bodies, int first_body,
@@ -203,8 +206,9 @@ kernel void weigh_given(constant FluidParams* p, constant MacGrid* g, float dt, 
   }
 }
 
-// One work-item for each body: takes all that from the first half of its `sums`; or, of `only` one
-// body, adds what `part` of its speed gives of that part to the second.
+// One work-item for each body: subtracts the momentum that it gave from the first half of its
+// `sums`; or, if `only` is not negative, adds the derivative by velocity component `part` of that
+// body to the second half.
 kernel void sum_given(int felt_count, int only, int part, constant FreeBody* felt,
                       global const float* parts, global float* sums) {
   const int k = get_global_id(0);

@@ -28,7 +28,7 @@ std::size_t cells_in(const MacGrid& grid) {
          static_cast<std::size_t>(level.nz + 1);
 }
 
-/// Of two cells where vectors are, else of one (gather.cl).
+/// Two cells with vectors, one without (gather.cl).
 std::size_t strips_in(const MacGrid& grid, const Device& device) {
   const MacLevel& level = grid.level[0];
   const int across = level.nx / (device.lanes() > 1 ? 2 : 1) + 1;
@@ -206,7 +206,7 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
                      {"piston", as_float(step.piston)},
                      {"acceleration", fluid.acceleration()},
                      {"moving", fluid.moving()},
-                     {"told", static_cast<int>(feels_)},
+                     {"feels", static_cast<int>(feels_)},
                      {"by_bodies", jolt_}});
 }
 
@@ -448,7 +448,7 @@ void GridProjected::move(Fluid& fluid, const Step& step) {
                        {"position", fluid.particles().position},
                        {"velocity", fluid.particles().velocity},
                        {"carried", carried_},
-                       {"told", static_cast<int>(feels_)},
+                       {"feels", static_cast<int>(feels_)},
                        {"jolt", jolt_}});
   if (felt_now_) weigh_felt(fluid, step);
   felt_now_.reset();

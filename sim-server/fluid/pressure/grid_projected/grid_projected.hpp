@@ -138,12 +138,12 @@ class GridProjected : public PressureSolver {
   Buffer<float> answer_;
   Buffer<SolveState> answer_state_;
 
-  // Of what bodies that are felt give the water (given.cl).
+  // For the momentum that felt bodies give the particles (given.cl).
   Buffer<float> jolt_;   ///< of particles [m/s]
   Buffer<float> given_;  ///< of faces [m/s]
   Buffer<float> taken_;  ///< of faces [N s]
-  Buffer<float> whose_;
-  Buffer<float> parts_;
+  Buffer<float> whose_;  ///< of faces: index of the felt body, or -1
+  Buffer<float> parts_;  ///< sums of parts of the water and of the faces [N s, N m s]
   std::optional<FeltBodies> felt_now_;  ///< of this step, until it has moved the particles
 
   // The solve's, over all levels; the last three over the finest.

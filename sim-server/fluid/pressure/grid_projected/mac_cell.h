@@ -213,7 +213,7 @@ static lanes field_on_faces(constant FluidParams* p, constant MacGrid* g, const 
   return (lanes)(p->gravity_z - p->pull_z * (g->z + at->z * g->hz - p->centre_z));
 }
 
-// Whether the lower faces of cells along an axis are walls. Upwards there is none.
+// Whether the lower faces of cells along an axis are walls. The tank has no upper wall.
 static lane_flags are_walls(const MacLevel l, const Cells* at, int axis) {
   const lane_flags none = 0;
   if (axis == 0) return (at->x == none) | (at->x == (lane_flags)(l.nx));

@@ -23,9 +23,9 @@ static lanes change_along(constant MacGrid* g, const Placed* at, int axis,
 }
 
 // `filtered`: 1 - exp(-rate dt). `kick`: part of the spacing's push that stays as speed. `carried`:
-// the velocity that took each particle where it is. `jolt`: the bodies' part of the spacing's push;
-// where somebody wants to be `told` it becomes what they changed of the velocity by that and by
-// putting particles back.
+// the velocity that took each particle where it is. `jolt`: acceleration by the spacing to bodies
+// [m/s2]; if any body is felt (`feels` is not 0), it is replaced by the change of velocity that
+// this and moving particles back out of bodies caused [m/s].
 kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float dt, float filtered,
                            float kick, float piston, float piston_speed,
                            constant BodyShape* shapes, global const float* meshes,
@@ -33,7 +33,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
                            global const float* change, global const float* seen,
                            global const float* deviation, global float* acceleration,
                            global float* position, global float* velocity,
-                           global float* carried, int told, global float* jolt) {
+                           global float* carried, int feels, global float* jolt) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   if (first >= p->count) return;
@@ -65,7 +65,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
   const Bodies near = {shapes, meshes, bodies, first_body, body_count};
   const lanes loose[3] = {u[0], u[1], u[2]};
   keep_lanes_out(p, &near, from, x, u);
-  for (int axis = 0; axis < 3 && told; ++axis) {
+  for (int axis = 0; axis < 3 && feels; ++axis) {
     const lanes push = kick * dt * LOAD(jolt + axis * n, first);
     STORE(push + u[axis] - loose[axis], jolt + axis * n, first);
   }

@@ -31,15 +31,15 @@ static BodyShare share_of_bodies(constant FluidParams* p, const Group* g,
 }
 
 
-// `slower`: square of that sound over the scene's. All particles move. `by_bodies`: the bodies'
-// part, where somebody wants to be told.
+// `slower`: square of that sound over the scene's. All particles move. `by_bodies`: the part of the
+// acceleration by bodies [m/s2], written if any body is felt (`feels` is not 0).
 kernel void find_spacing(constant FluidParams* p, float slower, global const int* cell_start,
                          global const float* position, global const float* term,
                          global const float* images, global const int* body_start,
                          global const float* body_position, global const float* body_volume,
                          int body_stride, global const BodyStep* bodies, int first_body,
                          int body_count, float piston, global float* acceleration,
-                         global int* moving, int told, global float* by_bodies) {
+                         global int* moving, int feels, global float* by_bodies) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
@@ -83,7 +83,7 @@ kernel void find_spacing(constant FluidParams* p, float slower, global const int
   STORE(ax, acceleration, first);
   STORE(ay, acceleration + n, first);
   STORE(az, acceleration + 2 * n, first);
-  if (!told) return;
+  if (!feels) return;
   STORE(bodies_x, by_bodies, first);
   STORE(bodies_y, by_bodies + n, first);
   STORE(bodies_z, by_bodies + 2 * n, first);
