@@ -66,7 +66,6 @@ double longest_contact_step(const std::vector<BodySettings>& bodies, double grav
   int meet = 0;
   bool free = false;
   for (const BodySettings& body : bodies) {
-    if (body.shape.kind == ShapeKind::mesh) continue;  // they go through all others
     ++meet;
     free = free || is_free(body);
     if (!has_edges(body.shape)) continue;  // as round as it can be

@@ -29,9 +29,13 @@ void add_mesh(const MeshSolid& solid, BodyShape& shape, std::vector<float>& mesh
   shape.cell = as_float(field.cell);
   meshes.insert(meshes.end(), field.values.begin(), field.values.end());
   shape.vertices = static_cast<int>(meshes.size());
-  shape.vertex_count = static_cast<int>(solid.surface.vertices.size());
-  for (const Vector3& vertex : solid.surface.vertices) {
-    for (const double part : vertex) meshes.push_back(as_float(part));
+  const std::vector<Vector3>& corners = solid.surface.vertices;
+  const std::vector<Vector3>& edges = solid.ridges.edges;
+  shape.vertex_count = static_cast<int>(corners.size() + edges.size());
+  for (const auto* places : {&corners, &edges}) {
+    for (const Vector3& place : *places) {
+      for (const double part : place) meshes.push_back(as_float(part));
+    }
   }
   if (meshes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 2) {
     throw std::length_error(

@@ -198,8 +198,8 @@ static int contact_points(BodyShape s, global const float* meshes, BodyStep b, f
 // What of a body can touch another first: corners and edges of a box, rims of a cylinder, and what
 // is round about a place or a line, less its radius: a sphere's centre, the axis of a cylinder's
 // round side. Corners and edges are rounded a little: a sharp corner that touches a face at its
-// edge, as in a stack, would be as near to the face beside it. Meshes meet no others
-// (free_bodies/body_contact.h) and have no corners and edges here.
+// edge, as in a stack, would be as near to the face beside it. Places of meshes are in
+// free_bodies/mesh_gap.h.
 
 static float rounding_of(BodyShape s) {
   switch (form_of(s)) {

@@ -82,24 +82,28 @@ static float3 settled_in_mesh(BodyShape s, global const float* meshes, float kep
   return at;
 }
 
+// Directions tilted from `normal`, the first of them not, the others to seven sides.
+#define MESH_TILT 0.1f  // [rad]
+static void tilts_of(float3 normal, float3 way[CONTACT_POINTS]) {
+  const float3 one = normalize(cross(normal, fabs(normal.x) < 0.7f ? (float3)(1.0f, 0.0f, 0.0f)
+                                                                   : (float3)(0.0f, 1.0f, 0.0f)));
+  const float3 other = cross(normal, one);
+  way[0] = normal;
+  for (int k = 1; k < CONTACT_POINTS; ++k) {
+    const float angle = 2.0f * M_PI_F / (CONTACT_POINTS - 1) * k;
+    way[k] = normal + MESH_TILT * (cos(angle) * one + sin(angle) * other);
+  }
+}
+
 // Levers of the vertices that a wall with this normal, into the water, can meet first: the one that
 // is farthest towards it, and those that would be if it were tilted to seven sides. However many
 // vertices it has, none is beyond a wall that the first is not beyond.
-#define MESH_TILT 0.1f  // [rad]
 static int mesh_contact_points(BodyShape s, global const float* meshes, BodyStep b, float3 normal,
                                float3* lever) {
-  const float3 own = into_body(b, normal);
-  const float3 one = normalize(cross(own, fabs(own.x) < 0.7f ? (float3)(1.0f, 0.0f, 0.0f)
-                                                             : (float3)(0.0f, 1.0f, 0.0f)));
-  const float3 other = cross(own, one);
   float3 way[CONTACT_POINTS];
   float least[CONTACT_POINTS];
-  for (int k = 0; k < CONTACT_POINTS; ++k) {
-    const float angle = 2.0f * M_PI_F / (CONTACT_POINTS - 1) * k;
-    const float tilt = k == 0 ? 0.0f : MESH_TILT;
-    way[k] = own + tilt * (cos(angle) * one + sin(angle) * other);
-    least[k] = FAR_AWAY;
-  }
+  tilts_of(into_body(b, normal), way);
+  for (int k = 0; k < CONTACT_POINTS; ++k) least[k] = FAR_AWAY;
   for (int v = 0; v < s.vertex_count; ++v) {
     const float3 place = vload3(v, meshes + s.vertices);
     for (int k = 0; k < CONTACT_POINTS; ++k) {

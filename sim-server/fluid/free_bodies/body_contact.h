@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Free bodies against each other, and against those that go their way (contact.h): wherever two
-// outlines would be in each other after the step (outline_gap.h). Not meshes: they go through all
-// bodies, and all bodies through them.
+// outlines would be in each other after the step (outline_gap.h, mesh_gap.h).
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/outline.h"
 #include "sim-server/fluid/boundary/outline_mesh.h"
 #include "sim-server/fluid/free_bodies/contact.h"
+#include "sim-server/fluid/free_bodies/mesh_gap.h"
 #include "sim-server/fluid/free_bodies/outline_gap.h"
 #include "sim-server/fluid/params/fluid_params.h"
 
@@ -32,7 +32,7 @@ static bool boxes_meet(const Pairing* m, float dt) {
 
 static Pairing turned_round(const Pairing* m) {
   const Pairing turned = {m->shape_other, m->shape, m->step_other,
-                          m->step,        m->two,   m->one, m->body_other, m->body};
+                          m->step,        m->two,   m->one, m->body_other, m->body, m->meshes};
   return turned;
 }
 
@@ -59,6 +59,15 @@ static void add_meetings(Contacts* all, const Pairing* m, float dt) {
   const float reach = touch_of(m) + dt * (m->step.speed + m->step_other.speed);
   float3 at, normal;
   float gap;
+  if (is_mesh(m->shape)) {
+    int places[CONTACT_POINTS];
+    const int count = mesh_meeting_places(m, reach, places);
+    for (int k = 0; k < count; ++k) {
+      gap = mesh_place_distance(m, places[k], reach, &at, &normal);
+      add_meeting(all, m, k, at, normal, gap, dt);
+    }
+    return;
+  }
   for (int k = 0; k < corner_count(m->shape); ++k) {
     gap = corner_distance(m, k, &at, &normal);
     add_meeting(all, m, k, at, normal, gap, dt);
@@ -79,10 +88,9 @@ static int free_number(constant FreeBody* frees, int free_count, int body) {
 
 // The pair of free body `k` and body `j`; false: none, or it is met from the other side.
 static bool pair_up(constant FreeBody* frees, int free_count, constant BodyShape* shapes,
-                    BodyStep step, BodyStep step_other, int k, int j, float dt, Pairing* m) {
+                    global const float* meshes, BodyStep step, BodyStep step_other, int k, int j, float dt, Pairing* m) {
   const int two = free_number(frees, free_count, j);
   if (j == frees[k].body || (two != NO_BODY && two < k)) return false;
-  if (is_mesh(shapes[frees[k].body]) || is_mesh(shapes[j])) return false;
   m->shape = shapes[frees[k].body];
   m->shape_other = shapes[j];
   m->step = step;
@@ -91,16 +99,17 @@ static bool pair_up(constant FreeBody* frees, int free_count, constant BodyShape
   m->two = two;
   m->body = frees[k].body;
   m->body_other = j;
+  m->meshes = meshes;
   return boxes_meet(m, dt);
 }
 
-static void meet_bodies(Contacts* all, constant BodyShape* shapes, int free_count, int body_count,
-                        float dt) {
+static void meet_bodies(Contacts* all, constant BodyShape* shapes, global const float* meshes,
+                        int free_count, int body_count, float dt) {
   for (int k = 0; k < free_count; ++k) {
     for (int j = 0; j < body_count; ++j) {
       Pairing m;
-      if (!pair_up(all->frees, free_count, shapes, *step_of(all, k), all->bodies[j], k, j, dt,
-                   &m)) {
+      if (!pair_up(all->frees, free_count, shapes, meshes, *step_of(all, k), all->bodies[j], k, j,
+                   dt, &m)) {
         continue;
       }
       add_meetings(all, &m, dt);
@@ -144,15 +153,15 @@ static void put_apart(const Contacts* all, const Pairing* m, int body_count, int
   all->bodies[body_count + j] = other;
 }
 
-static void leave_bodies(const Contacts* all, constant BodyShape* shapes, int free_count,
-                         int body_count, float dt) {
+static void leave_bodies(const Contacts* all, constant BodyShape* shapes,
+                         global const float* meshes, int free_count, int body_count, float dt) {
   for (int k = 0; k < free_count; ++k) {
     for (int j = 0; j < body_count; ++j) {
       const int two = free_number(all->frees, free_count, j);
       Pairing m;
       const BodyStep mine = step_after(all, body_count, k, all->frees[k].body, dt);
       const BodyStep other = step_after(all, body_count, two, j, dt);
-      if (pair_up(all->frees, free_count, shapes, mine, other, k, j, dt, &m)) {
+      if (pair_up(all->frees, free_count, shapes, meshes, mine, other, k, j, dt, &m)) {
         put_apart(all, &m, body_count, j);
       }
     }

@@ -51,7 +51,7 @@ static void collide(Contacts* all, constant FluidParams* p, constant BodyShape* 
                     float piston, float piston_speed) {
   const int room = all->room;
   all->room = room - free_count * WALL_CONTACTS;
-  meet_bodies(all, shapes, free_count, body_count, dt);
+  meet_bodies(all, shapes, meshes, free_count, body_count, dt);
   all->room = room;
   for (int k = 0; k < free_count; ++k) {
     meet_walls(all, p, shapes[all->frees[k].body], meshes, k, dt, piston, piston_speed);
@@ -79,7 +79,7 @@ kernel void move_bodies(constant FluidParams* p, float dt, float piston, float p
     all.bodies[body_count + frees[k].body] = b;
   }
   for (int turn = 0; turn < PUT_APART; ++turn) {
-    leave_bodies(&all, shapes, free_count, body_count, dt);
+    leave_bodies(&all, shapes, meshes, free_count, body_count, dt);
   }
   for (int k = 0; k < free_count; ++k) {
     const int body = frees[k].body;

@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "sim-server/bodies/mass.hpp"
+#include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "tests/sim-server/fluid/free_float.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
+#include "tests/sim-server/scene/mesh_forms.hpp"
 
 namespace splash::sim {
 namespace {
@@ -17,6 +19,14 @@ namespace {
 const Shape kBall = {ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0};
 const Shape kBrick = {ShapeKind::box, {0.16, 0.12, 0.08}, 0.0, 0.0};
 const Shape kDrum = {ShapeKind::cylinder, {0.12, 0.12, 0.14}, 0.0, 0.0};
+
+/// For water so fine that a mesh's distance is off by no more than a millimetre at its edges.
+Shape as_mesh(TriangleMesh surface) {
+  constexpr double kFine = 0.008;  // [m]
+  return mesh_shape(make_solid(std::move(surface), kFine));
+}
+const Shape kMeshBall = as_mesh(sphere_mesh(0.05, 3));
+const Shape kMeshBrick = as_mesh(box_mesh({0.16, 0.12, 0.08}));
 
 void set_surface(FreeFloat& world, double restitution, double friction) {
   for (BodySettings& body : world.scene.bodies) {
@@ -127,9 +137,13 @@ TEST_P(Meetings, KeepMomentaAndNothingIsInTheOther) {
 }
 
 const std::vector<Meeting> kMeetings = {
-    {kBall, kBall, "ball_ball"},   {kBall, kBrick, "ball_brick"},   {kBrick, kBall, "brick_ball"},
-    {kBall, kDrum, "ball_drum"},   {kBrick, kBrick, "brick_brick"}, {kBrick, kDrum, "brick_drum"},
-    {kDrum, kBrick, "drum_brick"}, {kDrum, kDrum, "drum_drum"}};
+    {kBall, kBall, "ball_ball"},           {kBall, kBrick, "ball_brick"},
+    {kBrick, kBall, "brick_ball"},         {kBall, kDrum, "ball_drum"},
+    {kBrick, kBrick, "brick_brick"},       {kBrick, kDrum, "brick_drum"},
+    {kDrum, kBrick, "drum_brick"},         {kDrum, kDrum, "drum_drum"},
+    {kBall, kMeshBrick, "ball_mesh"},      {kMeshBrick, kBrick, "mesh_brick"},
+    {kDrum, kMeshBrick, "drum_mesh"},      {kMeshBall, kMeshBrick, "meshball_mesh"},
+    {kMeshBrick, kMeshBrick, "mesh_mesh"}, {kMeshBall, kMeshBall, "meshball_meshball"}};
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Meetings, ::testing::ValuesIn(kMeetings),
                          [](const auto& meeting) { return meeting.param.name; });
@@ -210,6 +224,45 @@ TEST(BodyContact, ALedBodyShovesAFreeOne) {
   world.run(0.5);
   EXPECT_NEAR(world.state(0).velocity[0], 1.0, 1.0e-4);
   EXPECT_NEAR(world.state(0).position[0], world.state(1).position[0] + 0.075, 1.0e-3);
+}
+
+TEST(BodyContact, AStackOfMeshesStands) {
+  Device device(-1, false, SPLASH_TEST_LANES);
+  FreeFloat world = dry_world(-9.81);
+  for (int k = 0; k < 4; ++k) {
+    world.add(k % 2 == 0 ? kMeshBrick : kBrick, 600.0,
+              {{1.5, 1.5, 0.04 + 0.08 * k}, {0, 0, 0, 1}, {}, {}});
+  }
+  world.start(device);
+  world.run(2.0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    SCOPED_TRACE(k);
+    EXPECT_NEAR(world.state(k).position[2], 0.04 + 0.08 * static_cast<double>(k), 0.004);
+    EXPECT_NEAR(world.state(k).position[0], 1.5, 0.004);
+    EXPECT_LT(length(world.state(k).velocity), 0.02);
+  }
+}
+
+// A mesh need not be convex: what falls into a tray lies on its floor, and goes along with it.
+TEST(BodyContact, ATrayCarriesWhatLiesInIt) {
+  Device device(-1, false, SPLASH_TEST_LANES);
+  FreeFloat world = dry_world(-9.81);
+  constexpr double kWall = 0.03;
+  world.add(kBall, 500.0, {{1.5, 1.5, 1.1}, {0, 0, 0, 1}, {}, {}});
+  world.add(kMeshBrick, 500.0, {{1.65, 1.5, 1.08}, {0, 0, 0, 1}, {}, {}});
+  world.add_led(as_mesh(tray_mesh({0.5, 0.3, 0.12}, kWall)),
+                {{1.5, 1.5, 1.0}, {0, 0, 0, 1}, {0.5, 0.0, 0.0}, {}});
+  set_surface(world, 0.0, 0.5);
+  world.start(device);
+  world.run(1.5);
+  const double floor = world.state(2).position[2] - 0.06 + kWall;
+  const double middle = world.state(2).position[0];
+  EXPECT_NEAR(world.state(0).position[2], floor + 0.05, 0.002);
+  EXPECT_NEAR(world.state(1).position[2], floor + 0.04, 0.002);
+  for (const std::size_t k : {0U, 1U}) {
+    EXPECT_LT(std::abs(world.state(k).position[0] - middle), 0.25 - kWall) << k;
+  }
+  EXPECT_NEAR(world.state(1).velocity[0], 0.5, 0.01);
 }
 
 }  // namespace

@@ -95,6 +95,35 @@ TriangleMesh box_mesh(const Vector3& size) {
   return mesh;
 }
 
+TriangleMesh tray_mesh(const Vector3& size, double wall) {
+  TriangleMesh mesh;
+  // Four rings of corners, each counterclockwise from above: under it, its rim without and within,
+  // its floor within.
+  const auto ring = [&](double inset, double z) {
+    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+      mesh.vertices.push_back({x * (0.5 * size[0] - inset), y * (0.5 * size[1] - inset), z});
+    }
+  };
+  ring(0.0, -0.5 * size[2]);
+  ring(0.0, 0.5 * size[2]);
+  ring(wall, 0.5 * size[2]);
+  ring(wall, -0.5 * size[2] + wall);
+  const auto quad = [&](int a, int b, int c, int d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  quad(0, 3, 2, 1);
+  for (int low = 0; low < 12; low += 4) {
+    for (int i = 0; i < 4; ++i) {
+      const int j = (i + 1) % 4;
+      quad(low + i, low + j, low + 4 + j, low + 4 + i);
+    }
+  }
+  quad(12, 13, 14, 15);
+  number_lines(mesh);
+  return mesh;
+}
+
 TriangleMesh sphere_mesh(double radius, int levels) {
   TriangleMesh mesh = icosahedron(radius);
   for (int level = 0; level < levels; ++level) mesh = cut_in_four(mesh, radius);

@@ -9,6 +9,9 @@ namespace splash::sim {
 /// Twelve triangles, about the origin. `size`: edges [m].
 [[nodiscard]] TriangleMesh box_mesh(const Vector3& size);
 
+/// A box about the origin without its lid: floor and sides `wall` thick [m].
+[[nodiscard]] TriangleMesh tray_mesh(const Vector3& size, double wall);
+
 /// An icosahedron about the origin, each triangle cut into four `levels` times, its vertices on the
 /// sphere: 20 * 4^levels triangles.
 [[nodiscard]] TriangleMesh sphere_mesh(double radius, int levels);
