@@ -88,7 +88,8 @@ static int free_number(constant FreeBody* frees, int free_count, int body) {
 
 // The pair of free body `k` and body `j`; false: none, or it is met from the other side.
 static bool pair_up(constant FreeBody* frees, int free_count, constant BodyShape* shapes,
-                    global const float* meshes, BodyStep step, BodyStep step_other, int k, int j, float dt, Pairing* m) {
+                    global const float* meshes, BodyStep step, BodyStep step_other, int k, int j,
+                    float dt, Pairing* m) {
   const int two = free_number(frees, free_count, j);
   if (j == frees[k].body || (two != NO_BODY && two < k)) return false;
   m->shape = shapes[frees[k].body];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The places of a mesh that meet another outline first. Candidates are its vertices and points along
-// its sharp edges; taken are the one that is nearest to the other, and those that would be if the
-// mesh were tilted to seven sides, as before a wall (mesh_contact_points).
+// The places of a mesh that meet another outline first. Candidates are its vertices and points
+// along its sharp edges; taken are the one that is nearest to the other, and those that would be if
+// the mesh were tilted to seven sides, as before a wall (mesh_contact_points).
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/outline_mesh.h"

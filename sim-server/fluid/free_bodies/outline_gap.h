@@ -14,7 +14,7 @@
 #define SECTIONS 16           // 0.618^16 = 4.5e-4 of an edge
 #define GOLDEN 0.61803399f
 #define NOT_AN_END 1.0e-3f    // nearer than an edge's ends by less is one of them [half edges]
-#define EDGE_LOOKS 8          // stretches of an edge before a mesh, of which the nearest is searched
+#define EDGE_LOOKS 8          // stretches of an edge before a mesh; the nearest one is searched
 
 // Distance of a place in the world from an outline [m], and its normal there.
 static float outline_distance(BodyShape s, global const float* meshes, BodyStep b, float3 at,
