@@ -9,6 +9,7 @@
 #include "sim-server/detect/added_mass.hpp"
 #include "sim-server/detect/touch_vectors.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/surface_roughness.hpp"
 
 namespace splash::sim {
 namespace {
@@ -23,9 +24,6 @@ constexpr double kTogether = 0.5;
 
 /// Water in a direction this much upward lies on the body: vertical part of the unit vector.
 constexpr double kLyingOn = 0.3;
-
-/// The particle surface is this rough: nearer, body and water touch [spacings].
-constexpr double kTouching = 0.1;
 
 /// Skin that is dry for this long is out of the water, wherever it is [s].
 constexpr double kClearFor = 0.5;
@@ -104,7 +102,7 @@ ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settin
 
 void ImpactWatch::set(const DetectSettings& settings) {
   settings_ = settings;
-  touching_ = std::min(kTouching * distance_.spacing(), settings.impact_release / 2.0);
+  touching_ = std::min(kSurfaceRoughness * distance_.spacing(), settings.impact_release / 2.0);
 }
 
 void ImpactWatch::forget() {
@@ -243,7 +241,7 @@ bool ImpactWatch::is_fast(const Meeting& meeting) const {
     return true;
   }
   // Slower, the water rises by its weight, and by no more than its surface is rough.
-  const double wave = std::sqrt(2.0 * kGravity * kTouching * distance_.spacing());
+  const double wave = std::sqrt(2.0 * kGravity * kSurfaceRoughness * distance_.spacing());
   return settings_.impact_waves && meeting.approach >= std::max(wave, settings_.impact_speed);
 }
 
@@ -260,7 +258,7 @@ void ImpactWatch::meet(int body, double time, double frame, const std::vector<Su
   Meeting meeting = next_meeting(body, points, gaps);
   if (meeting.points.empty() || meeting.after == kNever || !is_fast(meeting)) return;
   // Touching water gives way to a slow body: when they would have met is known best before.
-  const bool touches = meeting.gap <= kTouching * distance_.spacing();
+  const bool touches = meeting.gap <= kSurfaceRoughness * distance_.spacing();
   if (!touches && meeting.after > settings_.impact_lookahead) return;
   weigh(meeting, points);
   Blow& blow = blows_[static_cast<std::size_t>(body)];

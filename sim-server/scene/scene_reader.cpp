@@ -19,6 +19,7 @@
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/surface_roughness.hpp"
 
 namespace splash::sim {
 
@@ -333,9 +334,10 @@ FluidSettings read_fluid(const ConfigMap& map) {
   return entry;
 }
 
-/// Where a foot that a floor feels is just out of the water, and whether there is such a floor.
+/// Where a foot that a floor feels is just out of the water, and whether there is such a floor. It
+/// stands on the floor already when that is known, so it begins as near as it does not yet touch,
+/// but so far from the floor that it falls for a frame.
 void find_hovers(const ConfigMap& map, Scene& scene) {
-  constexpr double kClear = 0.005;  // [m]
   const std::vector<ConfigMap> entries = map.list("bodies");
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     BodySettings& body = scene.bodies[b];
@@ -358,7 +360,8 @@ void find_hovers(const ConfigMap& map, Scene& scene) {
     }
     double surface = sole;
     for (const WaterBlock& water : scene.water) surface = std::max(surface, water.upper[2]);
-    body.motion.hover = surface - sole + kClear;
+    body.motion.hover = std::max(surface - sole + kSurfaceRoughness * particle_spacing(scene),
+                                 body.motion.fall / scene.serve.frame_rate);
   }
 }
 

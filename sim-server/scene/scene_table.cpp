@@ -365,8 +365,10 @@ Fields<MotionEntry> felt_fields() {
        &M::lift},
       {{.key = "fall",
         .unit = "m/s",
-        .meaning = "touch, pressure: when it is touched it comes down at this speed from 5 mm "
-                   "above the water as the scene begins; its impacts are as fast.",
+        .meaning =
+            "touch, pressure: when it is touched it comes down at this speed; its impacts "
+            "are as fast. It begins a tenth of the particles' spacing above the water as the "
+            "scene begins, higher where it would stand within a frame.",
         .min = 0.05,
         .max = 10},
        &M::fall},

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_reader.hpp"
 #include "tests/sim-server/bodies/motion/motion_checks.hpp"
 
 namespace splash::sim {
@@ -58,6 +60,30 @@ TEST(FloorMotion, WaitsAboveTheWaterAndComesDownWhenTouched) {
   foot.play(foot.wall + 0.2);
   EXPECT_LT(length(foot.place() - Vector3{1.2, 2.0, kStands}), 1.0e-4);
   EXPECT_EQ(foot.jumps, 1) << "on the floor it slides";
+}
+
+/// Above where it stands, in water so deep there, the foot of a scene begins to fall [m].
+double hover_in(const std::string& depth) {
+  const Scene scene = parse_scene(R"(fluid: {spacing: 0.02}
+tank: {lower: [0, 0, 0], upper: [1, 1, 1]}
+water: [{lower: [0, 0, 0], upper: [1, 1, 0.2]}]
+serve: {frame_rate: 100}
+bodies:
+  - name: foot
+    shape: {size: [0.29, 0.1, 0.08]}
+    motion: {kind: touch, fall: 2}
+    rest: {position: [0.5, 0.5, )" + depth +
+                                      R"(]}
+tracking: {sources: [{preset: tuio, body: foot, floor: [1, 1]}]}
+)",
+                                  "floor.yaml");
+  return scene.bodies[0].motion.hover;
+}
+
+TEST(FloorMotion, BeginsAsNearToTheWaterAsItFallsForAFrameAndDoesNotTouch) {
+  EXPECT_NEAR(hover_in("0.10"), 0.14 + 0.002, 1.0e-9) << "a tenth of a spacing above 14 cm";
+  EXPECT_NEAR(hover_in("0.235"), 0.02, 1.0e-9) << "5 mm of water, 2 m/s for 10 ms";
+  EXPECT_NEAR(hover_in("0.24"), 0.02, 1.0e-9) << "none";
 }
 
 TEST(FloorMotion, RisesWithinFiftyMilliseconds) {
