@@ -150,5 +150,65 @@ TEST_F(Glance, ShownPicturesAreYoungWhereFramesComeInTime) {
   EXPECT_LT(ages[0].get<double>(), ages[2].get<double>());
 }
 
+// Eight particles between x = y = 0 and 1 m, in the middle but for two near the x wall, one of
+// which flies, and one in a corner.
+TEST_F(Glance, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
+  view::Options options;
+  view::Server server(options);
+  const std::jthread thread([&server] { server.run(); });
+  Chromium browser("200,200");
+  browser.call("Page.navigate",
+               {{"url", "http://" + protocol::to_string(server.local()) + "/vector.js"}});
+  const Json drawn = browser.evaluate(R"js((async () => {
+    const { several, WORDS } = await import('/several.js');
+    const places = [[0.5, 0.5], [0.01, 0.5], [0.99, 0.5], [0.99, 0.01], [0.5, 0.5], [0.5, 0.5],
+      [0.5, 0.5], [0.5, 0.5]];
+    const particles = new Uint16Array(4 * places.length);
+    places.forEach(([x, y], i) => particles.set([1000 * x, 1000 * y, 500, i === 2 ? 4 << 8 : 0], 4 * i));
+    const state = { count: 8, lower: [0, 0, 0], unit: 0.001, particles: new Uint8Array(particles.buffer) };
+    const tank = { lower: [0, 0, 0], upper: [1, 1, 1] };
+    const { mirrored, drops } = several({ older: state, newer: state },
+      { tank, paddle: 0, spacing: 0.01 });
+    const told = (points) => Array.from({ length: points.count }, (_, k) =>
+      [points.used[WORDS * k] & 0xffff, points.used[WORDS * k + 4]]);
+    return [told(mirrored), told(drops)];
+  })())js");
+  server.stop();
+  EXPECT_EQ(drawn[0], Json({{10, 0}, {990, 0}, {990, 1}, {990, 2}}));
+  EXPECT_EQ(drawn[1], Json({{990, 10}, {990, 11}, {990, 12}, {990, 13}, {990, 14}}));
+}
+
+// A machine on which a picture takes a time in proportion to its pixels: pictures get coarser until
+// they come often enough, and sharper again on one that is fast.
+TEST_F(Glance, APictureThatTakesLongGetsCoarser) {
+  view::Options options;
+  view::Server server(options);
+  const std::jthread thread([&server] { server.run(); });
+  Chromium browser("200,200");
+  browser.call("Page.navigate",
+               {{"url", "http://" + protocol::to_string(server.local()) + "/vector.js"}});
+  const Json shares = browser.evaluate(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    const pace = new Pace(null);
+    const run = (seconds, whole) => { // whole: what all pixels take [s]
+      for (const end = now + 1000 * seconds; now < end;) {
+        const drawing = whole * pace.sharp ** 2 * (0.5 + 0.5 * pace.share ** 2);
+        now += 1000 * Math.max(drawing, 1 / 60);
+        pace.step(drawing);
+      }
+      return [pace.sharp, pace.share, pace.rate];
+    };
+    return [run(1, 0.001), run(3, 0.12), run(60, 0.001)];
+  })())js");
+  server.stop();
+  EXPECT_EQ(shares[0][0], 1) << shares;
+  EXPECT_LT(shares[1][0], 1) << shares;
+  EXPECT_GT(shares[1][2], 40) << shares;
+  EXPECT_EQ(shares[2][0], 1) << shares;
+  EXPECT_EQ(shares[2][1], 1) << shares;
+}
+
 }  // namespace
 }  // namespace splash::tests

@@ -2,9 +2,11 @@
 // One lamp above the tank, seen from it: how high bodies and water stand, so that bodies throw
 // shadows and the water's surface throws caustics on what lies below.
 import { OVER_ALL, Target, overAll, program, use } from './gl.js';
-import { MIRRORED, PARTICLE, REACH } from './particles.js';
+import { MIRRORED, PARTICLE } from './particles.js';
+import { REACH } from './several.js';
 
 const SIDE = 256; // texels of the maps' edges
+const COARSE = 128; // where the picture has half its pixels along each axis, or fewer
 const LEAN = [0.22, -0.14]; // of the lamp's rays: x and y over z
 
 /// GLSL: a room's light by direction, the lamp's rays, and what of them reaches a place.
@@ -42,10 +44,11 @@ export const LIT = `
 uniform sampler2D heights, waves;
 
 float lampReaches(vec3 p) {
-  vec2 at = mapPlace(p);
+  vec2 at = mapPlace(p), apart = 1.7 / vec2(textureSize(heights, 0));
+  if (any(greaterThan(abs(at - 0.5), 0.5 + apart))) return 1.0;
   float lit = 0.0;
   for (int i = -1; i <= 1; ++i) for (int k = -1; k <= 1; ++k) {
-    vec2 near = at + 1.7 * vec2(i, k) / ${SIDE}.0;
+    vec2 near = at + vec2(i, k) * apart;
     bool off = clamp(near, 0.0, 1.0) != near; // the map ends there
     lit += off || texture(heights, near).r < p.z + 0.012 * (1.0 + length(mapBox.zw)) ? 1.0 : 0.0;
   }
@@ -54,10 +57,10 @@ float lampReaches(vec3 p) {
 
 /// Caustics below the surface, 1 above it.
 float waterLight(vec3 p) {
-  vec2 at = mapPlace(p);
-  vec4 w = texture(waves, at);
   bool out_ = any(lessThan(p.xy, walls.xy - 0.002)) || any(greaterThan(p.xy, walls.zw + 0.002));
-  if (out_ || w.b < 0.01) return 1.0;
+  if (out_) return 1.0;
+  vec4 w = texture(waves, mapPlace(p));
+  if (w.b < 0.01) return 1.0;
   return mix(1.0, w.g, w.b * smoothstep(0.0, 0.02, level + w.r / w.b - p.z));
 }
 `;
@@ -70,24 +73,24 @@ vec4 fromLamp(vec3 p) {
 `;
 
 const WATER_VERTEX = `${PARTICLE}${LIGHT}${FALL}
-uniform float radius;
+uniform float radius, side; // side: the map's [texels]
 out float height;
 void main() {
   vec3 p = place();
   height = p.z;
   gl_Position = (tag.y & SPRAY) != 0u ? vec4(2.0, 2.0, 2.0, 1.0) : fromLamp(p);
-  gl_PointSize = max(2.0 * radius / max(mapBox.z, mapBox.w) * ${SIDE}.0, 2.0);
+  gl_PointSize = max(2.0 * radius / max(mapBox.z, mapBox.w) * side, 2.0);
 }`;
 
 const MIRROR_VERTEX = `${PARTICLE}${LIGHT}${FALL}${MIRRORED}
-uniform float radius;
+uniform float radius, side; // side: the map's [texels]
 out float height;
 void main() {
   vec3 p = place();
-  bool there = mirrored(p, gl_VertexID) && (tag.y & SPRAY) == 0u;
+  bool there = mirrored(p);
   height = p.z;
   gl_Position = there ? fromLamp(p) : vec4(2.0, 2.0, 2.0, 1.0);
-  gl_PointSize = max(2.0 * radius / max(mapBox.z, mapBox.w) * ${SIDE}.0, 2.0);
+  gl_PointSize = max(2.0 * radius / max(mapBox.z, mapBox.w) * side, 2.0);
 }`;
 
 const WATER_FRAGMENT = `
@@ -129,7 +132,7 @@ float h(vec2 at) { vec4 s = texture(source, at); return s.b > 0.05 ? s.r / s.b :
 void main() {
   vec4 s = texture(source, uv);
   float covered = s.b;
-  vec2 e = 2.0 / vec2(${SIDE}.0), m = e * mapBox.zw;
+  vec2 e = 2.0 / vec2(textureSize(source, 0)), m = e * mapBox.zw;
   float z = h(uv), c = 0.25 * max(z + level - floorZ, 0.0) + 0.02;
   float xx = (h(uv + vec2(e.x, 0.0)) - 2.0 * z + h(uv - vec2(e.x, 0.0))) / (m.x * m.x);
   float yy = (h(uv + vec2(0.0, e.y)) - 2.0 * z + h(uv - vec2(0.0, e.y))) / (m.y * m.y);
@@ -160,10 +163,10 @@ export class LightMaps {
     // Caustics are made of second differences, which half floats leave in steps.
     const fine = gl.getExtension('OES_texture_float_linear') ? gl.RGBA32F : gl.RGBA16F;
     const near = () => new Target(gl, fine, gl.LINEAR);
-    this.heights = new Target(gl, gl.RGBA16F, gl.NEAREST, true).fit(SIDE, SIDE);
-    this.raw = new Target(gl, fine, gl.LINEAR, true).fit(SIDE, SIDE);
-    this.other = near().fit(SIDE, SIDE);
-    this.waves = near().fit(SIDE, SIDE);
+    this.heights = new Target(gl, gl.RGBA16F, gl.NEAREST, true);
+    this.raw = new Target(gl, fine, gl.LINEAR, true);
+    this.other = near();
+    this.waves = near();
     this.water = program(gl, WATER_VERTEX, WATER_FRAGMENT);
     this.mirror = program(gl, MIRROR_VERTEX, WATER_FRAGMENT);
     this.body = program(gl, BODY_VERTEX, BODY_FRAGMENT);
@@ -171,9 +174,12 @@ export class LightMaps {
     this.caustics = program(gl, OVER_ALL, CAUSTICS);
   }
 
-  /// `world`: tank, spacing; `bodies`: solids to draw.
-  draw(world, particles, bodies) {
+  /// `world`: tank, spacing; `bodies`: solids to draw; `sharp`: share of the pixels along each axis
+  /// that the picture has.
+  draw(world, particles, bodies, sharp) {
     const gl = this.gl;
+    const side = sharp > 0.5 ? SIDE : COARSE;
+    for (const map of [this.heights, this.raw, this.other, this.waves]) map.fit(side, side);
     const { lower, upper } = world.tank;
     const margin = 0.08 * Math.max(upper[0] - lower[0], upper[1] - lower[1]);
     this.uniforms = { floorZ: lower[2], level: world.level,
@@ -187,12 +193,12 @@ export class LightMaps {
       body.draw();
     }
     this.raw.bind([0, 0, 0, 0]);
-    const shared = { ...this.uniforms, ...particles.uniforms, radius: 0.75 * world.spacing,
+    const shared = { ...this.uniforms, ...particles.uniforms, side, radius: 0.75 * world.spacing,
       tankLower: lower, tankUpper: upper, reach: REACH * world.spacing };
     use(gl, this.water, shared);
     particles.drawWater();
     use(gl, this.mirror, shared);
-    particles.drawWater(3);
+    particles.drawMirrored();
     const step = (0.42 * world.spacing) / 3;
     const wide = this.uniforms.mapBox;
     this.other.bind();

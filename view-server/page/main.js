@@ -230,7 +230,7 @@ function picture() {
   if (fences.pending.length > 0) return;
   pace.step(playout.drawing);
   if (pace.isTooSlow && !points && !headset.session) points = new Points(gl);
-  const dense = Math.min(window.devicePixelRatio, 2) * (points ? pace.share : 1);
+  const dense = Math.min(window.devicePixelRatio, 2) * pace.sharp;
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   camera.aspect = width / height;
@@ -264,10 +264,10 @@ function prepare() {
   moment = view.moment;
   begun = now;
   if (headset.session) finished(moment, begun);
-  particles.show(view);
-  poseBodies(view);
   const { older, newer, share } = view;
   world.paddle = solids.drive(older.simulated + share * (newer.simulated - older.simulated));
+  particles.show(view, points ? null : world);
+  poseBodies(view);
   if (++pictures % 3 === 0) drawCharts(now);
   return true;
 }
@@ -275,7 +275,7 @@ function prepare() {
 function drawAll(size, seen) {
   const marks = () => rings.draw(seen, moment, camera.size);
   if (points) return points.draw(size, seen, world, particles, solids, marks);
-  lights.draw(world, particles, solids.bodies);
+  lights.draw(world, particles, solids.bodies, pace.sharp * pace.share);
   const levels = new Float32Array(64);
   if (peaks) levels.set(peaks.slice(tilesFirst, tilesFirst + 64));
   const rig = { tiles, levels };
@@ -338,5 +338,5 @@ setInterval(() => {
 
 /// For tests and for whoever looks with the browser's tools.
 window.splash = { camera, solids, playout, sound, link, grabs, headset, events: [], peaks: () => peaks, alive: () => alive,
-  rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, latency, share: () => pace.share, world: () => world };
+  rig: () => ({ tiles, tilesFirst }), pictures: () => pictures, latency, share: () => pace.share, sharp: () => pace.sharp, world: () => world };
 requestAnimationFrame(picture);

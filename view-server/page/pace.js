@@ -3,7 +3,9 @@
 // this one does.
 import { KEEP, quantile } from './playout.js';
 
-const SHARES = [1, 0.71, 0.5, 0.35, 0.25]; // of the pixels along each axis: each has half as many
+/// Shares of the pixels along each axis: of the window's for the picture, of the picture's for the
+/// water in it. Each draws half as many as the one before it, or more.
+const LEVELS = [[1, 1], [1, 0.71], [0.71, 0.71], [0.71, 0.5], [0.5, 0.5], [0.35, 0.5]];
 const SLOW = 40; // pictures a second, below which they get coarser
 const FAST = 57; // above which they get sharper
 const LONG = 0.035; // that drawing 95 of 100 pictures takes, above which they get coarser [s]
@@ -14,10 +16,11 @@ const SHARPER_AFTER = 5; // of a fast rate [s]
 const LOOKED_AT = 30; // answers
 
 export class Pace {
-  /// `share` of the pixels along each axis; null: as the machine allows.
+  /// `share` of the whole picture's pixels along each axis for the water; null: as the machine
+  /// allows.
   constructor(share) {
     this.fixed = share;
-    this.level = 0; // in SHARES
+    this.level = 0; // in LEVELS
     this.isTooSlow = false; // for water
     this.took = 1 / 60; // a picture, a mean [s]
     this.before = performance.now() / 1000;
@@ -27,8 +30,14 @@ export class Pace {
     this.asked = null; // when [s]
   }
 
+  /// Of the window's pixels along each axis, for the picture.
+  get sharp() {
+    return this.fixed === null ? LEVELS[this.level][0] : 1;
+  }
+
+  /// Of the picture's pixels along each axis, for the water.
   get share() {
-    return this.fixed ?? SHARES[this.level];
+    return this.fixed ?? LEVELS[this.level][1];
   }
 
   /// Pictures a second, a mean.
@@ -46,7 +55,7 @@ export class Pace {
     this.pictures += 1;
     if (this.fixed !== null || this.since < SETTLE || this.pictures < 2) return;
     const meanRate = this.pictures / this.since;
-    const coarsest = SHARES.length - 1;
+    const coarsest = LEVELS.length - 1;
     if (meanRate < SLOW && this.level < coarsest) {
       this.go(Math.min(this.level + Math.ceil(Math.log2(SLOW / meanRate)), coarsest));
     } else if (meanRate < TOO_SLOW && !this.isTooSlow) {

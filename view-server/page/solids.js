@@ -9,11 +9,15 @@ const VERTEX = `
 layout(location = 0) in vec3 own;
 layout(location = 1) in vec3 normal;
 uniform mat4 pose, both;
+uniform vec3 eye;
+uniform float halfThick, halfPixel; // of a bar [m], of the picture at distance 1 [m]; 0: no bar
 out vec3 world, facing;
 void main() {
   vec4 p = pose * vec4(own, 1.0);
-  world = p.xyz;
   facing = mat3(pose) * normal;
+  // Bars are at least as thick as a pixel, else they are seen as dashes.
+  p.xyz += facing * max(halfPixel * length(p.xyz - eye) - halfThick, 0.0);
+  world = p.xyz;
   gl_Position = both * p;
 }`;
 
@@ -148,8 +152,11 @@ function floorOf({ tank: { lower: l, upper: u }, slope }) {
   return joined(parts);
 }
 
-function edgesOf({ tank: { lower: l, upper: u } }) {
-  const thick = 0.004 * Math.hypot(u[0] - l[0], u[1] - l[1]);
+const thicknessOf = ({ tank: { lower: l, upper: u } }) => 0.004 * Math.hypot(u[0] - l[0], u[1] - l[1]);
+
+function edgesOf(world) {
+  const { lower: l, upper: u } = world.tank;
+  const thick = thicknessOf(world);
   const bars = [];
   for (let axis = 0; axis < 3; ++axis) {
     for (const p of [0, 1]) {
@@ -192,8 +199,8 @@ export class Solids {
     const draw = (mesh) => meshOn(gl, mesh.places, mesh.normals);
     const sand = world.slope ? [0.60, 0.49, 0.33] : [0.27, 0.34, 0.37];
     this.still = [
-      { material: 0, tint: [0.030, 0.043, 0.058], draw: draw(ground) },
       { material: 1, tint: sand, draw: draw(floorOf(world)) },
+      { material: 0, tint: [0.030, 0.043, 0.058], draw: draw(ground) },
     ];
     this.board = null;
     if (world.wave_maker) {
@@ -221,21 +228,23 @@ export class Solids {
     return gone;
   }
 
-  /// All but the tank's edges: thin bars would be seen torn by the water in front of them.
+  /// All but the tank's edges: thin bars would be seen torn by the water in front of them. The
+  /// nearest first: what they hide costs little then.
   draw(camera, light, rig) {
-    this.drawAll([...this.still, ...this.bodies.map((b) => ({ ...b, material: 2 }))], camera, light,
+    this.drawAll([...this.bodies.map((b) => ({ ...b, material: 2 })), ...this.still], camera, light,
       { tiles: rig.tiles, levels: rig.levels });
   }
 
   /// Where no water is before them; `water`: how far it is, `pixels`: of the picture.
-  drawEdges(camera, light, hidden = {}) {
-    this.drawAll([this.edges], camera, light, { tiles: [0, 0, 1, 0], ...hidden });
+  drawEdges(camera, light, hidden) {
+    this.drawAll([this.edges], camera, light, { tiles: [0, 0, 1, 0], ...hidden,
+      halfThick: 0.5 * thicknessOf(this.world), halfPixel: 1 / (camera.focal * hidden.pixels[1]) });
   }
 
   drawAll(solids, camera, light, more) {
     const gl = this.gl;
     const { lower: l, upper: u } = this.world.tank;
-    const shared = { levels: NONE, water: light.waves, pixels: [0, 0], ...light, ...more,
+    const shared = { levels: NONE, water: light.waves, pixels: [0, 0], halfThick: 0, halfPixel: 0, ...light, ...more,
       both: camera.both, eye: camera.eye, tankBox: [l[0], l[1], u[0], u[1]],
       sand: Boolean(this.world.slope) && more.tiles[3] === 0 };
     gl.enable(gl.DEPTH_TEST);

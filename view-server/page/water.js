@@ -3,7 +3,8 @@
 // narrow-range filter (Truong & Yuksel 2018), thickness, and both with the solids to one picture.
 import { OVER_ALL, Target, overAll, program, use } from './gl.js';
 import { LIGHT, LIT } from './light.js';
-import { MIRRORED, PARTICLE, REACH } from './particles.js';
+import { MIRRORED, PARTICLE } from './particles.js';
+import { REACH } from './several.js';
 
 const HIDDEN = 'vec4(2.0, 2.0, 2.0, 1.0)'; // outside the picture
 
@@ -32,22 +33,20 @@ void main() {
 const MIRROR_VERTEX = `${POINT}${MIRRORED}
 void main() {
   vec3 p = place();
-  bool there = mirrored(p, gl_VertexID) && (tag.y & SPRAY) == 0u;
+  bool there = mirrored(p);
   put(p, radius);
   fast = 0.0;
   if (!there) gl_Position = ${HIDDEN};
 }`;
 
-/// Drops: five for each particle that flies, within the water that it stands for.
+/// Drops: several for each particle that flies, within the water that it stands for.
 const SPRAY_VERTEX = `${POINT}
-float draw(int n) { return fract(sin(float(gl_InstanceID * 5 + gl_VertexID) * 12.9898
-                                     + float(n) * 78.233) * 43758.5453); }
+float draw(int n) { return fract(sin(float(part) * 12.9898 + float(n) * 78.233) * 43758.5453); }
 void main() {
   vec3 away = vec3(draw(1), draw(2), draw(3)) - 0.5;
   float r = radius * (0.10 + 0.22 * draw(4) * draw(5));
   put(place() + 1.5 * radius * away, r);
   fast = speed();
-  if ((tag.y & SPRAY) == 0u) gl_Position = ${HIDDEN};
 }`;
 
 const BUBBLE_VERTEX = `${POINT}
@@ -276,18 +275,21 @@ out vec4 colour;
 vec3 curve(vec3 x) {
   return pow(clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0), vec3(0.4545));
 }
-vec3 at(vec2 d) { return curve(texture(source, uv + d / pixels).rgb); }
-float luma(vec3 c) { return dot(c, vec3(0.299, 0.587, 0.114)); }
+vec3 at(vec2 d) { return texture(source, uv + d / pixels).rgb; }
+/// A root is near enough to the curve to find edges.
+float bright(vec3 c) { return sqrt(min(dot(c, vec3(0.299, 0.587, 0.114)), 1.0)); }
 void main() {
   vec3 m = at(vec2(0.0));
-  float a = luma(at(vec2(-1, -1))), b = luma(at(vec2(1, -1)));
-  float c = luma(at(vec2(-1, 1))), d = luma(at(vec2(1, 1)));
-  float low = min(luma(m), min(min(a, b), min(c, d))), high = max(luma(m), max(max(a, b), max(c, d)));
+  float a = bright(at(vec2(-1, -1))), b = bright(at(vec2(1, -1)));
+  float c = bright(at(vec2(-1, 1))), d = bright(at(vec2(1, 1))), e = bright(m);
+  float low = min(e, min(min(a, b), min(c, d))), high = max(e, max(max(a, b), max(c, d)));
   vec2 along = vec2(c + d - a - b, a + c - b - d);
   if (high - low > 0.06) {
     along *= 1.0 / (min(abs(along.x), abs(along.y)) + 0.03 * (a + b + c + d) + 0.01);
     along = clamp(along, -4.0, 4.0);
-    m = 0.5 * (at(along * (1.0 / 3.0 - 0.5)) + at(along * (2.0 / 3.0 - 0.5)));
+    m = 0.5 * (curve(at(along * (1.0 / 3.0 - 0.5))) + curve(at(along * (2.0 / 3.0 - 0.5))));
+  } else {
+    m = curve(m);
   }
   vec2 q = uv - 0.5;
   colour = vec4(m * (1.0 - 0.5 * dot(q, q)), 1.0);
@@ -340,7 +342,7 @@ export class Water {
     use(gl, this.depthPass, shared);
     particles.drawWater();
     use(gl, this.mirrorPass, { ...shared, reach: REACH * world.spacing });
-    particles.drawWater(3);
+    particles.drawMirrored();
 
     const half = [Math.ceil(w / 2), Math.ceil(h / 2)];
     this.thick[0].fit(...half).bind([0, 0, 0, 0]);
@@ -388,7 +390,7 @@ export class Water {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     use(gl, this.dropPass, { ...shared, height, pixels: [width, height],
       depth: this.depths[0].colour });
-    particles.drawWater(5);
+    particles.drawDrops();
     marks();
     gl.disable(gl.BLEND);
     gl.depthMask(true);
