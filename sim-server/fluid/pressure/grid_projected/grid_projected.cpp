@@ -111,9 +111,9 @@ GridProjected::GridProjected(Device& device, const FluidParams& params,
   gather_faces_ = Kernel(program, "gather_faces");
   gather_again_ = Kernel(program, "gather_again");
   find_deviation_ = Kernel(program, "find_deviation", group);
-  cut_cells_ = Kernel(program, "cut_cells", 16);
-  open_faces_ = Kernel(program, "open_faces");
-  fill_beside_solids_ = Kernel(program, "fill_beside_solids");
+  cut_cells_ = Kernel(program, "cut_cells", std::min<std::size_t>(group, 16));
+  open_faces_ = Kernel(program, "open_faces", group);
+  fill_beside_solids_ = Kernel(program, "fill_beside_solids", group);
   let_fall_ = Kernel(program, "let_fall", 1);
   grip_water_ = Kernel(program, "grip_water");
   push_bodies_ = Kernel(program, "push_bodies", solvers(device));
@@ -214,7 +214,7 @@ void GridProjected::place_solids(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
   const Buffer<FluidParams>& params = fluid.params_buffer();
   const Boundary& boundary = fluid.boundary();
-  cut_cells_.run(queue, cells_,
+  cut_cells_.run(queue, vectors_,
                  {{"p", params},
                   {"g", grid_buffer_},
                   {"shapes", boundary.shapes()},
@@ -227,7 +227,7 @@ void GridProjected::place_solids(Fluid& fluid, const Step& step) {
                   {"upper", upper_},
                   {"room", space_},
                   {"owner", owner_}});
-  open_faces_.run(queue, cells_,
+  open_faces_.run(queue, vectors_,
                   {{"p", params},
                    {"g", grid_buffer_},
                    {"owner", owner_},
@@ -235,7 +235,7 @@ void GridProjected::place_solids(Fluid& fluid, const Step& step) {
                    {"room", space_},
                    {"gap", gap_},
                    {"seen", seen_space_}});
-  fill_beside_solids_.run(queue, cells_,
+  fill_beside_solids_.run(queue, vectors_,
                           {{"g", grid_buffer_},
                            {"gap", gap_},
                            {"room", space_},
@@ -328,8 +328,8 @@ void GridProjected::solve(Fluid& fluid, const Step& step) {
                    {"dt", dt},
                    {"mean", mean_},
                    {"weight", weight_},
-                   {"pushed", change_}});
-  most_.enqueue_clear(fluid.device());
+                   {"pushed", change_},
+                   {"most", most_}});
   if (free > 0) let_fall(fluid, step);
   lay_system_.run(queue, vectors_,
                   {{"p", params},

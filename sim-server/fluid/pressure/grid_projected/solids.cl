@@ -165,27 +165,28 @@ static float open_side(const float* d, int axis, int side) {
   return sum;
 }
 
-// Open parts of each cell's halves along the axes, the lower and the `upper` ones, at the tank's
-// walls of their area, and of all of it, `room`. `owner`: whose it is.
-kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
-                      global const float* meshes, global const BodyStep* bodies, int first_body,
-                      int body_count, float piston, global float* lower, global float* upper,
-                      global float* room, global int* owner) {
-  const int4 at = cell_of(g, get_global_id(0));
-  if (at.w == 0) return;
+// Where cells' open parts go: of their halves along the axes, the lower and the `upper` ones, at
+// the tank's walls of their area, and of all of them, `room`. `owner`: whose they are.
+typedef struct {
+  global float* lower;
+  global float* upper;
+  global float* room;
+  global int* owner;
+} OpenParts;
+
+// Cell `c` at `at`, if solids may be near.
+static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids* solids, int4 at,
+                     int c, const OpenParts* parts) {
   const MacLevel l = g->level[0];
-  const int c = number_of(l, at);
-  for (int axis = 0; axis < 3; ++axis) lower[axis * l.cells + c] = upper[axis * l.cells + c] = 1.0f;
-  room[c] = 1.0f;
-  owner[c] = OF_NOBODY;
   const float3 low = (float3)(g->x + at.x * g->hx, g->y + at.y * g->hy, g->z + at.z * g->hz);
   const float3 high = low + (float3)(g->hx, g->hy, g->hz);
-  if (!solids_near(p, bodies, first_body, body_count, piston, low, high)) return;
-  const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
+  if (!solids_near(p, solids->bodies, solids->first, solids->count, solids->piston, low, high)) {
+    return;
+  }
   const float3 edge = 0.5f * (float3)(g->hx, g->hy, g->hz);
   float d[27];
-  const int whose = measure_box(p, &solids, low, edge, d);
-  if (d[13] < g->hx + g->hy + g->hz) owner[c] = whose;
+  const int whose = measure_box(p, solids, low, edge, d);
+  if (d[13] < g->hx + g->hy + g->hz) parts->owner[c] = whose;
   float nearest = d[0];
   for (int k = 1; k < 27; ++k) nearest = fmin(nearest, d[k]);
   if (nearest > 0.0f) return;
@@ -195,7 +196,7 @@ kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant Bod
     float corner[8];
     corners_of(d, k, corner);
     const float3 from = low + edge * (float3)(x, y, z);
-    const float open = 0.25f * open_eighth(p, &solids, from, edge, corner);
+    const float open = 0.25f * open_eighth(p, solids, from, edge, corner);
     of_half[x] += open;
     of_half[2 + y] += open;
     of_half[4 + z] += open;
@@ -204,10 +205,53 @@ kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant Bod
   const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
   for (int axis = 0; axis < 3; ++axis) {
     const int face = axis * l.cells + c;
-    lower[face] = here[axis] == 0 ? open_side(d, axis, 0) : of_half[2 * axis];
-    upper[face] = here[axis] == count[axis] - 1 ? open_side(d, axis, 2) : of_half[2 * axis + 1];
+    parts->lower[face] = here[axis] == 0 ? open_side(d, axis, 0) : of_half[2 * axis];
+    parts->upper[face] =
+        here[axis] == count[axis] - 1 ? open_side(d, axis, 2) : of_half[2 * axis + 1];
   }
-  room[c] = sum;
+  parts->room[c] = sum;
+}
+
+// Whether solids may be near any of a vector of cells: most vectors are far from all.
+static bool solids_near_cells(constant FluidParams* p, constant MacGrid* g, const Solids* s,
+                              const Cells* at) {
+  const MacLevel l = g->level[0];
+  const int from = at->first - (at->z + 1) * l.layer, to = from + LANES - 1;
+  const int low_y = from / l.row - 1, high_y = to / l.row - 1;
+  const bool one_row = low_y == high_y;
+  const int low_x = one_row ? from % l.row - 1 : -1, high_x = one_row ? to % l.row - 1 : l.nx;
+  const float3 lower =
+      (float3)(g->x + low_x * g->hx, g->y + low_y * g->hy, g->z + at->z * g->hz);
+  const float3 upper = lower + (float3)((high_x - low_x + 1) * g->hx,
+                                        (high_y - low_y + 1) * g->hy, g->hz);
+  return solids_near(p, s->bodies, s->first, s->count, s->piston, lower, upper);
+}
+
+kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
+                      global const float* meshes, global const BodyStep* bodies, int first_body,
+                      int body_count, float piston, global float* lower, global float* upper,
+                      global float* room, global int* owner) {
+  const Cells at = cells_of(g, get_global_id(0));
+  const MacLevel l = g->level[0];
+  if (at.z > l.nz) return;
+  const lanes none = 0.0f, one = 1.0f, open = select(none, one, at.real);
+  for (int axis = 0; axis < 3; ++axis) {
+    STORE(open, lower + axis * l.cells, at.first);
+    STORE(open, upper + axis * l.cells, at.first);
+  }
+  STORE(open, room, at.first);
+  STORE((lane_flags)(OF_NOBODY), owner, at.first);
+  const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
+  if (!solids_near_cells(p, g, &solids, &at)) return;
+  const OpenParts parts = {lower, upper, room, owner};
+  int x[LANES], y[LANES], real[LANES];
+  STORE(at.x, x, 0);
+  STORE(at.y, y, 0);
+  STORE(at.real, real, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    if (!real[lane]) continue;
+    cut_cell(p, g, &solids, (int4)(x[lane], y[lane], at.z, 1), at.first + lane, &parts);
+  }
 }
 
 // What the hat of a cell's middle sees of open space: 3/4 of its weight is in the cell itself along
@@ -224,29 +268,45 @@ static float room_seen(const MacLevel l, global const float* room, int4 at) {
   return sum;
 }
 
+// The same of those of a vector of cells that are some solid's; of others 1.
+static lanes rooms_seen(const MacLevel l, global const float* room, global const int* owner,
+                        const Cells* at) {
+  const lane_flags cut = at->inside & (LOAD(owner, at->first) != (lane_flags)(OF_NOBODY));
+  if (!any_lane(cut)) return (lanes)(1.0f);
+  int x[LANES], y[LANES], is_cut[LANES];
+  float seen[LANES];
+  STORE(at->x, x, 0);
+  STORE(at->y, y, 0);
+  STORE(cut, is_cut, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    seen[lane] = is_cut[lane] ? room_seen(l, room, (int4)(x[lane], y[lane], at->z, 1)) : 1.0f;
+  }
+  return LOAD(seen, 0);
+}
+
 // From halves to faces: `gap` begins as the lower ones. Of the tank's faces it is the area that is
 // open, and the piston's wall is behind it. `seen`: of open space, by each cell's hat.
 kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global const int* owner,
                        global const float* upper, global const float* room, global float* gap,
                        global float* seen) {
-  const int4 at = cell_of(g, get_global_id(0));
-  if (at.w == 0) return;
+  const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
-  const int c = number_of(l, at);
+  if (at.z > l.nz) return;
   const int step[3] = {1, l.row, l.layer};
-  const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
+  const lane_flags here[3] = {at.x, at.y, at.z};
+  const int count[3] = {l.nx, l.ny, l.nz};
+  const lanes none = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const int face = axis * l.cells + c;
-    float open = gap[face];
-    if (here[axis] == count[axis]) open = upper[face - step[axis]];
-    if (here[axis] > 0 && here[axis] < count[axis]) {
-      open = 0.5f * (open + upper[face - step[axis]]);
-    }
-    if (HAS_PISTON && p->piston >= 0 && axis == 0 && at.x == 0) open = 0.0f;
-    gap[face] = open < LEAST_GAP ? 0.0f : open;
+    const int face = axis * l.cells + at.first;
+    const lane_flags first = here[axis] == (lane_flags)(0);
+    const lane_flags last = here[axis] == (lane_flags)(count[axis]);
+    const lanes above = LOAD(gap, face), below = LOAD(upper, face - step[axis]);
+    lanes open = select(select(0.5f * (above + below), above, first), below, last);
+    if (HAS_PISTON && p->piston >= 0 && axis == 0) open = select(open, none, first);
+    const lane_flags closed = open < (lanes)(LEAST_GAP);
+    STORE(select(select(open, none, closed), none, at.real == (lane_flags)(0)), gap, face);
   }
-  const bool inside = at.x < l.nx && at.y < l.ny && at.z < l.nz;
-  seen[c] = inside && owner[c] != OF_NOBODY ? room_seen(l, room, at) : 1.0f;
+  STORE(rooms_seen(l, room, owner, &at), seen, at.first);
 }
 
 // How full cells are beside solids. The less open space a cell has, the more it counts what is
@@ -254,25 +314,32 @@ kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global cons
 kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
                                global const float* room, global const float* seen,
                                global const float* fill, global float* filled) {
-  const int4 at = cell_of(g, get_global_id(0));
+  const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
-  if (at.w == 0) return;
-  const int c = number_of(l, at);
+  if (at.z > l.nz) return;
+  const int c = at.first;
   const int step[3] = {1, l.row, l.layer};
-  const int here[3] = {at.x, at.y, at.z}, count[3] = {l.nx, l.ny, l.nz};
-  float water = room[c] * fill[c], space = room[c] * seen[c];
-  if (room[c] < 1.0f) {
-    const float closed = (1.0f - room[c]) * (1.0f - room[c]);
+  const lane_flags here[3] = {at.x, at.y, at.z};
+  const int count[3] = {l.nx, l.ny, l.nz};
+  const lanes none = 0.0f, one = 1.0f, own = LOAD(room, c);
+  lanes water = own * LOAD(fill, c), space = own * LOAD(seen, c);
+  const lane_flags cut = at.real & (own < one);
+  if (any_lane(cut)) {
+    const lanes closed = (one - own) * (one - own);
     for (int axis = 0; axis < 3; ++axis) {
       for (int side = 0; side < 2; ++side) {
-        const int there = here[axis] + 2 * side - 1, cell = c + (2 * side - 1) * step[axis];
-        if (there < 0 || there >= count[axis]) continue;
-        const float share =
-            closed * room[cell] * gap[axis * l.cells + c + side * step[axis]];
-        water += share * fill[cell];
-        space += share * seen[cell];
+        const lane_flags there = here[axis] + (2 * side - 1);
+        const lane_flags beside =
+            cut & (there >= (lane_flags)(0)) & (there < (lane_flags)(count[axis]));
+        if (!any_lane(beside)) continue;
+        const int cell = c + (2 * side - 1) * step[axis];
+        const lanes share = closed * LOAD(room, cell) *
+                            LOAD(gap, axis * l.cells + c + side * step[axis]);
+        water = select(water, water + share * LOAD(fill, cell), beside);
+        space = select(space, space + share * LOAD(seen, cell), beside);
       }
     }
   }
-  filled[c] = space > LEAST_SEEN ? water / space : 0.0f;
+  const lane_flags known = at.real & (space > (lanes)(LEAST_SEEN));
+  STORE(select(none, water / space, known), filled, c);
 }

@@ -18,9 +18,12 @@
 #define REGAINED 1.0f   // [1/s]
 #define MOST_LACK 0.2f  // of a cell's fill, that counts [1]
 
-// Velocities on the faces as gravity and viscosity leave them.
+// Velocities on the faces as gravity and viscosity leave them. `most` begins at zero, for
+// lay_system.
 kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
-                       global const float* mean, global const float* weight, global float* pushed) {
+                       global const float* mean, global const float* weight, global float* pushed,
+                       global int* most) {
+  if (get_global_id(0) == 0) *most = 0;
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
