@@ -91,6 +91,26 @@ static void keep_out(constant FluidParams* p, const Bodies* bodies, float3 from,
   }
 }
 
+// Lanes whose particles a body may have caught on their way `from` to `x`: where one is deep there
+// are points of its around, so its box ends a spacing past these.
+static lane_flags may_be_caught(constant FluidParams* p, const Bodies* bodies,
+                                const lanes from[3], const lanes x[3]) {
+  const float off = p->support - p->spacing;  // the boxes that bodies have reach farther
+  lanes low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = fmin(x[axis], from[axis]) + off;
+    high[axis] = fmax(x[axis], from[axis]) - off;
+  }
+  lane_flags caught = 0;
+  for (int k = 0; k < bodies->count; ++k) {
+    const BodyStep b = bodies->steps[bodies->first + k];
+    caught |= (high[0] > (lanes)(b.lower_x)) & (low[0] < (lanes)(b.upper_x)) &
+              (high[1] > (lanes)(b.lower_y)) & (low[1] < (lanes)(b.upper_y)) &
+              (high[2] > (lanes)(b.lower_z)) & (low[2] < (lanes)(b.upper_z));
+  }
+  return caught;
+}
+
 // Keeps every lane's particle out; most vectors have none near a body. `from`: where they were when
 // the step began, `x` and `v`: where they are and how fast.
 static void keep_lanes_out(constant FluidParams* p, const Bodies* bodies, const lanes from[3],
@@ -103,13 +123,18 @@ static void keep_lanes_out(constant FluidParams* p, const Bodies* bodies, const 
   upper.y = most(fmax(x[1], from[1]));
   upper.z = most(fmax(x[2], from[2]));
   if (!bodies_near_box(bodies->steps, bodies->first, bodies->count, lower, upper)) return;
+  const lane_flags caught = may_be_caught(p, bodies, from, x);
+  if (!any_lane(caught)) return;
   float before[3][LANES], place[3][LANES], speed[3][LANES];
+  int is_caught[LANES];
+  STORE(caught, is_caught, 0);
   for (int axis = 0; axis < 3; ++axis) {
     STORE(from[axis], before[axis], 0);
     STORE(x[axis], place[axis], 0);
     STORE(v[axis], speed[axis], 0);
   }
   for (int lane = 0; lane < LANES; ++lane) {
+    if (!is_caught[lane]) continue;
     const float3 start = (float3)(before[0][lane], before[1][lane], before[2][lane]);
     float3 at = (float3)(place[0][lane], place[1][lane], place[2][lane]);
     float3 moving = (float3)(speed[0][lane], speed[1][lane], speed[2][lane]);
