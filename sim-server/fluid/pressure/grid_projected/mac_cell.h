@@ -222,9 +222,9 @@ static lane_flags are_walls(const MacLevel l, const Cells* at, int axis) {
 }
 
 // Of a field on the faces along an axis, the sum over the eight places around particles by their
-// weights, where it is known, and the `weight` of those.
+// weights; if it `has_gaps`, of those where it is known, and the `weight` of these.
 static lanes sum_by_place(constant MacGrid* g, const Placed* at, int axis,
-                          global const float* field, lanes* weight) {
+                          global const float* field, bool has_gaps, lanes* weight) {
   const Around a = around(g, at, axis);
   lanes value[8];
   load_around(&a, field, value);
@@ -232,6 +232,10 @@ static lanes sum_by_place(constant MacGrid* g, const Placed* at, int axis,
   lanes sum = 0.0f;
   *weight = 0.0f;
   for (int k = 0; k < 8; ++k) {
+    if (!has_gaps) {
+      sum += a.weight[k] * value[k];
+      continue;
+    }
     const lane_flags known = value[k] < (lanes)(MAC_KNOWN);
     sum += select(none, a.weight[k] * value[k], known);
     *weight += select(none, a.weight[k], known);
@@ -247,7 +251,7 @@ static lanes hat_at(Between b, int place) {
 // The same, row by row of the box around all particles of a vector: each lane picks its two of a
 // row's values.
 static lanes sum_by_row(constant MacGrid* g, const Placed* at, int axis, global const float* field,
-                        lanes* weight) {
+                        bool has_gaps, lanes* weight) {
   const MacLevel l = g->level[0];
   const Between bx = axis == 0 ? at->face[0] : at->middle[0];
   const Between by = axis == 1 ? at->face[1] : at->middle[1];
@@ -263,6 +267,10 @@ static lanes sum_by_row(constant MacGrid* g, const Placed* at, int axis, global 
       const lanes here = wz * hat_at(by, y), above = here * bx.share, below = here - above;
       const lanes row = LOAD(field, (z + 1) * l.layer + (y + 1) * l.row + x + 1);
       const lanes a = picked(row, lower), b = picked(row, upper);
+      if (!has_gaps) {
+        sum += below * a + above * b;
+        continue;
+      }
       const lane_flags knows_a = a < (lanes)(MAC_KNOWN), knows_b = b < (lanes)(MAC_KNOWN);
       sum += select(none, below * a, knows_a) + select(none, above * b, knows_b);
       *weight += select(none, below, knows_a) + select(none, above, knows_b);
@@ -273,18 +281,18 @@ static lanes sum_by_row(constant MacGrid* g, const Placed* at, int axis, global 
 #endif
 
 static lanes sum_of_faces(constant MacGrid* g, const Placed* at, int axis,
-                          global const float* faces, lanes* weight) {
+                          global const float* faces, bool has_gaps, lanes* weight) {
   global const float* field = faces + axis * g->level[0].cells;
 #ifdef PICKS
   if (at->last[axis != 0].x - at->first[axis != 0].x < LANES - 1) {
-    return sum_by_row(g, at, axis, field, weight);
+    return sum_by_row(g, at, axis, field, has_gaps, weight);
   }
 #endif
-  return sum_by_place(g, at, axis, field, weight);
+  return sum_by_place(g, at, axis, field, has_gaps, weight);
 }
 
 // Mean of the faces along an axis around particles, by the hat; nothing above the grid.
 static lanes from_faces(constant MacGrid* g, const Placed* at, int axis, global const float* mean) {
   lanes weight;
-  return sum_of_faces(g, at, axis, mean, &weight);
+  return sum_of_faces(g, at, axis, mean, false, &weight);
 }

@@ -18,7 +18,7 @@
 static lanes change_along(constant MacGrid* g, const Placed* at, int axis,
                           global const float* change, lanes falls) {
   lanes weight;
-  const lanes sum = sum_of_faces(g, at, axis, change, &weight);
+  const lanes sum = sum_of_faces(g, at, axis, change, true, &weight);
   return select(falls, sum / weight, at->on_grid & (weight > (lanes)(MAC_SEEN)));
 }
 
