@@ -164,8 +164,10 @@ TEST_F(Glance, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
     const places = [[0.5, 0.5], [0.01, 0.5], [0.99, 0.5], [0.99, 0.01], [0.5, 0.5], [0.5, 0.5],
       [0.5, 0.5], [0.5, 0.5]];
     const particles = new Uint16Array(4 * places.length);
-    places.forEach(([x, y], i) => particles.set([1000 * x, 1000 * y, 500, i === 2 ? 4 << 8 : 0], 4 * i));
-    const state = { count: 8, lower: [0, 0, 0], unit: 0.001, particles: new Uint8Array(particles.buffer) };
+    places.forEach(([x, y], i) =>
+      particles.set([1000 * x, 1000 * y, 500, i === 2 ? 4 << 8 : 0], 4 * i));
+    const state = { count: 8, lower: [0, 0, 0], unit: 0.001,
+      particles: new Uint8Array(particles.buffer) };
     const tank = { lower: [0, 0, 0], upper: [1, 1, 1] };
     const { mirrored, drops } = several({ older: state, newer: state },
       { tank, paddle: 0, spacing: 0.01 });
