@@ -34,7 +34,7 @@ TEST_F(Page, TheWaterIsWhereItIsAndMoves) {
   EXPECT_EQ(browser.evaluate("document.title"), "small - splash");
   EXPECT_EQ(browser.evaluate("document.getElementById('scene').textContent"), "small");
   browser.press("m");  // lit tiles would be seen through it
-  EXPECT_TRUE(browser.wait_for("splash.peaks() && Math.max(...splash.peaks()) < 1e-4", 20.0));
+  EXPECT_TRUE(browser.wait_for("splash.peaks() && Math.max(...splash.peaks()) < 1e-4", kTimeout));
   // In the midst of three walls and of the surface, as seen from the front; and beside the tank.
   const Json water = stage.seen({{0.0, -0.2, 0.1}, {-0.1, -0.2, 0.1}, {0.2, 0.0, 0.1}});
   const Json beside = stage.seen({{-0.45, -0.2, 0.0}, {0.45, 0.2, 0.0}, {0.0, 0.0, 0.62}});
@@ -55,32 +55,77 @@ TEST_F(Page, TheWaterIsWhereItIsAndMoves) {
 }
 
 TEST_F(Page, ATapSoundsATileWhichIsLit) {
-  Stage stage(kWaits);
+  Stage stage(kWaits, "?share=0.4", "420,300");
   Chromium& browser = stage.browser();
   EXPECT_TRUE(browser.wait_for("splash.peaks() && splash.peaks().length === 4", kTimeout));
-  sleep(2.5);  // the synth opens within two seconds
   const Json tiles = stage.seen({{0.1, -0.1, 0.0}, {-0.1, 0.1, 0.0}});
-  const Json before = browser.colours(tiles);
+  const Json before = stage.drawn(tiles);
   browser.press("o");
-  // A tone lasts a second, and software may draw less than a picture in it.
+  // A tone lasts a second, and software may draw less than a picture in it: it is tapped again and
+  // again, and the loudest that was told counts.
+  browser.evaluate(R"js({
+    window.loudest = [0, 0, 0, 0];
+    setInterval(() => splash.peaks().forEach((peak, i) => {
+      loudest[i] = Math.max(loudest[i], peak); }), 20);
+    window.taps = setInterval(() => [...document.querySelectorAll('#channels button')]
+      .find((one) => one.textContent === '2').click(), 300);
+  })js");
   Json lit;
-  bool brighter = false;
-  for (int i = 0; i < 10 && !brighter; ++i) {
-    browser.evaluate(
-        "[...document.querySelectorAll('#channels button')].find((one) => one.textContent === '2')"
-        ".click()");
-    EXPECT_TRUE(browser.wait_for("splash.peaks()[1] > 0.02", 10.0));
-    EXPECT_LT(browser.evaluate("splash.peaks()[2]"), 0.01);
-    sleep(0.4);
-    lit = browser.colours(tiles);
-    brighter = lit[0][0].get<int>() > before[0][0].get<int>() + 20;
+  for (int i = 0; i < 100; ++i) {
+    lit = stage.drawn(tiles);
+    if (lit[0][0].get<int>() > before[0][0].get<int>() + 20) break;
+    sleep(0.1);
   }
-  EXPECT_TRUE(brighter) << lit.dump() << before.dump();
-  EXPECT_LT(lit[1][0].get<int>(), before[1][0].get<int>() + 12) << lit.dump() << before.dump();
+  EXPECT_GT(lit[0][0].get<int>(), before[0][0].get<int>() + 20) << lit << before;
+  EXPECT_LT(lit[1][0].get<int>(), before[1][0].get<int>() + 12) << lit << before;
+  EXPECT_GT(browser.evaluate("loudest[1]"), 0.02);
+  EXPECT_LT(browser.evaluate("loudest[2]"), 0.01);
+  browser.evaluate("clearInterval(taps)");
   browser.evaluate("document.querySelector('#channel button').click()");  // mutes it
   EXPECT_TRUE(browser.wait_for(
-      "document.querySelector('#channels button.muted')?.textContent === '2'", 10.0));
+      "document.querySelector('#channels button.muted')?.textContent === '2'", kTimeout));
   EXPECT_THAT(browser.errors(), IsEmpty());
+}
+
+/// What the page was told of a drag through the surface.
+struct Drag {
+  double speed = 0.0;  ///< of the first impact [m/s]
+  double lag = 1e9;    ///< from when the disc's pose met the water to the moment of that impact [s]
+};
+
+/// Of some drags at 1 m/s the one with the least lag, both moments by the programs' own clock: a
+/// busy machine may leave out poses of some, but what is late in the programs is late in all of
+/// them.
+Drag best_drag(Chromium& browser, const Json& way) {
+  browser.evaluate(R"js({
+    const { link } = splash;
+    const { sendAt } = link;
+    window.poses = [];
+    link.sendAt = function (time, address, types, ...values) {
+      poses.push([time + link.offset, values[3]]);
+      return sendAt.call(link, time, address, types, ...values);
+    };
+  })js");
+  const std::string surface = std::to_string(SmallScene::kLevel + SmallScene::kUnderside);
+  Drag best;
+  for (int i = 0; i < 10 && best.lag > 0.1; ++i) {
+    browser.evaluate("poses.length = 0; splash.events.length = 0");
+    drag(browser, way[0], way[1], 0.3);
+    const bool hit =
+        browser.wait_for("splash.events.some((event) => event.kind === '/impact')", 5.0);
+    if (hit) {
+      const Json told = browser.evaluate(R"js((() => {
+        const { values, time } = splash.events.find((event) => event.kind === '/impact');
+        return [values[2], time - (poses.find(([, z]) => z < )js" +
+                                         surface + R"js()?.[0] ?? -1e9)];
+      })())js");
+      if (told[1] < best.lag) best = {told[0], told[1]};
+    }
+    drag(browser, way[1], way[0], 0.3);
+    sleep(1.0);
+  }
+  drag(browser, way[0], way[1], 0.3);
+  return best;
 }
 
 TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
@@ -100,25 +145,26 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
                      protocol::frame_number<float>(&frame[56 + 8])};
   };
   const auto becomes = [&](bool grabbed) {
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 3000; ++i) {
       if (((body().first & kGrabbed) != 0) == grabbed) return true;
       sleep(0.02);
     }
     return false;
   };
   EXPECT_TRUE(becomes(true));
-  drag(browser, seen[0], seen[1], 0.3);
-  EXPECT_TRUE(browser.wait_for("splash.events.some((event) => event.kind === '/impact')", 10.0));
-  const double speed =
-      browser.evaluate("splash.events.find((event) => event.kind === '/impact').values[2]");
-  EXPECT_GT(speed, 0.6);
-  EXPECT_LT(speed, 1.5);
-  RecordProperty("speed", std::to_string(speed));
+  const Drag drag = best_drag(browser, seen);
+  EXPECT_GT(drag.speed, 0.6);
+  EXPECT_LT(drag.speed, 1.5);
+  EXPECT_LT(drag.lag, 0.1);
+  EXPECT_GT(drag.lag, -0.05) << "before the disc was there";
+  RecordProperty("speed", std::to_string(drag.speed));
+  RecordProperty("lag_ms", std::to_string(std::lround(1e3 * drag.lag)));
+  for (int i = 0; i < 3000 && body().second > 0.25F; ++i) sleep(0.02);
   EXPECT_LT(body().second, 0.25F) << "held in the water";
   EXPECT_THAT(browser.errors(), IsEmpty());
   browser.kill();
   EXPECT_TRUE(becomes(false)) << "still grabbed, though the page is gone";
-  for (int i = 0; i < 300 && body().second < 0.34F; ++i) sleep(0.02);
+  for (int i = 0; i < 3000 && body().second < 0.34F; ++i) sleep(0.02);
   EXPECT_NEAR(body().second, 0.35F, 0.01F) << "back on its own way";
   stage.synth().process().signal(SIGTERM);
   EXPECT_EQ(stage.synth().process().wait_for_end(), 0) << stage.synth().process().output();
@@ -164,7 +210,7 @@ TEST_F(Page, AControllerOfAHeadsetHoldsABody) {
   Stage stage(kWaits, "?share=0.5");
   Chromium& browser = stage.browser();
   browser.evaluate(std::string(kHeadset) + "()");
-  ASSERT_TRUE(browser.wait_for("splash.headset.session", 10.0)) << stage.words();
+  ASSERT_TRUE(browser.wait_for("splash.headset.session", kTimeout)) << stage.words();
   // The disc as WebXR sees it: 0.35 m over the tank's lower side, which stands on a table.
   browser.evaluate("Object.assign(hand.place, { x: 0, y: 0.75 + 0.35, z: -0.35 - 0.2 })");
   browser.evaluate("pull('selectstart')");
@@ -175,13 +221,13 @@ TEST_F(Page, AControllerOfAHeadsetHoldsABody) {
     const [x, y, z] = splash.playout.states.at(-1).bodies[0].place;
     return Math.hypot(x - 0.08, y + 0.03, z - 0.30) < 0.01;
   })())js",
-                               20.0))
+                               kTimeout))
       << browser.evaluate("splash.playout.states.at(-1).bodies[0].place").dump();
   EXPECT_EQ(browser.evaluate("splash.playout.states.at(-1).bodies[0].flags & 4"), 4);
   browser.evaluate("pull('selectend')");
   EXPECT_FALSE(browser.evaluate("splash.grabs.holds(0)"));
   browser.evaluate("document.getElementById('headset').click()");
-  EXPECT_TRUE(browser.wait_for("splash.headset.session === null", 10.0));
+  EXPECT_TRUE(browser.wait_for("splash.headset.session === null", kTimeout));
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
@@ -192,22 +238,31 @@ TEST_F(Page, IsHeard) {
   EXPECT_TRUE(browser.wait_for("splash.sound.isOn && splash.sound.lag !== null", kTimeout));
   EXPECT_TRUE(browser.wait_for("Math.max(...splash.sound.last(4000, 0)) > 1e-4", kTimeout));
   RecordProperty("lag_ms", browser.evaluate("Math.round(1000 * splash.sound.lag)").dump());
-  EXPECT_LT(browser.evaluate("splash.sound.lag"), 0.5);
+  EXPECT_TRUE(browser.wait_for("splash.sound.lag < 0.5", kTimeout))
+      << browser.evaluate("splash.sound.lag");
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
 TEST_F(Page, PausesAndBeginsAnew) {
   Stage stage(plunging(), "?points");
   Chromium& browser = stage.browser();
+  const auto figures = [&](const std::string& condition) {
+    return browser.wait_for(
+        "((text) => " + condition + ")(document.getElementById('figures').textContent)", kTimeout);
+  };
+  EXPECT_TRUE(figures("text.includes('are drawn within')"));
   browser.press(" ");
-  EXPECT_TRUE(browser.wait_for("document.getElementById('state').textContent === 'Paused'", 20.0));
+  EXPECT_TRUE(
+      browser.wait_for("document.getElementById('state').textContent === 'Paused'", kTimeout));
+  EXPECT_TRUE(figures("text.includes('paused') && !text.includes('within')"));
   const double then = browser.evaluate("splash.playout.states.at(-1).simulated");
   sleep(1.0);
   EXPECT_EQ(browser.evaluate("splash.playout.states.at(-1).simulated"), then);
   browser.evaluate("document.getElementById('reset').click()");
   browser.evaluate("document.getElementById('pause').click()");
   EXPECT_TRUE(browser.wait_for(
-      "splash.playout.states.at(-1).simulated > " + std::to_string(then + 0.2), 20.0));
+      "splash.playout.states.at(-1).simulated > " + std::to_string(then + 0.2), kTimeout));
+  EXPECT_TRUE(figures("text.includes('are drawn within')"));
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
@@ -220,7 +275,7 @@ TEST_F(Page, ItsPanelShapesTheDetection) {
   browser.evaluate("{ const input = " + slider +
                    ".querySelector('input'); input.value = 1000;"
                    " input.dispatchEvent(new Event('input')); }");
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 600; ++i) {
     if (stage.simulator().ask({"/param", {"detect/impact_speed"}}, "/value") ==
         protocol::value_of("detect/impact_speed", 10.0)) {
       break;
@@ -231,7 +286,7 @@ TEST_F(Page, ItsPanelShapesTheDetection) {
             protocol::value_of("detect/impact_speed", 10.0));
   // What somebody else sets is shown.
   static_cast<void>(stage.simulator().ask({"/param", {"detect/impact_speed", 0.0F}}, "/value"));
-  EXPECT_TRUE(browser.wait_for(slider + ".querySelector('input').value === '0'", 10.0));
+  EXPECT_TRUE(browser.wait_for(slider + ".querySelector('input').value === '0'", kTimeout));
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
@@ -251,7 +306,7 @@ TEST_F(Page, GoesOverToAnotherSceneAndRig) {
     new MutationObserver(() => said.push(state.textContent)).observe(state, { childList: true });
   })js");
   choose("scenes", "plunge");
-  EXPECT_TRUE(browser.wait_for("said.some((text) => text.includes('made ready'))", 10.0))
+  EXPECT_TRUE(browser.wait_for("said.some((text) => text.includes('made ready'))", kTimeout))
       << browser.evaluate("said");
   EXPECT_TRUE(browser.wait_for("splash.world().name === 'plunge' && splash.pictures() > 2", 180.0))
       << stage.words();
@@ -266,7 +321,7 @@ TEST_F(Page, SaysInWordsWhatHasEndedAndComesBack) {
   Chromium& browser = stage.browser();
   const auto says = [&](const std::string& text) {
     return browser.wait_for("document.getElementById('state').textContent.includes('" + text + "')",
-                            20.0);
+                            kTimeout);
   };
   const auto is_well = [&] {
     return browser.wait_for(
