@@ -29,6 +29,7 @@
 #include "sim-server/options.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 #include "sim-server/serve/server.hpp"
 #include "sim-server/serve/stopwatch.hpp"
 #include "sim-server/simulation/water_notices.hpp"
@@ -132,6 +133,7 @@ void say_hello(Simulation& simulation, const Server& server, double seconds_to_b
   std::printf("scene   %s: %d particles %.1f mm apart, %zu bodies, sound speed %.1f m/s\n",
               scene.name.c_str(), simulation.particles(), 1e3 * particle_spacing(scene),
               scene.bodies.size(), static_cast<double>(simulation.sound_speed()));
+  std::printf("solver  %s\n", solver_notice(scene).c_str());
   say_price(simulation);
   say_what_water(simulation);
   std::printf("kernels ready after %.1f s%s\n", seconds_to_build,

@@ -34,11 +34,13 @@ Fields<F> method_fields() {
       {{.key = "solver",
         .unit = "",
         .meaning = "Where pressure comes from: weakly_compressible, a state equation; "
-                   "divergence_free, the demand that nothing compresses (sim-server/fluid/README "
-                   "says which suits what); grid_projected, the same demand, made of a grid, so "
-                   "that waves and vortices last "
-                   "(sim-server/fluid/pressure/grid_projected/README).",
-        .choices = {"weakly_compressible", "divergence_free", "grid_projected"},
+                   "divergence_free, the demand that nothing compresses; grid_projected, the same "
+                   "demand, made of a grid, so that waves and vortices last "
+                   "(sim-server/fluid/pressure/grid_projected/README). auto: grid_projected, but "
+                   "weakly_compressible where a body may strike the water, or water falls or flows "
+                   "off (sim-server/fluid/README, \"Which solver\"); the program says which and "
+                   "why.",
+        .choices = {"weakly_compressible", "divergence_free", "grid_projected", "auto"},
         .source = "Monaghan 2005; Bender & Koschier 2017; Raveendran, Wojtan & Turk 2011"},
        &F::solver_name},
       {{.key = "kernels",

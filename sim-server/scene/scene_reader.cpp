@@ -19,6 +19,7 @@
 #include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 #include "sim-server/scene/surface_roughness.hpp"
 
 namespace splash::sim {
@@ -314,11 +315,12 @@ void read_basin(const ConfigMap& map, Scene& scene) {
   read_flow(map, scene);
 }
 
-FluidSettings read_fluid(const ConfigMap& map) {
+FluidEntry read_fluid(const ConfigMap& map) {
   static const std::map<std::string, PressureKind> kSolvers = {
       {"weakly_compressible", PressureKind::weakly_compressible},
       {"divergence_free", PressureKind::divergence_free},
-      {"grid_projected", PressureKind::grid_projected}};
+      {"grid_projected", PressureKind::grid_projected},
+      {"auto", PressureKind::weakly_compressible}};  // until all of the scene is known
   static const std::map<std::string, SettleKind> kSettling = {{"auto", SettleKind::automatic},
                                                               {"always", SettleKind::always},
                                                               {"never", SettleKind::never}};
@@ -330,7 +332,6 @@ FluidSettings read_fluid(const ConfigMap& map) {
   if (map.has("density_tolerance") && entry.solver != PressureKind::divergence_free) {
     throw map.error("density_tolerance", "has no meaning for the solver " + entry.solver_name);
   }
-  check_time_step(map, entry);
   return entry;
 }
 
@@ -383,10 +384,13 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   if (scene.name.empty()) scene.name = file_stem;
   read_basin(map, scene);
   const ConfigMap fluid = map.child("fluid");
-  scene.fluid = read_fluid(fluid);
+  const FluidEntry entry = read_fluid(fluid);
+  scene.fluid = entry;
   check_resolution(fluid, scene);
   read_bodies(map, scene);
   read_frictions(map, scene);
+  if (entry.solver_name == "auto") scene.fluid.solver = suitable_solver(scene).solver;
+  check_time_step(fluid, scene.fluid);
   if (scene.tank_motion.present) check_turning(map.child("tank_motion"), scene);
   check_sound(fluid, scene);
   if (const auto gauges = map.optional_child("gauges")) {

@@ -17,7 +17,7 @@ using Fields = std::vector<program::Field<Struct>>;
 
 /// The fluid as its mapping spells it.
 struct FluidEntry : FluidSettings {
-  std::string solver_name = "weakly_compressible";
+  std::string solver_name = "auto";
   std::string kernels_name = "vector";
   std::string settle_name = "auto";
 };

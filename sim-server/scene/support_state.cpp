@@ -54,6 +54,11 @@ class WaterBodies {
     return support_states_[static_cast<std::size_t>(body_of(cell) - 1)];
   }
 
+  [[nodiscard]] bool all_supported() const {
+    return std::all_of(support_states_.begin(), support_states_.end(),
+                       [](SupportState state) { return state == SupportState::supported; });
+  }
+
  private:
   [[nodiscard]] int body_of(std::int64_t cell) const {
     return body_[static_cast<std::size_t>(cell)];
@@ -128,6 +133,13 @@ std::vector<SupportState> support_states(const Scene& scene, std::span<const Key
   std::transform(particles.begin(), particles.end(), all.begin(),
                  [&](const Vector3& place) { return water.at(place); });
   return all;
+}
+
+bool is_all_supported(const Scene& scene) {
+  if (length(scene.fluid.gravity) == 0.0 && length(scene.fluid.pull) == 0.0) return false;
+  std::vector<Keyframe> poses;
+  for (const BodySettings& body : scene.bodies) poses.push_back(body.rest);
+  return WaterBodies(scene, poses).all_supported();
 }
 
 }  // namespace splash::sim

@@ -105,6 +105,8 @@ std::string to_json(const RunReport& report) {
   Json json;
   json["device"] = report.device;
   json["scene"] = report.scene;
+  json["solver"] = report.solver;
+  json["solver_notice"] = report.solver_notice;
   json["particles"] = report.particles;
   json["steps"] = report.steps;
   json["frames"] = report.frames;
@@ -185,6 +187,7 @@ std::string summary(const RunReport& report) {
        << report.start.processor << " s of processor), of which the water took "
        << report.settling.wall << " s (" << report.settling.processor << ") to come to rest"
        << (report.settled_file.empty() ? "" : ", as it is from " + report.settled_file) << '\n';
+  text << "pressure  " << report.solver_notice << '\n';
   text << std::setprecision(2) << "density   error mean " << 100.0 * report.mean_density_error
        << " %, maximum " << 100.0 * report.maximum_density_error << " %\n";
   if (report.density_solve.solves > 0) {

@@ -41,6 +41,8 @@ using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
 struct RunReport {
   std::string device;
   std::string scene;
+  std::string solver;         ///< as scene files spell it
+  std::string solver_notice;  ///< the same and why (scene/solver_choice.hpp)
   std::int64_t particles = 0;
   std::int64_t steps = 0;
   std::int64_t frames = 0;

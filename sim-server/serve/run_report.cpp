@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sim-server/scene/solver_choice.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -18,6 +20,8 @@ double share(double sum, std::int64_t all) {
 void put_water(const Simulation& simulation, RunReport& report) {
   const RunTotals& totals = simulation.totals();
   report.scene = simulation.scene().name;
+  report.solver = name_of(simulation.scene().fluid.solver);
+  report.solver_notice = solver_notice(simulation.scene());
   report.particles = simulation.particles();
   report.steps = totals.steps;
   report.frames = totals.frames;

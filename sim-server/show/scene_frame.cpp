@@ -8,6 +8,7 @@
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 
 namespace splash::sim {
 namespace {
@@ -86,6 +87,7 @@ std::string describe_for_viewers(const Scene& scene, int particles, double spaci
   json["description"] = scene.description;
   json["particles"] = particles;
   json["spacing"] = spacing;
+  json["solver"] = name_of(scene.fluid.solver);
   json["frame_rate"] = scene.serve.frame_rate;
   json["tank"] = {{"lower", scene.tank.lower}, {"upper", scene.tank.upper}};
   json["slope"] = nullptr;

@@ -16,7 +16,7 @@ namespace {
 /// A tank with 0.2 m of water and a ball above it, as a scene file says it.
 Scene pond(const std::string& height, const std::string& motion) {
   return parse_scene(R"(
-fluid: {spacing: 0.025}
+fluid: {spacing: 0.025, solver: weakly_compressible}
 tank: {lower: [0.0, 0.0, 0.0], upper: [0.5, 0.5, 0.6]}
 water:
   - {lower: [0.0, 0.0, 0.0], upper: [0.5, 0.5, 0.2]}

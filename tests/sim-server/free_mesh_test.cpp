@@ -23,7 +23,7 @@ constexpr double kDensity = 499.0;
 /// A slab afloat, as a box; then in another shape.
 Scene slab() {
   return parse_scene(R"(
-fluid: {spacing: 0.02}
+fluid: {spacing: 0.02, solver: weakly_compressible}
 tank: {lower: [0.0, 0.0, 0.0], upper: [0.4, 0.4, 0.5]}
 water:
   - {lower: [0.0, 0.0, 0.0], upper: [0.4, 0.4, 0.2]}

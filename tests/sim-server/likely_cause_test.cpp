@@ -26,7 +26,7 @@ std::string alarms(const std::string& text, double seconds) {
 
 TEST(LikelyCause, OfDensityIsABodyThatLeavesNoWayOut) {
   const std::string found = alarms(R"(
-fluid: {spacing: 0.025}
+fluid: {spacing: 0.025, solver: weakly_compressible}
 tank: {lower: [0, 0, 0], upper: [0.4, 0.3, 1.2]}
 water: [{lower: [0, 0, 0], upper: [0.4, 0.3, 0.3]}]
 bodies:

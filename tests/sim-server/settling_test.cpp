@@ -19,7 +19,9 @@ const std::string kDam = "  - {lower: [0.0, 0.0, 0.0], upper: [0.2, 0.3, 0.3]}\n
 const std::string kDrop =
     "  - {lower: [0.175, 0.075, 0.4], upper: [0.325, 0.225, 0.55], form: sphere}\n";
 
-Scene scene_of(const std::string& water, const std::string& fluid = "") {
+const std::string kState = ", solver: weakly_compressible";
+
+Scene scene_of(const std::string& water, const std::string& fluid = kState) {
   return parse_scene("fluid: {spacing: 0.025" + fluid +
                          "}\n"
                          "tank: {lower: [0.0, 0.0, 0.0], upper: [0.5, 0.3, 0.6]}\n"
@@ -111,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SettlingOfHeldWater, IsTheSameToTheLastBitWhateverIsAskedElsewhere) {
   Device device;
-  Simulation asked(device, scene_of(kPool, ", settle: always"), {});
+  Simulation asked(device, scene_of(kPool, kState + ", settle: always"), {});
   Simulation usual(device, scene_of(kPool), {});
   const Snapshot a = asked.fluid().snapshot();
   const Snapshot b = usual.fluid().snapshot();

@@ -197,7 +197,7 @@ function latency() {
 function tellFigures() {
   const ms = (x) => `${Math.round(1000 * x)} ms`;
   const sim = words.last('sim-server');
-  const parts = [`${world.particles} particles`, `${pace.rate.toFixed(0)} pictures/s${points && smooth ? ' (points: the water is too much for these graphics)' : ''}`,
+  const parts = [`${world.particles} particles, ${world.solver}`, `${pace.rate.toFixed(0)} pictures/s${points && smooth ? ' (points: the water is too much for these graphics)' : ''}`,
     paused() ? 'paused' : `95 % of states come within ${ms(playout.arrival)}, are drawn within ${ms(playout.age)}`];
   if (sound.lag !== null) {
     const { picture } = latency();

@@ -90,7 +90,7 @@ TEST(BodyForce, IsTheSameEverywhere) {
 }
 
 constexpr const char* kSunkBox = R"(
-fluid: {spacing: 0.02}
+fluid: {spacing: 0.02, solver: weakly_compressible}
 tank: {lower: [0, 0, 0], upper: [0.4, 0.4, 0.6]}
 water: [{lower: [0, 0, 0], upper: [0.4, 0.4, 0.36]}]
 bodies:

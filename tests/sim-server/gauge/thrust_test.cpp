@@ -93,7 +93,7 @@ TEST(Thrust, IsFilledUpWhereAnEdgeCutsTheFace) {
 }
 
 const std::string kBox = R"(
-fluid: {spacing: 0.02}
+fluid: {spacing: 0.02, solver: weakly_compressible}
 tank: {lower: [0, 0, 0], upper: [0.4, 0.4, 0.6]}
 water: [{lower: [0, 0, 0], upper: [0.4, 0.4, 0.36]}]
 bodies:

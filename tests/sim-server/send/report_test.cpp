@@ -23,6 +23,8 @@ RunReport example() {
   RunReport report;
   report.device = "cpu-haswell (PoCL 3.1)";
   report.scene = "basin";
+  report.solver = "grid_projected";
+  report.solver_notice = "grid_projected: nothing strikes the water";
   report.particles = 7000;
   report.steps = 7200;
   report.frames = 7500;
@@ -58,6 +60,8 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   const auto read = json::parse(to_json(example()));
   EXPECT_EQ(read.at("device"), "cpu-haswell (PoCL 3.1)");
   EXPECT_EQ(read.at("scene"), "basin");
+  EXPECT_EQ(read.at("solver"), "grid_projected");
+  EXPECT_EQ(read.at("solver_notice"), "grid_projected: nothing strikes the water");
   EXPECT_EQ(read.at("particles"), 7000);
   EXPECT_EQ(read.at("steps"), 7200);
   EXPECT_EQ(read.at("frames"), 7500);

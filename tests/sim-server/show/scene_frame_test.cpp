@@ -11,6 +11,7 @@
 
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 
 namespace splash::sim {
 namespace {
@@ -25,6 +26,7 @@ TEST(SceneFrame, TellsOfEveryShippedScene) {
     const auto json = nlohmann::json::parse(describe_for_viewers(scene, 123, 0.02));
     EXPECT_EQ(json.at("scene"), scene.name);
     EXPECT_EQ(json.at("particles"), 123);
+    EXPECT_EQ(json.at("solver"), name_of(scene.fluid.solver));
     EXPECT_EQ(json.at("tank").at("upper"), scene.tank.upper);
     EXPECT_EQ(json.at("slope").is_null(), !scene.slope.present);
     ASSERT_EQ(json.at("bodies").size(), scene.bodies.size());

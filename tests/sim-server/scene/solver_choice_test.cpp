@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/scene/solver_choice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "program/config.hpp"
+#include "sim-server/scene/scene_reader.hpp"
+
+namespace splash::sim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr char kLevel[] = "[{lower: [0, 0, 0], upper: [1, 1, 0.5]}]";
+
+/// A basin whose fluid, water and rest of the scene are these, without a word of the solver.
+Scene basin(const std::string& more = "", const std::string& fluid = "",
+            const std::string& water = kLevel) {
+  return parse_scene("fluid: {spacing: 0.05" + fluid +
+                         "}\n"
+                         "tank: {lower: [0, 0, 0], upper: [1, 1, 1]}\n"
+                         "water: " +
+                         water + "\n" + more,
+                     "basin.yaml");
+}
+
+/// A body of 0.3 m, of this form and motion; a disc of that width slaps from 0.416 m/s on.
+std::string body(const std::string& motion, const std::string& rest = "") {
+  return "bodies:\n  - {name: it, shape: {kind: box, size: [0.3, 0.3, 0.3]}, motion: " + motion +
+         (rest.empty() ? "" : ", rest: {position: " + rest + "}") + "}\n";
+}
+
+/// Down by 0.2 m in `seconds`, its underside from 10 cm above the water to 10 cm below.
+std::string lowered(const std::string& seconds) {
+  return body(
+      "{kind: script, smooth: false, keyframes: [{time: 0, position: [0.5, 0.5, 0.75]}, "
+      "{time: " +
+      seconds + ", position: [0.5, 0.5, 0.55]}]}");
+}
+
+struct Case {
+  const char* name;
+  Scene scene;
+  PressureKind solver;
+  const char* reason;
+};
+
+constexpr PressureKind kGrid = PressureKind::grid_projected;
+constexpr PressureKind kState = PressureKind::weakly_compressible;
+
+TEST(SolverChoice, ASceneGetsWhatSuitsWhatItCanDo) {
+  const std::string free = "{kind: free, density: ";
+  const std::string under = body(
+      "{kind: script, keyframes: [{time: 0, position: [0.5, 0.5, 0.2]}, "
+      "{time: 0.1, position: [0.6, 0.5, 0.2]}]}");
+  const Case cases[] = {
+      {"still", basin(), kGrid, "nothing strikes"},
+      {"waves", basin("wave_maker: {stroke: 0.1, period: 2}\n"), kGrid, "nothing strikes"},
+      {"standing wave", basin("flow: {kind: standing_wave, amplitude: 0.02}\n"), kGrid, ""},
+      {"swaying", basin("tank_motion: {sway: [0.02, 0, 0], period: 1}\n"), kGrid, ""},
+      {"gauges", basin("gauges: {probes: [{name: h, kind: height, x: 0.5, y: 0.5}]}\n"), kGrid, ""},
+      {"fixed", basin(body("{kind: fixed}", "[0.5, 0.5, 0.5]")), kGrid, ""},
+      {"under water", basin(under), kGrid, ""},
+      {"lowered slowly", basin(lowered("0.5")), kGrid, ""},
+      {"lowered fast", basin(lowered("0.4")), kState, "0.5 m/s, and slaps from 0.42"},
+      {"afloat", basin(body(free + "500}", "[0.5, 0.5, 0.5]")), kGrid, ""},
+      {"let go a little too high", basin(body(free + "500}", "[0.5, 0.5, 0.655]")), kGrid, ""},
+      {"dropped", basin(body(free + "500}", "[0.5, 0.5, 0.75]")), kState, "1.4 m/s"},
+      {"thrown up", basin(body(free + "500, velocity: [0, 0, 2]}", "[0.5, 0.5, 0.5]")), kState,
+       "may strike"},
+      {"leaps out", basin(body(free + "100}", "[0.5, 0.5, 0.2]")), kState, "may strike"},
+      {"sinks", basin(body(free + "2000}", "[0.5, 0.5, 0.3]")), kGrid, ""},
+      {"held", basin(body(free + "500, held: [x]}", "[0.5, 0.5, 0.5]")), kState, "is held"},
+      {"tracked", basin(body("{kind: osc}", "[0.5, 0.5, 0.8]")), kState, "a tracker"},
+      {"dam", basin("", "", "[{lower: [0, 0, 0], upper: [0.5, 1, 0.5]}]"), kState, "nothing holds"},
+      {"gate", basin("gate: {x: 0.5}\n", "", "[{lower: [0, 0, 0], upper: [0.5, 1, 0.5]}]"), kState,
+       "gate"},
+      {"drop", basin("", "", "[{lower: [0.3, 0.3, 0.6], upper: [0.7, 0.7, 0.9], form: sphere}]"),
+       kState, "nothing holds"},
+      {"no weight", basin("", ", gravity: [0, 0, 0]"), kState, "nothing holds"},
+      {"central field", basin("", ", gravity: [0, 0, 0], pull: [1, 1, 1]"), kState,
+       "central field"},
+      {"stream", basin("flow: {kind: uniform, velocity: [1, 0, 0]}\n"), kState, "flow"},
+      {"sound", basin("", ", sound_speed: 30"), kState, "how fast sound"},
+      {"artificial", basin("", ", artificial: 0.2"), kState, "artificial"},
+  };
+  for (const Case& tried : cases) {
+    EXPECT_EQ(tried.scene.fluid.solver, tried.solver) << tried.name;
+    const SolverChoice choice = suitable_solver(tried.scene);
+    EXPECT_EQ(choice.solver, tried.solver) << tried.name;
+    EXPECT_THAT(choice.reason, HasSubstr(tried.reason)) << tried.name;
+  }
+}
+
+TEST(SolverChoice, EachSceneThatIsShippedHasItsOwn) {
+  const auto folder = std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/scenes";
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++scenes;
+    const Scene scene = read_scene(entry.path());
+    // Waves wash over feet that stand in `beach`; in all others somebody steps, splashes or drops.
+    EXPECT_EQ(scene.fluid.solver, scene.name == "beach" ? kGrid : kState) << scene.name;
+    EXPECT_THAT(solver_notice(scene), HasSubstr(scene.name == "beach" ? "nothing strikes" : "'"));
+  }
+  EXPECT_GE(scenes, 10);
+}
+
+TEST(SolverChoice, WhatASceneNamesItGets) {
+  EXPECT_EQ(basin("", ", solver: auto").fluid.solver, kGrid);
+  EXPECT_EQ(basin("", ", solver: weakly_compressible").fluid.solver, kState);
+  EXPECT_EQ(basin(lowered("0.1"), ", solver: auto").fluid.solver, kState);
+  EXPECT_EQ(basin(lowered("0.1"), ", solver: divergence_free").fluid.solver,
+            PressureKind::divergence_free);
+  EXPECT_EQ(basin(lowered("0.1"), ", solver: grid_projected").fluid.solver, kGrid);
+}
+
+TEST(SolverChoice, OnlyAGridThatIsNamedDespiteSlapsIsWarnedOf) {
+  EXPECT_THAT(solver_notice(basin(lowered("0.1"), ", solver: grid_projected")),
+              AllOf(HasSubstr("'it' may strike the water at 2 m/s"), HasSubstr("too soft"),
+                    HasSubstr("weakly_compressible is what")));
+  EXPECT_THAT(solver_notice(basin("", ", solver: weakly_compressible")), Not(HasSubstr("but")));
+  EXPECT_THAT(solver_notice(basin(lowered("0.1"))), Not(HasSubstr("but")));
+}
+
+TEST(SolverChoice, AnUnknownNameIsRefusedWithAllThatThereAre) {
+  try {
+    static_cast<void>(basin("", ", solver: automatic"));
+    FAIL() << "taken";
+  } catch (const program::ConfigError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("got 'automatic'"),
+                                    HasSubstr("weakly_compressible, divergence_free, "
+                                              "grid_projected, auto")));
+  }
+}
+
+TEST(SolverChoice, ASlapIsATenthOfBuoyancyAtItsSpeed) {
+  constexpr double kRadius = 0.1;    // [m]
+  constexpr double kGravity = 9.81;  // [m/s2]
+  const double speed = slap_speed(kRadius, kGravity);
+  const double slap = 4.0 / 3.0 * std::pow(kRadius, 3) * speed;
+  const double buoyancy = 0.5 * M_PI * kGravity * std::pow(kRadius, 4) / speed;
+  EXPECT_NEAR(slap / buoyancy, 0.1, 1e-12);
+}
+
+TEST(SolverChoice, AFreeBodyEntersAsItsEnergySays) {
+  const auto entry = [](const char* motion, const char* place) {
+    const Scene scene = basin(body(motion, place));
+    return entry_speed(scene, scene.bodies.front());
+  };
+  EXPECT_NEAR(entry("{kind: free, density: 500}", "[0.5, 0.5, 0.75]"), std::sqrt(2.0 * 9.81 * 0.1),
+              1e-6);
+  EXPECT_NEAR(entry("{kind: free, density: 500, velocity: [0, 0, 1]}", "[0.5, 0.5, 0.75]"),
+              std::sqrt(2.0 * 9.81 * 0.1 + 1.0), 1e-6);
+  EXPECT_EQ(entry("{kind: free, density: 1500}", "[0.5, 0.5, 0.3]"), 0.0);
+  // From 0.3 m of water above its middle, a tenth of the water's density: 9.98 times g z less the
+  // 0.45 m that its lowest point has to rise.
+  EXPECT_NEAR(entry("{kind: free, density: 100}", "[0.5, 0.5, 0.2]"),
+              std::sqrt(2.0 * 9.81 * (9.98 * 0.3 - 0.45)), 1e-6);
+}
+
+}  // namespace
+}  // namespace splash::sim
