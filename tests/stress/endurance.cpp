@@ -14,6 +14,7 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/tables.hpp"
+#include "tests/stress/faults.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace splash::stress {
@@ -44,8 +45,7 @@ std::filesystem::path scenes_folder() {
 }
 
 std::string variant_of(const Endurance& wanted) {
-  const bool weak = wanted.solver == sim::PressureKind::weakly_compressible;
-  return std::string(weak ? "weakly" : "divergence_free") + "-" +
+  return name_of(Water{wanted.solver}) + "-" +
          std::to_string(static_cast<int>(100.0 * wanted.coarser + 0.5));
 }
 

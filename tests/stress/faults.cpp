@@ -74,8 +74,15 @@ std::vector<Water> all_waters() {
 }
 
 std::string name_of(const Water& water) {
-  const bool weak = water.solver == sim::PressureKind::weakly_compressible;
-  return weak ? "weakly_compressible" : "divergence_free";
+  switch (water.solver) {
+    case sim::PressureKind::weakly_compressible:
+      return "weakly_compressible";
+    case sim::PressureKind::divergence_free:
+      return "divergence_free";
+    case sim::PressureKind::grid_projected:
+      break;
+  }
+  return "grid_projected";
 }
 
 sim::Scene still_scene(const Water& water, double factor) {

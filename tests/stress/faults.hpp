@@ -14,7 +14,7 @@ namespace splash::stress {
 struct Water {
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
 };
-/// Both solvers.
+/// Of the solvers whose particles push each other: those of the default tests.
 [[nodiscard]] std::vector<Water> all_waters();
 /// In letters and underlines, short.
 [[nodiscard]] std::string name_of(const Water& water);

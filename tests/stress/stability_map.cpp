@@ -160,7 +160,15 @@ Map viscosity_map(sim::Device& device, sim::PressureKind solver) {
 }  // namespace
 
 const char* name_of(sim::PressureKind solver) noexcept {
-  return solver == sim::PressureKind::weakly_compressible ? "WCSPH" : "DFSPH";
+  switch (solver) {
+    case sim::PressureKind::weakly_compressible:
+      return "WCSPH";
+    case sim::PressureKind::divergence_free:
+      return "DFSPH";
+    case sim::PressureKind::grid_projected:
+      break;
+  }
+  return "grid";
 }
 
 void draw_maps(sim::Device& device, const std::filesystem::path& out) {
