@@ -28,7 +28,8 @@ std::string number(double value) {
   return text.data();
 }
 
-/// Of the water over or under a place; where there is none, of the highest [m].
+/// Height of the water's surface over or under a place; where there is no water, that of the
+/// highest block [m].
 double level_at(const Scene& scene, const Vector3& place) {
   double there = scene.tank.lower[2];
   double highest = there;
@@ -73,15 +74,15 @@ double scripted_entry(const Scene& scene, const BodySettings& body) {
   return fastest;
 }
 
-/// Of the water's density [1].
+/// The body's density over the water's [1].
 double relative_density(const Scene& scene, const BodySettings& body) {
   const double own =
       body.motion.density > 0.0 ? body.motion.density : body.motion.mass / volume_of(body.shape);
   return own / scene.fluid.density;
 }
 
-/// By its energy: what displaces water of volume V whose middle is z deep can get rho g V z from
-/// it. A body that is partly in the water counts as one of vertical sides.
+/// From the body's energy: what displaces water of volume V whose middle is z deep can get rho g V
+/// z from it. A body that is partly in the water counts as one of vertical sides.
 double free_entry(const Scene& scene, const BodySettings& body) {
   const double g = -scene.fluid.gravity[2];
   const double deep = depth(scene, body.shape, body.rest);
@@ -101,7 +102,7 @@ double smaller_width(const BodySettings& body) {
                   width(body.shape, rotation, {0.0, 1.0, 0.0}));
 }
 
-/// Why the body wants the state equation; empty: it does not.
+/// Why the body needs the state equation; empty: it does not.
 std::string reason_of(const Scene& scene, const BodySettings& body) {
   const std::string name = "'" + body.name + "' ";
   switch (body.motion.kind) {
@@ -128,9 +129,34 @@ std::string reason_of(const Scene& scene, const BodySettings& body) {
   return {};
 }
 
+/// Why the scene needs the state equation whatever strikes its water; empty: it does not.
+std::string unsuited(const Scene& scene) {
+  const FluidSettings& fluid = scene.fluid;
+  if (fluid.sound_speed > 0.0) return "the scene says how fast sound is";
+  if (fluid.artificial != FluidSettings{}.artificial) {
+    return "the scene says how large artificial viscosity is";
+  }
+  if (length(fluid.pull) > 0.0) {
+    return "water that a central field holds swings on too long with grid_projected";
+  }
+  return {};
+}
+
+/// What may strike the water or what the water may strike; empty: nothing.
+std::string strike(const Scene& scene) {
+  if (scene.gate.present) return "the gate lets water go that strikes what it meets";
+  if (scene.flow.kind == FlowKind::uniform) return "the flow strikes what it meets";
+  for (const BodySettings& body : scene.bodies) {
+    const std::string reason = reason_of(scene, body);
+    if (!reason.empty()) return reason;
+  }
+  return is_all_supported(scene) ? ""
+                                 : "nothing holds some of the water, and it strikes what it meets";
+}
+
 }  // namespace
 
-const char* name_of(PressureKind solver) {
+std::string name_of(PressureKind solver) {
   switch (solver) {
     case PressureKind::weakly_compressible:
       return "weakly_compressible";
@@ -164,29 +190,10 @@ double entry_speed(const Scene& scene, const BodySettings& body) {
 }
 
 SolverChoice suitable_solver(const Scene& scene) {
-  SolverChoice choice;
-  const FluidSettings& fluid = scene.fluid;
-  if (fluid.sound_speed > 0.0) {
-    choice.reason = "the scene says how fast sound is";
-  } else if (fluid.artificial != FluidSettings{}.artificial) {
-    choice.reason = "the scene says how large artificial viscosity is";
-  } else if (length(fluid.pull) > 0.0) {
-    choice.reason = "water that a central field holds swings on too long with grid_projected";
-  } else if (scene.gate.present) {
-    choice.reason = "the gate lets water go that strikes what it meets";
-  } else if (scene.flow.kind == FlowKind::uniform) {
-    choice.reason = "the flow strikes what it meets";
-  }
-  for (const BodySettings& body : scene.bodies) {
-    if (choice.reason.empty()) choice.reason = reason_of(scene, body);
-  }
-  if (choice.reason.empty() && !is_all_supported(scene)) {
-    choice.reason = "nothing holds some of the water, and it strikes what it meets";
-  }
-  if (choice.reason.empty()) {
-    return {PressureKind::grid_projected, "nothing strikes the water"};
-  }
-  return choice;
+  std::string reason = unsuited(scene);
+  if (reason.empty()) reason = strike(scene);
+  if (reason.empty()) return {PressureKind::grid_projected, "nothing strikes the water"};
+  return {PressureKind::weakly_compressible, reason};
 }
 
 std::string solver_notice(const Scene& scene) {
@@ -194,7 +201,8 @@ std::string solver_notice(const Scene& scene) {
   const std::string name = name_of(scene.fluid.solver);
   if (choice.solver == scene.fluid.solver) return name + ": " + choice.reason;
   if (scene.fluid.solver != PressureKind::grid_projected) return name + ", as the scene says";
-  return name + ", as the scene says, but " + choice.reason + ": slaps are too soft, and " +
+  const std::string slaps = unsuited(scene).empty() ? ": slaps are too soft" : "";
+  return name + ", as the scene says, but " + choice.reason + slaps + ", and " +
          name_of(choice.solver) + " is what solver: auto would take";
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which solver a scene gets that leaves it to us (`solver: auto`): decided from its text, before
-// time begins. The grid suits water that stands, runs in waves and carries bodies; it is too soft
-// where something strikes the water flat (sim-server/fluid/README, "Which solver").
+// Which solver a scene with `solver: auto` gets: it follows from the scene file alone, before time
+// begins. The grid suits water that stands, runs in waves and carries bodies; it is too soft where
+// something strikes the water flat (sim-server/fluid/README, "Which solver").
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace splash::sim {
 
 /// As scene files spell it.
-[[nodiscard]] const char* name_of(PressureKind solver);
+[[nodiscard]] std::string name_of(PressureKind solver);
 
 /// How fast a body may enter the water and yet make no slap worth the name: the impulse of a disc
 /// of radius R that hits the water flat, 4/3 rho R^3 U (Batchelor 1967), is a tenth of what
@@ -32,8 +32,8 @@ struct SolverChoice {
 /// The solver that suits the scene, whatever it names.
 [[nodiscard]] SolverChoice suitable_solver(const Scene& scene);
 
-/// Which solver the scene has and why; one that it names although its slaps want another is told
-/// so.
+/// The scene's solver and the reason for it. If the scene names the grid although another solver
+/// suits it, the notice says why that is so.
 [[nodiscard]] std::string solver_notice(const Scene& scene);
 
 }  // namespace splash::sim

@@ -25,7 +25,7 @@ enum class SupportState : std::uint8_t { supported, flowing, free_falling };
                                                        std::span<const Keyframe> poses,
                                                        const std::vector<Vector3>& particles);
 
-/// Whether all water of the scene is supported, with bodies where `rest` says.
+/// Whether something holds all of the scene's water, with the bodies in their poses of rest.
 [[nodiscard]] bool is_all_supported(const Scene& scene);
 
 }  // namespace splash::sim

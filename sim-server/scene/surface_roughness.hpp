@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How exactly water made of particles has a surface.
+// How rough the surface is of water that is made of particles.
 #pragma once
 
 namespace splash::sim {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim-server/scene/solver_choice.hpp"
 #include "synth-server/figure/gnuplot.hpp"
 
 namespace splash::bench {
@@ -176,7 +177,7 @@ void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
     const Quality& q = p.quality;
     const validation::Result& r = p.result;
     out << p.item->name << ",\"" << p.item->figure << "\"," << resolution(p) << ',' << r.particles
-        << ',' << validation::name_of(q.solver) << ',' << q.time_step_factor << ','
+        << ',' << sim::name_of(q.solver) << ',' << q.time_step_factor << ','
         << (q.kernels == sim::KernelKind::reference ? "reference" : "vector") << ',' << r.simulated
         << ',' << r.steps << ',' << r.steps_alone.wall << ',' << r.steps_alone.processor << ','
         << p.error() << ',' << r.mean_density_error << ',';

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/stress/endurance.hpp"
 #include "tests/stress/faults.hpp"
@@ -71,7 +72,7 @@ int run_trials(bench::Bench& bench, sim::Device& device, const Options& options)
         if (spacing < trial.finest) continue;
         for (const double factor : options.factors) {
           const Verdict v = run_trial(device, trial, {solver, spacing, factor});
-          table.add({trial.name, whole(trial.group), name_of(solver), number(spacing),
+          table.add({trial.name, whole(trial.group), short_name_of(solver), number(spacing),
                      number(factor), whole(v.particles), whole(v.steps), number(v.fastest),
                      number(v.mean_excess), number(v.max_excess), whole(v.events), whole(v.retried),
                      whole(v.calmed), whole(v.resets), number(v.least_step), number(v.calm),
@@ -94,7 +95,7 @@ int run_injections(bench::Bench& bench, sim::Device& device, const Options& opti
   int total = 0;
   for (const PressureKind solver : options.solvers) {
     const Water water = {solver};
-    const std::string name = name_of(water);
+    const std::string name = sim::name_of(solver);
     sim::Simulation simulation(device, still_scene(water, 0.35), {});
     for (const Injection& injection : injections()) {
       const auto outcomes = run_faults(simulation, {injection}, options.places, 2026);
@@ -150,7 +151,7 @@ void add_endurance(CLI::App& app, Options& options) {
 
 void add_solvers(CLI::App& app, Options& options) {
   std::map<std::string, PressureKind> solvers;
-  for (const PressureKind solver : options.solvers) solvers[name_of(Water{solver})] = solver;
+  for (const PressureKind solver : options.solvers) solvers[sim::name_of(solver)] = solver;
   app.add_option("--solver", options.solvers,
                  "Only with this one: weakly_compressible, divergence_free or grid_projected "
                  "(repeatable); endurance with the first")

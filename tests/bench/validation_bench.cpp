@@ -6,6 +6,7 @@
 #include <map>
 
 #include "protocol/time_tag.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/validation/report.hpp"
 

@@ -12,9 +12,9 @@
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/tables.hpp"
-#include "tests/stress/faults.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace splash::stress {
@@ -45,7 +45,7 @@ std::filesystem::path scenes_folder() {
 }
 
 std::string variant_of(const Endurance& wanted) {
-  return name_of(Water{wanted.solver}) + "-" +
+  return sim::name_of(wanted.solver) + "-" +
          std::to_string(static_cast<int>(100.0 * wanted.coarser + 0.5));
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim-server/scene/solver_choice.hpp"
+
 namespace splash::stress {
 namespace {
 
@@ -74,15 +76,7 @@ std::vector<Water> all_waters() {
 }
 
 std::string name_of(const Water& water) {
-  switch (water.solver) {
-    case sim::PressureKind::weakly_compressible:
-      return "weakly_compressible";
-    case sim::PressureKind::divergence_free:
-      return "divergence_free";
-    case sim::PressureKind::grid_projected:
-      break;
-  }
-  return "grid_projected";
+  return sim::name_of(water.solver);
 }
 
 sim::Scene still_scene(const Water& water, double factor) {

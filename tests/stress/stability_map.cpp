@@ -97,8 +97,8 @@ Cell run_cell(sim::Device& device, const std::string& map, const Trial& trial,
 }
 
 Map speed_map(sim::Device& device, sim::PressureKind solver) {
-  Map map{std::string("step-speed-") + name_of(solver),
-          std::string("A ball plunges, ") + name_of(solver),
+  Map map{std::string("step-speed-") + short_name_of(solver),
+          std::string("A ball plunges, ") + short_name_of(solver),
           "time step (in the default)",
           "speed of the body (m/s)",
           {}};
@@ -116,9 +116,9 @@ Map speed_map(sim::Device& device, sim::PressureKind solver) {
 /// Longer steps without slower sound, which no scene can ask for: how far from its end the default
 /// is.
 Map margin_map(sim::Device& device, sim::PressureKind solver) {
-  Map map{std::string("margin-") + name_of(solver),
+  Map map{std::string("margin-") + short_name_of(solver),
           std::string("A ball plunges, or lies in still water (0); sound stays as fast, ") +
-              name_of(solver),
+              short_name_of(solver),
           "time step (in the default)",
           "speed of the body (m/s)",
           {}};
@@ -136,8 +136,8 @@ Map margin_map(sim::Device& device, sim::PressureKind solver) {
 }
 
 Map viscosity_map(sim::Device& device, sim::PressureKind solver) {
-  Map map{std::string("viscosity-spacing-") + name_of(solver),
-          std::string("A dam breaks at twice the default step, ") + name_of(solver),
+  Map map{std::string("viscosity-spacing-") + short_name_of(solver),
+          std::string("A dam breaks at twice the default step, ") + short_name_of(solver),
           "kinematic viscosity (m2/s)",
           "particle spacing (m)",
           {}};
@@ -159,7 +159,7 @@ Map viscosity_map(sim::Device& device, sim::PressureKind solver) {
 
 }  // namespace
 
-const char* name_of(sim::PressureKind solver) noexcept {
+const char* short_name_of(sim::PressureKind solver) noexcept {
   switch (solver) {
     case sim::PressureKind::weakly_compressible:
       return "WCSPH";

@@ -10,7 +10,7 @@
 namespace splash::stress {
 
 /// In a few letters: WCSPH, DFSPH or grid.
-[[nodiscard]] const char* name_of(sim::PressureKind solver) noexcept;
+[[nodiscard]] const char* short_name_of(sim::PressureKind solver) noexcept;
 
 /// Runs all cells, telling each, and leaves map-*.csv and map-*.png in `out`.
 void draw_maps(sim::Device& device, const std::filesystem::path& out);

@@ -165,7 +165,7 @@ void expect_the_same(const char* way, const std::vector<DetectedImpact>& referen
   }
 }
 
-/// Of the walk as a surface tells where its feet touch it.
+/// Impacts of the walk as a touch surface reports its feet over TUIO.
 std::vector<DetectedImpact> impacts_by_tuio(const Walk& walk, double phase) {
   const std::string surface =
       "tracking:\n  position: [-0.2, 0.3, 0]\n  sources:\n"

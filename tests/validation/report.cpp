@@ -7,6 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/bench/plot.hpp"
 #include "tests/bench/tables.hpp"
 
@@ -122,18 +123,6 @@ void write_figures(const std::filesystem::path& path, const std::vector<Result>&
 }
 
 }  // namespace
-
-std::string name_of(sim::PressureKind solver) {
-  switch (solver) {
-    case sim::PressureKind::divergence_free:
-      return "divergence_free";
-    case sim::PressureKind::grid_projected:
-      return "grid_projected";
-    case sim::PressureKind::weakly_compressible:
-      break;
-  }
-  return "weakly_compressible";
-}
 
 Result run_case(sim::Device& device, const Case& item, const Setting& setting,
                 const std::filesystem::path& series_folder,

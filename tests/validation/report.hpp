@@ -25,9 +25,6 @@ struct Result {
   Outcome outcome;
 };
 
-/// As scenes name it.
-[[nodiscard]] std::string name_of(sim::PressureKind solver);
-
 /// Runs one case at one resolution. `progress` gets the share done [0, 1].
 [[nodiscard]] Result run_case(sim::Device& device, const Case& item, const Setting& setting,
                               const std::filesystem::path& series_folder,

@@ -26,6 +26,18 @@ class Glance : public testing::Test {
   void SetUp() override {
     if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
   }
+  /// What a script that imports the page's modules gives, without a page.
+  static Json with_the_modules(const std::string& script) {
+    view::Options options;
+    view::Server server(options);
+    const std::jthread thread([&server] { server.run(); });
+    Chromium browser("200,200");
+    browser.call("Page.navigate",
+                 {{"url", "http://" + protocol::to_string(server.local()) + "/vector.js"}});
+    Json result = browser.evaluate(script);
+    server.stop();
+    return result;
+  }
 };
 
 constexpr std::uint32_t kGrabbed = 4;
@@ -123,13 +135,7 @@ TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
 // Pictures come 60 times a second and take 25 ms to be drawn, states 60 times, each up to 5 ms
 // before its moment or 24 ms after.
 TEST_F(Glance, ShownPicturesAreYoungWhereFramesComeInTime) {
-  view::Options options;
-  view::Server server(options);
-  const std::jthread thread([&server] { server.run(); });
-  Chromium browser("200,200");
-  browser.call("Page.navigate",
-               {{"url", "http://" + protocol::to_string(server.local()) + "/vector.js"}});
-  const Json ages = browser.evaluate(R"js((async () => {
+  const Json ages = with_the_modules(R"js((async () => {
     const { Playout } = await import('/playout.js');
     const ages = [];
     for (const late of [-0.005, 0.005, 0.02]) {
@@ -145,7 +151,6 @@ TEST_F(Glance, ShownPicturesAreYoungWhereFramesComeInTime) {
     }
     return ages;
   })())js");
-  server.stop();
   for (const Json& age : ages) EXPECT_LT(age.get<double>(), 0.060) << ages;
   EXPECT_LT(ages[0].get<double>(), ages[2].get<double>());
 }
@@ -153,13 +158,7 @@ TEST_F(Glance, ShownPicturesAreYoungWhereFramesComeInTime) {
 // Eight particles between x = y = 0 and 1 m, in the middle but for two near the x wall, one of
 // which flies, and one in a corner.
 TEST_F(Glance, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
-  view::Options options;
-  view::Server server(options);
-  const std::jthread thread([&server] { server.run(); });
-  Chromium browser("200,200");
-  browser.call("Page.navigate",
-               {{"url", "http://" + protocol::to_string(server.local()) + "/vector.js"}});
-  const Json drawn = browser.evaluate(R"js((async () => {
+  const Json drawn = with_the_modules(R"js((async () => {
     const { several, WORDS } = await import('/several.js');
     const places = [[0.5, 0.5], [0.01, 0.5], [0.99, 0.5], [0.99, 0.01], [0.5, 0.5], [0.5, 0.5],
       [0.5, 0.5], [0.5, 0.5]];
@@ -171,11 +170,10 @@ TEST_F(Glance, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
     const tank = { lower: [0, 0, 0], upper: [1, 1, 1] };
     const { mirrored, drops } = several({ older: state, newer: state },
       { tank, paddle: 0, spacing: 0.01 });
-    const told = (points) => Array.from({ length: points.count }, (_, k) =>
+    const placed = (points) => Array.from({ length: points.count }, (_, k) =>
       [points.used[WORDS * k] & 0xffff, points.used[WORDS * k + 4]]);
-    return [told(mirrored), told(drops)];
+    return [placed(mirrored), placed(drops)];
   })())js");
-  server.stop();
   EXPECT_EQ(drawn[0], Json({{10, 0}, {990, 0}, {990, 1}, {990, 2}}));
   EXPECT_EQ(drawn[1], Json({{990, 10}, {990, 11}, {990, 12}, {990, 13}, {990, 14}}));
 }
@@ -183,13 +181,7 @@ TEST_F(Glance, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
 // A machine on which a picture takes a time in proportion to its pixels: pictures get coarser until
 // they come often enough, and sharper again on one that is fast.
 TEST_F(Glance, APictureThatTakesLongGetsCoarser) {
-  view::Options options;
-  view::Server server(options);
-  const std::jthread thread([&server] { server.run(); });
-  Chromium browser("200,200");
-  browser.call("Page.navigate",
-               {{"url", "http://" + protocol::to_string(server.local()) + "/vector.js"}});
-  const Json shares = browser.evaluate(R"js((async () => {
+  const Json shares = with_the_modules(R"js((async () => {
     const { Pace } = await import('/pace.js');
     let now = performance.now(); // [ms]
     performance.now = () => now;
@@ -204,7 +196,6 @@ TEST_F(Glance, APictureThatTakesLongGetsCoarser) {
     };
     return [run(1, 0.001), run(3, 0.12), run(60, 0.001)];
   })())js");
-  server.stop();
   EXPECT_EQ(shares[0][0], 1) << shares;
   EXPECT_LT(shares[1][0], 1) << shares;
   EXPECT_GT(shares[1][2], 40) << shares;

@@ -104,8 +104,8 @@ typedef struct {
   float rocker;                  // the sole of a box curves up at both x ends by this [m]
   float flat;                    // share of its length, in the middle, that does not curve [1]
   int free;                      // 1: the water moves it (free_bodies/), 0: it goes its way
-  // Of a mesh only: its distance on a grid, its vertices and points along its sharp edges, among
-  // the numbers of all meshes.
+  // Meshes only: where the mesh's distance on a grid, its vertices and the points along its sharp
+  // edges are in the array that holds the numbers of all meshes.
   int field;  // where its distances begin, x fastest [m]
   int nodes_x, nodes_y, nodes_z;
   float lower_x, lower_y, lower_z;  // first node [m]

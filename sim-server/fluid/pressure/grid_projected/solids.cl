@@ -212,7 +212,7 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
   parts->room[c] = sum;
 }
 
-// Whether solids may be near any of a vector of cells: most vectors are far from all.
+// Whether a solid may be near any cell of a vector; most vectors have none near them.
 static bool solids_near_cells(constant FluidParams* p, constant MacGrid* g, const Solids* s,
                               const Cells* at) {
   const MacLevel l = g->level[0];
