@@ -147,7 +147,7 @@ std::string strike(const Scene& scene) {
   if (scene.gate.present) return "the gate lets water go that strikes what it meets";
   if (scene.flow.kind == FlowKind::uniform) return "the flow strikes what it meets";
   for (const BodySettings& body : scene.bodies) {
-    const std::string reason = reason_of(scene, body);
+    std::string reason = reason_of(scene, body);
     if (!reason.empty()) return reason;
   }
   return is_all_supported(scene) ? ""
