@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too
-# (twice as long). Reading the system headers takes most of the time, so units with the same options
+# (twice as long, in a build with -DSPLASH_JOIN=OFF). Reading the system headers takes most of the time, so units with the same options
 # are joined into one and read together; if clang-tidy finds fault with those, each is read alone.
 # A unit found clean is not read again until it, a header of ours or the rules change. Arguments:
 # the source tree, the build folder.
@@ -10,7 +10,7 @@ cd "$1"
 build=$2
 clean=$build/tidy-clean
 joined=$build/tidy-joined
-readonly kMost=12  # units read together
+readonly kMost=40  # units read together
 rm -rf "$joined"
 mkdir -p "$clean" "$joined"
 
@@ -23,7 +23,7 @@ rules=$(sha256sum <<<"$rules")
 units=$(paste -d'\t' \
   <(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$build/compile_commands.json") \
   <(sed -n 's/^ *"command": "[^ ]*\( [^ ]*c++\)\{0,1\} \(.*\) -o [^ ]* -c .*/\2/p' \
-      "$build/compile_commands.json") |
+      "$build/compile_commands.json" | sed 's/ -O[0-3]//g') |
   grep -F "$1/" | grep -vF "$build/" | grep -v "^$1/${SPLASH_TIDY_ALL-tests}/" | sort -u -k1,1)
 [[ -n $units ]] || { echo "no sources of $1 in $build/compile_commands.json" >&2; exit 1; }
 
@@ -67,35 +67,11 @@ read_together() {  # options, sources
 export -f key_of unquoted read_alone read_together
 export build clean joined rules
 
-# Lines "source, options" -> lines "options, sources": units that define no name twice together;
-# tests, which have rules of their own, one by one.
+# Tests, which have rules of their own, are read one by one.
 join_units() {
-  awk -F'\t' -v most="$kMost" '
-    function find_names(file,   line, words, count) {
-      split("", names)
-      while ((getline line <file) > 0) {
-        sub(/^\[\[[a-z]*\]\] /, "", line)
-        if (line !~ /^[A-Za-z]/ || line ~ /^(template|namespace|using namespace|extern)/) continue
-        sub(/[[({=;].*/, "", line)
-        count = split(line, words, " ")
-        if (words[count] !~ /::/) names[words[count]] = 1
-      }
-      close(file)
-    }
-    function fits(group,   name) {
-      if ($1 ~ /\/tests\// || options[group] != $2 || size[group] >= most) return 0
-      for (name in names) if ((group, name) in taken) return 0
-      return 1
-    }
-    {
-      find_names($1)
-      for (group = 1; group <= groups && !fits(group); ++group) {}
-      if (group > groups) { groups = group; options[group] = $2 }
-      for (name in names) taken[group, name] = 1
-      sources[group] = sources[group] "\t" $1
-      ++size[group]
-    }
-    END { for (group = 1; group <= groups; ++group) print options[group] sources[group] }'
+  awk -F'\t' -v tests="$PWD/tests/" -v join="awk -v most=$kMost -f tests/house/join_units.awk" '
+    index($1, tests) == 1 { print $2 "\t" $1; next }
+    { print | join }'
 }
 
 fresh=$(while IFS=$'\t' read -r source options; do

@@ -32,7 +32,7 @@ class Network {
   std::mt19937 random_;
 };
 
-bool ping(ClockEstimate& estimate, const Peer& peer, Network& network, double time) {
+bool exchange(ClockEstimate& estimate, const Peer& peer, Network& network, double time) {
   const double arrived = time + network.delay();
   const double replied = arrived + 0.0001;
   return estimate.add(time, peer.at(arrived), peer.at(replied), replied + network.delay());
@@ -45,7 +45,7 @@ TEST(ClockEstimate, FindsOffsetAndDriftUnderJitter) {
       Network network(7);
       ClockEstimate estimate;
       double time = peer.start;
-      for (int i = 0; i < 120; ++i, time += 1.0) ping(estimate, peer, network, time);
+      for (int i = 0; i < 120; ++i, time += 1.0) exchange(estimate, peer, network, time);
       EXPECT_NEAR(estimate.offset_at(time), peer.at(time) - time, 5e-4) << offset << ' ' << drift;
       EXPECT_NEAR(estimate.drift(), drift, 2e-5) << offset;
       EXPECT_LT(estimate.round_trip(), 0.002);
@@ -60,7 +60,7 @@ TEST(ClockEstimate, IsUsableFromTheFirstSample) {
   ClockEstimate estimate;
   EXPECT_FALSE(estimate.ready());
   EXPECT_EQ(estimate.offset_at(5.0), 0.0);
-  ASSERT_TRUE(ping(estimate, peer, network, peer.start));
+  ASSERT_TRUE(exchange(estimate, peer, network, peer.start));
   EXPECT_TRUE(estimate.ready());
   EXPECT_NEAR(estimate.offset_at(peer.start), 3600.0, 0.5 * estimate.round_trip() + 1e-6);
 }
@@ -80,7 +80,7 @@ TEST(ClockEstimate, NoDriftFromAShortSpan) {
   const Peer peer{0.0, 0.0};
   Network network(11);
   ClockEstimate estimate;
-  for (int i = 0; i < 50; ++i) ping(estimate, peer, network, peer.start + 0.1 * i);
+  for (int i = 0; i < 50; ++i) exchange(estimate, peer, network, peer.start + 0.1 * i);
   EXPECT_EQ(estimate.drift(), 0.0);
   EXPECT_NEAR(estimate.offset_at(peer.start + 5.0), 0.0, 1e-3);
 }
@@ -90,14 +90,14 @@ TEST(ClockEstimate, FollowsAClockThatWasSet) {
   Network network(5);
   ClockEstimate estimate;
   double time = peer.start;
-  for (int i = 0; i < 60; ++i, time += 1.0) ping(estimate, peer, network, time);
+  for (int i = 0; i < 60; ++i, time += 1.0) exchange(estimate, peer, network, time);
   peer.offset = -3600.0;
-  EXPECT_FALSE(ping(estimate, peer, network, time));  // one is doubted,
+  EXPECT_FALSE(exchange(estimate, peer, network, time));  // one is doubted,
   time += 1.0;
-  EXPECT_TRUE(ping(estimate, peer, network, time));  // two are believed
+  EXPECT_TRUE(exchange(estimate, peer, network, time));  // two are believed
   EXPECT_EQ(estimate.steps(), 1U);
   EXPECT_NEAR(estimate.offset_at(time), -3600.0, 0.06);
-  for (int i = 0; i < 60; ++i, time += 1.0) ping(estimate, peer, network, time);
+  for (int i = 0; i < 60; ++i, time += 1.0) exchange(estimate, peer, network, time);
   EXPECT_NEAR(estimate.offset_at(time), -3600.0, 1e-3);
 }
 
@@ -106,11 +106,11 @@ TEST(ClockEstimate, OneWildSampleDoesNothing) {
   Network network(9);
   ClockEstimate estimate;
   double time = peer.start;
-  for (int i = 0; i < 20; ++i, time += 1.0) ping(estimate, peer, network, time);
+  for (int i = 0; i < 20; ++i, time += 1.0) exchange(estimate, peer, network, time);
   const double before = estimate.offset_at(time);
   EXPECT_FALSE(estimate.add(time, time + 1e6, time + 1e6, time + 0.001));
   EXPECT_EQ(estimate.offset_at(time), before);
-  EXPECT_TRUE(ping(estimate, peer, network, time + 1.0));
+  EXPECT_TRUE(exchange(estimate, peer, network, time + 1.0));
   EXPECT_FALSE(estimate.add(time + 2, time + 1e6, time + 1e6, time + 2.001));  // doubted anew
   EXPECT_EQ(estimate.steps(), 0U);
 }

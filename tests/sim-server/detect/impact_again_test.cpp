@@ -69,8 +69,8 @@ TEST(Again, AfterTheWaterHasLongSunk) {
 TEST(Again, NotInItsOwnCavityWhenTilted) {
   ImpactWatch watch({kUnderside}, {}, surface_distance());
   int impacts = 0;
-  for (int k = 0; k * kFrame < 0.45; ++k) {
-    const double time = k * kFrame;
+  for (int k = 0; k * kStoryFrame < 0.45; ++k) {
+    const double time = k * kStoryFrame;
     std::vector<SurfacePoint> points;
     const bool cavity = time > 0.15 && time < 0.40;
     const Scenery at = {.underside = std::max(0.1 - time, -0.1),
@@ -87,7 +87,7 @@ TEST(Again, NotInItsOwnCavityWhenTilted) {
       points[i].touch.colour = one[i].touch.colour;
       points[i].touch.gz = one[i].touch.gz;
     }
-    impacts += static_cast<int>(watch.observe(time, kFrame, points).size());
+    impacts += static_cast<int>(watch.observe(time, kStoryFrame, points).size());
   }
   EXPECT_EQ(impacts, 1);
 }
@@ -96,14 +96,14 @@ TEST(Again, NotInItsOwnCavityWhenTilted) {
 int impacts_of_a_step(const Story& story, double seconds) {
   ImpactWatch watch({kUnderside}, {}, surface_distance());
   int impacts = 0;
-  for (int k = 0; k * kFrame < seconds; ++k) {
-    const double time = k * kFrame;
+  for (int k = 0; k * kStoryFrame < seconds; ++k) {
+    const double time = k * kStoryFrame;
     std::vector<SurfacePoint> points;
     Scenery at = story(time);
     add_body(points, 0, at);
     at.underside += 0.05;
     add_body(points, 0, at);
-    impacts += static_cast<int>(watch.observe(time, kFrame, points).size());
+    impacts += static_cast<int>(watch.observe(time, kStoryFrame, points).size());
   }
   return impacts;
 }
@@ -126,12 +126,12 @@ TEST(Again, ForTheHeelOfAFootThatStaysIn) {
   ImpactWatch watch({2.0 * kUnderside}, {}, surface_distance());
   std::vector<double> told;
   const auto heel = path(-0.02, {{0.3, -0.02}, {0.5, 0.03}, {0.6, -0.02}, {0.9, -0.02}});
-  for (int k = 0; k * kFrame < 1.0; ++k) {
-    const double time = k * kFrame;
+  for (int k = 0; k * kStoryFrame < 1.0; ++k) {
+    const double time = k * kStoryFrame;
     std::vector<SurfacePoint> points;
     add_body(points, 0, heel(time));
     add_body(points, 0, Scenery{.underside = -0.02});
-    for (const DetectedImpact& impact : watch.observe(time, kFrame, points)) {
+    for (const DetectedImpact& impact : watch.observe(time, kStoryFrame, points)) {
       told.push_back(impact.time);
       EXPECT_NEAR(impact.approach, 0.5, 1.0e-6);
     }

@@ -41,13 +41,13 @@ std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
                              const DetectSettings& settings) {
   ImpactWatch watch(std::vector<double>(bodies.size(), kUnderside), settings, surface_distance());
   std::vector<Announced> all;
-  for (int k = 0; k * kFrame < seconds; ++k) {
-    const double time = k * kFrame;
+  for (int k = 0; k * kStoryFrame < seconds; ++k) {
+    const double time = k * kStoryFrame;
     std::vector<SurfacePoint> points;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       add_body(points, static_cast<int>(b), bodies[b](time));
     }
-    for (const DetectedImpact& impact : watch.observe(time, kFrame, points)) {
+    for (const DetectedImpact& impact : watch.observe(time, kStoryFrame, points)) {
       all.push_back({time, impact});
     }
   }

@@ -9,8 +9,8 @@
 
 namespace splash::sim {
 
-inline constexpr double kSpacing = 0.02;  ///< [m]
-inline constexpr double kFrame = 0.004;   ///< [s]
+inline constexpr double kSpacing = 0.02;      ///< [m]
+inline constexpr double kStoryFrame = 0.004;  ///< [s]
 
 /// Of water on a cubic lattice, support two spacings.
 [[nodiscard]] SurfaceDistance surface_distance();

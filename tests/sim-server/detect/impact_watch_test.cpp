@@ -66,7 +66,7 @@ TEST_P(Plunge, IsAnnouncedAhead) {
   // As soon as the water is seen (1.2 spacings) or within the look-ahead, whichever is later.
   const double seen = (1.2 * kSpacing) / speed;
   const double ahead = std::min(settings.impact_lookahead, seen);
-  EXPECT_GT(all[0].impact.time, all[0].at + ahead - kFrame - 1.0e-5);
+  EXPECT_GT(all[0].impact.time, all[0].at + ahead - kStoryFrame - 1.0e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, Plunge, ::testing::Values(0.06, 0.3, 1.0, 2.0, 4.0));
@@ -76,14 +76,14 @@ INSTANTIATE_TEST_SUITE_P(Speeds, Plunge, ::testing::Values(0.06, 0.3, 1.0, 2.0, 
 TEST(FastBody, IsTimedWithinTheFrame) {
   for (const double part : {0.05, 0.2, 0.4, 0.6, 0.8, 0.95}) {
     const double speed = 12.0;  // 48 mm per frame, seen from 28 mm on
-    const double meets = 5.0 * kFrame + part * kFrame;
+    const double meets = 5.0 * kStoryFrame + part * kStoryFrame;
     const auto all = watch(
         [&](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; },
         0.2);
     ASSERT_EQ(all.size(), 1U) << part;
-    EXPECT_GE(all[0].impact.time, all[0].at - kFrame);
+    EXPECT_GE(all[0].impact.time, all[0].at - kStoryFrame);
     const double deepest = (kSpacing / 2.0) / speed;
-    const double in_for = 6.0 * kFrame - meets;
+    const double in_for = 6.0 * kStoryFrame - meets;
     if (in_for < deepest) {
       EXPECT_NEAR(all[0].impact.time, meets, 1.0e-5) << part;
     } else {
@@ -163,9 +163,9 @@ std::vector<DetectedImpact> of_a_sole(double degrees) {
   const double turn = degrees * 3.14159265 / 180.0;
   ImpactWatch watch({kUnderside}, {}, surface_distance());
   std::vector<DetectedImpact> all;
-  for (int k = 0; k * kFrame < 0.1; ++k) {
+  for (int k = 0; k * kStoryFrame < 0.1; ++k) {
     std::vector<SurfacePoint> points;
-    add_body(points, 0, {.underside = 0.05 - k * kFrame, .speed = -1.0, .drift = 3.0});
+    add_body(points, 0, {.underside = 0.05 - k * kStoryFrame, .speed = -1.0, .drift = 3.0});
     for (SurfacePoint& point : points) {
       point.touch.nx = static_cast<float>(std::sin(turn));
       point.touch.nz = static_cast<float>(-std::cos(turn));
@@ -174,7 +174,7 @@ std::vector<DetectedImpact> of_a_sole(double degrees) {
     points.back().area = kUnderside / 50.0;
     points.back().touch.nx = 0.0F;
     points.back().touch.nz = -1.0F;
-    for (const DetectedImpact& impact : watch.observe(k * kFrame, kFrame, points)) {
+    for (const DetectedImpact& impact : watch.observe(k * kStoryFrame, kStoryFrame, points)) {
       all.push_back(impact);
     }
   }
@@ -201,8 +201,8 @@ TEST(Glancing, MomentumIsThatOfAllSkinNotOfTheFirstToMeet) {
   const double turn = 50.0 * 3.14159265 / 180.0;
   ImpactWatch watch({kUnderside}, {}, surface_distance());
   std::vector<DetectedImpact> all;
-  for (int k = 0; k * kFrame < 0.1; ++k) {
-    const double corner = 0.04 - k * kFrame;
+  for (int k = 0; k * kStoryFrame < 0.1; ++k) {
+    const double corner = 0.04 - k * kStoryFrame;
     std::vector<SurfacePoint> points;
     add_body(points, 0, {.underside = corner + 0.012, .speed = -1.0, .drift = 3.0});
     std::vector<SurfacePoint> first;
@@ -211,7 +211,7 @@ TEST(Glancing, MomentumIsThatOfAllSkinNotOfTheFirstToMeet) {
     points.back().area = kUnderside / 50.0;
     points.back().touch.nx = static_cast<float>(std::sin(turn));
     points.back().touch.nz = static_cast<float>(-std::cos(turn));
-    for (const DetectedImpact& impact : watch.observe(k * kFrame, kFrame, points)) {
+    for (const DetectedImpact& impact : watch.observe(k * kStoryFrame, kStoryFrame, points)) {
       all.push_back(impact);
     }
   }

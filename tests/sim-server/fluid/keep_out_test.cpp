@@ -163,7 +163,7 @@ TEST_P(KeepOut, LeavesNobodyDeepInside) {
 }
 
 void expect_nobody_through(Device& device, const Shape& shape, bool free, double far) {
-  constexpr double kStep = 0.025;
+  const double step = 0.025;
   Water water = body_among_particles(shape);
   water.scene.fluid.gravity = {};
   water.scene.fluid.viscosity = water.scene.fluid.artificial = 0.0;
@@ -177,8 +177,8 @@ void expect_nobody_through(Device& device, const Shape& shape, bool free, double
   if (free)
     water.fluid->release(free_bodies(water.scene.bodies),
                          film_skins(water.scene.bodies, water.scene.fluid.spacing));
-  throw_through(water, places, far, kStep);
-  water.step(kStep);
+  throw_through(water, places, far, step);
+  water.step(step);
   const Snapshot after = water.fluid->snapshot();
   for (std::size_t i = 0; i < after.id.size(); ++i) {
     const Vector3 x = in_body(vector_of(*water.fluid, after.position, i));
