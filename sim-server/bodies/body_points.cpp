@@ -59,10 +59,10 @@ std::array<int, 3> side_of(const Lattice& lattice, const std::array<int, 3>& lay
   return side;
 }
 
-using Cell = std::array<int, 3>;
+using LatticeCell = std::array<int, 3>;
 
-Cell cell_of(const Vector3& place, double size) {
-  Cell cell = {};
+LatticeCell cell_of(const Vector3& place, double size) {
+  LatticeCell cell = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cell[axis] = static_cast<int>(std::floor(place[axis] / size));
   }
@@ -71,8 +71,8 @@ Cell cell_of(const Vector3& place, double size) {
 
 /// Numbers of the points in this cell and those around it, in ascending order: sums do not depend
 /// on how a body lies among the cells.
-std::vector<std::size_t> around(const std::map<Cell, std::vector<std::size_t>>& cells,
-                                const Cell& middle) {
+std::vector<std::size_t> around(const std::map<LatticeCell, std::vector<std::size_t>>& cells,
+                                const LatticeCell& middle) {
   std::vector<std::size_t> found;
   for (int k = 0; k < 27; ++k) {
     const auto cell =
@@ -85,7 +85,7 @@ std::vector<std::size_t> around(const std::map<Cell, std::vector<std::size_t>>& 
 }
 
 void mark_surface(std::vector<BodyPoint>& points, double support) {
-  std::map<Cell, std::vector<std::size_t>> cells;
+  std::map<LatticeCell, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < points.size(); ++i) {
     cells[cell_of(points[i].place, support)].push_back(i);
   }

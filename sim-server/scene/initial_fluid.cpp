@@ -71,7 +71,7 @@ class Solids {
 };
 
 /// Of a cell of the lattice.
-struct Cell {
+struct FillCell {
   double water = 0.0;   ///< part of it that is water [1]
   Vector3 middle = {};  ///< of that water [m]
   bool has_room = false;
@@ -104,7 +104,7 @@ class Filling {
     for (int k = 0; k < lattice_.counts[2]; ++k) {
       for (int j = 0; j < lattice_.counts[1]; ++j) {
         for (int i = 0; i < lattice_.counts[0]; ++i) {
-          const Cell cell = look_at({i, j, k});
+          const FillCell cell = look_at({i, j, k});
           const double share = cell.water * weight(cell.middle);
           cells += cell.water;
           particles += share;
@@ -142,12 +142,12 @@ class Filling {
     return per_cell_ * (1.0 + stratification_ * (column.top - column.bottom) / 2.0);
   }
 
-  [[nodiscard]] Cell look_at(const Index& index) const {
+  [[nodiscard]] FillCell look_at(const Index& index) const {
     const Vector3 middle = place(index, {0.5, 0.5, 0.5});
     const std::vector<std::size_t> bodies = solids_.near(middle, reach_);
     const bool is_cut = place(index, {1.0, 1.0, 1.0 - kRounding})[2] > block_.upper[2];
     if (bodies.empty() && !is_cut && block_.form == WaterForm::box) return {1.0, middle, true};
-    Cell cell;
+    FillCell cell;
     int wet = 0;
     for (int i = 0; i < kSamples; ++i) {
       const Vector3 x = place(index, sample(i));

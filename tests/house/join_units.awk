@@ -8,7 +8,7 @@ function find_names(file,   line, words, count) {
     sub(/^\[\[[a-z]*\]\] /, "", line)
     if (line !~ /^[A-Za-z]/ || line ~ /^(template|namespace|using namespace|extern|TEST|TYPED_TEST|INSTANTIATE)/) continue
     sub(/^MATCHER(_P[0-9]*)?\(/, "", line)
-    sub(/^(class|struct|enum|enum class) /, "", line) && sub(/[ :].*/, "", line)
+    sub(/^(class|struct|enum|enum class) /, "", line) && sub(/ .*/, "", line)
     sub(/[[({=;,].*/, "", line)
     count = split(line, words, " ")
     if (words[count] !~ /::/) names[words[count]] = 1

@@ -10,7 +10,7 @@ cd "$1"
 build=$2
 clean=$build/tidy-clean
 joined=$build/tidy-joined
-readonly kMost=40  # units read together
+readonly kMost=24  # units read together
 rm -rf "$joined"
 mkdir -p "$clean" "$joined"
 
