@@ -17,14 +17,14 @@ namespace {
 /// face leaves 0.81 of it, two layers deep it is 1.
 constexpr double kSurfaceColour = 0.95;
 
-struct Lattice {
+struct BodyLattice {
   std::array<int, 3> count = {1, 1, 1};
   Vector3 step = {0.0, 0.0, 0.0};  ///< [m]
 };
 
 /// Whole layers that fill the box: the first and last lie half a step below its faces.
-Lattice fit_lattice(const Vector3& size, double spacing) {
-  Lattice lattice;
+BodyLattice fit_lattice(const Vector3& size, double spacing) {
+  BodyLattice lattice;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double layers = std::ceil(size[axis] / spacing - 1e-9);
     lattice.count[axis] = std::max(static_cast<int>(layers), 1);
@@ -33,7 +33,7 @@ Lattice fit_lattice(const Vector3& size, double spacing) {
   return lattice;
 }
 
-double along(const Lattice& lattice, std::size_t axis, int k, double size) {
+double along(const BodyLattice& lattice, std::size_t axis, int k, double size) {
   return (k + 0.5) * lattice.step[axis] - size / 2.0;
 }
 
@@ -49,7 +49,7 @@ double distance(const Vector3& a, const Vector3& b) {
 
 /// The layer that it is in along each axis. A single layer is inside, but for z: it shows its
 /// underside.
-std::array<int, 3> side_of(const Lattice& lattice, const std::array<int, 3>& layer) {
+std::array<int, 3> side_of(const BodyLattice& lattice, const std::array<int, 3>& layer) {
   std::array<int, 3> side = {0, 0, 0};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (lattice.count[axis] == 1 && axis != 2) continue;
@@ -142,7 +142,7 @@ void add_deepest(const Shape& shape, int owner, std::vector<BodyPoint>& points) 
 }  // namespace
 
 std::vector<BodyPoint> sample_shape(const Shape& shape, int owner, double spacing, double support) {
-  const Lattice lattice = fit_lattice(shape.size, spacing);
+  const BodyLattice lattice = fit_lattice(shape.size, spacing);
   const Vector3 middle = middle_of(shape);
   std::vector<BodyPoint> points;
   for (int kz = 0; kz < lattice.count[2]; ++kz) {

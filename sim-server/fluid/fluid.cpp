@@ -183,7 +183,7 @@ void Fluid::compute_density(const Step& step) {
                        boundary_.matter(), boundary_.outlines(), boundary_.bodies_at(step));
 }
 
-void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity) {
+void Fluid::compute_acceleration(const Step& step) {
   compute_acceleration_.run(device_.queue(), groups(),
                             {{"p", params_buffer_},
                              {"piston", as_float(step.piston)},
@@ -191,7 +191,7 @@ void Fluid::compute_acceleration(const Step& step, const Buffer<float>& velocity
                              {"activity", sleep_.activity()},
                              {"resting", sleep_.resting()},
                              {"position", sorted_.position},
-                             {"velocity", velocity},
+                             {"velocity", sorted_.velocity},
                              {"pressure_term", pressure_term_},
                              {"images", body_images_},
                              {"body_velocity", boundary_.points().velocity},
@@ -292,8 +292,7 @@ Snapshot Fluid::snapshot() {
   const auto stride = static_cast<std::size_t>(sorted_.stride);
   return {sorted_.position.read(device_, 3 * stride), sorted_.velocity.read(device_, 3 * stride),
           sorted_.id.read(device_, static_cast<std::size_t>(params_.count)),
-          peak_density_.read(device_, static_cast<std::size_t>(params_.count)),
-          solver_->pressure(device_)};
+          peak_density_.read(device_, static_cast<std::size_t>(params_.count))};
 }
 
 void Fluid::restore(const Snapshot& snapshot) {
@@ -301,7 +300,7 @@ void Fluid::restore(const Snapshot& snapshot) {
   sorted_.velocity.write(device_, snapshot.velocity);
   sorted_.id.write(device_, snapshot.id);
   peak_density_.write(device_, snapshot.peak_density);
-  solver_->restore_pressure(device_, snapshot.pressure);
+  solver_->forget_pressure(device_);
   if (free_) free_->films().forget(device_);
   health_.forget();
   sleep_.wake(device_);

@@ -47,7 +47,6 @@ struct Snapshot {
   std::vector<float> velocity;
   std::vector<int> id;
   std::vector<float> peak_density;  ///< densest since torn (pressure/state_equation.h) [kg/m3]
-  std::vector<float> pressure;      ///< what the solver keeps from step to step
 };
 
 /// Everything is enqueued on the device's in-order queue; only stats, snapshot and restore wait
@@ -129,14 +128,14 @@ class Fluid {
   }
 
   /// For solvers: accelerations from the present pressure_term() and the given velocities.
-  void compute_acceleration(const Step& step, const Buffer<float>& velocity);
+  void compute_acceleration(const Step& step);
   /// Moves the state on as the accelerations say.
   void integrate(const Step& step);
   /// Work-items of the stages that handle a vector of particles at once.
   [[nodiscard]] std::size_t groups() const;
   [[nodiscard]] const PressureSolver& solver() const noexcept { return *solver_; }
   /// Work of the pressure solver until the last statistics, without what was before forget_work.
-  [[nodiscard]] SolverWork solver_work() const { return solver_->work(); }
+  [[nodiscard]] SolveWork solver_work() const { return solver_->work(); }
   void forget_work() { solver_->forget_work(device_); }
 
   // What detectors read between prepare and advance.

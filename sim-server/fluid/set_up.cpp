@@ -52,17 +52,11 @@ void lay_grid(const Scene& scene, double support, FluidParams& params) {
   params.origin_z = static_cast<float>(lower[2] - support);
 }
 
-bool is_divergence_free(const Scene& scene) {
-  return scene.fluid.solver == PressureKind::divergence_free;
-}
-
 /// As kernels know it.
 int number_of(PressureKind solver) {
   switch (solver) {
     case PressureKind::weakly_compressible:
       return SPLASH_WEAKLY_COMPRESSIBLE;
-    case PressureKind::divergence_free:
-      return SPLASH_DIVERGENCE_FREE;
     case PressureKind::grid_projected:
       return SPLASH_GRID_PROJECTED;
   }
@@ -142,10 +136,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.inverse_cell = p.inverse_support;
   p.length = static_cast<float>(kLengthOfSupport * support);
   p.least_density = static_cast<float>(kLeastDensity * scene.fluid.density);
-  // The divergence-free solver's pressures are not the state equation's, and never pull.
-  p.torn_density = is_divergence_free(scene)
-                       ? std::numeric_limits<float>::infinity()
-                       : static_cast<float>(kTornDensity * scene.fluid.density);
+  p.torn_density = static_cast<float>(kTornDensity * scene.fluid.density);
   p.kernel_norm = static_cast<float>(kernel_norm(support));
   const double volume = particle_volume(scene);
   p.mass =
@@ -164,11 +155,8 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.speed_limit = static_cast<float>(sound_speed);
   p.solver = number_of(scene.fluid.solver);
   p.wave_speed = static_cast<float>(longest_wave(scene));
-  p.tolerance = static_cast<float>(scene.fluid.tolerance);
-  const bool on_grid = scene.fluid.solver == PressureKind::grid_projected;
-  const double factor = StepPolicy(scene.fluid).factor();
-  p.advective_cfl = static_cast<float>(
-      on_grid ? kGridAdvectiveCfl * std::min(factor, kLargestGridCfl) : kAdvectiveCfl * factor);
+  p.advective_cfl = static_cast<float>(kGridAdvectiveCfl *
+                                       std::min(StepPolicy(scene.fluid).factor(), kLargestGridCfl));
   const auto walls = tank_walls(scene);
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);

@@ -30,12 +30,6 @@ double largest_time_step(const FluidParams& params, double speed, double acceler
   const double nu = static_cast<double>(params.viscous + params.artificial) / 10.0;
   const double rubbing = h * h / std::max(nu, 1.0e-12);
   const double viscous = std::min(factor * kViscous, kMostViscous) * rubbing;
-  if (params.solver == SPLASH_DIVERGENCE_FREE) {
-    const double fastest = std::max(speed, static_cast<double>(params.wave_speed));
-    const double way =
-        kAdvectiveCfl * static_cast<double>(params.spacing) / std::max(fastest, 1.0e-9);
-    return std::min(factor * std::min(way, kLongest), viscous);
-  }
   if (params.solver == SPLASH_GRID_PROJECTED) {
     const double way =
         kGridAdvectiveCfl * static_cast<double>(params.spacing) / std::max(speed, 1.0e-9);

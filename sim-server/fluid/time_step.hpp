@@ -7,26 +7,17 @@
 
 namespace splash::sim {
 
-/// The largest displacement in a step of the divergence-free solver, its CFL number [spacings].
-inline constexpr double kAdvectiveCfl = 0.3;
-
 /// Largest step that is used [s]. Of the weakly compressible solver:
 ///   acoustic  dt <= C H / (c0 + v)        C of the smoothing kernel, below where still water
 ///                                          grows rough (smoothing.cpp)
 ///   force     dt <= 0.25 sqrt(h / a)      Monaghan 1992
 ///   viscous   dt <= 0.125 h^2 / nu        Morris et al. 1997; 0.13 at most, whatever the factor
-/// Of the divergence-free solver:
-///   advective dt <= 0.3 dx / max(v, sqrt(g depth))   neither the fastest thing nor the longest
-///                                          wave gets farther: calm to 0.32 in a plunge and
-///                                          0.5 in still water; 0.4 and 0.7 failed
-///   viscous   as above
-///   longest   10 ms, so that nothing sudden is slept through
 /// Of the grid-projected solver:
 ///   advective dt <= dx / v; 1.05 times that at most, whatever the factor: where a dam break meets
 ///             a wall, at 1.25 all is well, and at 1.5 particles end in one place in the tank's
 ///             edges
 ///   viscous   as above, of the water's own alone
-///   longest   10 ms
+///   longest   10 ms, so that nothing sudden is slept through
 /// with h the smoothing length, dx the spacing, `speed` the fastest particle or body point [m/s],
 /// `acceleration` the largest [m/s2] and `factor` that of StepPolicy (1: as above).
 [[nodiscard]] double largest_time_step(const FluidParams& params, double speed, double acceleration,

@@ -34,14 +34,14 @@ Fields<F> method_fields() {
       {{.key = "solver",
         .unit = "",
         .meaning = "Where pressure comes from: weakly_compressible, a state equation; "
-                   "divergence_free, the demand that nothing compresses; grid_projected, the same "
-                   "demand, made of a grid, so that waves and vortices last "
+                   "grid_projected, the demand that nothing compresses, made of a grid, so that "
+                   "waves and vortices last "
                    "(sim-server/fluid/pressure/grid_projected/README). auto: grid_projected, but "
                    "weakly_compressible where a body may strike the water, or water falls or flows "
                    "off (sim-server/fluid/README, \"Which solver\"); the program says which and "
                    "why.",
-        .choices = {"weakly_compressible", "divergence_free", "grid_projected", "auto"},
-        .source = "Monaghan 2005; Bender & Koschier 2017; Raveendran, Wojtan & Turk 2011"},
+        .choices = {"weakly_compressible", "grid_projected", "auto"},
+        .source = "Monaghan 2005; Raveendran, Wojtan & Turk 2011"},
        &F::solver_name},
       {{.key = "kernels",
         .unit = "",
@@ -57,12 +57,6 @@ Fields<F> method_fields() {
                    "off or fallen when time begins. never: none, so that a pool simmers at first.",
         .choices = {"auto", "always", "never"}},
        &F::settle_name},
-      {{.key = "density_tolerance",
-        .unit = "1",
-        .meaning = "divergence_free: mean compression at which a solve ends.",
-        .min = 1.0e-5,
-        .max = 0.05},
-       &F::tolerance},
   };
 }
 

@@ -18,7 +18,7 @@ using Vector3 = std::array<double, 3>;
 using Quaternion = std::array<double, 4>;  ///< x y z w, unit
 
 /// Where pressure comes from: sim-server/fluid.
-enum class PressureKind { weakly_compressible, divergence_free, grid_projected };
+enum class PressureKind { weakly_compressible, grid_projected };
 
 /// Over how much water a particle's quantities are smoothed: sim-server/fluid/params/smoothing.hpp.
 
@@ -37,7 +37,6 @@ struct FluidSettings {
   PressureKind solver = PressureKind::weakly_compressible;
   KernelKind kernels = KernelKind::vector;
   SettleKind settle = SettleKind::automatic;
-  double tolerance = 0.001;     ///< divergence-free: mean density error that ends a solve [1]
   double sound_speed = 0.0;     ///< of the weakly compressible model [m/s]; 0: from the scene
   double viscosity = 1.0e-6;    ///< kinematic [m2/s]
   double artificial = 0.1;      ///< Monaghan's artificial viscosity alpha [1]

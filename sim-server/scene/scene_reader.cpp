@@ -270,8 +270,8 @@ void read_bodies(const ConfigMap& map, Scene& scene) {
     const int held = scene.bodies.back().motion.held;
     if (held != 0 && scene.fluid.solver == PressureKind::grid_projected) {
       throw entry.child("motion").error("held",
-                                        "the solver grid_projected holds no body yet; the "
-                                        "other solvers do");
+                                        "the solver grid_projected holds no body yet; "
+                                        "weakly_compressible does");
     }
     const std::string& name = scene.bodies.back().name;
     if (!names.insert(name).second) {
@@ -318,7 +318,6 @@ void read_basin(const ConfigMap& map, Scene& scene) {
 FluidEntry read_fluid(const ConfigMap& map) {
   static const std::map<std::string, PressureKind> kSolvers = {
       {"weakly_compressible", PressureKind::weakly_compressible},
-      {"divergence_free", PressureKind::divergence_free},
       {"grid_projected", PressureKind::grid_projected},
       {"auto", PressureKind::weakly_compressible}};  // until all of the scene is known
   static const std::map<std::string, SettleKind> kSettling = {{"auto", SettleKind::automatic},
@@ -329,9 +328,6 @@ FluidEntry read_fluid(const ConfigMap& map) {
   entry.solver = kSolvers.at(entry.solver_name);
   entry.settle = kSettling.at(entry.settle_name);
   entry.kernels = entry.kernels_name == "reference" ? KernelKind::reference : KernelKind::vector;
-  if (map.has("density_tolerance") && entry.solver != PressureKind::divergence_free) {
-    throw map.error("density_tolerance", "has no meaning for the solver " + entry.solver_name);
-  }
   return entry;
 }
 

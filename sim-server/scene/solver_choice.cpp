@@ -160,8 +160,6 @@ std::string name_of(PressureKind solver) {
   switch (solver) {
     case PressureKind::weakly_compressible:
       return "weakly_compressible";
-    case PressureKind::divergence_free:
-      return "divergence_free";
     case PressureKind::grid_projected:
       break;
   }

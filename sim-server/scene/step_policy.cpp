@@ -7,8 +7,8 @@ namespace splash::sim {
 
 double StepPolicy::stable_factor(PressureKind solver) noexcept {
   // Measured by the trials and maps of tests/stress: the state equation's water is calm to 1.15
-  // and no longer at 1.2 around a sunken ball; the divergence-free one's passes all of them at 2.
-  // On a grid still and slow water takes 2 (fluid/time_step.hpp).
+  // and no longer at 1.2 around a sunken ball. On a grid still and slow water takes 2
+  // (fluid/time_step.hpp).
   return solver == PressureKind::weakly_compressible ? 1.05 : kLargestFactor;
 }
 

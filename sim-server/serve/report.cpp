@@ -120,8 +120,7 @@ std::string to_json(const RunReport& report) {
   json["real_time_factor"] = finite_or_null(report.real_time_factor());
   json["mean_density_error"] = finite_or_null(report.mean_density_error);
   json["maximum_density_error"] = finite_or_null(report.maximum_density_error);
-  json["iterations"] = {{"divergence", iterations_of(report.divergence_solve)},
-                        {"density", iterations_of(report.density_solve)}};
+  json["iterations"] = iterations_of(report.solve);
   report.events.each([&](const char* kind, std::uint64_t count) { json["events"][kind] = count; });
   json["no_cavity"] = by_name(report.no_cavity);
   json["air"] = {{"entrapped_litres", finite_or_null(kLitres * report.air.entrapped)},
@@ -190,15 +189,9 @@ std::string summary(const RunReport& report) {
   text << "pressure  " << report.solver_notice << '\n';
   text << std::setprecision(2) << "density   error mean " << 100.0 * report.mean_density_error
        << " %, maximum " << 100.0 * report.maximum_density_error << " %\n";
-  if (report.density_solve.solves > 0) {
-    const SolveTotals& divergence = report.divergence_solve;
-    const SolveTotals& density = report.density_solve;
-    text << "solver    iterations per step: ";
-    if (divergence.solves > 0) {
-      text << "divergence " << divergence.mean() << ", at most " << divergence.most << "; ";
-    }
-    text << "density " << density.mean() << ", at most " << density.most << "; given up "
-         << divergence.given_up + density.given_up << '\n';
+  if (report.solve.solves > 0) {
+    text << "solver    iterations per step: " << report.solve.mean() << ", at most "
+         << report.solve.most << "; given up " << report.solve.given_up << '\n';
   }
   const char* before = "events    ";
   report.events.each([&](const char* kind, std::uint64_t count) {

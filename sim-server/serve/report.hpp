@@ -14,7 +14,7 @@
 
 namespace splash::sim {
 
-/// The work of one kind of solve of the divergence-free solver.
+/// The work of a solver that iterates.
 struct SolveTotals {
   std::int64_t solves = 0;  ///< one per step; 0: the solver in use needs none
   std::int64_t iterations = 0;
@@ -54,8 +54,7 @@ struct RunReport {
   std::string settled_file;            ///< that the water at rest is from; empty: none
   double mean_density_error = 0.0;     ///< of the compressed part, in the rest density [1]
   double maximum_density_error = 0.0;  ///< same [1]
-  SolveTotals divergence_solve;
-  SolveTotals density_solve;
+  SolveTotals solve;
   protocol::ByKind<std::uint64_t> events;
   NamedCounts no_cavity;  ///< impacts that none followed, by reason
   AirReport air;

@@ -29,9 +29,7 @@ void put_water(const Simulation& simulation, RunReport& report) {
   const auto healthy = totals.frames - static_cast<std::int64_t>(totals.calmed + totals.resets);
   report.mean_density_error = share(totals.mean_excess_sum, healthy);
   report.maximum_density_error = totals.max_excess;
-  const SolverWork work = simulation.solver_work();
-  report.divergence_solve = totals_of(work.divergence);
-  report.density_solve = totals_of(work.density);
+  report.solve = totals_of(simulation.solver_work());
   report.felt = totals.felt;
   report.retried = totals.retried;
   report.calmed = totals.calmed;

@@ -28,14 +28,11 @@ constexpr double kFlight = 1.0;
 constexpr double kRestOfPackings = 0.02;
 constexpr double kRestOnGrid = 0.003;
 
-/// Slower water may sleep; 0: none may. Water that is shaken does not rest; the divergence-free
-/// solver balances all of it in every step.
+/// Slower water may sleep; 0: none may. Water that is shaken does not rest.
 double sleep_speed(const Scene& scene) {
-  const PressureKind solver = scene.fluid.solver;
-  if (!scene.skip.sleep || scene.tank_motion.present || solver == PressureKind::divergence_free) {
-    return 0.0;
-  }
-  const double usual = solver == PressureKind::grid_projected ? kRestOnGrid : kRestOfPackings;
+  if (!scene.skip.sleep || scene.tank_motion.present) return 0.0;
+  const bool on_grid = scene.fluid.solver == PressureKind::grid_projected;
+  const double usual = on_grid ? kRestOnGrid : kRestOfPackings;
   return scene.skip.sleep_speed > 0.0 ? scene.skip.sleep_speed : usual;
 }
 

@@ -104,7 +104,7 @@ class Simulation {
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
   [[nodiscard]] const RunTotals& totals() const noexcept { return totals_; }
   /// The work of the pressure solver, without the settling.
-  [[nodiscard]] SolverWork solver_work() const { return fluid_.solver_work(); }
+  [[nodiscard]] SolveWork solver_work() const { return fluid_.solver_work(); }
   [[nodiscard]] int particles() const noexcept { return fluid_.params().count; }
   [[nodiscard]] const Bodies& bodies() const noexcept { return bodies_; }
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }

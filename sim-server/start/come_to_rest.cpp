@@ -112,7 +112,6 @@ void put_back(Fluid& part, const std::vector<int>& ids, std::size_t stride, Snap
   const Snapshot now = part.snapshot();
   const auto own = static_cast<std::size_t>(part.params().capacity);
   const std::size_t count = ids.size();
-  const std::size_t solvers = now.pressure.size() / count;  // what the solver keeps, by id
   for (std::size_t k = 0; k < count; ++k) {
     const auto local = static_cast<std::size_t>(now.id[k]);
     const auto i = static_cast<std::size_t>(ids[local]);
@@ -121,9 +120,6 @@ void put_back(Fluid& part, const std::vector<int>& ids, std::size_t stride, Snap
       all.velocity[axis * stride + i] = now.velocity[axis * own + k];
     }
     all.peak_density[i] = now.peak_density[k];
-    for (std::size_t s = 0; s < solvers; ++s) {
-      all.pressure[s * all.id.size() + i] = now.pressure[s * count + local];
-    }
   }
 }
 

@@ -172,7 +172,7 @@ double per_solve(const sim::SolveWork& work) {
 void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
   out << "case,figure,size_over_spacing,particles,solver,time_step_factor,kernels,"
          "simulated_s,steps,wall_s,processor_s,error_percent,mean_density_error,"
-         "divergence_iterations,divergence_most,density_iterations,density_most,given_up\n";
+         "iterations,most_iterations,given_up\n";
   for (const SweepPoint& p : points) {
     const Quality& q = p.quality;
     const validation::Result& r = p.result;
@@ -181,12 +181,10 @@ void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
         << (q.kernels == sim::KernelKind::reference ? "reference" : "vector") << ',' << r.simulated
         << ',' << r.steps << ',' << r.steps_alone.wall << ',' << r.steps_alone.processor << ','
         << p.error() << ',' << r.mean_density_error << ',';
-    if (r.work.density.solves > 0) {
-      out << per_solve(r.work.divergence) << ',' << r.work.divergence.most << ','
-          << per_solve(r.work.density) << ',' << r.work.density.most << ','
-          << r.work.divergence.given_up + r.work.density.given_up;
+    if (r.work.solves > 0) {
+      out << per_solve(r.work) << ',' << r.work.most << ',' << r.work.given_up;
     } else {
-      out << ",,,,";
+      out << ",,";
     }
     out << '\n';
   }

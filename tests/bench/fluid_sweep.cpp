@@ -19,8 +19,8 @@ using sim::KernelKind;
 using sim::PressureKind;
 
 constexpr PressureKind kSolvers[] = {PressureKind::weakly_compressible,
-                                     PressureKind::divergence_free, PressureKind::grid_projected};
-/// A frame has whole steps: a thousand a second would shorten those of the last two.
+                                     PressureKind::grid_projected};
+/// A frame has whole steps: a thousand a second would shorten those of the grid.
 constexpr double kFrames = 200.0;
 constexpr double kHalf = 0.5;
 constexpr double kLonger = 1.25;
@@ -37,16 +37,13 @@ class Line {
     std::fflush(stdout);
   }
   void end(const SweepPoint& point) const {
-    const sim::SolverWork& work = point.result.work;
+    const sim::SolveWork& work = point.result.work;
     std::printf("%s%s %7d  %8.3f  %8.3f  %9.3g", on_terminal_ ? "\r" : "", what_.c_str(),
                 point.result.particles, point.wall_cost(), point.processor_cost(1), point.error());
-    if (work.density.solves > 0) {
-      const auto mean = [](const sim::SolveWork& w) {
-        return static_cast<double>(w.iterations) /
-               static_cast<double>(std::max<std::int64_t>(w.solves, 1));
-      };
-      std::printf("  %.1f (%d) + %.1f (%d)", mean(work.divergence), work.divergence.most,
-                  mean(work.density), work.density.most);
+    if (work.solves > 0) {
+      std::printf("  %.1f (%d)",
+                  static_cast<double>(work.iterations) / static_cast<double>(work.solves),
+                  work.most);
     }
     std::printf("\n");
     std::fflush(stdout);
@@ -82,9 +79,8 @@ validation::Setting setting_of(const Quality& quality, double spacing) {
 }  // namespace
 
 std::string Quality::name() const {
-  std::string text = solver == PressureKind::divergence_free  ? "divergence-free"
-                     : solver == PressureKind::grid_projected ? "grid-projected"
-                                                              : "weakly compressible";
+  std::string text =
+      solver == PressureKind::grid_projected ? "grid-projected" : "weakly compressible";
   if (time_step_factor != 1.0) {
     char factor[32];
     std::snprintf(factor, sizeof factor, ", dt x %g", time_step_factor);

@@ -29,7 +29,7 @@ struct Options {
   int places = 100;
   Endurance endurance;
   std::vector<PressureKind> solvers = {PressureKind::weakly_compressible,
-                                       PressureKind::divergence_free, PressureKind::grid_projected};
+                                       PressureKind::grid_projected};
   int device = -1;
 };
 
@@ -153,7 +153,7 @@ void add_solvers(CLI::App& app, Options& options) {
   std::map<std::string, PressureKind> solvers;
   for (const PressureKind solver : options.solvers) solvers[sim::name_of(solver)] = solver;
   app.add_option("--solver", options.solvers,
-                 "Only with this one: weakly_compressible, divergence_free or grid_projected "
+                 "Only with this one: weakly_compressible or grid_projected "
                  "(repeatable); endurance with the first")
       ->transform(CLI::CheckedTransformer(solvers));
 }

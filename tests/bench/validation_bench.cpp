@@ -114,12 +114,11 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
   std::map<std::string, sim::PressureKind> solvers;
   for (const auto solver :
-       {sim::PressureKind::weakly_compressible, sim::PressureKind::divergence_free,
-        sim::PressureKind::grid_projected}) {
+       {sim::PressureKind::weakly_compressible, sim::PressureKind::grid_projected}) {
     solvers[name_of(solver)] = solver;
   }
   app.add_option("--solver", options.solvers,
-                 "Instead of the default: weakly_compressible, divergence_free or grid_projected "
+                 "Instead of the default: weakly_compressible or grid_projected "
                  "(repeatable: side by side)")
       ->transform(CLI::CheckedTransformer(solvers));
   app.add_option("--time-step-factor", options.setting.time_step_factor,

@@ -99,16 +99,6 @@ void add_spacings(std::vector<Case>& all) {
   }
 }
 
-void add_solvers(std::vector<Case>& all) {
-  for (const double speed : {0.1, 0.5, 1.0, 2.0, 5.0}) {
-    Plunge plunge = of_hand(speed);
-    plunge.basin.solver = "divergence_free";
-    plunge.name = "divergence_free, " + plunge.name;
-    plunge.quick = speed == 1.0;
-    all.push_back(case_of("solver", plunge));
-  }
-}
-
 void add_shapes(std::vector<Case>& all, const std::filesystem::path& folder) {
   for (const double size : {0.05, 0.1, 0.2}) {
     Plunge plunge;
@@ -169,7 +159,6 @@ std::vector<Case> plunge_cases(const std::filesystem::path& folder) {
   std::vector<Case> all;
   add_speeds(all);
   add_spacings(all);
-  add_solvers(all);
   add_shapes(all, folder);
   add_tilts(all);
   add_slants(all);

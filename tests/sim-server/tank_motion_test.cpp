@@ -95,8 +95,7 @@ gauges:
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, TankMotions,
-                         ::testing::Values("weakly_compressible", "divergence_free",
-                                           "grid_projected"),
+                         ::testing::Values("weakly_compressible", "grid_projected"),
                          [](const auto& solver) { return std::string(solver.param); });
 
 // Rocked slowly, at a fifth of the first mode's frequency, the surface stays level in the world,

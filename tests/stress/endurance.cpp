@@ -237,7 +237,7 @@ bool read_piece(const std::filesystem::path& file, Piece& piece) {
   read_array(in, piece.water.position);
   read_array(in, piece.water.velocity);
   read_array(in, piece.water.id);
-  read_array(in, piece.water.pressure);
+  read_array(in, piece.water.peak_density);
   if (!in) throw std::runtime_error(file.string() + " is cut short: delete it to begin anew");
   return true;
 }
@@ -251,7 +251,7 @@ void write_piece(const std::filesystem::path& file, const Piece& piece) {
   write_array(out, piece.water.position);
   write_array(out, piece.water.velocity);
   write_array(out, piece.water.id);
-  write_array(out, piece.water.pressure);
+  write_array(out, piece.water.peak_density);
   out.close();
   if (!out) throw std::runtime_error("cannot write " + part.string());
   std::filesystem::rename(part, file);

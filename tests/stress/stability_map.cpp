@@ -163,8 +163,6 @@ const char* short_name_of(sim::PressureKind solver) noexcept {
   switch (solver) {
     case sim::PressureKind::weakly_compressible:
       return "WCSPH";
-    case sim::PressureKind::divergence_free:
-      return "DFSPH";
     case sim::PressureKind::grid_projected:
       break;
   }
@@ -186,12 +184,9 @@ void draw_maps(sim::Device& device, const std::filesystem::path& out) {
     draw(map, out / ("map-" + map.name + ".png"));
     std::printf("map: %s\n", (out / ("map-" + map.name + ".png")).c_str());
   };
-  for (const auto solver :
-       {sim::PressureKind::weakly_compressible, sim::PressureKind::divergence_free}) {
-    for (const auto make : {speed_map, viscosity_map}) leave(make(device, solver));
+  for (const auto make : {speed_map, viscosity_map, margin_map}) {
+    leave(make(device, sim::PressureKind::weakly_compressible));
   }
-  // The other solver's sound is not in its steps.
-  leave(margin_map(device, sim::PressureKind::weakly_compressible));
 }
 
 }  // namespace splash::stress

@@ -9,7 +9,7 @@
 
 namespace splash::stress {
 
-/// In a few letters: WCSPH, DFSPH or grid.
+/// In a few letters: WCSPH or grid.
 [[nodiscard]] const char* short_name_of(sim::PressureKind solver) noexcept;
 
 /// Runs all cells, telling each, and leaves map-*.csv and map-*.png in `out`.

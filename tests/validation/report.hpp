@@ -20,7 +20,7 @@ struct Result {
   std::int64_t steps = 0;           ///< of all scenes together
   Effort all;                       ///< with set-up, settling and gauges
   Effort steps_alone;               ///< without them
-  sim::SolverWork work;             ///< of the last scene
+  sim::SolveWork work;              ///< of the last scene
   double mean_density_error = 0.0;  ///< of the last scene, over its frames [1]
   Outcome outcome;
 };

@@ -43,7 +43,7 @@ struct Run {
   double simulated = 0.0;  ///< without settling [s]
   Effort all;              ///< with set-up, settling and gauges
   Effort steps_alone;      ///< without them
-  sim::SolverWork work;    ///< iterations of the divergence-free solver
+  sim::SolveWork work;     ///< iterations of a solver that iterates
   sim::RunTotals totals;
 };
 

@@ -13,7 +13,6 @@
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 
 // The row of J_i^T along `f`: what a force f on the particle's place does to the body.
 typedef struct {
@@ -52,13 +51,12 @@ static void add_water(const Reach* r, Lever lever, float inverse_size, lanes pus
 // Pushes on each free body and the water's inertia, of one part of the water: one work-group for
 // each body and part. `pushing`: of the pressure given, in it and in seconds; `rubbing`: of a_i,
 // likewise.
-kernel void weigh_water(constant FluidParams* p, int k, global const SolveState* state,
+kernel void weigh_water(constant FluidParams* p,
                         float pushing, float rubbing, constant FreeBody* frees,
                         global const BodyStep* bodies, int first_body,
                         global const float* position, global const float* pressure,
                         global float* reach, global const int* reached, global float* parts) {
   local float of_team[SPLASH_PUSH_ENTRIES * TEAM];
-  if (is_done(state, k)) return;
   const int number = get_group_id(0), item = get_local_id(0), items = get_local_size(0);
   const int b = number / SPLASH_PUSH_PARTS, part = number % SPLASH_PUSH_PARTS;
   const int groups = group_count(p);
@@ -96,14 +94,13 @@ static void add_tug(Tug tug, float size, float* sum) {
 // water gave each body in this step so far, its momentum and angular momentum. `tugs`: what its
 // spring gave it in this frame so far. `anchors`: of the free bodies in this step, from
 // `first_anchor` on. The body's speeds in this step change at once.
-kernel void answer_bodies(constant FluidParams* p, int k, global const SolveState* state,
+kernel void answer_bodies(constant FluidParams* p,
                           float falling, constant FreeBody* frees,
                           global BodyStep* bodies, int first_body, global const float* parts,
                           int films, global const float* film, global const Anchor* anchors,
                           int first_anchor, global float* answer, global float* felt,
                           global float* tugs) {
   local float of_team[SPLASH_PUSH_ENTRIES];
-  if (is_done(state, k)) return;
   const int item = get_group_id(0);
   for (int e = get_local_id(0); e < SPLASH_PUSH_ENTRIES; e += get_local_size(0)) {
     float all = 0.0f;
@@ -159,14 +156,12 @@ kernel void answer_bodies(constant FluidParams* p, int k, global const SolveStat
 }
 
 // The water next to the bodies gets its part: one work-item for each group of particles. `velocity`
-// changes by `factor` dv_i; `rate`, where wanted, by how the bodies' new motion changes densities.
-kernel void carry_water(constant FluidParams* p, int k, global const SolveState* state,
+// changes by `factor` dv_i.
+kernel void carry_water(constant FluidParams* p,
                         int free_count, float factor, constant FreeBody* frees,
                         global const BodyStep* bodies, int first_body,
                         global const float* answer, global const float* position,
-                        global float* reach, global const int* reached, global float* velocity,
-                        int wants_rate, global float* rate) {
-  if (is_done(state, k)) return;
+                        global float* reach, global const int* reached, global float* velocity) {
   const int groups = group_count(p);
   const int group = get_global_id(0);
   if (group >= groups) return;
@@ -179,11 +174,9 @@ kernel void carry_water(constant FluidParams* p, int k, global const SolveState*
     const lanes ux = dv.x + dw.y * lever.z - dw.z * lever.y;
     const lanes uy = dv.y + dw.z * lever.x - dw.x * lever.z;
     const lanes uz = dv.z + dw.x * lever.y - dw.y * lever.x;
-    const lanes closer = r.gx * ux + r.gy * uy + r.gz * uz;
-    const lanes along = r.yield * closer;
+    const lanes along = r.yield * (r.gx * ux + r.gy * uy + r.gz * uz);
     STORE(LOAD(velocity, i) + factor * (along * r.gx + r.rub * ux), velocity, i);
     STORE(LOAD(velocity + n, i) + factor * (along * r.gy + r.rub * uy), velocity + n, i);
     STORE(LOAD(velocity + 2 * n, i) + factor * (along * r.gz + r.rub * uz), velocity + 2 * n, i);
-    if (wants_rate) STORE(LOAD(rate, i) - closer, rate, i);
   }
 }

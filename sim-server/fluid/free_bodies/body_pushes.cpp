@@ -26,7 +26,6 @@ BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies,
                                      static_cast<std::size_t>(fluid.params().capacity));
   reached_ = Buffer<int>(device, bodies.size() * groups_);
   parts_ = Buffer<float>(device, bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES);
-  no_solve_ = Buffer<SolveState>(device, 1);
   const cl::Program program =
       build_program(device, free_body_sources(), kernel_defines(fluid.parts()));
   films_ = Films(device, program, bodies, skin);
@@ -67,7 +66,6 @@ void BodyPushes::add_particles(Fluid& fluid, const Step& step) {
                      {"density", fluid.density()},
                      {"images", fluid.body_images()},
                      {"pressure_term", fluid.pressure_term()},
-                     {"response", fluid.solver().response(fluid)},
                      {"body_velocity", boundary.points().velocity},
                      {"body_id", boundary.points().id},
                      {"owner", boundary.owner()},
@@ -77,8 +75,6 @@ void BodyPushes::add_particles(Fluid& fluid, const Step& step) {
   films_.press(fluid, step, {bodies_, fluid.pressure_term(), reach_, reached_});
   weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS,
                          {{"p", params},
-                          {"k", 0},
-                          {"state", no_solve_},
                           {"pushing", dt},
                           {"rubbing", dt},
                           {"frees", bodies_},

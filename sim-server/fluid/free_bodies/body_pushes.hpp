@@ -11,7 +11,6 @@
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/step.hpp"
 #include "sim-server/scene/scene.hpp"
 
@@ -63,7 +62,6 @@ class BodyPushes {
   Buffer<float> reach_;
   Buffer<int> reached_;
   Buffer<float> parts_;
-  Buffer<SolveState> no_solve_;
   Films films_;
   Kernel reach_bodies_;
   Kernel weigh_water_;

@@ -48,11 +48,7 @@ static void reach_of_group(constant FluidParams* p, const Group* g, global const
 
 // b_i; particles without pressure, which attract none, do not yield to the state equation.
 static lanes yield_of(constant FluidParams* p, float dt, global const float* pressure_term,
-                      global const float* density, global const float* response, int first) {
-  if (p->solver == SPLASH_DIVERGENCE_FREE) {
-    const float least = gradient_norm(p) * p->mass * SLOPE_UNIT;  // as in pressure_correction.cl
-    return 1.0f / fmax(LOAD(response, first), 1.0e-4f * least * least);
-  }
+                      global const float* density, int first) {
   const lanes term = LOAD(pressure_term, first);
   const lanes way = p->sound_speed * dt / LOAD(density, first);
   const float stretched = p->sound_speed * dt / p->rest_density;
@@ -80,7 +76,7 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
                          global const int* cell_start, global const float* position,
                          global const float* velocity, global const float* density,
                          global const float* images, global const float* pressure_term,
-                         global const float* response, global const int* body_start,
+                         global const int* body_start,
                          global const float* body_position, global const float* body_velocity,
                          global const float* body_volume, global const int* body_id,
                          global const int* owner, int body_stride, global float* reach,
@@ -111,6 +107,6 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
   }
   reached[item] = near;
   if (!near) return;
-  finish_reach(p, dt, yield_of(p, dt, pressure_term, density, response, first), &all);
+  finish_reach(p, dt, yield_of(p, dt, pressure_term, density, first), &all);
   store_reach(p, reach, k, first, &all);
 }

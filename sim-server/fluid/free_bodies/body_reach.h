@@ -10,8 +10,8 @@
 // water that it drives, its added mass, then overshoots, and each step's overshoot is the next
 // one's push: that explodes, whatever the step (Foerster, Wall & Ramm 2007). So each push answers
 // within the step to how the body's speed changes: the pressure by what the state equation makes of
-// the way in a step, b_i = (c0 dt / rho_i)^2, or by what the solver's diagonal makes of it, b_i = 1
-// / D_i; what rubs by its own coefficient. For the body this is an inertia,
+// the way in a step, b_i = (c0 dt / rho_i)^2; what rubs by its own coefficient. For the body this
+// is an inertia,
 //   M + sum_i m J_i^T (b_i g_i g_i^T + c_i 1) J_i,   u = J_i (V, w),
 // that of the water next to it; what it carries of the body's momentum the particles get. So
 // nothing is lost, a heavy body feels none of it, and all of it vanishes with the step.

@@ -60,7 +60,6 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       force_(device, 6 * bodies.size()),
       tugs_(device, 6 * bodies.size()),
       anchors_(device, 1),
-      no_solve_(device, 1),
       force_read_(6 * bodies.size()),
       tugs_read_(6 * bodies.size()) {
   const cl::Program program = build_program(device, free_body_sources(), defines);
@@ -81,8 +80,7 @@ void FreeBodies::hang(Device& device, const std::vector<Anchor>& anchors) {
   anchors_.enqueue_write(device, uploaded_);
 }
 
-void FreeBodies::reach(Fluid& fluid, const Step& step, const Buffer<float>& velocity,
-                       const Buffer<float>& response) {
+void FreeBodies::reach(Fluid& fluid, const Step& step) {
   const Boundary& boundary = fluid.boundary();
   reach_bodies_.run(fluid.device().queue(), list_.size() * groups_,
                     {{"p", fluid.params_buffer()},
@@ -93,11 +91,10 @@ void FreeBodies::reach(Fluid& fluid, const Step& step, const Buffer<float>& velo
                      {"first_body", step.first_body},
                      {"cell_start", fluid.grid().cell_start()},
                      {"position", fluid.particles().position},
-                     {"velocity", velocity},
+                     {"velocity", fluid.particles().velocity},
                      {"density", fluid.density()},
                      {"images", fluid.body_images()},
                      {"pressure_term", fluid.pressure_term()},
-                     {"response", response},
                      {"body_velocity", boundary.points().velocity},
                      {"body_id", boundary.points().id},
                      {"owner", boundary.owner()},
@@ -107,7 +104,7 @@ void FreeBodies::reach(Fluid& fluid, const Step& step, const Buffer<float>& velo
 }
 
 void FreeBodies::answer(Fluid& fluid, const Step& step) {
-  reach(fluid, step, fluid.particles().velocity, fluid.density());
+  reach(fluid, step);
   answer(fluid, step,
          {.pressure = &fluid.pressure_term(),
           .pushing = step.dt,
@@ -120,18 +117,14 @@ void FreeBodies::answer(Fluid& fluid, const Step& step) {
 void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion) {
   cl::CommandQueue& queue = fluid.device().queue();
   const Buffer<FluidParams>& params = fluid.params_buffer();
-  const Buffer<SolveState>& state = occasion.state != nullptr ? *occasion.state : no_solve_;
   const Buffer<BodyStep>& steps = fluid.boundary().steps();
   const Buffer<float>& places = fluid.particles().position;
-  const int k = occasion.iteration;
   const int first_anchor = step.first_body / fluid.boundary().body_count() * count_;
   if (occasion.falling > 0.0) {
     films_.press(fluid, step, {bodies_, *occasion.pressure, reach_, reached_});
   }
   weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS,
                          {{"p", params},
-                          {"k", k},
-                          {"state", state},
                           {"pushing", as_float(occasion.pushing)},
                           {"rubbing", as_float(occasion.rubbing)},
                           {"frees", bodies_},
@@ -144,8 +137,6 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
                           {"parts", parts_}});
   answer_bodies_.run_teams(queue, list_.size(),
                            {{"p", params},
-                            {"k", k},
-                            {"state", state},
                             {"falling", as_float(occasion.falling)},
                             {"frees", bodies_},
                             {"bodies", steps},
@@ -158,11 +149,8 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
                             {"answer", answer_},
                             {"felt", felt_},
                             {"tugs", tugs_}});
-  const bool wants_rate = occasion.rate != nullptr;
   carry_water_.run(queue, groups_,
                    {{"p", params},
-                    {"k", k},
-                    {"state", state},
                     {"free_count", count_},
                     {"factor", as_float(occasion.factor)},
                     {"frees", bodies_},
@@ -172,9 +160,7 @@ void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion
                     {"position", places},
                     {"reach", reach_},
                     {"reached", reached_},
-                    {"velocity", *occasion.velocity},
-                    {"wants_rate", wants_rate ? 1 : 0},
-                    {"rate", wants_rate ? *occasion.rate : answer_}});
+                    {"velocity", *occasion.velocity}});
 }
 
 void FreeBodies::move(Fluid& fluid, const Step& step) {

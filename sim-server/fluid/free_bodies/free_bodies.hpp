@@ -11,7 +11,6 @@
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/step.hpp"
 #include "sim-server/scene/scene.hpp"
 
@@ -41,28 +40,9 @@ class FreeBodies {
   /// frame's first step, then of the next one. Without it none may hang on any.
   void hang(Device& device, const std::vector<Anchor>& anchors);
 
-  /// Finds who is in reach of the bodies, and what they do to each other at these velocities;
-  /// `response`: of densities to pressures (pressure/divergence_free/pressure_response.cl), the
-  /// density otherwise.
-  void reach(Fluid& fluid, const Step& step, const Buffer<float>& velocity,
-             const Buffer<float>& response);
   /// The bodies answer to what was found, to the forces of the present pressures and to gravity;
   /// the accelerations of the water next to them, too.
   void answer(Fluid& fluid, const Step& step);
-
-  /// What the bodies answer to, and where the change of the water's velocities goes.
-  struct Occasion {
-    int iteration = 0;  ///< of a solve; nothing is done once `state` says that it is over
-    const Buffer<SolveState>* state = nullptr;  ///< null: no solve
-    const Buffer<float>* pressure = nullptr;    ///< p / rho^2 that pushes
-    double pushing = 0.0;                       ///< for so long [s]
-    double rubbing = 0.0;                       ///< what rubs acts for so long [s]
-    double falling = 0.0;                       ///< gravity acts for so long [s]
-    double factor = 1.0;                        ///< the velocities' changes are added times this
-    const Buffer<float>* velocity = nullptr;    ///< to these
-    const Buffer<float>* rate = nullptr;        ///< of densities, or null [kg/m3 s]
-  };
-  void answer(Fluid& fluid, const Step& step, const Occasion& occasion);
 
   /// After the particles have moved: none is left in a body, and the bodies move on.
   void move(Fluid& fluid, const Step& step);
@@ -80,6 +60,19 @@ class FreeBodies {
   [[nodiscard]] Films& films() noexcept { return films_; }
 
  private:
+  /// What the bodies answer to, and where the change of the water's velocities goes.
+  struct Occasion {
+    const Buffer<float>* pressure = nullptr;  ///< p / rho^2 that pushes
+    double pushing = 0.0;                     ///< for so long [s]
+    double rubbing = 0.0;                     ///< what rubs acts for so long [s]
+    double falling = 0.0;                     ///< gravity acts for so long [s]
+    double factor = 1.0;                      ///< the velocities' changes are added times this
+    const Buffer<float>* velocity = nullptr;  ///< to these
+  };
+  /// Finds who is in reach of the bodies, and what they do to each other.
+  void reach(Fluid& fluid, const Step& step);
+  void answer(Fluid& fluid, const Step& step, const Occasion& occasion);
+
   std::vector<FreeBody> list_;
   int count_ = 0;
   std::size_t groups_ = 0;  ///< of particles
@@ -97,7 +90,6 @@ class FreeBodies {
   Buffer<float> tugs_;
   Buffer<Anchor> anchors_;
   std::vector<Anchor> uploaded_;
-  Buffer<SolveState> no_solve_;
   std::vector<BodyStep> steps_read_;
   std::vector<float> force_read_;
   std::vector<float> tugs_read_;

@@ -11,8 +11,7 @@
 
 // Where pressure comes from.
 #define SPLASH_WEAKLY_COMPRESSIBLE 0
-#define SPLASH_DIVERGENCE_FREE 1
-#define SPLASH_GRID_PROJECTED 2
+#define SPLASH_GRID_PROJECTED 1
 
 #ifdef __cplusplus
 namespace splash::sim {
@@ -62,13 +61,12 @@ typedef struct {
   int piston;        // index of the wall that moves along its normal, -1: none
   int slope;         // index of the sloped floor, which replaces the floor (wall 0) where it
                      // is the nearer, -1: none
-  int solver;        // SPLASH_WEAKLY_COMPRESSIBLE, _DIVERGENCE_FREE or _GRID_PROJECTED
+  int solver;        // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_GRID_PROJECTED
   float wave_speed;  // of the longest wave, sqrt(g H) of the deepest water [m/s]
-  float tolerance;   // divergence-free: mean density error at which a solve is done [1]
   float advective_cfl;  // largest displacement in a step, unused with the state equation [spacings]
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
-SPLASH_SHARED_STRUCT(FluidParams, 39 * 4 + 16 * SPLASH_MAX_WALLS)
+SPLASH_SHARED_STRUCT(FluidParams, 38 * 4 + 16 * SPLASH_MAX_WALLS)
 
 // Water that is stretched (pressure/state_equation.h): its stiffness over that of compressed water
 // [1], and how fast it forgets that it is [1/s]. A slap's relief takes R / c0, some 10 ms, a hollow

@@ -30,7 +30,6 @@ std::vector<std::string> kernel_defines(const KernelParts& parts) {
 }
 
 namespace kernels {
-std::vector<KernelSource> divergence_free();
 std::vector<KernelSource> fluid();
 std::vector<KernelSource> free_bodies();
 std::vector<KernelSource> grid_projected();
@@ -40,9 +39,6 @@ std::vector<KernelSource> tank_turn();
 
 std::vector<KernelSource> fluid_sources() {
   return kernels::fluid();
-}
-std::vector<KernelSource> divergence_free_sources() {
-  return kernels::divergence_free();
 }
 std::vector<KernelSource> grid_projected_sources() {
   return kernels::grid_projected();

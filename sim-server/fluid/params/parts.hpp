@@ -31,10 +31,9 @@ struct KernelParts {
 [[nodiscard]] std::vector<std::string> kernel_defines(const KernelParts& parts);
 
 // The fluid's kernels as they are built: the stages of a step, and apart from them those of the
-// divergence-free solver, of free bodies, of a turning tank and the statistics.
+// grid-projected solver, of free bodies, of a turning tank and the statistics.
 
 [[nodiscard]] std::vector<KernelSource> fluid_sources();
-[[nodiscard]] std::vector<KernelSource> divergence_free_sources();
 [[nodiscard]] std::vector<KernelSource> grid_projected_sources();
 [[nodiscard]] std::vector<KernelSource> free_body_sources();
 [[nodiscard]] std::vector<KernelSource> tank_turn_sources();

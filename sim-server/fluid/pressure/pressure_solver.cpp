@@ -2,7 +2,6 @@
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/fluid/pressure/divergence_free/divergence_free.hpp"
 #include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 
 namespace splash::sim {
@@ -13,15 +12,13 @@ class WeaklyCompressible : public PressureSolver {
  public:
   void recall_pressure(Fluid& /*fluid*/, const Step& /*step*/) override {}
   void accelerate(Fluid& fluid, const Step& step) override {
-    fluid.compute_acceleration(step, fluid.particles().velocity);
+    fluid.compute_acceleration(step);
     if (FreeBodies* bodies = fluid.free_bodies()) bodies->answer(fluid, step);
   }
   void enqueue_work(Device& /*device*/) override {}
-  [[nodiscard]] SolverWork work() const override { return {}; }
+  [[nodiscard]] SolveWork work() const override { return {}; }
   void forget_work(Device& /*device*/) override {}
   [[nodiscard]] std::vector<cl::Buffer> kept() const override { return {}; }
-  [[nodiscard]] std::vector<float> pressure(Device& /*device*/) override { return {}; }
-  void restore_pressure(Device& /*device*/, const std::vector<float>& /*pressure*/) override {}
 };
 
 }  // namespace
@@ -34,16 +31,9 @@ const Buffer<float>& PressureSolver::carried(const Fluid& fluid) const {
   return fluid.particles().velocity;
 }
 
-const Buffer<float>& PressureSolver::response(const Fluid& fluid) const {
-  return fluid.density();
-}
-
 std::unique_ptr<PressureSolver> make_pressure_solver(Device& device, const FluidParams& params,
                                                      const std::vector<std::string>& defines,
                                                      bool solids) {
-  if (params.solver == SPLASH_DIVERGENCE_FREE) {
-    return std::make_unique<DivergenceFree>(device, params, defines);
-  }
   if (params.solver == SPLASH_GRID_PROJECTED) {
     return std::make_unique<GridProjected>(device, params, defines, solids);
   }

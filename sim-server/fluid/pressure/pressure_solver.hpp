@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the water's pressure comes from: a state equation, or the demand that nothing compresses,
-// made of the particles or of a grid. The first two push with the same pair forces
-// (pressure/acceleration.cl) over the same neighbours.
+// Where the water's pressure comes from: a state equation, whose pair forces push
+// (pressure/acceleration.cl), or the demand that nothing compresses, made of a grid.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +18,13 @@ namespace splash::sim {
 
 class Fluid;
 
-/// One kind of solve, since counting began; zeros where pressure needs none.
+/// Of the solves since counting began; zeros where pressure needs none.
 struct SolveWork {
   std::int64_t solves = 0;
   std::int64_t iterations = 0;  ///< of all solves
   int most = 0;                 ///< of one solve
   std::int64_t given_up = 0;    ///< solves that ended with more than the allowed error
-  double error = 0.0;           ///< mean density error that ended the last solve [1]
-};
-
-struct SolverWork {
-  SolveWork divergence;
-  SolveWork density;
+  double error = 0.0;           ///< what the last solve left of the demand [1]
 };
 
 /// Of the water on a body; the torque about the world's origin.
@@ -67,9 +61,6 @@ class PressureSolver {
   /// The velocities that took the particles where the last step left them [m/s].
   [[nodiscard]] virtual const Buffer<float>& carried(const Fluid& fluid) const;
 
-  /// Of each particle in the step that accelerate() was for: what a change of its density by a body
-  /// answers to (free_bodies/body_reach.h); its density where a state equation makes the pressure.
-  [[nodiscard]] virtual const Buffer<float>& response(const Fluid& fluid) const;
   /// What the last step's pressures did to each of so many bodies, where they are not the
   /// particles'; empty: they are. Waits.
   [[nodiscard]] virtual std::vector<Press> press(Device& /*device*/, std::size_t /*bodies*/) {
@@ -87,15 +78,14 @@ class PressureSolver {
 
   /// Enqueues the read of the work done; work() tells it once the queue is finished.
   virtual void enqueue_work(Device& device) = 0;
-  [[nodiscard]] virtual SolverWork work() const = 0;
+  [[nodiscard]] virtual SolveWork work() const = 0;
   /// Counting begins anew.
   virtual void forget_work(Device& device) = 0;
 
   /// What is kept from step to step, where it is on the device.
   [[nodiscard]] virtual std::vector<cl::Buffer> kept() const = 0;
-  /// The same by particle id; waits.
-  [[nodiscard]] virtual std::vector<float> pressure(Device& device) = 0;
-  virtual void restore_pressure(Device& device, const std::vector<float>& pressure) = 0;
+  /// The water was put elsewhere: the next solve begins from no pressure.
+  virtual void forget_pressure(Device& /*device*/) {}
   /// What is kept was put back as it was before a step that went wrong.
   virtual void note_recalled(Device& /*device*/) {}
 };

@@ -239,7 +239,7 @@ TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
   }
   const double floor = sum / (grid.level[0].nx * grid.level[0].ny);
   EXPECT_NEAR(floor / (998.0 * 9.81 * depth), 1.0, 0.005);
-  const SolveWork work = water.fluid->solver_work().density;
+  const SolveWork work = water.fluid->solver_work();
   EXPECT_EQ(work.given_up, 0);
 }
 

@@ -48,7 +48,6 @@ struct NamedProgram {
 
 std::vector<NamedProgram> programs() {
   return {{"fluid", fluid_sources()},
-          {"divergence_free", divergence_free_sources()},
           {"free_bodies", free_body_sources()},
           {"reduce_stats", stats_sources()},
           {"pin", kernels::pin()},

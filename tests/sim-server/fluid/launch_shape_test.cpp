@@ -89,14 +89,6 @@ TEST_F(LaunchShape, OfAStepIsWide) {
   EXPECT_LE(launches_per_step(kernels, 3), 16.0);
 }
 
-TEST_F(LaunchShape, OfADivergenceFreeStepIsWide) {
-  Water water = pool(PressureKind::divergence_free);
-  const auto kernels = steps(water, 1, false);
-  expect_many_items(kernels, water.params.count);
-  // Thirty iterations are allowed, of three kernels each.
-  EXPECT_LE(launches_per_step(kernels, 1), 90.0 + 22.0);
-}
-
 TEST_F(LaunchShape, OfAStepWithFreeBodiesIsWide) {
   Water water = pool(PressureKind::weakly_compressible);
   const auto kernels = steps(water, 2, true);

@@ -72,11 +72,8 @@ const Kernels kRanks = {"count_points", "sum_cells", "start_cells", "gather_cell
 const Kernels kStep = {"place_bodies", "gather_body_volumes", "compute_density", "keep_awake",
                        "reduce_stats", "check_health",        "spread_activity", "put_back"};
 const Kernels kTurn = {"turn_water"};
-/// Of solvers whose pressure pushes pairs of particles.
+/// Where pressure pushes pairs of particles.
 const Kernels kPairs = {"compute_acceleration", "integrate"};
-const Kernels kSolve = {
-    "correct_pressure",       "push_by_pressure",    "measure_response", "recall_pressure",
-    "begin_divergence_solve", "begin_density_solve", "end_solves",       "judge_solve"};
 const Kernels kGrid = {
     "cut_cells",    "open_faces",     "fill_beside_solids", "find_deviation",  "gather_faces",
     "gather_again", "move_particles", "project_faces",      "sample_pressure", "solve_pressure",
@@ -94,16 +91,13 @@ const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_densi
                          "spawn_bubbles", "carry_bubbles",        "seed_cavities",
                          "grow_cavities", "push_by_walls"};
 
-// Scalar kernels of the divergence-free solver take the interpreter minutes: by hand only.
 const std::vector<Watched> kWatched = {
     // The interpreter's own counter of instructions breaks its heap here, with no other option,
     // too; scalar_free_bodies counts the same kernels but the tank's turn.
     {"scalar", "sim_fluid_two_steps 1 0 0", "Oclgrind: 251 particles", {}},
     {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kTurn})},
-    {"divergence_free", "sim_fluid_two_steps 16 1 0", "Oclgrind: 251 particles",
-     join({kRuns, kStep, kPairs, kSolve, kTurn})},
-    {"grid_projected", "sim_fluid_two_steps 16 2 1", "Oclgrind: 251 particles",
+    {"grid_projected", "sim_fluid_two_steps 16 1 1", "Oclgrind: 251 particles",
      join({kRuns, kStep, kGrid, kMoved})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kFree})},

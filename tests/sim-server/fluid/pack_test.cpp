@@ -20,11 +20,10 @@ constexpr double kSpacing = 0.02;
 constexpr Vector3 kMiddle = {0.4, 0.4, 0.5};
 
 /// A ball of ten spacings in radius above a shallow pool, in a tank of 0.8 m.
-class Pack : public ::testing::TestWithParam<PressureKind> {
+class Pack : public ::testing::Test {
  protected:
   void SetUp() override {
     Scene scene = tank_scene(kSpacing, {0.8, 0.8, 0.8}, 0.1);
-    scene.fluid.solver = GetParam();
     pool_ = initial_particles(scene).size();
     scene.water.push_back({{0.2, 0.2, 0.3}, {0.6, 0.6, 0.7}, WaterForm::sphere});
     water_.scene = scene;
@@ -77,14 +76,14 @@ class Pack : public ::testing::TestWithParam<PressureKind> {
   }
 };
 
-TEST_P(Pack, LeavesNoRows) {
+TEST_F(Pack, LeavesNoRows) {
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_GT(rows(before_, axis), 0.9);
   pack_ball(1);
   const std::vector<Vector3> packed = places();
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_LT(rows(packed, axis), 0.2) << axis;
 }
 
-TEST_P(Pack, KeepsTheBallsPlaceAndSize) {
+TEST_F(Pack, KeepsTheBallsPlaceAndSize) {
   pack_ball(1);
   const std::vector<Vector3> packed = places();
   Vector3 moved = {};
@@ -103,7 +102,7 @@ TEST_P(Pack, KeepsTheBallsPlaceAndSize) {
   EXPECT_NEAR(std::sqrt(square / square_before), 1.0, 0.02);  // of ten spacings
 }
 
-TEST_P(Pack, LeavesItAsDenseAsAtRest) {
+TEST_F(Pack, LeavesItAsDenseAsAtRest) {
   pack_ball(1);
   water_.fluid->prepare(water_.step_at(dt_));
   const std::vector<float> density = water_.fluid->density().read(device_, water_.particles.size());
@@ -124,13 +123,13 @@ TEST_P(Pack, LeavesItAsDenseAsAtRest) {
   EXPECT_NEAR(inner / count, 0.0, 0.02);
 }
 
-TEST_P(Pack, MovesNothingElse) {
+TEST_F(Pack, MovesNothingElse) {
   pack_ball(1);
   const std::vector<Vector3> packed = places();
   for (std::size_t i = 0; i < pool_; ++i) ASSERT_EQ(packed[i], before_[i]) << i;
 }
 
-TEST_P(Pack, EndsAtRestAndWithWeight) {
+TEST_F(Pack, EndsAtRestAndWithWeight) {
   pack_ball(1);
   for (const Vector3& v : velocities()) ASSERT_EQ(v, (Vector3{0.0, 0.0, 0.0}));
   water_.step(dt_);
@@ -141,7 +140,7 @@ TEST_P(Pack, EndsAtRestAndWithWeight) {
   EXPECT_NEAR(mean[2] / count, -9.81 * dt_, 1e-4 * 9.81 * dt_);
 }
 
-TEST_P(Pack, IsTheSameForTheSameSeed) {
+TEST_F(Pack, IsTheSameForTheSameSeed) {
   pack_ball(7);
   const std::vector<Vector3> first = places();
   for (const std::uint32_t seed : {7U, 8U}) {
@@ -151,19 +150,10 @@ TEST_P(Pack, IsTheSameForTheSameSeed) {
   }
 }
 
-TEST_P(Pack, DoesNothingWhereNothingIsLoose) {
+TEST_F(Pack, DoesNothingWhereNothingIsLoose) {
   pack(*water_.fluid, {}, 0.0, dt_, std::vector<bool>(water_.particles.size(), false), 1);
   EXPECT_EQ(places(), before_);
 }
-
-INSTANTIATE_TEST_SUITE_P(Solver, Pack,
-                         ::testing::Values(PressureKind::weakly_compressible,
-                                           PressureKind::divergence_free),
-                         [](const auto& solver) {
-                           return solver.param == PressureKind::divergence_free
-                                      ? "DivergenceFree"
-                                      : "WeaklyCompressible";
-                         });
 
 }  // namespace
 }  // namespace splash::sim

@@ -62,7 +62,7 @@ class Parts : public ::testing::TestWithParam<PressureKind> {
     EXPECT_EQ(without.id, with.id);
     EXPECT_EQ(without.position, with.position);
     EXPECT_EQ(without.velocity, with.velocity);
-    EXPECT_EQ(without.pressure, with.pressure);
+    EXPECT_EQ(without.peak_density, with.peak_density);
   }
 };
 
@@ -94,10 +94,10 @@ TEST_P(Parts, NorIsFrictionWhereThereIsNone) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Parts,
                          ::testing::Values(PressureKind::weakly_compressible,
-                                           PressureKind::divergence_free),
+                                           PressureKind::grid_projected),
                          [](const auto& parameter) {
-                           return parameter.param == PressureKind::divergence_free
-                                      ? "divergence_free"
+                           return parameter.param == PressureKind::grid_projected
+                                      ? "grid_projected"
                                       : "weakly_compressible";
                          });
 

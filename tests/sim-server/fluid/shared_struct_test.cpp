@@ -18,8 +18,8 @@
 #include "sim-server/fluid/health/stats_part.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.hpp"
-#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/tank_turn.h"
 
 namespace splash::sim {
@@ -60,7 +60,7 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(FluidParams, centre_x, centre_y, centre_z),
     MEMBERS_4(FluidParams, spacing, layer_weight, least_density, torn_density),
     MEMBERS_4(FluidParams, speed_limit, wall_count, piston, slope),
-    MEMBERS_4(FluidParams, solver, wave_speed, tolerance, advective_cfl),
+    MEMBERS_3(FluidParams, solver, wave_speed, advective_cfl),
     MEMBER(FluidParams, walls),
 
     MEMBERS_3(BodyStep, px, py, pz),
@@ -102,8 +102,8 @@ const std::vector<Member> kMembers = {
     MEMBERS_2(TankTurn, turned, pushed),
     MEMBERS_3(TankTurn, px, py, pz),
 
-    MEMBERS_4(SolveState, done, iterations, error, solves),
-    MEMBERS_4(SolveState, total, most, given_up, unused),
+    MEMBERS_3(SolveState, iterations, error, solves),
+    MEMBERS_3(SolveState, total, most, given_up),
 
     MEMBERS_4(FluidStatsPart, speed2, acceleration2, excess_sum, excess_max),
     MEMBERS_4(FluidStatsPart, not_finite, first_bad, runaway, asleep),
@@ -138,9 +138,8 @@ const std::vector<Member> kMembers = {
 std::vector<KernelSource> shared_headers() {
   std::vector<KernelSource> headers;
   std::set<std::string> seen;
-  for (const auto& program :
-       {fluid_sources(), divergence_free_sources(), free_body_sources(), stats_sources(),
-        grid_projected_sources(), tank_turn_sources(), kernels::detect()}) {
+  for (const auto& program : {fluid_sources(), free_body_sources(), stats_sources(),
+                              grid_projected_sources(), tank_turn_sources(), kernels::detect()}) {
     for (const KernelSource& source : program) {
       if (source.text.find("SPLASH_SHARED_STRUCT(") == std::string::npos) continue;
       if (seen.insert(source.name).second) headers.push_back(source);

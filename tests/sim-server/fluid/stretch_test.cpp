@@ -115,19 +115,6 @@ TEST(Stretched, WaterHoldsTogether) {
   EXPECT_GT(density_inside(water), 0.97);
 }
 
-TEST(Stretched, TheDivergenceFreeSolverDoesNotPull) {
-  Device device;
-  Water water = ball(PressureKind::divergence_free);
-  water.start(device);
-  stretch(*water.fluid, 0.99);
-  water.fluid->prepare(water.step_at(1.0e-3));
-  stretch(*water.fluid, 1.02);
-  water.fluid->prepare(water.step_at(1.0e-3));
-  const FluidState state = read_state(*water.fluid);
-  for (std::size_t i = 0; i < state.id.size(); ++i)
-    ASSERT_EQ(state.peak_density[i], state.density[i]);
-}
-
 // What is torn does not grow together by itself, and what flies apart fast enough tears.
 TEST(Stretched, WaterTears) {
   Device device;

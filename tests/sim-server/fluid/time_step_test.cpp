@@ -44,7 +44,6 @@ TEST(TimeStep, ViscousLimit) {
 TEST(TimeStep, ViscousLimitIsNotExceededByWhatASceneAsks) {
   FluidParams p = params();
   p.viscous = 0.97F;
-  p.solver = SPLASH_DIVERGENCE_FREE;
   p.spacing = 0.02F;
   EXPECT_NEAR(largest_time_step(p, 0.0, 0.0, 1.02), 1.02 * 0.125 * 0.02 * 0.02 / 0.1, 1.0e-9);
   EXPECT_NEAR(largest_time_step(p, 0.0, 0.0, 2.0), 0.13 * 0.02 * 0.02 / 0.1, 1.0e-9);
@@ -57,8 +56,7 @@ TEST(TimeStep, FactorScalesIt) {
 
 // The health check takes a longer step for a fault: whatever a scene asks for must pass.
 TEST(TimeStep, NoSceneMakesItLongerThanTheHealthCheckAllows) {
-  for (const int solver :
-       {SPLASH_WEAKLY_COMPRESSIBLE, SPLASH_DIVERGENCE_FREE, SPLASH_GRID_PROJECTED}) {
+  for (const int solver : {SPLASH_WEAKLY_COMPRESSIBLE, SPLASH_GRID_PROJECTED}) {
     FluidParams p = params();
     p.solver = solver;
     p.spacing = 0.02F;
@@ -72,17 +70,6 @@ TEST(TimeStep, NoSceneMakesItLongerThanTheHealthCheckAllows) {
     EXPECT_DOUBLE_EQ(largest_time_step(p, 0.0, 0.0, StepPolicy::kLargestFactor), bound)
         << "and no longer than that";
   }
-}
-
-TEST(TimeStep, OfDivergenceFreeWaterIsSetByTheFastestOrTheLongestWave) {
-  FluidParams p = params();
-  p.solver = SPLASH_DIVERGENCE_FREE;
-  p.spacing = 0.02F;
-  p.wave_speed = 2.0F;
-  EXPECT_NEAR(largest_time_step(p, 0.0, 800.0, 1.0), 0.3 * 0.02 / 2.0, 1.0e-9);
-  EXPECT_NEAR(largest_time_step(p, 5.0, 800.0, 1.0), 0.3 * 0.02 / 5.0, 1.0e-9);
-  p.wave_speed = 0.0F;
-  EXPECT_NEAR(largest_time_step(p, 0.0, 0.0, 1.0), 0.01, 1.0e-9);
 }
 
 TEST(TimeStep, FrameIsTheNearestNumberOfLargestSteps) {

@@ -79,15 +79,12 @@ TEST(SceneReader, ReadsTheSolver) {
   };
   EXPECT_EQ(with("").solver, PressureKind::weakly_compressible);
   EXPECT_EQ(with("").kernels, KernelKind::vector);
-  const FluidSettings fluid =
-      with("  solver: divergence_free\n  kernels: reference\n  density_tolerance: 0.002\n");
-  EXPECT_EQ(fluid.solver, PressureKind::divergence_free);
+  const FluidSettings fluid = with("  solver: grid_projected\n  kernels: reference\n");
+  EXPECT_EQ(fluid.solver, PressureKind::grid_projected);
   EXPECT_EQ(fluid.kernels, KernelKind::reference);
-  EXPECT_DOUBLE_EQ(fluid.tolerance, 0.002);
   EXPECT_EQ(fluid.pull, (Vector3{0.0, 0.0, 0.0}));
   EXPECT_EQ(with("  pull: [1.5, 0.0, 2.0]\n").pull, (Vector3{1.5, 0.0, 2.0}));
   EXPECT_THROW(static_cast<void>(with("  pull: [-1.0, 0.0, 0.0]\n")), program::ConfigError);
-  EXPECT_THROW(static_cast<void>(with("  density_tolerance: 0.002\n")), program::ConfigError);
   EXPECT_THROW(static_cast<void>(with("  solver: magic\n")), program::ConfigError);
 }
 
@@ -98,12 +95,11 @@ TEST(SceneReader, AllowsNoLongerStepsThanTheSolverStands) {
   };
   EXPECT_DOUBLE_EQ(with("  time_step_factor: 2\n").time_step_factor, 2.0) << "slower sound";
   EXPECT_DOUBLE_EQ(with("  sound_speed: 15\n  time_step_factor: 1.05\n").time_step_factor, 1.05);
-  EXPECT_DOUBLE_EQ(with("  solver: divergence_free\n  time_step_factor: 2\n").time_step_factor,
-                   2.0);
+  EXPECT_DOUBLE_EQ(with("  solver: grid_projected\n  time_step_factor: 2\n").time_step_factor, 2.0);
   EXPECT_THROW(static_cast<void>(with("  sound_speed: 15\n  time_step_factor: 1.06\n")),
                program::ConfigError);
   EXPECT_THROW(static_cast<void>(with("  time_step_factor: 2.1\n")), program::ConfigError);
-  EXPECT_THROW(static_cast<void>(with("  solver: divergence_free\n  time_step_factor: 2.1\n")),
+  EXPECT_THROW(static_cast<void>(with("  solver: grid_projected\n  time_step_factor: 2.1\n")),
                program::ConfigError);
 }
 
@@ -121,7 +117,7 @@ TEST(SceneReader, AllowsNoSoundThatIsTooSlowForItsWater) {
   EXPECT_THROW(static_cast<void>(with("  sound_speed: 8.8\n", "")), program::ConfigError);
   EXPECT_DOUBLE_EQ(with("  sound_speed: 17.8\n", falls).sound_speed, 17.8);
   EXPECT_THROW(static_cast<void>(with("  sound_speed: 17.6\n", falls)), program::ConfigError);
-  EXPECT_NO_THROW(static_cast<void>(with("  sound_speed: 1\n  solver: divergence_free\n", "")))
+  EXPECT_NO_THROW(static_cast<void>(with("  sound_speed: 1\n  solver: grid_projected\n", "")))
       << "that has no use for it but for its viscosity";
 }
 

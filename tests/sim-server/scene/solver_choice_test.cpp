@@ -116,8 +116,6 @@ TEST(SolverChoice, WhatASceneNamesItGets) {
   EXPECT_EQ(basin("", ", solver: auto").fluid.solver, kGrid);
   EXPECT_EQ(basin("", ", solver: weakly_compressible").fluid.solver, kState);
   EXPECT_EQ(basin(lowered("0.1"), ", solver: auto").fluid.solver, kState);
-  EXPECT_EQ(basin(lowered("0.1"), ", solver: divergence_free").fluid.solver,
-            PressureKind::divergence_free);
   EXPECT_EQ(basin(lowered("0.1"), ", solver: grid_projected").fluid.solver, kGrid);
 }
 
@@ -135,8 +133,7 @@ TEST(SolverChoice, AnUnknownNameIsRefusedWithAllThatThereAre) {
     FAIL() << "taken";
   } catch (const program::ConfigError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("got 'automatic'"),
-                                    HasSubstr("weakly_compressible, divergence_free, "
-                                              "grid_projected, auto")));
+                                    HasSubstr("weakly_compressible, grid_projected, auto")));
   }
 }
 

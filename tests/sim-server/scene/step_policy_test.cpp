@@ -38,7 +38,7 @@ TEST(StepPolicy, ASpeedOfSoundThatTheSceneNamesIsLeftAlone) {
 }
 
 TEST(StepPolicy, SolversWithoutSoundGetTheWholeFactor) {
-  const FluidSettings fluid = with(2.0, PressureKind::divergence_free);
+  const FluidSettings fluid = with(2.0, PressureKind::grid_projected);
   EXPECT_DOUBLE_EQ(StepPolicy::sound_factor(fluid), 1.0);
   EXPECT_DOUBLE_EQ(StepPolicy(fluid).factor(), 2.0);
 }
@@ -66,8 +66,7 @@ TEST(StepPolicy, NoFactorIsBeyondTheRangeOfTheTable) {
   ASSERT_NE(row, fields.end());
   EXPECT_EQ(row->row.min, StepPolicy::kLeastFactor);
   EXPECT_EQ(row->row.max, StepPolicy::kLargestFactor);
-  for (const auto solver : {PressureKind::weakly_compressible, PressureKind::divergence_free,
-                            PressureKind::grid_projected}) {
+  for (const auto solver : {PressureKind::weakly_compressible, PressureKind::grid_projected}) {
     EXPECT_LE(StepPolicy::stable_factor(solver), StepPolicy::kLargestFactor);
     for (int k = 1; k <= 40; ++k) {
       const double factor = std::min(0.05 * k, row->row.max);

@@ -71,7 +71,7 @@ TEST_P(Repeats, TheSameSeedGivesTheSameBits) {
   EXPECT_EQ(first.water.id, second.water.id);
   EXPECT_EQ(first.water.position, second.water.position);
   EXPECT_EQ(first.water.velocity, second.water.velocity);
-  EXPECT_EQ(first.water.pressure, second.water.pressure);
+  EXPECT_EQ(first.water.peak_density, second.water.peak_density);
   const Story other = run(device, splashing(GetParam(), 2), 0.5);
   EXPECT_NE(first.events, other.events) << "a seed that does nothing";
   EXPECT_EQ(first.water.position, other.water.position);

@@ -624,9 +624,9 @@ void GridProjected::enqueue_work(Device& device) {
   state_.enqueue_read(device, state_read_);
 }
 
-SolverWork GridProjected::work() const {
+SolveWork GridProjected::work() const {
   const SolveState& s = state_read_[0];
-  return {{}, {s.solves, s.total, s.most, s.given_up, static_cast<double>(s.error)}};
+  return {s.solves, s.total, s.most, s.given_up, static_cast<double>(s.error)};
 }
 
 void GridProjected::forget_work(Device& device) {
@@ -634,11 +634,7 @@ void GridProjected::forget_work(Device& device) {
   state_read_ = {};
 }
 
-std::vector<float> GridProjected::pressure(Device& /*device*/) {
-  return {};
-}
-
-void GridProjected::restore_pressure(Device& device, const std::vector<float>& /*pressure*/) {
+void GridProjected::forget_pressure(Device& device) {
   pressure_.enqueue_clear(device);
   wet_.enqueue_clear(device);
   stopped_.enqueue_clear(device);

@@ -11,8 +11,8 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
-#include "sim-server/fluid/pressure/divergence_free/solve_state.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_layout.hpp"
+#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 
 namespace splash::sim {
@@ -49,14 +49,12 @@ class GridProjected : public PressureSolver {
   void feel(Device& device, bool on) override;
   void add_pushes(Fluid& fluid, const Step& step, const FeltBodies& felt) override;
   void enqueue_work(Device& device) override;
-  [[nodiscard]] SolverWork work() const override;
+  [[nodiscard]] SolveWork work() const override;
   void forget_work(Device& device) override;
   [[nodiscard]] std::vector<cl::Buffer> kept() const override {
     return {pressure_.memory(), wet_.memory(), stopped_.memory()};
   }
-  /// Nothing of it is by particle: after restore_pressure a solve begins from no pressure.
-  [[nodiscard]] std::vector<float> pressure(Device& device) override;
-  void restore_pressure(Device& device, const std::vector<float>& pressure) override;
+  void forget_pressure(Device& device) override;
   void note_recalled(Device& device) override;
 
   // For tests, between steps.
