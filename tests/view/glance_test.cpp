@@ -203,5 +203,61 @@ TEST_F(Glance, APictureThatTakesLongGetsCoarser) {
   EXPECT_EQ(shares[2][1], 1) << shares;
 }
 
+// Graphics on which water takes a time in proportion to its pixels, and points take no longer than
+// a picture has: what all pixels take at first, and later.
+TEST_F(Glance, PointsBecomeWaterAgainOnceThereIsTimeForIt) {
+  const Json seen = with_the_modules(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    const run = (pace, seconds, whole) => {
+      let tries = 0;
+      let water = 0; // pictures of it
+      for (const end = now + 1000 * seconds; now < end;) {
+        const points = pace.isTooSlow;
+        const drawing = points ? 0.002 : whole * pace.sharp ** 2 * (0.5 + 0.5 * pace.share ** 2);
+        now += 1000 * Math.max(drawing, 1 / 60);
+        pace.step(drawing);
+        tries += points && !pace.isTooSlow ? 1 : 0;
+        water += points ? 0 : 1;
+      }
+      return { tries, water, points: pace.isTooSlow, sharp: pace.sharp, share: pace.share };
+    };
+    const passes = new Pace(null);
+    const stays = new Pace(null);
+    return [run(passes, 10, 3), run(passes, 60, 0.001), run(stays, 10, 3), run(stays, 1200, 3)];
+  })())js");
+  EXPECT_EQ(seen[0]["points"], true) << seen;
+  EXPECT_EQ(seen[1]["points"], false) << seen;
+  EXPECT_EQ(seen[1]["sharp"], 1) << seen;
+  EXPECT_EQ(seen[1]["share"], 1) << seen;
+  EXPECT_EQ(seen[2]["points"], true) << seen;
+  EXPECT_GE(seen[3]["tries"], 3) << seen;
+  EXPECT_LE(seen[3]["tries"], 8) << "it flickers between both";
+  EXPECT_LE(seen[3]["water"], 60) << seen;
+}
+
+// A page that is out of sight, in which the browser takes no pictures, is not a slow one.
+TEST_F(Glance, ATimeWithoutPicturesIsNotASlowOne) {
+  const Json pace = with_the_modules(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    const pace = new Pace(null);
+    for (let i = 0; i < 60; ++i) {
+      now += 1000 / 60;
+      pace.step(0.005);
+    }
+    now += 60000;
+    pace.begin();
+    for (let i = 0; i < 60; ++i) {
+      now += 1000 / 60;
+      pace.step(0.005);
+    }
+    return [pace.sharp, pace.share, pace.isTooSlow];
+  })())js");
+  EXPECT_EQ(pace, Json({1, 1, false}));
+}
+
 }  // namespace
 }  // namespace splash::tests

@@ -43,7 +43,8 @@ const fences = new Fences(gl, finished);
 const strip = new Strip(at('strip'));
 const lights = smooth ? new LightMaps(gl) : null;
 const water = smooth ? new Water(gl) : null;
-let points = smooth ? null : new Points(gl);
+const asPoints = () => !smooth || (pace.isTooSlow && !headset.session);
+let points = null; // made when they are drawn for the first time
 
 const FALL = 0.8; // of a shown peak from one frame of levels to the next
 
@@ -228,8 +229,7 @@ function picture() {
   fences.look();
   // No picture waits for another: it would show an older state.
   if (fences.pending.length > 0) return;
-  pace.step(playout.drawing);
-  if (pace.isTooSlow && !points && !headset.session) points = new Points(gl);
+  if (!headset.session) pace.step(playout.drawing);
   const dense = Math.min(window.devicePixelRatio, 2) * pace.sharp;
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -266,7 +266,7 @@ function prepare() {
   if (headset.session) finished(moment, begun);
   const { older, newer, share } = view;
   world.paddle = solids.drive(older.simulated + share * (newer.simulated - older.simulated));
-  particles.show(view, points ? null : world);
+  particles.show(view, asPoints() ? null : world);
   poseBodies(view);
   if (++pictures % 3 === 0) drawCharts(now);
   return true;
@@ -274,7 +274,10 @@ function prepare() {
 
 function drawAll(size, seen) {
   const marks = () => rings.draw(seen, moment, camera.size);
-  if (points) return points.draw(size, seen, world, particles, solids, marks);
+  if (asPoints()) {
+    points ??= new Points(gl);
+    return points.draw(size, seen, world, particles, solids, marks);
+  }
   lights.draw(world, particles, solids.bodies, pace.sharp * pace.share);
   const levels = new Float32Array(64);
   if (peaks) levels.set(peaks.slice(tilesFirst, tilesFirst + 64));
@@ -302,7 +305,10 @@ const ACTS = {
   reset: () => link.send('/reset', ','),
   headset: async () => {
     if (headset.session) return headset.stop();
-    await headset.start(() => pressed('headset', false)).catch((error) => warn(error.message));
+    await headset.start(() => {
+      pressed('headset', false);
+      pace.begin();
+    }).catch((error) => warn(error.message));
     return pressed('headset', headset.session !== null);
   },
   look: () => world && camera.frame(world.tank),
@@ -328,7 +334,10 @@ window.addEventListener('keydown', (event) => {
   if (turn && document.activeElement === canvas) camera.orbit(...turn);
 });
 canvas.addEventListener('pointerdown', () => at('hint').classList.add('done'));
-document.addEventListener('visibilitychange', () => document.hidden && grabs.letAllGo());
+document.addEventListener('visibilitychange', () => {
+  if (document.hidden) grabs.letAllGo();
+  else pace.begin();
+});
 window.addEventListener('pagehide', () => grabs.letAllGo());
 
 setInterval(() => {

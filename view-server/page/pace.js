@@ -13,6 +13,8 @@ const SHORT = 0.015; // below which they may get sharper: half as many pixels ag
 const TOO_SLOW = 24; // of the coarsest water, after which points are drawn
 const SETTLE = 0.5; // after each change before the rate counts [s]
 const SHARPER_AFTER = 5; // of a fast rate [s]
+const AGAIN = 10; // of fast points, after which water is tried again; twice as long each time [s]
+const AGAIN_MAX = 320; // [s]
 const LOOKED_AT = 30; // answers
 
 export class Pace {
@@ -22,12 +24,19 @@ export class Pace {
     this.fixed = share;
     this.level = 0; // in LEVELS
     this.isTooSlow = false; // for water
+    this.again = AGAIN; // of fast points, the next time that water is too slow [s]
+    this.left = 0; // of fast points before water is tried again [s]
     this.took = 1 / 60; // a picture, a mean [s]
+    this.begin();
+    this.waits = []; // from asking to the answer [s]
+    this.asked = null; // when [s]
+  }
+
+  /// Counts from here on, as after a time in which the browser took no pictures.
+  begin() {
     this.before = performance.now() / 1000;
     this.pictures = 0; // since the last change
     this.since = 0; // that change [s]
-    this.waits = []; // from asking to the answer [s]
-    this.asked = null; // when [s]
   }
 
   /// Of the window's pixels along each axis, for the picture.
@@ -56,9 +65,14 @@ export class Pace {
     if (this.fixed !== null || this.since < SETTLE || this.pictures < 2) return;
     const meanRate = this.pictures / this.since;
     const coarsest = LEVELS.length - 1;
-    if (meanRate < SLOW && this.level < coarsest) {
+    if (this.isTooSlow && meanRate > SLOW && drawing < LONG) this.left -= took;
+    if (this.isTooSlow && this.left < 0) {
+      this.go(coarsest, false);
+    } else if (meanRate < SLOW && this.level < coarsest) {
       this.go(Math.min(this.level + Math.ceil(Math.log2(SLOW / meanRate)), coarsest));
     } else if (meanRate < TOO_SLOW && !this.isTooSlow) {
+      this.left = this.again;
+      this.again = Math.min(2 * this.again, AGAIN_MAX);
       this.go(0, true);
     } else if (drawing > LONG && this.pictures > KEEP && this.level < coarsest) {
       this.go(this.level + 1);

@@ -42,6 +42,7 @@ export class Particles {
     this.held = [null, null];
     this.buffers = [gl.createBuffer(), gl.createBuffer()];
     this.several = { mirrored: { buffer: gl.createBuffer() }, drops: { buffer: gl.createBuffer() } };
+    this.picked = {}; // {older, newer}, of which those are
   }
 
   fill(buffer, data) {
@@ -64,11 +65,12 @@ export class Particles {
   /// What follows is drawn between these two; `world`: tank, paddle, spacing; null: nothing is
   /// drawn several times.
   show({ older, newer, share }, world) {
-    if (world && (this.held[0] !== older || this.held[1] !== newer)) {
+    if (world && (this.picked.older !== older || this.picked.newer !== newer)) {
       for (const [kind, { used, count }] of Object.entries(several({ older, newer }, world))) {
         this.fill(this.several[kind].buffer, used);
         this.several[kind].count = count;
       }
+      this.picked = { older, newer };
     }
     this.upload(0, older);
     this.upload(1, newer);
