@@ -17,6 +17,7 @@
 
 #include "protocol/time_tag.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 
 namespace {
@@ -57,7 +58,7 @@ void watch(const protocol::Endpoint& where) {
 }
 
 struct Run {
-  double cpu = 0.0;     ///< of a simulated second [s]
+  double cpu = 0.0;     ///< of a simulated second, once all is made ready [s]
   double factor = 0.0;  ///< real-time factor [1]
   long frames = 0;      ///< shown
 };
@@ -80,12 +81,14 @@ std::string text_of(const std::string& path) {
 Run run(const std::string& scene, double seconds, bool watched) {
   const std::string report = temporary_path("viewer.json");
   const double before = cpu_of_children();
+  double ready = 0.0;  // processor time until then [s]
   {
     ChildProcess process(
         command("sim-server",
                 {"--scene", scene, "--faster-than-real-time", "--listen", "127.0.0.1:0", "--show",
                  "127.0.0.1:0", "--duration", std::to_string(seconds), "--report", report}));
     if (!process.wait_for_text("viewers: ")) throw std::runtime_error(process.output());
+    ready = cpu_seconds(process.id());
     const std::string said = process.output();
     const auto begin = said.find("viewers: ") + 9;
     const auto where =
@@ -97,7 +100,7 @@ Run run(const std::string& scene, double seconds, bool watched) {
   }
   const std::string text = text_of(report);
   unlink(report.c_str());
-  return {(cpu_of_children() - before) / seconds, number_of(text, "real_time_factor"),
+  return {(cpu_of_children() - before - ready) / seconds, number_of(text, "real_time_factor"),
           static_cast<long>(number_of(text, "shown_frames"))};
 }
 
