@@ -193,7 +193,7 @@ void main() {
 const COMPOSE = `${LIGHT}${LIT}
 in vec2 uv;
 uniform sampler2D solids, solidDepth, surface, depth, thickness;
-uniform mat4 viewBack, projection;
+uniform mat4 viewBack, projection, both;
 uniform vec2 slope, skew;
 uniform vec3 eye, absorbed; // [1/m] of red, green, blue
 uniform vec3 tankLower, tankUpper;
@@ -205,6 +205,16 @@ float solidDistance(vec2 at) {
   return projection[3][2] / (projection[2][2] + d);
 }
 
+/// The depth is that of the middle of its pixel, which may be larger than the picture's: how far
+/// water of that normal is along this way.
+float onPlane(float z, vec3 n, vec3 way) {
+  vec2 size = vec2(textureSize(depth, 0));
+  vec2 middle = (floor(uv * size) + 0.5) / size;
+  vec3 there = z * vec3((middle * 2.0 - 1.0 + skew) * slope, -1.0);
+  float reach = 8.0 * z * slope.y / size.y;
+  return clamp(dot(n, there) / min(dot(n, way), -0.05), z - reach, z + reach);
+}
+
 void main() {
   vec3 behind = texture(solids, uv).rgb;
   vec4 s = texture(surface, uv);
@@ -212,10 +222,12 @@ void main() {
   if (s.a < 0.02) return;
   float z = texture(depth, uv).r;
   if (z <= 0.0) z = texture(depth, uv + 0.6 * normalize(s.xy + 1e-4) / vec2(textureSize(depth, 0))).r;
+  vec3 n = normalize(s.xyz);
+  vec3 way = vec3((uv * 2.0 - 1.0 + skew) * slope, -1.0);
+  if (z > 0.0) z = onPlane(z, n, way);
   if (z > 0.0 && solidDistance(uv) < z - 0.002) return;
   if (z <= 0.0) z = solidDistance(uv);
-  vec3 n = normalize(s.xyz);
-  vec3 p = vec3((uv * 2.0 - 1.0 + skew) * slope * z, -z);
+  vec3 p = way * z;
   vec3 world = (viewBack * vec4(p, 1.0)).xyz;
   vec3 view = normalize(p);
   // Behind the far walls there is none.
@@ -227,11 +239,19 @@ void main() {
   if (dot(n, view) > 0.0) n = normalize(n - 1.05 * dot(n, view) * view);
   vec2 thick = texture(thickness, uv).rg;
 
-  // What the refracted ray meets, if that lies as deep as what is straight behind.
+  // What the refracted ray meets, if that lies as deep as what is straight behind, and not below
+  // the floor. Walls mirror what comes steeply through the surface.
   float straight = max(solidDistance(uv) - z, 0.0) / max(-view.z, 0.2);
   float path = min(mix(thick.r, straight, 0.5), 1.1 * straight);
-  vec3 meets = p + refract(view, n, 0.75) * path;
-  vec2 there = clamp((meets.xy / (-meets.z * slope) - skew) * 0.5 + 0.5, vec2(0.001), vec2(0.999));
+  vec3 bent = mat3(viewBack) * refract(view, n, 0.75);
+  path = min(path, max(world.z - tankLower.z, 0.0) / max(-bent.z, 0.05));
+  vec3 meets = world + path * bent;
+  if (bent.z < -0.6) {
+    meets.xy = tankLower.xy + abs(meets.xy - tankLower.xy);
+    meets.xy = tankUpper.xy - abs(tankUpper.xy - meets.xy);
+  }
+  vec4 drawn = both * vec4(meets, 1.0);
+  vec2 there = clamp(drawn.xy / drawn.w * 0.5 + 0.5, vec2(0.001), vec2(0.999));
   if (solidDistance(there) < z) there = uv;
   vec3 through = texture(solids, there).rgb;
   vec3 kept = exp(-absorbed * path);
