@@ -114,14 +114,16 @@ std::optional<Value> said_of(msghdr& header, int type) {
   return std::nullopt;
 }
 
-// Since the kernel took a datagram [s]. Its stamp is the system clock's, which may have been set.
-double waited_since(const std::optional<timespec>& stamp) {
+// When the kernel took a datagram. Its stamp is the system clock's, which may have been set.
+ClockReading taken_at(const std::optional<timespec>& stamp) {
   constexpr double kLongest = 60.0;  // [s]
-  if (!stamp) return 0.0;
+  const ClockReading now = read_clocks();
+  if (!stamp) return now;
   const double then =
       static_cast<double>(stamp->tv_sec) + 1e-9 * static_cast<double>(stamp->tv_nsec);
-  const double waited = unix_now() - then;
-  return waited > 0.0 && waited < kLongest ? waited : 0.0;
+  const double waited = now.unix_time - then;
+  if (!(waited > 0.0 && waited < kLongest)) return now;
+  return {now.monotonic - waited, now.unix_time - waited};
 }
 
 bool wait_readable(int descriptor, double timeout) {
@@ -224,7 +226,7 @@ std::optional<UdpSocket::Received> UdpSocket::receive(std::byte* buffer, std::si
   if (const auto count = said_of<std::uint32_t>(header, SO_RXQ_OVFL))
     dropped_ += *count - static_cast<std::uint32_t>(dropped_);
   return Received{static_cast<std::size_t>(size), to_endpoint(from),
-                  waited_since(said_of<timespec>(header, SCM_TIMESTAMPNS))};
+                  taken_at(said_of<timespec>(header, SCM_TIMESTAMPNS))};
 }
 
 std::size_t UdpSocket::receive_buffer() const noexcept {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "program/failure.hpp"
+#include "protocol/clock_reading.hpp"
 #include "protocol/gate.hpp"
 
 namespace splash::protocol {
@@ -58,7 +59,8 @@ class UdpSocket {
   struct Received {
     std::size_t size = 0;  ///< of the whole datagram, may exceed the buffer's [bytes]
     Endpoint from;
-    double waited = 0.0;  ///< time that it spent in the kernel [s]; 0 where that is not known
+    ClockReading
+        arrival;  ///< when the kernel took it; when it was received where that is not known
   };
   /// Waits up to `timeout` seconds (0: not at all) for one datagram. Returns nothing when the wait
   /// is interrupted.

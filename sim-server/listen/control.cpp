@@ -57,8 +57,7 @@ std::vector<protocol::Reply> ControlServer::take(protocol::Bytes packet,
                                                  const protocol::UdpSocket::Received& received) {
   const protocol::Endpoint& from = received.from;
   // A busy or stopped program looks late: the kernel knows when it came.
-  arrival_ = std::max(arrival_, protocol::monotonic_now() - received.waited);
-  const double unix_time = protocol::unix_now() - received.waited;
+  arrival_ = std::max(arrival_, received.arrival.monotonic);
   std::vector<protocol::Reply> replies;
   const std::lock_guard lock(mutex_);
   ++counts_.packets;
@@ -70,7 +69,7 @@ std::vector<protocol::Reply> ControlServer::take(protocol::Bytes packet,
   const auto read = protocol::decode_with_arrays(packet);
   if (!port_.inspect(packet, read, from, arrival_)) return replies;
   targets_.renew(from);
-  Visit visit{from, arrival_, unix_time, read.packet.time, {from, packet.size()}};
+  Visit visit{from, arrival_, received.arrival.unix_time, read.packet.time, {from, packet.size()}};
   for (const auto& message : read.packet.messages) port_.take(message, visit, replies);
   return replies;
 }
