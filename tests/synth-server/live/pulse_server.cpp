@@ -66,21 +66,33 @@ void PulseServer::kill() {
   (void)server_->wait_for_end(5.0);
 }
 
-std::vector<std::vector<float>> PulseServer::listen(std::size_t frames) const {
-  const auto width = static_cast<std::size_t>(channels_);
-  const std::size_t size = frames * width * sizeof(float);
-  tests::ChildProcess listener({"parec", "--device=tiles.monitor", "--format=float32le",
-                                "--rate=48000", "--latency-msec=20",
-                                "--channels=" + std::to_string(channels_)});
-  std::string bytes;
-  for (int tenths = 0; tenths < kTimeout && bytes.size() < size; ++tenths) {
+PulseRecording::PulseRecording(const PulseServer& pulse)
+    : width_(static_cast<std::size_t>(pulse.channels())),
+      listener_({"parec", "--device=tiles.monitor", "--format=float32le", "--rate=48000",
+                 "--latency-msec=20", "--channels=" + std::to_string(pulse.channels())}) {
+  wait_for(1);
+}
+
+std::size_t PulseRecording::frames() const {
+  return listener_.output().size() / (width_ * sizeof(float));
+}
+
+void PulseRecording::wait_for(std::size_t wanted) {
+  for (int tenths = 0; tenths < kTimeout; ++tenths) {
+    if (frames() >= wanted) return;
     pause();
-    bytes = listener.output();
   }
-  if (bytes.size() < size) return {};
-  std::vector<std::vector<float>> channels(width, std::vector<float>(frames));
-  for (std::size_t i = 0; i < frames * width; ++i) {
-    std::memcpy(&channels[i % width][i / width], bytes.data() + i * sizeof(float), sizeof(float));
+  throw std::runtime_error("parec heard " + std::to_string(frames()) + " frames of " +
+                           std::to_string(wanted));
+}
+
+std::vector<std::vector<float>> PulseRecording::channels(std::size_t more) {
+  wait_for(frames() + more);
+  const std::string bytes = listener_.output();
+  const std::size_t count = bytes.size() / (width_ * sizeof(float));
+  std::vector<std::vector<float>> channels(width_, std::vector<float>(count));
+  for (std::size_t i = 0; i < count * width_; ++i) {
+    std::memcpy(&channels[i % width_][i / width_], bytes.data() + i * sizeof(float), sizeof(float));
   }
   return channels;
 }

@@ -25,14 +25,29 @@ class PulseServer {
   /// After kill(): anew in the same place.
   void start();
 
-  /// What the sink hears from now on until `frames` are there; channel by channel. Empty when they
-  /// do not come.
-  [[nodiscard]] std::vector<std::vector<float>> listen(std::size_t frames) const;
+  [[nodiscard]] int channels() const noexcept { return channels_; }
 
  private:
   std::string folder_;
   int channels_;
   std::unique_ptr<tests::ChildProcess> server_;
+};
+
+/// What a server's sink hears, from its construction on.
+class PulseRecording {
+ public:
+  /// Returns once the sink is heard. Throws std::runtime_error when it is not.
+  explicit PulseRecording(const PulseServer& pulse);
+
+  /// Waits until `more` frames came beyond those that are there; all of them, channel by channel.
+  [[nodiscard]] std::vector<std::vector<float>> channels(std::size_t more);
+
+ private:
+  [[nodiscard]] std::size_t frames() const;
+  void wait_for(std::size_t wanted);
+
+  std::size_t width_;
+  tests::ChildProcess listener_;
 };
 
 }  // namespace splash::synth
