@@ -59,8 +59,8 @@ class UdpSocket {
   struct Received {
     std::size_t size = 0;  ///< of the whole datagram, may exceed the buffer's [bytes]
     Endpoint from;
-    ClockReading
-        arrival;  ///< when the kernel took it; when it was received where that is not known
+    /// When the kernel took it, or when it was read where that is not known.
+    ClockReading arrival;
   };
   /// Waits up to `timeout` seconds (0: not at all) for one datagram. Returns nothing when the wait
   /// is interrupted.

@@ -127,7 +127,7 @@ class Fluid {
     solver_->add_pushes(*this, step, felt);
   }
 
-  /// For solvers: accelerations from the present pressure_term() and the given velocities.
+  /// For solvers: accelerations from the present pressure_term() and velocities.
   void compute_acceleration(const Step& step);
   /// Moves the state on as the accelerations say.
   void integrate(const Step& step);

@@ -14,7 +14,7 @@
 
 namespace splash::sim {
 
-/// The work of a solver that iterates.
+/// Totals over all solves of a pressure solver that iterates.
 struct SolveTotals {
   std::int64_t solves = 0;  ///< one per step; 0: the solver in use needs none
   std::int64_t iterations = 0;

@@ -81,7 +81,7 @@ std::string how_to_take(std::uint32_t host, std::uint16_t port) {
   const bool own = protocol::is_loopback({.address = host, .port = 0});
   if (own && port == protocol::kSimPort) return {};
   const std::string where = (own ? "127.0.0.1:" : "0.0.0.0:") + std::to_string(port);
-  return "sim-server hears one port, and this one with --listen " + where +
+  return "sim-server listens at one port only: for this one, start it with --listen " + where +
          (own ? "" : " --allow " + host_of(host));
 }
 

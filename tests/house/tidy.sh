@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too
-# (twice as long, in a build with -DSPLASH_JOIN=OFF). Reading the system headers takes most of the time, so units with the same options
-# are joined into one and read together; if clang-tidy finds fault with those, each is read alone.
-# A unit found clean is not read again until it, a header of ours or the rules change. Arguments:
-# the source tree, the build folder.
+# (twice as long, in a build with -DSPLASH_JOIN=OFF). Reading the system headers takes most of the
+# time, so units with the same options are joined into one and read together; if clang-tidy finds
+# fault with those, each is read alone. A unit found clean is not read again until it, a header of
+# ours or the rules change. Arguments: the source tree, the build folder.
 set -euo pipefail
 cd "$1"
 build=$2

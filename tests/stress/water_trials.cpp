@@ -45,7 +45,7 @@ void add_sheets(std::vector<Trial>& all) {
 }
 
 void add_domains(std::vector<Trial>& all) {
-  // 200 layers take longer to become calm than the trial lasts.
+  // Only the shallower one is judged as still water.
   for (const int layers : {50, 200}) {
     all.push_back({.group = 8,
                    .name = "a column of " + std::to_string(layers) + " layers",

@@ -203,8 +203,8 @@ TEST_F(Glance, APictureThatTakesLongGetsCoarser) {
   EXPECT_EQ(shares[2][1], 1) << shares;
 }
 
-// Graphics on which water takes a time in proportion to its pixels, and points take no longer than
-// a picture has: what all pixels take at first, and later.
+// Simulated graphics: a picture of water takes `whole` seconds at full resolution and less in
+// proportion to its pixels; a picture of points takes 2 ms.
 TEST_F(Glance, PointsBecomeWaterAgainOnceThereIsTimeForIt) {
   const Json seen = with_the_modules(R"js((async () => {
     const { Pace } = await import('/pace.js');

@@ -51,9 +51,8 @@ static void add_water(const Reach* r, Lever lever, float inverse_size, lanes pus
 // Pushes on each free body and the water's inertia, of one part of the water: one work-group for
 // each body and part. `pushing`: of the pressure given, in it and in seconds; `rubbing`: of a_i,
 // likewise.
-kernel void weigh_water(constant FluidParams* p,
-                        float pushing, float rubbing, constant FreeBody* frees,
-                        global const BodyStep* bodies, int first_body,
+kernel void weigh_water(constant FluidParams* p, float pushing, float rubbing,
+                        constant FreeBody* frees, global const BodyStep* bodies, int first_body,
                         global const float* position, global const float* pressure,
                         global float* reach, global const int* reached, global float* parts) {
   local float of_team[SPLASH_PUSH_ENTRIES * TEAM];
@@ -94,8 +93,7 @@ static void add_tug(Tug tug, float size, float* sum) {
 // water gave each body in this step so far, its momentum and angular momentum. `tugs`: what its
 // spring gave it in this frame so far. `anchors`: of the free bodies in this step, from
 // `first_anchor` on. The body's speeds in this step change at once.
-kernel void answer_bodies(constant FluidParams* p,
-                          float falling, constant FreeBody* frees,
+kernel void answer_bodies(constant FluidParams* p, float falling, constant FreeBody* frees,
                           global BodyStep* bodies, int first_body, global const float* parts,
                           int films, global const float* film, global const Anchor* anchors,
                           int first_anchor, global float* answer, global float* felt,
@@ -157,9 +155,8 @@ kernel void answer_bodies(constant FluidParams* p,
 
 // The water next to the bodies gets its part: one work-item for each group of particles. `velocity`
 // changes by `factor` dv_i.
-kernel void carry_water(constant FluidParams* p,
-                        int free_count, float factor, constant FreeBody* frees,
-                        global const BodyStep* bodies, int first_body,
+kernel void carry_water(constant FluidParams* p, int free_count, float factor,
+                        constant FreeBody* frees, global const BodyStep* bodies, int first_body,
                         global const float* answer, global const float* position,
                         global float* reach, global const int* reached, global float* velocity) {
   const int groups = group_count(p);

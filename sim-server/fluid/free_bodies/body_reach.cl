@@ -76,11 +76,10 @@ kernel void reach_bodies(constant FluidParams* p, float dt, int free_count,
                          global const int* cell_start, global const float* position,
                          global const float* velocity, global const float* density,
                          global const float* images, global const float* pressure_term,
-                         global const int* body_start,
-                         global const float* body_position, global const float* body_velocity,
-                         global const float* body_volume, global const int* body_id,
-                         global const int* owner, int body_stride, global float* reach,
-                         global int* reached) {
+                         global const int* body_start, global const float* body_position,
+                         global const float* body_velocity, global const float* body_volume,
+                         global const int* body_id, global const int* owner, int body_stride,
+                         global float* reach, global int* reached) {
   const int item = get_global_id(0);
   if (item >= free_count * group_count(p)) return;
   const int k = item / group_count(p);

@@ -40,8 +40,8 @@ class FreeBodies {
   /// frame's first step, then of the next one. Without it none may hang on any.
   void hang(Device& device, const std::vector<Anchor>& anchors);
 
-  /// The bodies answer to what was found, to the forces of the present pressures and to gravity;
-  /// the accelerations of the water next to them, too.
+  /// Finds what water is in reach of the bodies; the bodies answer to the forces of the present
+  /// pressures, to what rubs and to gravity, and so do the accelerations of that water.
   void answer(Fluid& fluid, const Step& step);
 
   /// After the particles have moved: none is left in a body, and the bodies move on.
@@ -69,7 +69,7 @@ class FreeBodies {
     double factor = 1.0;                      ///< the velocities' changes are added times this
     const Buffer<float>* velocity = nullptr;  ///< to these
   };
-  /// Finds who is in reach of the bodies, and what they do to each other.
+  /// Finds what water is in reach of the bodies, and what they do to each other.
   void reach(Fluid& fluid, const Step& step);
   void answer(Fluid& fluid, const Step& step, const Occasion& occasion);
 

@@ -18,7 +18,7 @@ namespace splash::sim {
 
 class Fluid;
 
-/// Of the solves since counting began; zeros where pressure needs none.
+/// Totals over all solves since counting began; zero with a solver that does not iterate.
 struct SolveWork {
   std::int64_t solves = 0;
   std::int64_t iterations = 0;  ///< of all solves

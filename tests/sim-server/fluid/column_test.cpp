@@ -26,8 +26,8 @@ TEST(WeaklyCompressible, AColumnIsAsDenseAsItsWeightAsks) {
   EXPECT_GT(stats.max_excess, bottom);
 }
 
-// What carries the weight above. With either solver it takes a twenty-fifth more than rho g z: that
-// much too weak is the pair forces' gradient among settled particles.
+// What carries the weight above: a twenty-fifth more than rho g z, since the pair forces' gradient
+// among settled particles is that much too weak.
 TEST(Column, AColumnPressesAsItsWeightAsks) {
   Device device;
   const double depth = 0.36;

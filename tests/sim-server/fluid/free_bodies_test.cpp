@@ -38,7 +38,8 @@ std::string density_name(const ::testing::TestParamInfo<double>& info) {
   return std::to_string(static_cast<int>(info.param));
 }
 
-class Momentum : public ::testing::TestWithParam<double> {};  ///< of the body [kg/m3]
+/// The parameter is the density of the body [kg/m3].
+class Momentum : public ::testing::TestWithParam<double> {};
 
 // A turning box goes through the drop: it pushes, rubs and throws.
 TEST_P(Momentum, OfWaterAndBodyTogetherStays) {

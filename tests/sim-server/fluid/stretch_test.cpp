@@ -20,12 +20,11 @@ constexpr double kSpacing = 0.02;
 constexpr Vector3 kMiddle = {0.4, 0.4, 0.4};
 
 /// A ball of six spacings in radius that nothing pulls down, in the middle of a tank of 0.8 m.
-Water ball(PressureKind solver = PressureKind::weakly_compressible) {
+Water ball() {
   Water water;
   water.scene = tank_scene(kSpacing, {0.8, 0.8, 0.8}, 0.1);
   water.scene.water = {{{0.28, 0.28, 0.28}, {0.52, 0.52, 0.52}, WaterForm::sphere}};
   water.scene.fluid.gravity = {0.0, 0.0, 0.0};
-  water.scene.fluid.solver = solver;
   water.particles = initial_particles(water.scene);
   return water;
 }

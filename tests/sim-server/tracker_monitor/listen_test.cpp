@@ -135,8 +135,9 @@ TEST(Listen, TheProgramHearsASender) {
   sender.send_to({.port = port}, protocol::encode(Message{"/phone", {1.0F, 2.0F, 3.0F}}));
   EXPECT_TRUE(listener.wait_for_text("- {body: BODY, address: /phone, position: [0, 1, 2]}"))
       << listener.output();
-  EXPECT_THAT(listener.output(), HasSubstr("hears one port, and this one with --listen 127.0.0.1:" +
-                                           std::to_string(port)));
+  EXPECT_THAT(listener.output(),
+              HasSubstr("at one port only: for this one, start it with --listen 127.0.0.1:" +
+                        std::to_string(port)));
   listener.signal(SIGINT);
   EXPECT_EQ(listener.wait_for_end(), 0) << listener.output();
 }

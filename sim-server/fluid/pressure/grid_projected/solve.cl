@@ -5,10 +5,10 @@
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
-#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/multigrid.h"
+#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 
 #define SOLVED 1e-4f  // what may be left of the demand [1]
 
