@@ -17,10 +17,6 @@ constexpr std::size_t kReadAtOnce = 128;
 /// Of the draws that a frame makes as a whole.
 constexpr auto kNoParticle = std::numeric_limits<std::uint32_t>::max();
 
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 Vector3 place_of(const Spawn& spawn) {
   return {static_cast<double>(spawn.x), static_cast<double>(spawn.y), static_cast<double>(spawn.z)};
 }

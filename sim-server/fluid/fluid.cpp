@@ -10,14 +10,6 @@
 #include "sim-server/fluid/params/parts.hpp"
 
 namespace splash::sim {
-namespace {
-
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
-}  // namespace
-
 Fluid::Fluid(Device& device, const FluidParams& params, const std::vector<Vector3>& particles,
              const std::vector<BoundaryPoint>& boundary, const Outlines& outlines,
              const KernelBuild& build)

@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "sim-server/bodies/mass.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 namespace {
 
 Anchor anchor_of(const BodyState& s) {
-  const auto as_float = [](double value) { return static_cast<float>(value); };
   return {as_float(s.position[0]), as_float(s.position[1]), as_float(s.position[2]),
           as_float(s.rotation[0]), as_float(s.rotation[1]), as_float(s.rotation[2]),
           as_float(s.rotation[3]), as_float(s.velocity[0]), as_float(s.velocity[1]),

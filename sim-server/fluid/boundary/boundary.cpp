@@ -13,10 +13,6 @@ namespace splash::sim {
 
 namespace {
 
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 void add_mesh(const MeshSolid& solid, BodyShape& shape, std::vector<float>& meshes) {
   const DistanceField& field = solid.field();
   shape.field = static_cast<int>(meshes.size());

@@ -10,10 +10,6 @@
 namespace splash::sim {
 namespace {
 
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 /// Whether two boxes, grown by `margin`, overlap along one axis.
 bool overlap(float a_lower, float a_upper, float b_lower, float b_upper, float margin) {
   return a_upper + margin > b_lower && a_lower - margin < b_upper;

@@ -10,10 +10,6 @@
 namespace splash::sim {
 namespace {
 
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 /// Coulomb's coefficients as free_bodies/contact.h wants them: a row for each free body, of its own
 /// on what goes its way and on walls, of the geometric mean of both on another free one, but for
 /// pairs that have one of theirs.

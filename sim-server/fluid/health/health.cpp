@@ -25,10 +25,6 @@ static_assert(kFaults == static_cast<std::size_t>(Fault::step) + 1);
 constexpr Fault kByCause[] = {Fault::step,    Fault::changed, Fault::lost,  Fault::not_finite,
                               Fault::outside, Fault::stray,   Fault::speed, Fault::density};
 
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 /// How high anything flies [m].
 double ceiling(const FluidParams& p) {
   const auto support = static_cast<double>(p.support);

@@ -18,10 +18,6 @@ constexpr int kIterations = 40;
 /// Of one for how bodies' pushes change: its error counts by its square (felt.cl).
 constexpr int kAnswerIterations = 4;
 
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 std::size_t cells_in(const MacGrid& grid) {
   const MacLevel& level = grid.level[0];
   return static_cast<std::size_t>(level.nx + 1) * static_cast<std::size_t>(level.ny + 1) *
