@@ -6,7 +6,7 @@ function find_names(file,   line, words, count) {
   while ((getline line <file) > 0) {
     sub(/^#define /, "", line)
     sub(/^\[\[[a-z]*\]\] /, "", line)
-    if (line !~ /^[A-Za-z]/ || line ~ /^(template|namespace|using namespace|extern|TEST|TYPED_TEST|INSTANTIATE)/) continue
+    if (line !~ /^[A-Za-z]/ || line ~ /^(template|namespace|using namespace|extern|TEST|TYPED_TEST|INSTANTIATE|[a-z_]*:( |$))/) continue
     sub(/^MATCHER(_P[0-9]*)?\(/, "", line)
     sub(/^(class|struct|enum|enum class) /, "", line) && sub(/ .*/, "", line)
     sub(/[[({=;,].*/, "", line)

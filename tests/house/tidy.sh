@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too
-# (twice as long, in a build with -DSPLASH_JOIN=OFF). Reading the system headers takes most of the
-# time, so units with the same options are joined into one and read together; if clang-tidy finds
-# fault with those, each is read alone. A unit found clean is not read again until it, a header of
-# ours or the rules change. Arguments: the source tree, the build folder.
+# (twice as long). Reading the system headers takes most of the time, so units with the same options
+# are joined into one and read together; if clang-tidy finds fault with those, each is read alone. A
+# unit found clean is not read again until it, a header of ours or the rules change. Arguments: the
+# source tree, the build folder.
 set -euo pipefail
 cd "$1"
 build=$2
@@ -13,6 +13,8 @@ joined=$build/tidy-joined
 readonly kMost=24  # units read together
 rm -rf "$joined"
 mkdir -p "$clean" "$joined"
+commands=$build/separate.json
+awk -f tests/house/separate_units.awk "$build/compile_commands.json" >"$commands"
 
 rules=$(clang-tidy --version
   cat .clang-tidy tests/.clang-tidy
@@ -21,11 +23,11 @@ rules=$(clang-tidy --version
 rules=$(sha256sum <<<"$rules")
 
 units=$(paste -d'\t' \
-  <(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$build/compile_commands.json") \
+  <(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$commands") \
   <(sed -n 's/^ *"command": "[^ ]*\( [^ ]*c++\)\{0,1\} \(.*\) -o [^ ]* -c .*/\2/p' \
-      "$build/compile_commands.json" | sed 's/ -O[0-3]//g') |
+      "$commands" | sed 's/ -O[0-3]//g') |
   grep -F "$1/" | grep -vF "$build/" | grep -v "^$1/${SPLASH_TIDY_ALL-tests}/" | sort -u -k1,1)
-[[ -n $units ]] || { echo "no sources of $1 in $build/compile_commands.json" >&2; exit 1; }
+[[ -n $units ]] || { echo "no sources of $1 in $commands" >&2; exit 1; }
 
 key_of() {  # options, source: the mark that the unit is clean
   local digest

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kTimeout = 120.0;  ///< for an answer [s]
+constexpr double kAnswerTimeout = 120.0;  ///< for an answer [s]
 
 /// Draws a screenshot into a canvas of the page and reads what is asked for.
 constexpr const char* kRead = R"js((async (text, places) => {
@@ -153,7 +153,7 @@ void Chromium::begin(const std::string& method, const Json& parameters) {
 Chromium::Json Chromium::call(const std::string& method, const Json& parameters) {
   begin(method, parameters);
   for (;;) {
-    const Json answer = next(kTimeout);
+    const Json answer = next(kAnswerTimeout);
     if (answer.is_null()) throw std::runtime_error(method + ": no answer\n" + process_->output());
     if (answer.value("id", 0) != calls_) {
       note(answer);
