@@ -72,7 +72,7 @@ Outcome observe(sim::Simulation& simulation, const Injection& injection, int ste
 
 std::vector<Water> all_waters() {
   using sim::PressureKind;
-  return {{PressureKind::weakly_compressible}};
+  return {{PressureKind::weakly_compressible}, {PressureKind::grid_projected}};
 }
 
 std::string name_of(const Water& water) {

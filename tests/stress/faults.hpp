@@ -14,7 +14,7 @@ namespace splash::stress {
 struct Water {
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;
 };
-/// Those that the default tests run: with the solvers whose particles push each other.
+/// Those that the default tests run: with each solver.
 [[nodiscard]] std::vector<Water> all_waters();
 /// In letters and underlines, short.
 [[nodiscard]] std::string name_of(const Water& water);
