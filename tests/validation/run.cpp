@@ -37,6 +37,18 @@ void add_since(const Effort& before, Effort& sum) {
   sum.processor += now.processor - before.processor;
 }
 
+/// The first `count` of vectors that lie component after component.
+std::vector<sim::Vector3> vectors_of(const std::vector<float>& parts, std::size_t count) {
+  std::vector<sim::Vector3> all(count);
+  const std::size_t stride = parts.size() / 3;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all[i][axis] = static_cast<double>(parts[axis * stride + i]);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 sim::Scene scene_named(const std::string& name) {
@@ -78,6 +90,9 @@ Run run_scene(sim::Device& device, const std::string& name, const Setting& setti
     if (progress) progress(simulation.seconds() / seconds);
   }
   run.particles = simulation.particles();
+  const sim::Snapshot water = simulation.fluid().snapshot();
+  run.places = vectors_of(water.position, water.id.size());
+  run.velocities = vectors_of(water.velocity, water.id.size());
   run.steps = simulation.totals().steps;
   run.simulated = simulation.seconds();
   run.work = simulation.solver_work();

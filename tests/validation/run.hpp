@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene.hpp"
@@ -39,6 +40,8 @@ struct Run {
   sim::Scene scene;
   Series gauges;  ///< the scene's, by their columns' names
   int particles = 0;
+  std::vector<sim::Vector3> places;      ///< of the particles, at the end [m]
+  std::vector<sim::Vector3> velocities;  ///< theirs [m/s]
   std::int64_t steps = 0;
   double simulated = 0.0;  ///< without settling [s]
   Effort all;              ///< with set-up, settling and gauges

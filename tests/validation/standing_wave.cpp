@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/validation/cases.hpp"
+#include "tests/validation/sloshing.hpp"
 
 namespace splash::validation {
 
@@ -36,19 +37,7 @@ double decay(const Column& time, const Column& kinetic) {
 /// Decay rate of the mode itself, which noise in the velocities does not hide [1/s]: the centre of
 /// mass swings as far sideways as it is high.
 double mode_decay(const Column& time, const Column& centre) {
-  const Column aside = combine(1.0, centre, -0.5 * kLength, Column(centre.size(), 1.0));
-  const Column crossings = zero_crossings(time, aside);
-  Column at;
-  Column logarithm;
-  for (std::size_t k = 0; k + 1 < crossings.size(); ++k) {
-    const Column other = combine(-1.0, aside, 0.0, aside);
-    at.push_back(0.5 * (crossings[k] + crossings[k + 1]));
-    logarithm.push_back(
-        std::log(std::max(largest_between(time, aside, crossings[k], crossings[k + 1]),
-                          largest_between(time, other, crossings[k], crossings[k + 1]))));
-  }
-  if (at.size() < 3) return std::nan("");
-  return -fit_line(at, logarithm, at.front(), at.back()).second;
+  return swing_decay(time, combine(1.0, centre, -0.5 * kLength, Column(centre.size(), 1.0)), 0.0);
 }
 
 Outcome evaluate(const std::vector<Run>& runs) {
