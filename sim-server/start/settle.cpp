@@ -2,7 +2,10 @@
 #include "sim-server/start/settle.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "sim-server/fluid/params/smoothing.hpp"
+#include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 #include "sim-server/fluid/random_draw.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/start/pinned_particles.hpp"
@@ -105,9 +108,18 @@ namespace {
 /// Of the cube of the lattice that a particle is in the middle of [spacings].
 constexpr double kHalfCube = 0.5;
 
-/// Enough for the pressures to fade: after 100 and after 300 a drop of ten spacings in radius is
-/// the same to 1e-5 of its size.
+/// Enough for the state equation's pressures to fade: after 100 and after 300 a drop of ten
+/// spacings in radius is the same to 1e-5 of its size.
 constexpr int kPackingSteps = 100;
+
+/// As many as move particles that press as far. A step from rest moves them by dt^2 a, in
+/// proportion to the square of the way that sound goes in it; the grid's spacing has its own sound.
+int packing_steps(const FluidParams& params) {
+  if (params.solver != SPLASH_GRID_PROJECTED) return kPackingSteps;
+  const double longer = static_cast<double>(params.advective_cfl) / kGridAdvectiveCfl;
+  const double way = kSpacingWay / kAcousticCfl;
+  return static_cast<int>(std::ceil(kPackingSteps / (longer * way * way)));
+}
 
 /// Uniform on [-1, 1) along each axis.
 Vector3 displacement(std::uint32_t seed, int particle) {
@@ -141,7 +153,8 @@ void pack(Fluid& fluid, const std::vector<BodyStep>& bodies, double piston, doub
   scatter(fluid, loose, seed);
   fluid.set_bodies(bodies);
   fluid.disable_gravity();
-  for (int k = 0; k < kPackingSteps; ++k) {
+  const int steps = packing_steps(fluid.params());
+  for (int k = 0; k < steps; ++k) {
     const Step step = {dt, piston, 0.0, 0};
     fluid.prepare(step);
     fluid.advance(step);

@@ -11,6 +11,7 @@
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -20,10 +21,11 @@ constexpr double kSpacing = 0.02;
 constexpr Vector3 kMiddle = {0.4, 0.4, 0.5};
 
 /// A ball of ten spacings in radius above a shallow pool, in a tank of 0.8 m.
-class Pack : public ::testing::Test {
+class Pack : public ::testing::TestWithParam<PressureKind> {
  protected:
   void SetUp() override {
     Scene scene = tank_scene(kSpacing, {0.8, 0.8, 0.8}, 0.1);
+    scene.fluid.solver = GetParam();
     pool_ = initial_particles(scene).size();
     scene.water.push_back({{0.2, 0.2, 0.3}, {0.6, 0.6, 0.7}, WaterForm::sphere});
     water_.scene = scene;
@@ -76,14 +78,14 @@ class Pack : public ::testing::Test {
   }
 };
 
-TEST_F(Pack, LeavesNoRows) {
+TEST_P(Pack, LeavesNoRows) {
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_GT(rows(before_, axis), 0.9);
   pack_ball(1);
   const std::vector<Vector3> packed = places();
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_LT(rows(packed, axis), 0.2) << axis;
 }
 
-TEST_F(Pack, KeepsTheBallsPlaceAndSize) {
+TEST_P(Pack, KeepsTheBallsPlaceAndSize) {
   pack_ball(1);
   const std::vector<Vector3> packed = places();
   Vector3 moved = {};
@@ -102,7 +104,7 @@ TEST_F(Pack, KeepsTheBallsPlaceAndSize) {
   EXPECT_NEAR(std::sqrt(square / square_before), 1.0, 0.02);  // of ten spacings
 }
 
-TEST_F(Pack, LeavesItAsDenseAsAtRest) {
+TEST_P(Pack, LeavesItAsDenseAsAtRest) {
   pack_ball(1);
   water_.fluid->prepare(water_.step_at(dt_));
   const std::vector<float> density = water_.fluid->density().read(device_, water_.particles.size());
@@ -123,13 +125,13 @@ TEST_F(Pack, LeavesItAsDenseAsAtRest) {
   EXPECT_NEAR(inner / count, 0.0, 0.02);
 }
 
-TEST_F(Pack, MovesNothingElse) {
+TEST_P(Pack, MovesNothingElse) {
   pack_ball(1);
   const std::vector<Vector3> packed = places();
   for (std::size_t i = 0; i < pool_; ++i) ASSERT_EQ(packed[i], before_[i]) << i;
 }
 
-TEST_F(Pack, EndsAtRestAndWithWeight) {
+TEST_P(Pack, EndsAtRestAndWithWeight) {
   pack_ball(1);
   for (const Vector3& v : velocities()) ASSERT_EQ(v, (Vector3{0.0, 0.0, 0.0}));
   water_.step(dt_);
@@ -140,7 +142,7 @@ TEST_F(Pack, EndsAtRestAndWithWeight) {
   EXPECT_NEAR(mean[2] / count, -9.81 * dt_, 1e-4 * 9.81 * dt_);
 }
 
-TEST_F(Pack, IsTheSameForTheSameSeed) {
+TEST_P(Pack, IsTheSameForTheSameSeed) {
   pack_ball(7);
   const std::vector<Vector3> first = places();
   for (const std::uint32_t seed : {7U, 8U}) {
@@ -150,10 +152,15 @@ TEST_F(Pack, IsTheSameForTheSameSeed) {
   }
 }
 
-TEST_F(Pack, DoesNothingWhereNothingIsLoose) {
+TEST_P(Pack, DoesNothingWhereNothingIsLoose) {
   pack(*water_.fluid, {}, 0.0, dt_, std::vector<bool>(water_.particles.size(), false), 1);
   EXPECT_EQ(places(), before_);
 }
+
+INSTANTIATE_TEST_SUITE_P(Each, Pack,
+                         ::testing::Values(PressureKind::weakly_compressible,
+                                           PressureKind::grid_projected),
+                         [](const auto& solver) { return name_of(solver.param); });
 
 }  // namespace
 }  // namespace splash::sim
