@@ -176,61 +176,6 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
   std::filesystem::remove(wav);
 }
 
-/// A headset that the page is made to believe in: one eye that sees what the camera sees, and one
-/// controller, whose place is `hand.place`, in WebXR's axes.
-constexpr const char* kHeadset = R"js((async () => {
-  const still = { x: 0, y: 0, z: 0, w: 1 };
-  window.hand = { source: { gripSpace: {}, targetRaySpace: {} }, place: { x: 0, y: 0, z: 0 } };
-  const eye = { projectionMatrix: splash.camera.matrices().projection,
-    transform: { inverse: { matrix: new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
-      0, -1, 0, 1]) } } };
-  class Session extends EventTarget {
-    renderState = {};
-    updateRenderState(state) { Object.assign(this.renderState, state); }
-    async requestReferenceSpace() { return {}; }
-    requestAnimationFrame(act) { setTimeout(() => act(performance.now(), this.frame), 30); }
-    async end() { this.dispatchEvent(new Event('end')); }
-    frame = { getViewerPose: () => ({ views: [eye] }),
-      getPose: () => ({ transform: { position: window.hand.place, orientation: still } }) };
-  }
-  window.session = new Session();
-  window.XRWebGLLayer = class {
-    framebuffer = null;
-    getViewport() { return { x: 0, y: 0, width: 200, height: 160 }; }
-  };
-  WebGL2RenderingContext.prototype.makeXRCompatible = async () => {};
-  Object.defineProperty(navigator, 'xr', { configurable: true,
-    value: { isSessionSupported: async () => true, requestSession: async () => window.session } });
-  window.pull = (kind) => window.session.dispatchEvent(Object.assign(new Event(kind),
-    { inputSource: window.hand.source, frame: window.session.frame }));
-  document.getElementById('headset').click();
-}))js";
-
-TEST_F(Page, AControllerOfAHeadsetHoldsABody) {
-  Stage stage(kWaits, "?share=0.5");
-  Chromium& browser = stage.browser();
-  browser.evaluate(std::string(kHeadset) + "()");
-  ASSERT_TRUE(browser.wait_for("splash.headset.session", kTimeout)) << stage.words();
-  // The disc as WebXR sees it: 0.35 m over the tank's lower side, which stands on a table.
-  browser.evaluate("Object.assign(hand.place, { x: 0, y: 0.75 + 0.35, z: -0.35 - 0.2 })");
-  browser.evaluate("pull('selectstart')");
-  EXPECT_TRUE(browser.evaluate("splash.grabs.holds(0)"));
-  browser.evaluate("hand.place.x += 0.08; hand.place.y -= 0.05; hand.place.z += 0.03");
-  // To the right is to the right, up is up, and towards the viewer is the scene's -y.
-  EXPECT_TRUE(browser.wait_for(R"js((() => {
-    const [x, y, z] = splash.playout.states.at(-1).bodies[0].place;
-    return Math.hypot(x - 0.08, y + 0.03, z - 0.30) < 0.01;
-  })())js",
-                               kTimeout))
-      << browser.evaluate("splash.playout.states.at(-1).bodies[0].place").dump();
-  EXPECT_EQ(browser.evaluate("splash.playout.states.at(-1).bodies[0].flags & 4"), 4);
-  browser.evaluate("pull('selectend')");
-  EXPECT_FALSE(browser.evaluate("splash.grabs.holds(0)"));
-  browser.evaluate("document.getElementById('headset').click()");
-  EXPECT_TRUE(browser.wait_for("splash.headset.session === null", kTimeout));
-  EXPECT_THAT(browser.errors(), IsEmpty());
-}
-
 TEST_F(Page, IsHeard) {
   Stage stage(plunging(), "?points");
   Chromium& browser = stage.browser();

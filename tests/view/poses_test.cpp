@@ -1,81 +1,24 @@
 // SPDX-License-Identifier: MIT
-// What the page sends while a body is held, received by a simulator that the test plays.
-#include <gmock/gmock.h>
+// What the page sends while a body is held.
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <thread>
 #include <vector>
 
-#include "protocol/frame_stream.hpp"
-#include "protocol/limits.hpp"
-#include "protocol/message.hpp"
-#include "protocol/time_tag.hpp"
-#include "tests/view/chromium.hpp"
-#include "view-server/server.hpp"
+#include "tests/view/played_page.hpp"
 
 namespace splash::tests {
 namespace {
 
-protocol::ViewFrame no_frame(std::string_view kind) {
-  return protocol::FrameWriter(kind, 0.0).take();
-}
-
-constexpr double kTimeout = 60.0;  ///< [s]
-
-struct Pose {
-  double made = 0.0;  ///< by the page's clock, Unix time [s]
-  double x = 0.0;     ///< [m]
-};
-
-class Poses : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
-  }
-
-  /// The first so many poses of body 3, or those that come in time.
-  std::vector<Pose> receive(std::size_t count) {
-    std::vector<Pose> poses;
-    std::array<std::byte, protocol::kMaxDatagram> buffer{};
-    const double end = protocol::monotonic_now() + kTimeout;
-    while (poses.size() < count && protocol::monotonic_now() < end) {
-      const auto got = sim_.receive(buffer.data(), buffer.size(), 0.1);
-      if (!got) continue;
-      const auto read = protocol::decode({buffer.data(), got->size});
-      if (!read.packet.time || read.packet.messages.empty()) continue;
-      const auto pose = protocol::to_body_pose(read.packet.messages.front());
-      if (!pose || pose->body != 3) continue;
-      poses.push_back(
-          {protocol::to_unix_seconds(*read.packet.time), static_cast<double>(pose->position.x)});
-    }
-    return poses;
-  }
-
-  protocol::FrameStream water_{{}, no_frame(protocol::kSceneFrame)};
-  protocol::FrameStream sound_{{.listen = {}, .allowed = {}, .most_asked = 16},
-                               no_frame(protocol::kRigFrame)};
-  protocol::UdpSocket sim_{protocol::Endpoint{}};
-  protocol::UdpSocket synth_{protocol::Endpoint{}};
-  view::Server server_{{.listen = {},
-                        .sim = sim_.local(),
-                        .synth = synth_.local(),
-                        .sim_show = water_.local(),
-                        .synth_show = sound_.local(),
-                        .origins = {}}};
-  std::jthread thread_{[this] { server_.run(); }};
-  std::shared_ptr<void> stop_{nullptr, [this](void*) { server_.stop(); }};
-};
-
 // A hand at 0.5 m/s of which the browser tells in heaps of three, 8 ms between them, each heap when
 // its last has come. The page's clock and timers are the test's: two seconds of them, however long
 // the machine takes for it.
-TEST_F(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
-  Chromium browser;
-  browser.call("Page.navigate",
-               {{"url", "http://" + protocol::to_string(server_.local()) + "/vector.js"}});
-  browser.evaluate(R"((async () => {
+TEST(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
+  if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+  PlayedPage& page = PlayedPage::shared();
+  page.load_modules();
+  page.browser().evaluate(R"((async () => {
     const rest = () => new Promise((done) => setTimeout(done, 1));
     const { Link } = await import('/link.js');
     const { Grabs } = await import('/grab.js');
@@ -107,13 +50,14 @@ TEST_F(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
       await rest();
     }
   })())");
-  const std::vector<Pose> poses = receive(190);
+  const std::vector<SentPose> poses = page.poses(3, 190);
   ASSERT_EQ(poses.size(), 190U);
   double worst = 0.0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     EXPECT_NEAR(poses[i].made - poses[i - 1].made, 0.01, 1e-6) << i;
     if (i < poses.size() / 2) continue;  // the filter has settled
-    const double speed = (poses[i].x - poses[i - 1].x) / (poses[i].made - poses[i - 1].made);
+    const double way = static_cast<double>(poses[i].pose.position.x - poses[i - 1].pose.position.x);
+    const double speed = way / (poses[i].made - poses[i - 1].made);
     worst = std::max(worst, std::abs(speed - 0.5));
   }
   EXPECT_LT(worst, 0.05);

@@ -81,50 +81,6 @@ std::string Stage::words() {
       .get<std::string>();
 }
 
-Json Stage::seen(const Json& places) {
-  return browser_->evaluate(R"js((async (places) => {
-    const { transform } = await import('/vector.js');
-    const { both } = splash.camera.matrices();
-    return places.map((place) => {
-      const [x, y] = transform(both, place);
-      return [(0.5 + 0.5 * x) * innerWidth, (0.5 - 0.5 * y) * innerHeight];
-    });
-  }))js" + ("(" + places.dump() + ")"));
-}
-
-Json Stage::drawn(const Json& places) {
-  // Asked for behind the page's own picture, it comes after it, while the canvas still holds it.
-  // Where the page drew none, since graphics were not done with the last, the canvas is black: look
-  // again.
-  return browser_->evaluate(R"js(((places) => new Promise((done) => {
-    const look = () => requestAnimationFrame(() => {
-      const canvas = document.getElementById('water');
-      const gl = canvas.getContext('webgl2');
-      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-      const dense = canvas.width / innerWidth;
-      const colours = places.map(([x, y]) => {
-        const pixel = new Uint8Array(4);
-        gl.readPixels(Math.round(x * dense), Math.round(canvas.height - 1 - y * dense), 1, 1,
-          gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-        return [...pixel.slice(0, 3)];
-      });
-      if (colours.flat().some((value) => value > 0)) done(colours);
-      else look();
-    });
-    look();
-  })))js" + ("(" + places.dump() + ")"));
-}
-
-Json Stage::way_down() {
-  return seen(browser_->evaluate(R"((async () => {
-    const { add, cross, scale } = await import('/vector.js');
-    const { camera } = splash;
-    const right = cross(camera.forward, [0, 0, 1]).map((x) => x / Math.cos(camera.elevation));
-    const up = cross(right, camera.forward);
-    return [[0, 0, 0.35], add([0, 0, 0.35], scale(up, -0.3))];
-  })())"));
-}
-
 void drag(Chromium& browser, const Json& from, const Json& to, double seconds) {
   const auto start = std::chrono::steady_clock::now();
   for (double share = 0.0; share < 1.0;) {
@@ -136,10 +92,6 @@ void drag(Chromium& browser, const Json& from, const Json& to, double seconds) {
     };
     browser.mouse_on("mouseMoved", between(0), between(1));
   }
-}
-
-double turquoise(const Json& colour) {
-  return colour[1].get<double>() - colour[0].get<double>();
 }
 
 }  // namespace splash::tests

@@ -3,16 +3,14 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"
 #include "tests/view/chromium.hpp"
+#include "tests/view/picture.hpp"
 
 namespace splash::tests {
-
-using Json = nlohmann::json;
 
 inline constexpr double kTimeout = 60.0;  ///< [s]
 
@@ -43,14 +41,9 @@ class Stage {
   [[nodiscard]] const std::string& synth_show() const { return synth_show_; }
   /// What the page says of the programs.
   [[nodiscard]] std::string words();
-  /// Where places of the scene are in the picture [CSS pixels].
-  Json seen(const Json& places);
-  /// The colours of places of the water's canvas in the next picture, red, green and blue each,
-  /// from 0 to 255. Quicker than a screenshot, and without what lies over the canvas.
-  Json drawn(const Json& places);
-  /// A way of 0.3 m from the waiting disc down into the water, in the plane that faces the eye:
-  /// where it begins and ends in the picture [CSS pixels].
-  Json way_down();
+  Json seen(const Json& places) { return tests::seen(*browser_, places); }
+  Json drawn(const Json& places) { return tests::drawn(*browser_, places); }
+  Json way_down() { return tests::way_down(*browser_); }
 
  private:
   SmallScene scene_;
@@ -66,8 +59,5 @@ class Stage {
 
 /// Moves the mouse from one place to another within so many seconds, a hundred times a second.
 void drag(Chromium& browser, const Json& from, const Json& to, double seconds);
-
-/// Water is turquoise, the ground is grey.
-[[nodiscard]] double turquoise(const Json& colour);
 
 }  // namespace splash::tests

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// The page's modules, without the page: what they make of times and places that the test gives
+// them.
+#include <gtest/gtest.h>
+
+#include "tests/view/played_page.hpp"
+
+namespace splash::tests {
+namespace {
+
+class Modules : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+  }
+  static Json with_the_modules(const std::string& script) {
+    PlayedPage& page = PlayedPage::shared();
+    page.load_modules();
+    return page.browser().evaluate(script);
+  }
+};
+
+// Pictures come 60 times a second and take 25 ms to be drawn, states 60 times, each up to 5 ms
+// before its moment or 24 ms after.
+TEST_F(Modules, ShownPicturesAreYoungWhereFramesComeInTime) {
+  const Json ages = with_the_modules(R"js((async () => {
+    const { Playout } = await import('/playout.js');
+    const ages = [];
+    for (const late of [-0.005, 0.005, 0.02]) {
+      const playout = new Playout();
+      for (let k = 0; k < 600; ++k) {
+        const now = 100 + k / 60;
+        const jitter = 0.004 * Math.sin(7 * k);
+        playout.push({ moment: now - late - jitter, count: 1 }, now);
+        const begun = now + 0.008;
+        playout.finished(playout.at(begun).moment, begun, begun + 0.025);
+      }
+      ages.push(playout.age);
+    }
+    return ages;
+  })())js");
+  for (const Json& age : ages) EXPECT_LT(age.get<double>(), 0.060) << ages;
+  EXPECT_LT(ages[0].get<double>(), ages[2].get<double>());
+}
+
+// Eight particles between x = y = 0 and 1 m, in the middle but for two near the x wall, one of
+// which flies, and one in a corner.
+TEST_F(Modules, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
+  const Json drawn = with_the_modules(R"js((async () => {
+    const { several, WORDS } = await import('/several.js');
+    const places = [[0.5, 0.5], [0.01, 0.5], [0.99, 0.5], [0.99, 0.01], [0.5, 0.5], [0.5, 0.5],
+      [0.5, 0.5], [0.5, 0.5]];
+    const particles = new Uint16Array(4 * places.length);
+    places.forEach(([x, y], i) =>
+      particles.set([1000 * x, 1000 * y, 500, i === 2 ? 4 << 8 : 0], 4 * i));
+    const state = { count: 8, lower: [0, 0, 0], unit: 0.001,
+      particles: new Uint8Array(particles.buffer) };
+    const tank = { lower: [0, 0, 0], upper: [1, 1, 1] };
+    const { mirrored, drops } = several({ older: state, newer: state },
+      { tank, paddle: 0, spacing: 0.01 });
+    const placed = (points) => Array.from({ length: points.count }, (_, k) =>
+      [points.used[WORDS * k] & 0xffff, points.used[WORDS * k + 4]]);
+    return [placed(mirrored), placed(drops)];
+  })())js");
+  EXPECT_EQ(drawn[0], Json({{10, 0}, {990, 0}, {990, 1}, {990, 2}}));
+  EXPECT_EQ(drawn[1], Json({{990, 10}, {990, 11}, {990, 12}, {990, 13}, {990, 14}}));
+}
+
+// A machine on which a picture takes a time in proportion to its pixels: pictures get coarser until
+// they come often enough, and sharper again on one that is fast.
+TEST_F(Modules, APictureThatTakesLongGetsCoarser) {
+  const Json shares = with_the_modules(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    const pace = new Pace(null);
+    const run = (seconds, whole) => { // whole: what all pixels take [s]
+      for (const end = now + 1000 * seconds; now < end;) {
+        const drawing = whole * pace.sharp ** 2 * (0.5 + 0.5 * pace.share ** 2);
+        now += 1000 * Math.max(drawing, 1 / 60);
+        pace.step(drawing);
+      }
+      return [pace.sharp, pace.share, pace.rate];
+    };
+    return [run(1, 0.001), run(3, 0.12), run(60, 0.001)];
+  })())js");
+  EXPECT_EQ(shares[0][0], 1) << shares;
+  EXPECT_LT(shares[1][0], 1) << shares;
+  EXPECT_GT(shares[1][2], 40) << shares;
+  EXPECT_EQ(shares[2][0], 1) << shares;
+  EXPECT_EQ(shares[2][1], 1) << shares;
+}
+
+// Simulated graphics: a picture of water takes `whole` seconds at full resolution and less in
+// proportion to its pixels; a picture of points takes 2 ms.
+TEST_F(Modules, PointsBecomeWaterAgainOnceThereIsTimeForIt) {
+  const Json seen = with_the_modules(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    const run = (pace, seconds, whole) => {
+      let tries = 0;
+      let water = 0; // pictures of it
+      for (const end = now + 1000 * seconds; now < end;) {
+        const points = pace.isTooSlow;
+        const drawing = points ? 0.002 : whole * pace.sharp ** 2 * (0.5 + 0.5 * pace.share ** 2);
+        now += 1000 * Math.max(drawing, 1 / 60);
+        pace.step(drawing);
+        tries += points && !pace.isTooSlow ? 1 : 0;
+        water += points ? 0 : 1;
+      }
+      return { tries, water, points: pace.isTooSlow, sharp: pace.sharp, share: pace.share };
+    };
+    const passes = new Pace(null);
+    const stays = new Pace(null);
+    return [run(passes, 10, 3), run(passes, 60, 0.001), run(stays, 10, 3), run(stays, 1200, 3)];
+  })())js");
+  EXPECT_EQ(seen[0]["points"], true) << seen;
+  EXPECT_EQ(seen[1]["points"], false) << seen;
+  EXPECT_EQ(seen[1]["sharp"], 1) << seen;
+  EXPECT_EQ(seen[1]["share"], 1) << seen;
+  EXPECT_EQ(seen[2]["points"], true) << seen;
+  EXPECT_GE(seen[3]["tries"], 3) << seen;
+  EXPECT_LE(seen[3]["tries"], 8) << "it flickers between both";
+  EXPECT_LE(seen[3]["water"], 60) << seen;
+}
+
+// A page that is out of sight, in which the browser takes no pictures, is not a slow one.
+TEST_F(Modules, ATimeWithoutPicturesIsNotASlowOne) {
+  const Json pace = with_the_modules(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    const pace = new Pace(null);
+    for (let i = 0; i < 60; ++i) {
+      now += 1000 / 60;
+      pace.step(0.005);
+    }
+    now += 60000;
+    pace.begin();
+    for (let i = 0; i < 60; ++i) {
+      now += 1000 / 60;
+      pace.step(0.005);
+    }
+    return [pace.sharp, pace.share, pace.isTooSlow];
+  })())js");
+  EXPECT_EQ(pace, Json({1, 1, false}));
+}
+
+}  // namespace
+}  // namespace splash::tests
