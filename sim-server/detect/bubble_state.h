@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the device finds of bubbles in a frame: of those that live (bubble_state.cl), and where new
-// ones are spawned (bubble_spawn.cl).
+// What the device finds of bubbles in a frame: of those that live (bubble_state.cl), where new ones
+// are spawned (bubble_spawn.cl), and where air is folded in (air_fold.cl).
 #ifndef SPLASH_BUBBLE_STATE_H
 #define SPLASH_BUBBLE_STATE_H
 
@@ -36,6 +36,13 @@ typedef struct {
   int dense;      // it belongs to a body of water, and is not spray
 } Spawn;
 SPLASH_SHARED_STRUCT(Spawn, 40)
+
+typedef struct {
+  int id;         // of the particle
+  float x, y, z;  // [m]
+  float rate;     // of the air that it folds in [m3/s]
+} AirFold;
+SPLASH_SHARED_STRUCT(AirFold, 20)
 
 #ifdef __cplusplus
 }  // namespace splash::sim

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <span>
 
@@ -17,12 +16,9 @@ constexpr std::size_t kReadAtOnce = 128;
 /// Of the draws that a frame makes as a whole.
 constexpr auto kNoParticle = std::numeric_limits<std::uint32_t>::max();
 
-Vector3 place_of(const Spawn& spawn) {
-  return {static_cast<double>(spawn.x), static_cast<double>(spawn.y), static_cast<double>(spawn.z)};
-}
-
-double sphere(double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+template <class Found>
+Vector3 place_of(const Found& found) {
+  return {static_cast<double>(found.x), static_cast<double>(found.y), static_cast<double>(found.z)};
 }
 
 /// `many` bubbles among all air, to each part of it in proportion: where the sum over the parts
@@ -65,6 +61,7 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
   std::vector<int> slots(room);
   std::iota(slots.begin(), slots.end(), 0);
   points_.id.write(fluid.device(), slots);
+  if (settings.bubble_energy > 0.0 && !settings.bubble_per_particle) folds_.emplace(fluid, program);
 }
 
 void Bubbles::set(const DetectSettings& settings) {
@@ -95,6 +92,7 @@ void Bubbles::enqueue(const Step& step, double frame) {
     carry(step, frame);
   }
   look_for_spawns(step);
+  if (folds_) folds_->enqueue(step, settings_);
 }
 
 void Bubbles::enqueue_read() {
@@ -103,6 +101,7 @@ void Bubbles::enqueue_read() {
     spawn_count_.enqueue_read(device, spawn_count_read_);
     spawns_.enqueue_read(device,
                          std::span(spawns_read_).first(std::min(kReadAtOnce, spawns_read_.size())));
+    if (folds_) folds_->enqueue_read();
   }
   states_.resize(static_cast<std::size_t>(carried_));
   state_buffer_.enqueue_read(device, states_);
@@ -114,6 +113,7 @@ void Bubbles::skip() {
   states_.clear();
   spawned_.clear();
   spawn_count_read_.front() = 0;
+  if (folds_) folds_->skip();
 }
 
 void Bubbles::look_for_spawns(const Step& step) {
@@ -185,23 +185,63 @@ double Bubbles::air_of(const Spawn& spawn, double frame) const {
   return settings_.bubble_air * speed * frame * water;
 }
 
-DetectedBubble Bubbles::draw_bubble(const Spawn& spawn, const Draws& draws, double least) const {
+DetectedBubble Bubbles::draw_bubble(int particle, const Vector3& place, const Draws& draws,
+                                    double least, double most) const {
   DetectedBubble bubble;
-  bubble.particle = spawn.id;
-  bubble.radius = power_law(draws.radius, least, settings_.radius_max, settings_.radius_exponent);
+  bubble.particle = particle;
+  bubble.radius = power_law(draws.radius, least, most, settings_.radius_exponent);
   bubble.epsilon = power_law(draws.epsilon, settings_.epsilon_min, settings_.epsilon_max,
                              settings_.epsilon_exponent);
-  bubble.position = place_of(spawn);
+  bubble.position = place;
   return bubble;
 }
 
 std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step) {
   const std::vector<Spawn> spawns = read_spawns();
   spawned_.clear();
+  for (const Spawn& spawn : spawns) {
+    if (spawn.fresh != 0) spawned_.push_back(place_of(spawn));
+  }
+  return folds_ ? tell_folds(folds_->read(), time, frame, step)
+                : tell_spawns(spawns, time, frame, step);
+}
+
+std::vector<DetectedBubble> Bubbles::tell_folds(const std::vector<AirFold>& folds, double time,
+                                                double frame, std::uint32_t step) {
+  double air = 0.0;  // [m3]
+  for (const AirFold& fold : folds) air += frame * static_cast<double>(fold.rate);
+  account_.begin(air, frame);
+  DetectSettings sizes = settings_;
+  sizes.radius_max = account_.largest(settings_);
+  const double due = std::max(0.0, account_.owed() + air);
+  const double wanted = due / mean_volume(sizes);
+  const int open = budget_.open(time);
+  const bool crowded = wanted > open;
+  const double least = crowded && open > 0 ? least_radius(sizes, due / open) : settings_.radius_min;
+  std::vector<DetectedBubble> heard;
+  int told = 0;
+  for (const AirFold& fold : folds) {
+    account_.add(frame * static_cast<double>(fold.rate));
+    for (int k = 0; account_.is_open() && told < open; ++k, ++told) {
+      const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(fold.id), k);
+      heard.push_back(draw_bubble(fold.id, place_of(fold), draws, least, sizes.radius_max));
+      heard.back().time = time - frame * (1.0 - draws.moment);
+      account_.take(heard.back().radius);
+      air_.told += bubble_volume(heard.back().radius);
+    }
+  }
+  account_.keep(bubble_volume(sizes.radius_max));
+  budget_.spend(told);
+  air_.entrapped += air;
+  if (crowded) air_.thinned += static_cast<std::uint64_t>(std::max(0.0, wanted - told));
+  return heard;
+}
+
+std::vector<DetectedBubble> Bubbles::tell_spawns(const std::vector<Spawn>& spawns, double time,
+                                                 double frame, std::uint32_t step) {
   std::vector<double> air;   // of each spawn [m3]
   std::vector<int> bubbles;  // same
   for (const Spawn& spawn : spawns) {
-    if (spawn.fresh != 0) spawned_.push_back(place_of(spawn));
     const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
     air.push_back(air_of(spawn, frame));
     bubbles.push_back(static_cast<int>(std::floor(air.back() / mean_volume_ + draws.chance)));
@@ -220,9 +260,10 @@ std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uin
       const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawns[i].id), k);
       const bool crossed = settings_.bubble_per_particle && spawns[i].before >= 0.0F;
       const double part = crossed ? static_cast<double>(spawns[i].before) : draws.moment;
-      heard.push_back(draw_bubble(spawns[i], draws, least));
+      heard.push_back(
+          draw_bubble(spawns[i].id, place_of(spawns[i]), draws, least, settings_.radius_max));
       heard.back().time = time - frame * (1.0 - std::min(part, 1.0));
-      air_.told += sphere(heard.back().radius);
+      air_.told += bubble_volume(heard.back().radius);
     }
   }
   const auto told = static_cast<int>(heard.size());
@@ -258,6 +299,7 @@ void Bubbles::renew(double time) {
 
 void Bubbles::forget() {
   pool_.clear();
+  account_ = AirAccount();
   skip();
   memory_.write(fluid_.device(), std::vector<float>(static_cast<std::size_t>(fluid_.params().count),
                                                     SPLASH_PARTICLE_SLOW));

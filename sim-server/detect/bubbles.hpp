@@ -5,8 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "sim-server/detect/air_account.hpp"
+#include "sim-server/detect/air_folds.hpp"
 #include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/detect/detection.hpp"
@@ -44,8 +47,9 @@ class Bubbles {
   void enqueue_read();
   /// What was found, once the queue is finished: bubbles to be heard, in the order of their
   /// particles' ids: one for each bubble particle that is spawned, or as many as the entrapped air
-  /// fills; where that is more than the budget, as many as it has, and larger ones. `frame`:
-  /// seconds since the last call; `step`: counts the steps.
+  /// fills (with bubble_energy: until none of it is left); where that is more than the budget, as
+  /// many as it has, and larger ones. `frame`: seconds since the last call; `step`: counts the
+  /// steps.
   [[nodiscard]] std::vector<DetectedBubble> collect(double time, double frame, std::uint32_t step);
 
   [[nodiscard]] std::vector<PoolBubble>& pool() noexcept { return pool_; }
@@ -77,8 +81,17 @@ class Bubbles {
   [[nodiscard]] std::vector<Spawn> read_spawns();
   /// That one particle entraps in a frame [m3].
   [[nodiscard]] double air_of(const Spawn& spawn, double frame) const;
-  [[nodiscard]] DetectedBubble draw_bubble(const Spawn& spawn, const Draws& draws,
-                                           double least) const;
+  /// Of a radius from `least` to `most` [m].
+  [[nodiscard]] DetectedBubble draw_bubble(int particle, const Vector3& place, const Draws& draws,
+                                           double least, double most) const;
+  /// By the rules that count folding particles.
+  [[nodiscard]] std::vector<DetectedBubble> tell_spawns(const std::vector<Spawn>& spawns,
+                                                        double time, double frame,
+                                                        std::uint32_t step);
+  /// From the air of all folds, until it is used up.
+  [[nodiscard]] std::vector<DetectedBubble> tell_folds(const std::vector<AirFold>& folds,
+                                                       double time, double frame,
+                                                       std::uint32_t step);
 
   Fluid& fluid_;
   DetectSettings settings_;
@@ -94,6 +107,8 @@ class Bubbles {
   std::uint64_t dropped_ = 0;
   BubbleBudget budget_;
   AirTotals air_;
+  std::optional<AirFolds> folds_;  ///< with bubble_energy
+  AirAccount account_;
 
   Buffer<float> memory_;
   Buffer<int> spawn_count_;

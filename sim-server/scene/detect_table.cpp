@@ -70,11 +70,37 @@ Fields<D> entrainment_fields() {
         .unit = "1/m",
         .meaning =
             "Air entrapped for each metre that folding water moves, as a part of its volume; "
-            "not used with bubble_per_particle.",
+            "not used with bubble_per_particle or bubble_energy.",
         .min = 0,
         .max = 1000,
         .live = true},
        &D::bubble_air},
+      {{.key = "bubble_energy",
+        .unit = "1",
+        .meaning = "Share of the energy that water loses at its surface that becomes work on air, "
+                   "which says how much is entrapped; 0: bubble_air says it. Breakers have 0.36 to "
+                   "0.4. Not used with bubble_per_particle.",
+        .min = 0,
+        .max = 1,
+        .source = "Hoque & Aoki 2008"},
+       &D::bubble_energy},
+      {{.key = "bubble_eddy",
+        .unit = "m",
+        .meaning = "With bubble_energy: width of the eddies whose energy is looked at, and depth "
+                   "to which they take the air.",
+        .min = 0.01,
+        .max = 0.2,
+        .live = true},
+       &D::bubble_eddy},
+      {{.key = "bubble_onset",
+        .unit = "m/s",
+        .meaning = "With bubble_energy: eddies whose velocity is less along each axis fold no air "
+                   "in.",
+        .min = 0,
+        .max = 10,
+        .source = "Ervine & Falvey 1987: 0.1 to 0.3",
+        .live = true},
+       &D::bubble_onset},
       {{.key = "bubbles_per_second",
         .unit = "1/s",
         .meaning = "At most this many bubbles are sent; a frame may also use what the last 50 ms "

@@ -218,8 +218,12 @@ struct DetectSettings {
   double bubble_speed = 0.5;        ///< slower particles make no bubbles [m/s]
   double bubble_gradient = 0.25;    ///< least upward colour gradient, in that of a flat surface [1]
   bool bubble_per_particle =
-      false;                 ///< the paper's rule: every particle that entraps air makes one
-  double bubble_air = 10.0;  ///< air in the volume of water that entraps it, per metre [1/m]
+      false;                   ///< the paper's rule: every particle that entraps air makes one
+  double bubble_air = 10.0;    ///< air in the volume of water that entraps it, per metre [1/m]
+  double bubble_energy = 0.0;  ///< share of the energy lost at the surface that lifts air; 0: the
+                               ///< air is that of bubble_air [1]
+  double bubble_eddy = 0.06;   ///< width of the eddies whose energy that is [m]
+  double bubble_onset = 0.1;   ///< slower eddies fold nothing in [m/s]
   double bubbles_per_second = 4000.0;   ///< told at most, in larger ones if need be [1/s]
   double bubble_life = 0.5;             ///< a bubble particle is dropped after this [s]
   double radius_min = 0.003;            ///< bubble radii follow r^-radius_exponent [m]

@@ -50,6 +50,13 @@ WholeSleep all_sleep(const Scene& scene) {
   return {sleeps_whole(scene) ? sleep_speed(scene) : 0.0, scene.skip.sleep_after};
 }
 
+/// Slower water makes no bubbles: if none is faster than v, its eddies have v^2 / 2 at most, and
+/// those that fold air in have 3/2 of the square of bubble_onset, or more [m/s].
+double bubbling_speed(const DetectSettings& detect) {
+  if (detect.bubble_energy <= 0.0 || detect.bubble_per_particle) return detect.bubble_speed;
+  return std::min(detect.bubble_speed, std::sqrt(3.0) * detect.bubble_onset);
+}
+
 double particle_volume(const FluidParams& p) {
   return static_cast<double>(p.mass) / static_cast<double>(p.rest_density);
 }
@@ -99,7 +106,8 @@ Simulation::Simulation(Device& device, const Scene& scene, const std::filesystem
                 !scene_.skip.cavities),
       cavity_watch_(scene_, skins_of(scene_, fluid_.params()), particle_volume(fluid_.params()),
                     !scene_.skip.cavities),
-      planner_(scene_.skip, scene_.detect.bubble_speed, fluid_.params().count, all_sleep(scene_)),
+      planner_(scene_.skip, bubbling_speed(scene_.detect), fluid_.params().count,
+               all_sleep(scene_)),
       step_policy_(scene_.fluid) {
   if (settled.empty()) {
     come_to_rest(fluid_, scene_, bodies_, support_states_, tell);
@@ -129,7 +137,7 @@ void Simulation::set_detection(const DetectSettings& settings) {
   scene_.detect = settings;
   detector_.set(settings);
   cavity_watch_.set(settings);
-  planner_.set_bubble_speed(settings.bubble_speed);
+  planner_.set_bubble_speed(bubbling_speed(settings));
 }
 
 // OpenCL on CPUs compiles a kernel when it first runs. On a machine's first start that takes

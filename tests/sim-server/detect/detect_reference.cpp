@@ -15,6 +15,21 @@ double volume_of_particle(const FluidParams& p) {
   return static_cast<double>(p.mass) / static_cast<double>(p.rest_density);
 }
 
+/// Share of the weight 1 - r^2 behind a plane at distance q [1]: of the ball's layers, each
+/// pi / 2 (1 - s^2)^2, by Simpson's rule.
+double share_behind(double q) {
+  constexpr int kParts = 200;
+  const double from = std::clamp(q, 0.0, 1.0);
+  const double step = (1.0 - from) / kParts;
+  double sum = 0.0;
+  for (int k = 0; k <= kParts; ++k) {
+    const double s = from + k * step;
+    const double layer = (1.0 - s * s) * (1.0 - s * s);
+    sum += layer * (k == 0 || k == kParts ? 1.0 : k % 2 == 1 ? 4.0 : 2.0);
+  }
+  return 15.0 / 16.0 * sum * step / 3.0;
+}
+
 int root_of(std::vector<int>& parent, int i) {
   while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
   return i;
@@ -80,6 +95,38 @@ ReferenceSum reference_upward(const FluidState& state, const std::vector<Vector3
   }
   add(reference_walls(state.params, place, state.piston).gradient[2]);
   return sum;
+}
+
+ReferenceEddies reference_eddies(const FluidState& state, std::size_t i, double reach) {
+  const Vector3 place = state.position[i];
+  const double norm = 15.0 / (8.0 * std::numbers::pi * reach * reach * reach);
+  const auto weight = [&](const Vector3& other) {
+    const Vector3 away = place - other;
+    return std::max(1.0 - dot(away, away) / (reach * reach), 0.0);
+  };
+  double sum = 0.0;
+  double squares = 0.0;
+  Vector3 mean = {0.0, 0.0, 0.0};
+  for (std::size_t j = 0; j < state.position.size(); ++j) {
+    const double w = weight(state.position[j]);
+    sum += w;
+    mean = mean + w * state.velocity[j];
+    squares += w * dot(state.velocity[j], state.velocity[j]);
+  }
+  mean = (1.0 / sum) * mean;
+  double matter = norm * volume_of_particle(state.params) * sum;
+  for (std::size_t b = 0; b < state.body_position.size(); ++b) {
+    matter += norm * state.body_volume[b] * weight(state.body_position[b]);
+  }
+  const FluidParams& p = state.params;
+  double open = 1.0;
+  for (int k = 0; k < p.wall_count; ++k) {
+    const double d = wall_distance(p, k, place, state.piston);
+    if (p.slope >= 0 && k == 0 && wall_distance(p, p.slope, place, state.piston) < d) continue;
+    if (p.slope >= 0 && k == p.slope && wall_distance(p, 0, place, state.piston) <= d) continue;
+    open *= 1.0 - share_behind(d / reach);
+  }
+  return {0.5 * (squares / sum - dot(mean, mean)), open - matter};
 }
 
 Vector3 reference_water_velocity(const FluidState& state, const Vector3& place) {

@@ -38,6 +38,14 @@ struct ReferenceSum {
                                             const std::vector<Vector3>& bubbles,
                                             const Vector3& place);
 
+/// What decides of the air that a particle folds in (air_fold.cl).
+struct ReferenceEddies {
+  double energy = 0.0;  ///< k [m2/s2]
+  double air = 0.0;     ///< share of its surroundings [1]
+};
+[[nodiscard]] ReferenceEddies reference_eddies(const FluidState& state, std::size_t i,
+                                               double reach);
+
 /// Mean velocity of all water within reach, none: zero [m/s].
 [[nodiscard]] Vector3 reference_water_velocity(const FluidState& state, const Vector3& place);
 

@@ -121,6 +121,9 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(Spawn, u, v, w),
     MEMBERS_3(Spawn, before, fresh, dense),
 
+    MEMBERS_4(AirFold, id, x, y, z),
+    MEMBER(AirFold, rate),
+
     MEMBERS_4(Touch, colour, gx, gy, gz),
     MEMBERS_3(Touch, x, y, z),
     MEMBERS_3(Touch, u, v, w),

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/detect/air_folds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace splash::sim {
+namespace {
+
+/// Particles within an eddy's width tell its energy from their mean motion [spacings].
+constexpr double kLeastWidth = 2.0;
+
+/// Of the air's rate, per 2 a (k - k0)^(3/2); none without weight, for nothing lifts air then.
+double factor_of(const DetectSettings& settings, const FluidParams& p, double width) {
+  const double gravity =
+      std::hypot(static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
+                 static_cast<double>(p.gravity_z));
+  if (gravity <= 0.0) return 0.0;
+  const double water = static_cast<double>(p.mass / p.rest_density);
+  return settings.bubble_energy * water / (gravity * width * settings.bubble_eddy);
+}
+
+}  // namespace
+
+double eddy_width(const DetectSettings& settings, double spacing) {
+  return std::max(settings.bubble_eddy, kLeastWidth * spacing);
+}
+
+AirFolds::AirFolds(Fluid& fluid, const cl::Program& program)
+    : fluid_(fluid),
+      count_(fluid.device(), 1),
+      folds_(fluid.device(), static_cast<std::size_t>(fluid.params().count)),
+      read_(static_cast<std::size_t>(fluid.params().count)),
+      fold_air_(program, "fold_air") {}
+
+void AirFolds::enqueue(const Step& step, const DetectSettings& settings) {
+  const FluidParams& p = fluid_.params();
+  const Boundary& boundary = fluid_.boundary();
+  const double width = eddy_width(settings, static_cast<double>(p.spacing));
+  count_.enqueue_clear(fluid_.device());
+  fold_air_.run(fluid_.device().queue(), static_cast<std::size_t>(p.count),
+                {{"p", fluid_.params_buffer()},
+                 {"cell_start", fluid_.grid().cell_start()},
+                 {"position", fluid_.particles().position},
+                 {"velocity", fluid_.particles().velocity},
+                 {"id", fluid_.particles().id},
+                 {"body_count", boundary.body_count()},
+                 {"piston", as_float(step.piston)},
+                 {"reach", as_float(width)},
+                 {"least", as_float(1.5 * settings.bubble_onset * settings.bubble_onset)},
+                 {"factor", as_float(factor_of(settings, p, width))},
+                 {"room", p.count},
+                 {"counts", count_},
+                 {"out", folds_}},
+                boundary.matter());
+}
+
+void AirFolds::enqueue_read() {
+  count_.enqueue_read(fluid_.device(), found_);
+}
+
+std::vector<AirFold> AirFolds::read() {
+  const auto found = static_cast<std::size_t>(found_.front());
+  if (found == 0) return {};
+  folds_.read(fluid_.device(), std::span(read_).first(found));
+  std::vector<AirFold> folds(read_.begin(), read_.begin() + static_cast<std::ptrdiff_t>(found));
+  // Atomics give no order: particles do.
+  std::sort(folds.begin(), folds.end(),
+            [](const AirFold& a, const AirFold& b) { return a.id < b.id; });
+  return folds;
+}
+
+}  // namespace splash::sim

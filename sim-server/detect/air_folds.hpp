@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Where water folds air in, and how much: a share of the energy that it loses at its surface
+// becomes work on air (air_fold.cl),
+//   dV/dt = eta rho eps / (rho g z) dV_water,   eps = (k - k0)^(3/2) / L,
+// over water of which the share 2 a of the surroundings is air. L and z are bubble_eddy, eta
+// bubble_energy, and k0 = 3/2 bubble_onset^2 is what isotropic eddies of that speed have.
+#pragma once
+
+#include <vector>
+
+#include "sim-server/detect/bubble_state.h"
+#include "sim-server/fluid/fluid.hpp"
+
+namespace splash::sim {
+
+class AirFolds {
+ public:
+  AirFolds(Fluid& fluid, const cl::Program& program);
+
+  /// Between prepare and advance of a frame's last step.
+  void enqueue(const Step& step, const DetectSettings& settings);
+  /// After a frame's last kernel.
+  void enqueue_read();
+  /// Instead of both, where nothing is fast.
+  void skip() noexcept { found_.front() = 0; }
+  /// What was found, once the queue is finished, in the order of the particles' ids.
+  [[nodiscard]] std::vector<AirFold> read();
+
+ private:
+  Fluid& fluid_;
+  Buffer<int> count_;
+  Buffer<AirFold> folds_;
+  std::vector<int> found_ = {0};
+  std::vector<AirFold> read_;
+  Kernel fold_air_;
+};
+
+/// The eddies' width in water of that spacing: bubble_eddy, or as wide as two particles can show
+/// [m].
+[[nodiscard]] double eddy_width(const DetectSettings& settings, double spacing);
+
+}  // namespace splash::sim

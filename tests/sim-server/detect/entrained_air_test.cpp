@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Air that a disc of 10 cm takes down, by the energy that the water loses at its surface: it grows
+// with the disc's speed, is not lost where slow water is skipped, and is the same each time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "tests/sim-server/detect/scene_run.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// The disc goes 15 cm deep and stays there.
+std::string entry_at(double speed) {
+  const double begins = 0.28 + 0.1 * speed;  // height of its centre, its thickness being 2 cm [m]
+  const double stops = (begins - 0.1) / speed;
+  char text[700];
+  std::snprintf(text, sizeof text,
+                "fluid: {spacing: 0.02}\n"
+                "tank: {lower: [-0.15, -0.15, 0], upper: [0.15, 0.15, 1]}\n"
+                "water: [{lower: [-0.15, -0.15, 0], upper: [0.15, 0.15, 0.24]}]\n"
+                "detect: {bubble_energy: 0.38}\n"
+                "bodies:\n"
+                "  - name: disc\n"
+                "    shape: {kind: cylinder, size: [0.1, 0.1, 0.02]}\n"
+                "    motion: {kind: script, smooth: false, keyframes: [\n"
+                "      {time: 0, position: [0, 0, %g]}, {time: %g, position: [0, 0, 0.1]},\n"
+                "      {time: 9, position: [0, 0, 0.1]}]}\n",
+                begins, stops);
+  return text;
+}
+
+/// Until 0.4 s after the disc has stopped [s].
+double lasts(double speed) {
+  return 0.1 + 0.18 / speed + 0.4;
+}
+
+SceneRun entry(double speed) {
+  return run_scene(entry_at(speed), lasts(speed));
+}
+
+TEST(EntrainedAir, GrowsWithSpeed) {
+  double air = 0.0;
+  std::size_t bubbles = 0;
+  for (const double speed : {0.3, 0.5, 1.0, 2.0, 3.0}) {
+    const SceneRun run = entry(speed);
+    const AirTotals& now = run.totals.air;
+    std::printf("%.1f m/s: %zu bubbles, %.1f ml folded in, %.1f ml told\n", speed,
+                run.found.bubbles.size(), 1e6 * now.entrapped, 1e6 * now.told);
+    EXPECT_GT(now.entrapped, 1.5 * air);
+    EXPECT_GT(run.found.bubbles.size(), bubbles);
+    air = now.entrapped;
+    bubbles = run.found.bubbles.size();
+  }
+}
+
+// Water that is slower than bubble_speed has eddies that fold air in, too.
+TEST(EntrainedAir, IsNotLeftOutWhereNothingSeemsToHappen) {
+  const std::string always = entry_at(0.3) + "skip: {bubbles: false}\n";
+  const SceneRun skips = entry(0.3);
+  const SceneRun looks = run_scene(always, lasts(0.3));
+  std::printf("%.3f and %.3f ml\n", 1e6 * skips.totals.air.entrapped,
+              1e6 * looks.totals.air.entrapped);
+  EXPECT_GT(skips.totals.skipped.bubbles, 0U);
+  EXPECT_GT(looks.totals.air.entrapped, 0.0);
+  EXPECT_EQ(skips.totals.air.entrapped, looks.totals.air.entrapped);
+}
+
+TEST(EntrainedAir, IsTheSameToTheBit) {
+  const SceneRun first = entry(1.0);
+  const SceneRun second = entry(1.0);
+  EXPECT_EQ(first.totals.air.entrapped, second.totals.air.entrapped);
+  ASSERT_EQ(first.found.bubbles.size(), second.found.bubbles.size());
+  ASSERT_FALSE(first.found.bubbles.empty());
+  for (std::size_t k = 0; k < first.found.bubbles.size(); ++k) {
+    EXPECT_EQ(first.found.bubbles[k].radius, second.found.bubbles[k].radius);
+    EXPECT_EQ(first.found.bubbles[k].position, second.found.bubbles[k].position);
+    EXPECT_EQ(first.found.bubbles[k].time, second.found.bubbles[k].time);
+  }
+}
+
+}  // namespace
+}  // namespace splash::sim
