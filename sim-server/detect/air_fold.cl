@@ -24,7 +24,10 @@ typedef struct {
 } Reach;
 
 static Reach within(constant FluidParams* p, float x, float y, float z, float reach) {
-  Reach r = {x, y, z};
+  Reach r;
+  r.x = x;
+  r.y = y;
+  r.z = z;
   r.from_x = slice_x(p, x - reach);
   r.to_x = slice_x(p, x + reach);
   r.from_y = cell_along(y - reach, p->origin_y, p->inverse_cell, p->cells_y);
