@@ -26,6 +26,7 @@ struct Settings {
   int seconds = 20;  ///< of looking [s]
   std::string window = "480,320";
   std::string query = "?points";
+  bool blind = false;  ///< nothing is drawn: the way of a state to the page alone
 };
 
 std::string shown_at(ChildProcess& process) {
@@ -34,6 +35,9 @@ std::string shown_at(ChildProcess& process) {
   const auto begin = said.find("viewers: ") + 9;
   return said.substr(begin, said.find('\n', begin) - begin);
 }
+
+/// Graphics have nothing to do, all else goes its usual way.
+constexpr const char* kBlind = "WebGL2RenderingContext.prototype.drawArrays = () => {};";
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -49,6 +53,9 @@ void look(const std::string& scene, const Settings& settings) {
                protocol::to_string(synth.endpoint()), "--sim-show", shown_at(simulator.process()),
                "--synth-show", shown_at(synth.process())});
   Chromium browser(settings.window);
+  if (settings.blind) {
+    browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", kBlind}});
+  }
   browser.call("Page.navigate",
                {{"url", "http://" + protocol::to_string(view.endpoint()) + "/" + settings.query}});
   if (!browser.wait_for("window.splash && splash.pictures() > 2", 120.0)) {
@@ -59,6 +66,7 @@ void look(const std::string& scene, const Settings& settings) {
     throw std::runtime_error("the page hears nothing of " + scene);
   }
   sleep(5.0);  // both have settled
+  std::vector<double> half;
   std::vector<double> arrival;
   std::vector<double> age;
   std::vector<double> picture;
@@ -68,6 +76,7 @@ void look(const std::string& scene, const Settings& settings) {
   for (int second = 0; second < settings.seconds; ++second) {
     sleep(1.0);
     const auto now = browser.evaluate("splash.latency()");
+    half.push_back(median(browser.evaluate("splash.playout.arrivals")));
     arrival.push_back(now.at("arrival"));
     age.push_back(now.at("age"));
     picture.push_back(now.at("picture"));
@@ -76,9 +85,9 @@ void look(const std::string& scene, const Settings& settings) {
   }
   const double pictures = browser.evaluate("splash.pictures()").get<double>() - before;
   const auto ms = [](const std::vector<double>& values) { return 1e3 * median(values); };
-  std::printf("%-8s %10.1f %12.1f %10.1f %14.1f %12.1f %10.1f %10.1f\n", scene.c_str(),
-              pictures / settings.seconds, ms(arrival), ms(age), ms(picture), ms(sound), ms(apart),
-              1e3 * *std::max_element(apart.begin(), apart.end()));
+  std::printf("%-8s %10.1f %12.1f %12.1f %10.1f %14.1f %12.1f %10.1f %10.1f\n", scene.c_str(),
+              pictures / settings.seconds, ms(half), ms(arrival), ms(age), ms(picture), ms(sound),
+              ms(apart), 1e3 * *std::max_element(apart.begin(), apart.end()));
   std::fflush(stdout);
 }
 
@@ -94,14 +103,17 @@ int main(int argc, char** argv) {
   app.add_option("--window", settings.window, "The browser's, in pixels")->capture_default_str();
   app.add_option("--query", settings.query, "Of the page's address: ?points or ?share=0.5")
       ->capture_default_str();
+  app.add_flag("--blind", settings.blind, "Draw nothing: the way of a state to the page alone");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!Chromium::is_there())
       throw std::runtime_error("there is no chromium: apt-get install chromium");
     std::printf(
-        "scene    pictures/s  95 %% arrive  are drawn  event-picture  event-sound      apart"
+        "scene    pictures/s  half arrive  95 %% arrive  are drawn  event-picture  event-sound     "
+        " apart"
         "  most apart\n"
-        "                            [ms]       [ms]           [ms]         [ms]       [ms]"
+        "                            [ms]         [ms]       [ms]           [ms]         [ms]      "
+        " [ms]"
         "        [ms]\n");
     for (const std::string& scene : settings.scenes) look(scene, settings);
     return 0;
