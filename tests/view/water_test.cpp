@@ -77,7 +77,8 @@ double median(std::vector<double> values) {
 /// own median distance from that line, over all columns [pixels]. A bar that crosses does not
 /// count.
 double bumps(Chromium& browser, const Json& from, const Json& to) {
-  constexpr int kReach = 6;         // rows on both sides
+  constexpr int kReach = 6;  // rows on both sides
+  constexpr std::size_t kRows = 2 * kReach + 1;
   constexpr double kGround = 20.0;  // turquoise of pixels without water, at most
   constexpr double kWater = 60.0;   // of those full of it, at least
   const double x0 = from[0];
@@ -94,9 +95,9 @@ double bumps(Chromium& browser, const Json& from, const Json& to) {
   const Json colours = drawn(browser, places);
   std::vector<double> off;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::size_t first = i * (2 * kReach + 1);
+    const std::size_t first = i * kRows;
     double rows = 0.0;
-    for (std::size_t k = 0; k <= 2 * kReach; ++k) {
+    for (std::size_t k = 0; k < kRows; ++k) {
       rows += std::clamp((turquoise(colours[first + k]) - kGround) / (kWater - kGround), 0.0, 1.0);
     }
     off.push_back(std::round(lines[i]) - rows - lines[i]);
