@@ -28,10 +28,11 @@ struct ControlSettings {
   std::vector<std::uint32_t> allowed = {};
 };
 
-/// When a pose came, and the time tag of its bundle, if that says when it was taken.
+/// When a pose came, the time tag of its bundle, if that says when it was taken, and who sent it.
 struct PoseMoment {
   double arrival = 0.0;             ///< monotonic [s]
   std::optional<double> sent = {};  ///< Unix time by the sender's clock [s]
+  protocol::Endpoint from = {};
 };
 
 /// What the program does on request. All are called on the control's thread and must be quick. A
@@ -40,8 +41,8 @@ struct ControlActions {
   std::function<void(const protocol::BodyPose& pose, const PoseMoment& moment)> pose = {};
   /// A message that is no command: whether a tracker of the scene sends it.
   std::function<bool(const protocol::Message& message, const PoseMoment& moment)> track = {};
-  /// Grabs a body or lets it go. Returns the reason why it cannot; empty: it did.
-  std::function<std::string(std::int32_t body, bool on)> grab = {};
+  /// Grabs a body or lets it go, for `from`. Returns the reason why it cannot; empty: it did.
+  std::function<std::string(std::int32_t body, bool on, const protocol::Endpoint& from)> grab = {};
   std::function<void(bool)> pause = {};
   std::function<void()> reset = {};  ///< the scene
   /// Sets a live row of the scene. Returns the reason why it did not; empty: it did.
@@ -90,7 +91,7 @@ class ControlServer {
                                                   const protocol::UdpSocket::Received& received);
   void add_commands();
   [[nodiscard]] Outcome body_pose(const Message& message, const Visit& visit);
-  [[nodiscard]] Outcome body_grab(const Message& message) const;
+  [[nodiscard]] Outcome body_grab(const Message& message, const Visit& visit) const;
   [[nodiscard]] Outcome tile_pressure(const Message& message, const Visit& visit) const;
   [[nodiscard]] Outcome status() const;
   [[nodiscard]] Outcome notify(const Message& message, const Visit& visit) const;

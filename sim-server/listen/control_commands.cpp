@@ -19,7 +19,7 @@ std::int32_t integer(const protocol::Message& message, std::size_t index = 0) {
 
 /// "At once" and nothing at all, as some libraries write it, are no moments.
 PoseMoment moment_of(const protocol::Visit& visit) {
-  PoseMoment moment{.arrival = visit.arrival};
+  PoseMoment moment{.arrival = visit.arrival, .from = visit.from};
   if (visit.sent && visit.sent->value > protocol::kImmediately.value) {
     moment.sent = protocol::to_unix_seconds(*visit.sent);
   }
@@ -32,8 +32,9 @@ void ControlServer::add_commands() {
   port_.on("/body/pose", [this](const Message& message, const Visit& visit) {
     return body_pose(message, visit);
   });
-  port_.on("/body/grab",
-           [this](const Message& message, const Visit&) { return body_grab(message); });
+  port_.on("/body/grab", [this](const Message& message, const Visit& visit) {
+    return body_grab(message, visit);
+  });
   port_.on("/tile/pressure", [this](const Message& message, const Visit& visit) {
     return tile_pressure(message, visit);
   });
@@ -76,9 +77,10 @@ protocol::Outcome ControlServer::tile_pressure(const Message& message, const Vis
   return {.refused = "no body of this scene has motion: {kind: pressure}"};
 }
 
-protocol::Outcome ControlServer::body_grab(const Message& message) const {
+protocol::Outcome ControlServer::body_grab(const Message& message, const Visit& visit) const {
   if (!actions_.grab) return {.refused = "no body can be grabbed"};
-  return protocol::done_unless(actions_.grab(integer(message), integer(message, 1) != 0), message);
+  return protocol::done_unless(
+      actions_.grab(integer(message), integer(message, 1) != 0, visit.from), message);
 }
 
 protocol::Outcome ControlServer::status() const {

@@ -22,22 +22,59 @@ std::string name_of(const Scene& scene, std::int32_t body) {
   return "'" + scene.bodies[index].name + "'";
 }
 
+PoseStamp stamp_of(const PoseMoment& moment) {
+  const std::uint64_t sender = std::uint64_t{moment.from.address} << 16U | moment.from.port;
+  return {moment.arrival, moment.sent, sender};
+}
+
+/// Whether it was no pose at all: what sends those moves nothing, and keeps nobody else from it.
+bool is_no_pose(PoseRefusal refusal) {
+  return refusal == PoseRefusal::not_finite || refusal == PoseRefusal::no_rotation ||
+         refusal == PoseRefusal::too_far;
+}
+
 }  // namespace
 
-PoseRefusal PoseIntake::give(const protocol::BodyPose& pose, const PoseMoment& moment) const {
-  const auto bodies = simulation_.scene().bodies.size();
-  if (static_cast<std::size_t>(pose.body) >= bodies) return PoseRefusal::no_body;
-  PosedMotion* body = simulation_.live_body(pose.body);
-  if (body == nullptr) return PoseRefusal::not_tracked;
+PoseRefusal PoseIntake::give(std::int32_t body, const Vector3& position, const Quaternion& rotation,
+                             const PoseMoment& moment) {
+  const auto index = static_cast<std::size_t>(body);
+  if (index >= senders_.size()) return PoseRefusal::no_body;
+  PosedMotion* const live = simulation_.live_body(body);
+  if (live == nullptr) return PoseRefusal::not_tracked;
+  PoseSenders& senders = senders_[index];
+  const bool moves = senders.lets(moment.from, moment.arrival);
+  PoseRefusal refusal =
+      senders.is_followed() ? PoseRefusal::other_sender : PoseRefusal::not_tracked;
+  if (moves) refusal = live->push(position, rotation, stamp_of(moment));
+  if (moves && is_no_pose(refusal)) return refusal;
+  if (const auto rival = senders.hear(moment.from, moment.arrival)) {
+    say_both(body, moves ? *rival : moment.from, moves ? moment.from : *rival);
+  }
+  if (moves) {
+    const bool follows = refusal != PoseRefusal::not_tracked;
+    senders.follow(follows ? std::optional(moment.from) : std::nullopt);
+  }
+  return refusal;
+}
+
+void PoseIntake::take(const protocol::BodyPose& pose, const PoseMoment& moment) {
   const Vector3 position = {as_double(pose.position.x), as_double(pose.position.y),
                             as_double(pose.position.z)};
   const Quaternion rotation = {as_double(pose.qx), as_double(pose.qy), as_double(pose.qz),
                                as_double(pose.qw)};
-  return body->push(position, rotation, {moment.arrival, moment.sent});
+  note(pose.body, give(pose.body, position, rotation, moment), moment.arrival);
 }
 
-void PoseIntake::take(const protocol::BodyPose& pose, const PoseMoment& moment) {
-  note(pose.body, give(pose, moment), moment.arrival);
+std::string PoseIntake::grab(std::int32_t body, bool on, const protocol::Endpoint& from) {
+  const auto index = static_cast<std::size_t>(body);
+  if (index >= senders_.size()) {
+    return "the scene has " + std::to_string(senders_.size()) + " bodies, from 0";
+  }
+  PosedMotion* const live = simulation_.live_body(body);
+  if (live == nullptr) return "the water moves this body";
+  live->grab(on);
+  senders_[index].forget(from);
+  return {};
 }
 
 void PoseIntake::stand(const FloorTouch& touch, double arrival) const {
@@ -54,15 +91,11 @@ void PoseIntake::stand(const FloorTouch& touch, double arrival) const {
 bool PoseIntake::track(const protocol::Message& message, const PoseMoment& moment) {
   const GiveTouch touch = [&](const FloorTouch& told) { stand(told, moment.arrival); };
   if (surfaces_.take(message, moment.arrival, touch) || floor_.take(message, touch)) return true;
-  const PoseStamp stamp = {moment.arrival, moment.sent};
-  const bool taken = trackers_.take(message, stamp, [&](const MappedPose& pose) {
+  const bool taken = trackers_.take(message, stamp_of(moment), [&](const MappedPose& pose) {
     const auto body = static_cast<std::int32_t>(pose.body);
-    PoseRefusal refusal = pose.refusal;
-    PosedMotion* const live = simulation_.live_body(body);
-    if (refusal == PoseRefusal::none && live != nullptr) {
-      refusal = live->push(pose.position, pose.rotation, stamp);
-    }
-    note(body, refusal, moment.arrival);
+    const bool is_pose = pose.refusal == PoseRefusal::none;
+    note(body, is_pose ? give(body, pose.position, pose.rotation, moment) : pose.refusal,
+         moment.arrival);
   });
   return taken || trackers_.is_of_sender(message.address);
 }
@@ -70,7 +103,7 @@ bool PoseIntake::track(const protocol::Message& message, const PoseMoment& momen
 void PoseIntake::note(std::int32_t body, PoseRefusal refusal, double now) {
   if (refusal == PoseRefusal::none) return;
   ++counts_[static_cast<std::size_t>(refusal)];
-  say(body, refusal, now);
+  if (refusal != PoseRefusal::other_sender) say(body, refusal, now);  // for that: say_both
 }
 
 void PoseIntake::say(std::int32_t body, PoseRefusal refusal, double now) {
@@ -88,7 +121,21 @@ void PoseIntake::say(std::int32_t body, PoseRefusal refusal, double now) {
   const std::string reason(describe(refusal));
   std::fprintf(stderr, "sim-server: a pose of body %s was refused: %s (%llu refused so far)\n",
                name.c_str(), reason.c_str(), static_cast<unsigned long long>(refused()));
-  if (tell_) tell_(name, reason);
+  if (tell_) tell_(name + ": " + reason);
+}
+
+void PoseIntake::say_both(std::int32_t body, const protocol::Endpoint& waits,
+                          const protocol::Endpoint& moves) const {
+  const std::string name = name_of(simulation_.scene(), body);
+  const std::string first = to_string(waits);
+  const std::string last = to_string(moves);
+  std::fprintf(stderr,
+               "sim-server: %s and %s both send poses of body %s: it follows %s, which began last, "
+               "until that lets go or is silent for %.1f s. Stop one of them, or let it move "
+               "another body.\n",
+               first.c_str(), last.c_str(), name.c_str(), last.c_str(), kSenderEnds);
+  // A reason is cut behind 64 characters, which both addresses have to come before.
+  if (tell_) tell_(first + " yields to " + last + " on " + name);
 }
 
 std::uint64_t PoseIntake::refused() const noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Passes poses from the wire to the bodies that they move. Refused poses are counted by reason and
-// reported to stderr and to viewers, once a second at most.
+// Passes poses from the wire to the bodies that they move, each body's from one sender at a time.
+// Refused poses are counted by reason and reported to stderr and to viewers, once a second at most.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "protocol/event.hpp"
 #include "protocol/message.hpp"
@@ -18,6 +19,7 @@
 #include "sim-server/bodies/motion/tracker_map.hpp"
 #include "sim-server/bodies/motion/tuio_feet.hpp"
 #include "sim-server/listen/control.hpp"
+#include "sim-server/serve/pose_senders.hpp"
 #include "sim-server/serve/report.hpp"
 #include "sim-server/simulation/simulation.hpp"
 
@@ -25,21 +27,27 @@ namespace splash::sim {
 
 class PoseIntake {
  public:
-  /// What is said of a body and why its pose was refused, for viewers. On the thread that listens.
-  using Tell = std::function<void(const std::string& body, const std::string& reason)>;
+  /// A line on a pose that was refused, for viewers. On the thread that listens.
+  using Tell = std::function<void(const std::string& reason)>;
 
   explicit PoseIntake(const Simulation& simulation, Tell tell = {})
       : simulation_(simulation),
         tell_(std::move(tell)),
         trackers_(simulation.scene()),
         surfaces_(simulation.scene()),
-        floor_(simulation.scene()) {}
+        floor_(simulation.scene()),
+        senders_(simulation.scene().bodies.size()) {}
 
   /// Takes a pose. Called on the control thread.
   void take(const protocol::BodyPose& pose, const PoseMoment& moment);
   /// Takes a message that is no command, on the same thread. Returns false when no sender that the
   /// scene's `tracking` names may have sent it.
   bool track(const protocol::Message& message, const PoseMoment& moment);
+
+  /// Lets poses move a body that has a motion of its own, or no longer. Whose poses move a body is
+  /// settled anew: the next pose of `from` takes it, and who lets go leaves it to the others. On
+  /// the same thread. Returns the reason why it cannot; empty: it did.
+  [[nodiscard]] std::string grab(std::int32_t body, bool on, const protocol::Endpoint& from);
 
   /// The number of poses that were refused here. May be called from any thread.
   [[nodiscard]] std::uint64_t refused() const noexcept;
@@ -48,15 +56,19 @@ class PoseIntake {
 
  private:
   void stand(const FloorTouch& touch, double arrival) const;
-  [[nodiscard]] PoseRefusal give(const protocol::BodyPose& pose, const PoseMoment& moment) const;
+  [[nodiscard]] PoseRefusal give(std::int32_t body, const Vector3& position,
+                                 const Quaternion& rotation, const PoseMoment& moment);
   void note(std::int32_t body, PoseRefusal refusal, double now);
   void say(std::int32_t body, PoseRefusal refusal, double now);
+  void say_both(std::int32_t body, const protocol::Endpoint& waits,
+                const protocol::Endpoint& moves) const;
 
   const Simulation& simulation_;
   Tell tell_;
   TrackerMap trackers_;
   TuioFeet surfaces_;
   PressureFeet floor_;
+  std::vector<PoseSenders> senders_;  ///< of each body
   std::array<std::atomic<std::uint64_t>, kPoseRefusals> counts_ = {};
   std::bitset<256> reported_;  ///< bodies that no pose can move
   double next_line_ = 0.0;     ///< monotonic [s]

@@ -60,17 +60,6 @@ std::vector<ShownBody> shown_bodies(const Simulation& simulation, double seconds
   return shown;
 }
 
-/// Why a body cannot be grabbed; empty: it is, or let go.
-std::string grab(const Simulation& simulation, int body, bool on) {
-  if (static_cast<std::size_t>(body) >= simulation.bodies().count()) {
-    return "the scene has " + std::to_string(simulation.bodies().count()) + " bodies, from 0";
-  }
-  PosedMotion* posed = simulation.live_body(body);
-  if (posed == nullptr) return "the water moves this body";
-  posed->grab(on);
-  return {};
-}
-
 /// Why nobody can feel the water of this scene; empty: one can.
 std::string no_forces(const Simulation& simulation) {
   return simulation.can_feel() ? "" : "poses move no body of this scene";
@@ -97,9 +86,8 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
                      [](const std::string& line) { print_line("sim-server: " + line); }),
       rows_(simulation.scene().detect),
       poses_(simulation,
-             [this](const std::string& body, const std::string& reason) {
-               targets_.tell(socket_,
-                             protocol::encode(protocol::fail("/body/pose", body + ": " + reason)));
+             [this](const std::string& reason) {
+               targets_.tell(socket_, protocol::encode(protocol::fail("/body/pose", reason)));
              }),
       line_pace_(kLinePeriod),
       clock_answers_(socket_, targets_, print_line),
@@ -117,7 +105,8 @@ ControlActions Server::actions() {
                          const PoseMoment& moment) { poses_.take(pose, moment); },
           .track = [this](const protocol::Message& message,
                           const PoseMoment& moment) { return poses_.track(message, moment); },
-          .grab = [this](int body, bool on) { return grab(simulation_, body, on); },
+          .grab = [this](int body, bool on,
+                         const protocol::Endpoint& from) { return poses_.grab(body, on, from); },
           .pause = [this](bool on) { paused_ = on; },
           .reset = [this] { restarts_ = true; },
           .set = [this](const std::string& name, double value) { return rows_.set(name, value); },

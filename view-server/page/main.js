@@ -164,7 +164,7 @@ function refused([command, reason]) {
     panel.scenes.reset();
     panel.rigs.reset();
   }
-  warn(`${command}: ${reason}`);
+  warn(`${command}: ${reason}${reason.includes(' yields to ') ? '; stop one of these senders' : ''}`);
 }
 
 let warned = -Infinity; // when [ms]

@@ -54,8 +54,9 @@ void PoseClock::restart() noexcept {
 }
 
 double PoseClock::taken(const PoseStamp& stamp) {
-  if (stamp.sent.has_value() != tagged_) restart();
+  if (stamp.sent.has_value() != tagged_ || (tagged_ && stamp.sender != sender_)) restart();
   tagged_ = stamp.sent.has_value();
+  sender_ = stamp.sender;
   const double moment = tagged_ ? by_tag(stamp.arrival, *stamp.sent) : by_rhythm(stamp.arrival);
   newest_ = std::max(newest_, stamp.arrival);
   note_lateness(stamp.arrival - moment);

@@ -16,6 +16,7 @@ namespace splash::sim {
 struct PoseStamp {
   double arrival = 0.0;             ///< by our clock [s]
   std::optional<double> sent = {};  ///< by the sender's [s]; empty: it did not say
+  std::uint64_t sender = 0;         ///< which one: each has a clock of its own
 };
 
 /// With tags: the tag and the shortest way that a pose of late took, as the sender's clock may be
@@ -60,6 +61,7 @@ class PoseClock {
   void note_lateness(double lateness);
 
   bool tagged_ = false;
+  std::uint64_t sender_ = 0;  ///< of the last tag
   // With tags: arrival less tag, the shortest in this span of time and the last.
   double shortest_ = std::numeric_limits<double>::infinity();
   double shortest_before_ = shortest_;

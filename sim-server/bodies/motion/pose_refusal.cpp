@@ -22,6 +22,7 @@ constexpr std::array<Words, kPoseRefusals> kWords = {{
     {"too_old", "it was taken long before the newest pose"},
     {"no_body", "the scene has no such body"},
     {"not_tracked", "the body is not moved over OSC (motion: {kind: osc})"},
+    {"other_sender", "another sender, which began later, moves the body"},
 }};
 
 const Words& words_of(PoseRefusal refusal) noexcept {

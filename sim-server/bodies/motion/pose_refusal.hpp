@@ -21,6 +21,7 @@ enum class PoseRefusal : std::uint8_t {
   too_old,        ///< taken long before the newest one
   no_body,        ///< for a body that the scene has not
   not_tracked,    ///< for a body whose motion is of another kind
+  other_sender,   ///< for a body that another sender moves
   count_          ///< number of reasons
 };
 inline constexpr std::size_t kPoseRefusals = static_cast<std::size_t>(PoseRefusal::count_);

@@ -239,5 +239,18 @@ TEST(LiveMotion, MayBeReadWhileItIsWritten) {
   writer.join();
 }
 
+// The second one's clock is so little behind that its tags could be the first one's, held up.
+TEST(LiveMotion, TagsOfTwoSendersAreOfTwoClocks) {
+  LiveMotion motion(kRest);
+  for (double t = 0.0; t < 1.0; t += 0.01) {
+    EXPECT_EQ(motion.push(swing(t), kUpright, {t, t, 1}), PoseRefusal::none);
+    at(motion, t);
+  }
+  for (double t = 1.0; t < 1.5; t += 0.01) {
+    EXPECT_EQ(motion.push(swing(t), kUpright, {t, t - 0.9, 2}), PoseRefusal::none) << t;
+    EXPECT_NEAR(at(motion, t).position[0], swing(t)[0], 0.004) << t;
+  }
+}
+
 }  // namespace
 }  // namespace splash::sim
