@@ -5,11 +5,16 @@
 #include <string>
 
 #include "sim-server/bodies/motion/floor_motion.hpp"
+#include "sim-server/serve/place_notice.hpp"
 
 namespace splash::sim {
 namespace {
 
 constexpr double kLinePeriod = 1.0;  ///< between two lines on refused poses [s]
+
+constexpr const char* kWhatPosesAre =
+    "Poses are in metres, x y z with z up, from the tank's origin; `unit`, `axes`, `position` and "
+    "`yaw` of the scene's `tracking` map what a sender means otherwise (configs/README.md).";
 
 double as_double(float value) {
   return static_cast<double>(value);
@@ -46,6 +51,7 @@ PoseRefusal PoseIntake::give(std::int32_t body, const Vector3& position, const Q
   PoseRefusal refusal =
       senders.is_followed() ? PoseRefusal::other_sender : PoseRefusal::not_tracked;
   if (moves) refusal = live->push(position, rotation, stamp_of(moment));
+  if (moves && refusal == PoseRefusal::too_far) say_far(body, position, moment.arrival);
   if (moves && is_no_pose(refusal)) return refusal;
   if (const auto rival = senders.hear(moment.from, moment.arrival)) {
     say_both(body, moves ? *rival : moment.from, moves ? moment.from : *rival);
@@ -53,6 +59,7 @@ PoseRefusal PoseIntake::give(std::int32_t body, const Vector3& position, const Q
   if (moves) {
     const bool follows = refusal != PoseRefusal::not_tracked;
     senders.follow(follows ? std::optional(moment.from) : std::nullopt);
+    if (follows) say_far(body, position, moment.arrival);
   }
   return refusal;
 }
@@ -122,6 +129,21 @@ void PoseIntake::say(std::int32_t body, PoseRefusal refusal, double now) {
   std::fprintf(stderr, "sim-server: a pose of body %s was refused: %s (%llu refused so far)\n",
                name.c_str(), reason.c_str(), static_cast<unsigned long long>(refused()));
   if (tell_) tell_(name + ": " + reason);
+}
+
+void PoseIntake::say_far(std::int32_t body, const Vector3& place, double now) {
+  const auto index = static_cast<std::size_t>(body);
+  const auto far = far_off(simulation_.scene().tank, place);
+  if (!far || far_[index] || now < next_far_line_) {
+    far_[index] = far_[index] && far;
+    return;
+  }
+  far_[index] = true;
+  next_far_line_ = now + kLinePeriod;
+  const std::string name = name_of(simulation_.scene(), body);
+  std::fprintf(stderr, "sim-server: poses put body %s at %s, %s. %s\n", name.c_str(),
+               in_metres(place).c_str(), far->c_str(), kWhatPosesAre);
+  if (tell_) tell_(name + " is " + *far + ": metres? z up?");
 }
 
 void PoseIntake::say_both(std::int32_t body, const protocol::Endpoint& waits,

@@ -60,6 +60,8 @@ class PoseIntake {
                                  const Quaternion& rotation, const PoseMoment& moment);
   void note(std::int32_t body, PoseRefusal refusal, double now);
   void say(std::int32_t body, PoseRefusal refusal, double now);
+  /// Of a body that a pose puts far from the water, once until it comes near.
+  void say_far(std::int32_t body, const Vector3& place, double now);
   void say_both(std::int32_t body, const protocol::Endpoint& waits,
                 const protocol::Endpoint& moves) const;
 
@@ -71,7 +73,9 @@ class PoseIntake {
   std::vector<PoseSenders> senders_;  ///< of each body
   std::array<std::atomic<std::uint64_t>, kPoseRefusals> counts_ = {};
   std::bitset<256> reported_;  ///< bodies that no pose can move
+  std::bitset<256> far_;       ///< bodies that were told to be far from the water
   double next_line_ = 0.0;     ///< monotonic [s]
+  double next_far_line_ = 0.0;
 };
 
 }  // namespace splash::sim

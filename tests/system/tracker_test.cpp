@@ -102,14 +102,14 @@ TEST(Tracker, WithoutPosesNothingMoves) {
   std::filesystem::remove(log);
 }
 
-// Two trackers that fight over one body, 60 m apart.
+// A tracker that takes two markers for one body, 3 m apart.
 TEST(Tracker, PosesThatNoBodyCanFollowAreRefusedAndTold) {
   const SmallScene scene(tracked());
   const std::string report = temporary_path("refused.json");
   Simulator simulator({"--scene", scene.path(), "--report", report});
   ASSERT_FALSE(simulator.ask({"/notify", {1}}, "/done").arguments.empty());
   for (int k = 0; k < 20; ++k) {
-    const float x = k % 2 == 0 ? 30.0F : -30.0F;
+    const float x = k % 2 == 0 ? 1.5F : -1.5F;
     simulator.send(protocol::encode(
         protocol::to_message(protocol::BodyPose{0, {x, 0.0F, 0.35F}, 0.0F, 0.0F, 0.0F, 1.0F})));
   }
@@ -124,6 +124,37 @@ TEST(Tracker, PosesThatNoBodyCanFollowAreRefusedAndTold) {
   std::ifstream file(report);
   EXPECT_GE(nlohmann::json::parse(file).at("refused_poses").get<int>(), 1);
   std::filesystem::remove(report);
+}
+
+// Millimetres, centimetres, and metres with y up.
+TEST(Tracker, PlacesThatNoWaterIsAtAreToldWithWhatPosesMean) {
+  const SmallScene scene(tracked());
+  Simulator simulator({"--scene", scene.path()});
+  const auto pose = [&](float x, float y, float z) {
+    simulator.send(protocol::encode(
+        protocol::to_message(protocol::BodyPose{0, {x, y, z}, 0.0F, 0.0F, 0.0F, 1.0F})));
+  };
+  const auto is_told = [&](const std::string& words) {
+    return simulator.process().wait_for_text("poses put body 'disc' at " + words +
+                                             ". Poses are in metres, x y z with z up");
+  };
+  const auto begin_anew = [&] {
+    pose(0.0F, 0.0F, 0.35F);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  };
+  ASSERT_FALSE(simulator.ask({"/notify", {1}}, "/done").arguments.empty());
+  pose(100.0F, 0.0F, 350.0F);
+  EXPECT_TRUE(is_told("100.00 0.00 350.00 m, 363.5 m outside of the tank"));
+  begin_anew();
+  pose(10.0F, 0.0F, 35.0F);
+  EXPECT_TRUE(is_told("10.00 0.00 35.00 m, 35.9 m outside of the tank"));
+  begin_anew();
+  pose(0.1F, 0.35F, -0.4F);
+  EXPECT_TRUE(is_told("0.10 0.35 -0.40 m, 0.40 m below the tank's floor"));
+  const protocol::Message told = simulator.ask({"/version", {}}, "/fail");
+  ASSERT_EQ(told.arguments.size(), 2U);
+  EXPECT_EQ(std::get<std::string>(told.arguments[1]),
+            "'disc' is 363.5 m outside of the tank: metres? z up?");
 }
 
 }  // namespace
