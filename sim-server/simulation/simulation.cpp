@@ -28,6 +28,10 @@ constexpr double kFlight = 1.0;
 constexpr double kRestOfPackings = 0.02;
 constexpr double kRestOnGrid = 0.003;
 
+/// How forces on bodies depend on speeds is a matter of the water's shape. On a grid it takes six
+/// solves, so it is found anew when something may have gone by this part of the spacing [1].
+constexpr double kRatesHold = 0.1;
+
 /// Slower water may sleep; 0: none may. Water that is shaken does not rest.
 double sleep_speed(const Scene& scene) {
   if (!scene.skip.sleep || scene.tank_motion.present) return 0.0;
@@ -209,6 +213,28 @@ bool Simulation::is_felt_now(int body) const {
   return motion != nullptr && (motion->is_tracked() || motion->is_held());
 }
 
+std::vector<bool> Simulation::felt_now() const {
+  std::vector<bool> all;
+  for (std::size_t b = 0; feels_ && b < live_.size(); ++b) {
+    all.push_back(is_felt_now(static_cast<int>(b)));
+  }
+  return all;
+}
+
+bool Simulation::wants_rates(const std::vector<BodyStep>& poses, double step, double frame) {
+  double fastest = std::max(stats_.speed, fastest_mover(seconds_));
+  bool appears = false;
+  for (const BodyStep& pose : poses) {
+    fastest = std::max(fastest, static_cast<double>(pose.speed));
+    appears = appears || pose.grows > 0.0F;
+  }
+  rated_way_ += frame * fastest;
+  const double holds = kRatesHold * static_cast<double>(fluid_.params().spacing);
+  // Not the other way round: what is no number is found anew.
+  const bool still = !appears && rated_way_ <= holds && step == rated_step_;
+  return !(still && sleeps_whole(scene_) && felt_of_ == felt_now());
+}
+
 std::vector<BodyPush> Simulation::find_pushes(double seconds) {
   std::vector<BodyPush> all;
   for (BodyPush push : pushes_ ? pushes_->pushes(seconds) : std::vector<BodyPush>{}) {
@@ -216,6 +242,10 @@ std::vector<BodyPush> Simulation::find_pushes(double seconds) {
     const BodyState state = bodies_.state(static_cast<std::size_t>(push.body), seconds_);
     push.velocity = state.velocity;
     push.spin = state.spin;
+    if (!rates_anew_) {  // of the same bodies as before
+      push.by_speed = felt_[all.size()].by_speed;
+      push.by_spin = felt_[all.size()].by_spin;
+    }
     all.push_back(push);
   }
   if (hung_.empty()) return all;
@@ -238,11 +268,14 @@ FrameResult Simulation::advance() {
         steps_of_frame(1.0 / scene_.serve.frame_rate, recovery_.step_share() * largest_step_);
     std::vector<BodyStep> poses;
     const std::vector<Step> steps = steps_of(division, poses);
-    const FramePlan plan =
+    FramePlan plan =
         planner_.plan(poses, stats_, division.count * division.dt,
                       steps.front().piston_speed != 0.0 || bodies_.restless(seconds_) ||
                           hung_.move(seconds_, division.count * division.dt),
                       detector_.bubbles_alive());
+    // A frame tells the forces on bodies that are felt anew; while water sleeps they stay.
+    plan.steps = plan.steps || (feels_ && felt_of_ != felt_now());
+    rates_anew_ = wants_rates(poses, division.dt, division.count * division.dt);
     if (!step_fault) count(plan);
     if (!plan.steps) return hold_still(division.count * division.dt);
     set_bodies(division, poses);
@@ -281,7 +314,9 @@ void Simulation::enqueue(const std::vector<Step>& steps, const FramePlan& plan, 
   const bool weighs = feels_ && pushes_;
   if (weighs) {
     std::vector<bool> wanted;
-    for (const FreeBody& body : pushes_->bodies()) wanted.push_back(is_felt_now(body.body));
+    for (const FreeBody& body : pushes_->bodies()) {
+      wanted.push_back(rates_anew_ && is_felt_now(body.body));
+    }
     pushes_->begin(fluid_, wanted);
   }
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -332,7 +367,12 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& steps,
   if (feels_) {
     result.pushes = felt_ = find_pushes(step_count * dt);
     ++totals_.felt;
+    if (rates_anew_) {
+      rated_way_ = 0.0;
+      rated_step_ = dt;
+    }
   }
+  felt_of_ = felt_now();
   detected_at_ = detect_time;
   keep(result);
   return result;
@@ -400,6 +440,7 @@ StepFault Simulation::examine(const Diagnosis& what, double dt) {
 }
 
 void Simulation::restore_start(double seconds) {
+  felt_of_.clear();
   fluid_.restore(start_);
   bodies_.reset(seconds);
   cavity_watch_.forget();

@@ -86,6 +86,7 @@ class Simulation {
   void resume(const Snapshot& water, double seconds) {
     fluid_.restore(water);
     seconds_ = detected_at_ = seconds;
+    felt_of_.clear();
     sound_.keep(fluid_.device(), state());
     planner_.forget();
     cavity_watch_.forget();
@@ -135,6 +136,10 @@ class Simulation {
   void set_bodies(const FrameSteps& steps, const std::vector<BodyStep>& poses);
   /// Whether poses move the body, so that somebody may feel it.
   [[nodiscard]] bool is_felt_now(int body) const;
+  /// The same of each body; empty: nobody feels any.
+  [[nodiscard]] std::vector<bool> felt_now() const;
+  /// Whether the force's derivatives are found in the frame of these steps, or are those of before.
+  [[nodiscard]] bool wants_rates(const std::vector<BodyStep>& poses, double step, double frame);
   /// Returns the forces that are felt in a frame of so many seconds that has been computed.
   [[nodiscard]] std::vector<BodyPush> find_pushes(double seconds);
   /// Tries to compute a frame; nullopt: it had a fault.
@@ -178,6 +183,10 @@ class Simulation {
   bool can_feel_ = false;
   bool feels_ = false;
   std::vector<BodyPush> felt_;  ///< of the last frame that was computed
+  std::vector<bool> felt_of_;   ///< of each body, whether that has its push; empty: nobody felt
+  bool rates_anew_ = true;      ///< in this frame it is found how forces depend on speeds
+  double rated_way_ = 0.0;      ///< that anything may have gone since that was found [m]
+  double rated_step_ = 0.0;     ///< the time step then [s]
   double seconds_ = 0.0;
   double begun_ = 0.0;        ///< when the scene last began anew [s]
   double detected_at_ = 0.0;  ///< time of the last detection [s]

@@ -113,6 +113,25 @@ TEST(FeltForce, OfAHeldBoxIsTheWeightOfWhatItDisplaces) {
   }
 }
 
+// Who asks while all water sleeps is told the same, and nothing wakes for longer than a frame.
+TEST(FeltForce, InWaterThatSleepsIsThatWeightAsWell) {
+  Device device;
+  Simulation simulation(device, parse_scene("fluid: {spacing: 0.02}" + kHeldBox, "held.yaml"), {});
+  const std::uint64_t& idle = simulation.totals().skipped.idle;
+  while (idle < 10 && simulation.seconds() < 10.0) static_cast<void>(simulation.advance());
+  ASSERT_EQ(idle, 10U) << "it does not sleep";
+  simulation.feel(true);
+  double share = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    const FrameResult frame = simulation.advance();
+    ASSERT_EQ(frame.pushes.size(), 1U);
+    share = frame.pushes[0].force[2] / (998.0 * 9.81 * 0.12 * 0.12 * 0.12);
+    EXPECT_NEAR(share, 1.0, 0.03);
+  }
+  std::printf("asleep %.4f of the displaced weight\n", share);
+  EXPECT_EQ(idle, 29U) << "one frame of the twenty was computed";
+}
+
 // No particle fits under it: without the film of water there it would lack what carries it.
 TEST(FeltForce, OfABoxNextToTheFloorIsThatWeightAsWell) {
   EXPECT_NEAR(felt_share("spacing: 0.02", 0.07)[2], 1.0, 0.03);

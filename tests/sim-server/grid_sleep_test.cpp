@@ -244,5 +244,39 @@ TEST(GridSleep, ChangesNoImpact) {
   EXPECT_NEAR(a.position[2], b.position[2], kRest * some.slept);
 }
 
+/// What a frame asks of the device for how the forces depend on the bodies' speeds.
+std::int64_t rates_asked(Device& device, Simulation& simulation, FrameResult& frame) {
+  device.queue().finish();
+  bench::begin_ledger();
+  frame = simulation.advance();
+  device.queue().finish();
+  return bench::end_ledger()["weigh_answer"].count;
+}
+
+// While little moves these are those of before, and no other than those that are found anew.
+TEST(GridSleep, RatesOfStillBodiesAreFoundOnlyNowAndThen) {
+  Device device;
+  Simulation simulation(device, pond(ball_at(0.1, "osc")), {});
+  FrameResult frame;
+  while (simulation.seconds() < 0.5) frame = simulation.advance();
+  simulation.feel(true);
+  EXPECT_GE(rates_asked(device, simulation, frame), 6);
+  int found = 0;
+  for (int k = 0; k < 40; ++k) found += rates_asked(device, simulation, frame) > 0 ? 1 : 0;
+  const Vector3 kept = frame.pushes.at(0).by_speed;
+  std::printf("in %d of 40 frames, water at %.4f m/s\n", found, frame.stats.speed);
+  EXPECT_LT(found, 20);
+  simulation.feel(false);
+  static_cast<void>(simulation.advance());
+  simulation.feel(true);
+  EXPECT_GE(rates_asked(device, simulation, frame), 6) << "nobody had felt it";
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double anew = frame.pushes.at(0).by_speed[i];
+    std::printf("%.4f N s/m, anew %.4f\n", kept[i], anew);
+    EXPECT_NEAR(kept[i], anew, 0.02 * std::abs(anew));
+    EXPECT_LT(anew, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace splash::sim
