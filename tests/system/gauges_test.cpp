@@ -33,7 +33,7 @@ TEST(Gauges, AreWritten) {
   std::getline(in, line);
   EXPECT_EQ(line,
             "time,sum_kinetic,sum_potential,sum_compression,sum_total,all_x,all_y,all_z,"
-            "all_fastest,all_rms");
+            "all_fastest,all_rms,mass_x,mass_y,mass_z,mass_sx,mass_sy,mass_sz");
   std::getline(in, line);
   EXPECT_THAT(line, StartsWith("0,"));
   int lines = 1;
