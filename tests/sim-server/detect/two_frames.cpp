@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Two frames, or more, of the detectors over fast water, bodies and bubbles, and a look at the
-// walls' push as gauges take it: every kernel of theirs, small enough for an OpenCL interpreter.
-// Arguments: particles per vector (1, 8 or 16), and how many frames.
+// Two frames, or more, of the detectors over fast water, bodies and bubbles, a look at the air that
+// is folded in and one at the walls' push as gauges take it: every kernel of theirs, small enough
+// for an OpenCL interpreter. Arguments: particles per vector (1, 8 or 16), and how many frames.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 
+#include "sim-server/detect/air_folds.hpp"
 #include "sim-server/detect/detector.hpp"
 #include "sim-server/gauge/wall_push.hpp"
+#include "tests/sim-server/detect/detect_rig.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {
+
+/// The places where air is folded in.
+std::size_t folds_in(splash::sim::Water& water, splash::sim::DetectSettings settings) {
+  settings.bubble_energy = 0.4;
+  settings.bubble_onset = 0.01;
+  splash::sim::AirFolds folds(*water.fluid, splash::sim::detect_program(water.fluid->device()));
+  folds.enqueue(water.step_at(0.0), settings);
+  folds.enqueue_read();
+  water.fluid->device().queue().finish();
+  return folds.read().size();
+}
 
 int two_frames(int lanes, std::uint32_t frames) {
   using namespace splash::sim;
@@ -35,9 +48,12 @@ int two_frames(int lanes, std::uint32_t frames) {
     cavities += detector.collect(water.time, kFrame, frame).cavities.size();
   }
   const std::size_t pushed = WallPush(*water.fluid).read(*water.fluid, water.step_at(0.0)).size();
-  std::printf("%s: %d particles, %zu bubbles, %zu cavities\n", device.facts().platform.c_str(),
-              water.params.count, detector.bubbles_alive(), cavities);
-  const bool all = detector.bubbles_alive() > 0 && detector.cavity_searches() > 0 && pushed > 0;
+  const std::size_t folds = folds_in(water, settings);
+  std::printf("%s: %d particles, %zu bubbles, %zu cavities, %zu folds\n",
+              device.facts().platform.c_str(), water.params.count, detector.bubbles_alive(),
+              cavities, folds);
+  const bool all =
+      detector.bubbles_alive() > 0 && detector.cavity_searches() > 0 && pushed > 0 && folds > 0;
   return all ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

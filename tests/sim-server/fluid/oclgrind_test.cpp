@@ -89,7 +89,7 @@ const Kernels kFree =
 const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_density",
                          "integrate",     "compute_acceleration", "touch_water",
                          "spawn_bubbles", "carry_bubbles",        "seed_cavities",
-                         "grow_cavities", "push_by_walls"};
+                         "grow_cavities", "push_by_walls",        "fold_air"};
 
 const std::vector<Watched> kWatched = {
     // The interpreter's own counter of instructions breaks its heap here, with no other option,
