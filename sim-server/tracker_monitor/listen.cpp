@@ -30,7 +30,7 @@ constexpr double kSilence = 5.0;  ///< after which it is said what may be in the
 /// Where senders of VMC, of VRChat's trackers and of TUIO send unless told otherwise.
 constexpr std::array<std::uint16_t, 4> kUsualPorts = {protocol::kSimPort, 39539, 9000, 3333};
 
-struct Options {
+struct ListenOptions {
   std::vector<std::uint16_t> ports = {};
   double seconds = std::numeric_limits<double>::infinity();
 };
@@ -84,7 +84,7 @@ void take_all(std::vector<Ear>& ears, Heard& heard) {
   }
 }
 
-int listen(const Options& options) {
+int listen(const ListenOptions& options) {
   std::vector<Ear> ears = open_ears(options.ports);
   if (ears.empty()) {
     std::cerr << "splash-listen: none of the ports can be listened at: name another\n";
@@ -124,7 +124,7 @@ int listen(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
+  ListenOptions options;
   CLI::App app(
       "Prints what trackers send to this host over OSC, and the lines of a scene that map "
       "it to a body.",
