@@ -60,7 +60,7 @@ def run(server, text, seconds, settled):
 
 def main():
     parse = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parse.add_argument("--server", default="build/bin/sim-server", help="the program")
+    parse.add_argument("--server", default="build/release/bin/sim-server", help="the program")
     parse.add_argument("--detect", default="", help="settings of the scenes' detect section")
     parse.add_argument("--fluid", default="", help="further settings of their fluid section")
     parse.add_argument("--shapes", nargs="+", default=["disc", "sphere"])
