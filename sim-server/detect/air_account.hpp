@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Air that has been folded in and not told yet: bubbles are drawn from it until it is used up, so
-// that the sum of their volumes is the air's, but for the last one.
+// Entrained air that has not become bubbles yet. Bubbles are drawn until it is used up, so that the
+// sum of their volumes is the air's, but for the last one.
 #pragma once
 
 #include "sim-server/scene/scene.hpp"
@@ -12,21 +12,21 @@ namespace splash::sim {
 
 class AirAccount {
  public:
-  /// In a frame of `frame` seconds so much air is folded in [m3].
+  /// Begins a frame of `frame` seconds, in which `air` is entrained [m3].
   void begin(double air, double frame);
-  /// No bubble is larger now: as large as the air of the last 0.1 s, and 8 mm or more, within the
-  /// settings' radii (the largest pocket bounds its fragments: Deike et al. 2016) [m].
+  /// Largest radius of a bubble now: that of a sphere of the air of the last 0.1 s, 8 mm at least,
+  /// within the settings' radii (a pocket bounds its fragments: Deike et al. 2016) [m].
   [[nodiscard]] double largest(const DetectSettings& settings) const;
 
-  /// Its part of the frame's air [m3].
+  /// Adds a part of the frame's air [m3].
   void add(double air) noexcept { owed_ += air; }
-  /// Whether there is air for a bubble.
-  [[nodiscard]] bool is_open() const noexcept { return owed_ > 0.0; }
-  /// A bubble of that radius is told [m].
+  /// Whether some of it is left for a bubble.
+  [[nodiscard]] bool has_air() const noexcept { return owed_ > 0.0; }
+  /// Takes the volume of a bubble of that radius [m].
   void take(double radius) { owed_ -= bubble_volume(radius); }
-  /// Of what could not be told no more than so much is kept [m3].
+  /// Forgets what is left above `most` [m3].
   void keep(double most);
-  /// Told less, or more, than folded in [m3].
+  /// Air left; negative: the last bubble took more than there was [m3].
   [[nodiscard]] double owed() const noexcept { return owed_; }
 
  private:

@@ -222,7 +222,7 @@ std::vector<DetectedBubble> Bubbles::tell_folds(const std::vector<AirFold>& fold
   int told = 0;
   for (const AirFold& fold : folds) {
     account_.add(frame * static_cast<double>(fold.rate));
-    for (int k = 0; account_.is_open() && told < open; ++k, ++told) {
+    for (int k = 0; account_.has_air() && told < open; ++k, ++told) {
       const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(fold.id), k);
       heard.push_back(draw_bubble(fold.id, place_of(fold), draws, least, sizes.radius_max));
       heard.back().time = time - frame * (1.0 - draws.moment);

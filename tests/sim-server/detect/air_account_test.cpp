@@ -29,7 +29,7 @@ TEST(AirAccount, IsUsedUpByItsBubbles) {
     account.add(now);
     air += now;
     const double largest = account.largest(settings);
-    for (int k = 0; account.is_open(); ++k) {
+    for (int k = 0; account.has_air(); ++k) {
       const double radius = power_law(draw(3, step, 0, k).radius, settings.radius_min, largest,
                                       settings.radius_exponent);
       account.take(radius);
