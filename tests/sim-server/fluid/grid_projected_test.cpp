@@ -55,7 +55,7 @@ std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, s
 }
 
 MacFaces read_faces(Device& device, const GridProjected& solver, const Buffer<float>& buffer) {
-  const auto cells = static_cast<std::size_t>(solver.grid().level[0].cells);
+  const auto cells = static_cast<std::size_t>(solver.fields().grid.level[0].cells);
   return {read(device, buffer, 0, cells), read(device, buffer, cells, cells),
           read(device, buffer, 2 * cells, cells)};
 }
@@ -89,13 +89,13 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
   const FluidParams& p = before.params;
   const std::size_t count = before.id.size();
   const auto stride = static_cast<std::size_t>(p.capacity);
-  const MacReference reference(solver.grid());
+  const MacReference reference(solver.fields().grid);
 
   ReferenceGathered gathered = reference.gather(before.position, before.velocity);
-  const auto cells = static_cast<std::size_t>(solver.grid().level[0].cells);
-  EXPECT_LT(apart(read_faces(device, solver, solver.mean()), gathered.mean), 1.0e-5);
-  EXPECT_LT(apart(read_faces(device, solver, solver.weight()), gathered.weight), 2.0e-4);
-  EXPECT_LT(apart(read(device, solver.fill(), 0, cells), gathered.fill), 1.0e-4);
+  const auto cells = static_cast<std::size_t>(solver.fields().grid.level[0].cells);
+  EXPECT_LT(apart(read_faces(device, solver, solver.fields().mean), gathered.mean), 1.0e-5);
+  EXPECT_LT(apart(read_faces(device, solver, solver.fields().weight), gathered.weight), 2.0e-4);
+  EXPECT_LT(apart(read(device, solver.solids().fill(), 0, cells), gathered.fill), 1.0e-4);
   EXPECT_GT(*std::max_element(gathered.fill.begin(), gathered.fill.end()), 0.9);
 
   MacFaces everywhere = gathered.weight;
@@ -114,9 +114,9 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
   EXPECT_LT(apart(read_faces(device, solver, solver.seen()), seen.mean), 1.0e-5);
   const std::vector<Vector3> twice = unseen(deviation, seen.mean);
 
-  const std::vector<double> pressure = read(device, solver.pressures(), 0, cells);
+  const std::vector<double> pressure = read(device, solver.fields().pressure, 0, cells);
   const MacFaces change = reference.change(gathered, p, pressure, kStep);
-  const MacFaces changed = read_faces(device, solver, solver.change());
+  const MacFaces changed = read_faces(device, solver, solver.fields().change);
   const MacFaces known = reference.known(gathered);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t c = 0; c < cells; ++c) {
@@ -226,9 +226,9 @@ TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
   const double wave = std::sqrt(9.81 * depth);
   EXPECT_LT(water.fluid->stats().speed, 0.002 * wave);
   // From below, as pressure gauges read it: the grid's lowest cells, carried to the floor.
-  const MacGrid& grid = solver_of(water).grid();
+  const MacGrid& grid = solver_of(water).fields().grid;
   const auto cells = static_cast<std::size_t>(grid.level[0].cells);
-  const std::vector<double> pressure = read(device, solver_of(water).pressures(), 0, cells);
+  const std::vector<double> pressure = read(device, solver_of(water).fields().pressure, 0, cells);
   const MacReference reference(grid);
   double sum = 0.0;
   for (int j = 0; j < grid.level[0].ny; ++j) {
@@ -317,12 +317,12 @@ TEST(GridProjected, ABallUnderWaterIsBorneByWhatItDisplaces) {
   for (int k = 0; k < 100; ++k) water.step(1.0e-2);
   EXPECT_LT(water.fluid->stats().speed, 0.03 * std::sqrt(9.81 * kDepth));
   const GridProjected& solver = solver_of(water);
-  const MacGrid& grid = solver.grid();
+  const MacGrid& grid = solver.fields().grid;
   const MacLevel& level = grid.level[0];
   const auto cells = static_cast<std::size_t>(level.cells);
-  const std::vector<double> pressure = read(device, solver.pressures(), 0, cells);
-  const std::vector<double> space = read(device, solver.space(), 0, cells);
-  const MacFaces gap = read_faces(device, solver, solver.gap());
+  const std::vector<double> pressure = read(device, solver.fields().pressure, 0, cells);
+  const std::vector<double> space = read(device, solver.solids().space(), 0, cells);
+  const MacFaces gap = read_faces(device, solver, solver.solids().gap());
   const double area = static_cast<double>(grid.hx) * static_cast<double>(grid.hy);
   const double volume = area * static_cast<double>(grid.hz);
   const MacReference reference(grid);

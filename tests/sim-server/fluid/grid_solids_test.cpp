@@ -58,13 +58,13 @@ struct Displaced {
 
 Displaced displaced(Device& device, const Fluid& fluid) {
   const GridProjected& solver = solver_of(fluid);
-  const MacGrid& grid = solver.grid();
+  const MacGrid& grid = solver.fields().grid;
   const MacLevel& level = grid.level[0];
   const MacReference reference(grid);
   const auto cells = static_cast<std::size_t>(level.cells);
-  const std::vector<double> gap = read(device, solver.gap(), 3 * cells);
-  const std::vector<double> space = read(device, solver.space(), cells);
-  const std::vector<double> pressure = read(device, solver.pressures(), cells);
+  const std::vector<double> gap = read(device, solver.solids().gap(), 3 * cells);
+  const std::vector<double> space = read(device, solver.solids().space(), cells);
+  const std::vector<double> pressure = read(device, solver.fields().pressure, cells);
   const double area = static_cast<double>(grid.hx) * static_cast<double>(grid.hy);
   const double volume = area * static_cast<double>(grid.hz);
   const std::array<int, 3> step = {1, level.row, level.layer};

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Bodies that the water moves, as unknowns of the pressures' system (coupling.h), and the springs
+// that they may hang on (hang.cl).
+#pragma once
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+#include "sim-server/fluid/pressure/grid_projected/solids.hpp"
+#include "sim-server/fluid/step.hpp"
+
+namespace splash::sim {
+
+class CoupledBodies {
+ public:
+  CoupledBodies(Device& device, const cl::Program& program, const MacFields& fields,
+                const GridSolids& solids);
+
+  /// From now on there are so many.
+  void release(Device& device, std::size_t count);
+  /// As they would be without water.
+  void let_fall(Fluid& fluid, const Step& step);
+  /// Once the system is laid: K of the cells beside them.
+  void find_grip(Fluid& fluid, const Step& step);
+  /// The same for `count` others, to `grip`.
+  void find_grip(Fluid& fluid, const Step& step, int count, const Buffer<FreeBody>& bodies,
+                 const Buffer<float>& grip);
+  /// What the water does to them with the system's solution.
+  void push(Fluid& fluid, const Step& step, const Buffer<float>& found);
+
+  /// None before the water lets them go.
+  [[nodiscard]] int count(Fluid& fluid) const;
+  /// With what their springs add to their inertia.
+  [[nodiscard]] const Buffer<FreeBody>& solved(Fluid& fluid) const;
+  [[nodiscard]] const Buffer<float>& grip() const noexcept { return grip_; }
+
+  /// What the next step depends on.
+  [[nodiscard]] const cl::Buffer& kept() const noexcept { return kept_.memory(); }
+  void forget(Device& device) { kept_.enqueue_clear(device); }
+
+ private:
+  /// Whether any hangs on a device.
+  [[nodiscard]] bool any_hung(Fluid& fluid) const;
+  [[nodiscard]] const Buffer<FreeBody>& frees(Fluid& fluid) const;
+
+  const MacFields& fields_;
+  const GridSolids& solids_;
+  Buffer<FreeBody> no_body_;
+  Buffer<float> grip_;  ///< K of each cell
+  Buffer<float> kept_;
+  Buffer<FreeBody> tied_;  ///< as heavy as springs make them
+  Buffer<float> tuggings_;
+  Kernel let_fall_;
+  Kernel grip_water_;
+  Kernel push_bodies_;
+  Kernel tie_bodies_;
+  Kernel tell_tugs_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/pressure/grid_projected/felt.hpp"
+
+#include "sim-server/fluid/fluid.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Of a solve for how pushes change, at most: its error counts by its square (felt.cl).
+constexpr int kAnswerIterations = 4;
+
+}  // namespace
+
+FeltForces::FeltForces(Device& device, const cl::Program& program, const MacFields& fields,
+                       const GridSolids& solids, CoupledBodies& bodies, PressureSystem& system)
+    : fields_(fields),
+      solids_(solids),
+      bodies_(bodies),
+      system_(system),
+      given_(device, program, fields, solids),
+      grip_(device, 1),
+      surface_(device, 1),
+      answer_(device, 1),
+      answer_state_(device, 1),
+      weigh_pressure_(program, "weigh_pressure", fields.team),
+      ask_for_answer_(program, "ask_for_answer"),
+      weigh_answer_(program, "weigh_answer", fields.team) {}
+
+void FeltForces::feel(Device& device, bool on) {
+  feels_ = on && solids_.any();
+  if (!feels_ || surface_.size() == fields_.room) return;
+  grip_ = Buffer<float>(device, 6 * fields_.room);
+  surface_ = Buffer<float>(device, fields_.room);
+  answer_ = Buffer<float>(device, fields_.room);
+  given_.make_room(device);
+}
+
+void FeltForces::keep_system(Fluid& fluid) {
+  if (!feels_) return;
+  fluid.device().queue().enqueueCopyBuffer(system_.open().memory(), surface_.memory(), 0, 0,
+                                           fields_.room * sizeof(float));
+}
+
+void FeltForces::add(const FeltBodies& felt) {
+  if (feels_) now_.emplace(felt);
+}
+
+void FeltForces::weigh(Fluid& fluid, const Step& step) {
+  if (!now_) return;
+  const int count = static_cast<int>(now_->list.size());
+  bodies_.find_grip(fluid, step, count, now_->on_device, grip_);
+  weigh_pressure_.run_teams(fluid.device().queue(), 1,
+                            {{"p", fluid.params_buffer()},
+                             {"g", fields_.on_device},
+                             {"body_count", count},
+                             {"felt", now_->on_device},
+                             {"bodies", fluid.boundary().steps()},
+                             {"first_body", step.first_body},
+                             {"owner", solids_.owner()},
+                             {"grip", grip_},
+                             {"found", system_.found()},
+                             {"sums", now_->sums}});
+  given_.weigh(fluid, step, *now_, system_.found());
+  for (int k = 0; k < count; ++k) {
+    if (!now_->wanted[static_cast<std::size_t>(k)]) continue;
+    for (int part = 0; part < 6; ++part) weigh_answer(fluid, step, k, part);
+  }
+  now_.reset();
+}
+
+void FeltForces::weigh_answer(Fluid& fluid, const Step& step, int k, int part) {
+  cl::CommandQueue& queue = fluid.device().queue();
+  ask_for_answer_.run(queue, fields_.cells,
+                      {{"g", fields_.on_device},
+                       {"k", k},
+                       {"part", part},
+                       {"felt", now_->on_device},
+                       {"owner", solids_.owner()},
+                       {"grip", grip_},
+                       {"surface", surface_},
+                       {"start", answer_}},
+                      system_.unknowns());
+  system_.solve(fluid, step, kAnswerIterations, answer_, answer_state_);
+  weigh_answer_.run_teams(queue, 1,
+                          {{"p", fluid.params_buffer()},
+                           {"g", fields_.on_device},
+                           {"k", k},
+                           {"part", part},
+                           {"body_count", static_cast<int>(now_->list.size())},
+                           {"felt", now_->on_device},
+                           {"bodies", fluid.boundary().steps()},
+                           {"first_body", step.first_body},
+                           {"owner", solids_.owner()},
+                           {"grip", grip_},
+                           {"found", answer_},
+                           {"sums", now_->sums}});
+  given_.weigh(fluid, step, *now_, answer_, k, part);
+}
+
+}  // namespace splash::sim

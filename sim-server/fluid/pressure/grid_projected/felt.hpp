@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What the water does to bodies that go their own way, while somebody feels it: the pressures'
+// force with its derivative by the body's speed (felt.cl), and the momentum given beyond these.
+#pragma once
+
+#include <optional>
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/pressure/grid_projected/coupling.hpp"
+#include "sim-server/fluid/pressure/grid_projected/given.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+#include "sim-server/fluid/pressure/grid_projected/solids.hpp"
+#include "sim-server/fluid/pressure/grid_projected/system.hpp"
+#include "sim-server/fluid/pressure/pressure_solver.hpp"
+
+namespace splash::sim {
+
+class FeltForces {
+ public:
+  FeltForces(Device& device, const cl::Program& program, const MacFields& fields,
+             const GridSolids& solids, CoupledBodies& bodies, PressureSystem& system);
+
+  /// From the next step on somebody feels bodies, or nobody does.
+  void feel(Device& device, bool on);
+  [[nodiscard]] bool feels() const noexcept { return feels_; }
+  /// The system is laid and not yet solved.
+  void keep_system(Fluid& fluid);
+  /// Whom this step's weigh() is for.
+  void add(const FeltBodies& felt);
+  /// The particles moved: adds to the bodies' sums.
+  void weigh(Fluid& fluid, const Step& step);
+  /// Of particles, by bodies other than by pressure: spacing and moving fill it [m/s].
+  [[nodiscard]] const Buffer<float>& jolt() const noexcept { return given_.jolt(); }
+  /// What a step that went wrong left would go on from one to the next.
+  void forget(Device& device) { answer_.enqueue_clear(device); }
+
+ private:
+  /// The derivative by one `part` of the speed of body `k`.
+  void weigh_answer(Fluid& fluid, const Step& step, int k, int part);
+
+  const MacFields& fields_;
+  const GridSolids& solids_;
+  CoupledBodies& bodies_;
+  PressureSystem& system_;
+  GivenMomentum given_;
+  bool feels_ = false;
+  std::optional<FeltBodies> now_;  ///< of this step, until it has moved the particles
+  Buffer<float> grip_;             ///< K of each cell
+  Buffer<float> surface_;          ///< the system's open() before the solve
+  Buffer<float> answer_;
+  Buffer<SolveState> answer_state_;
+  Kernel weigh_pressure_;
+  Kernel ask_for_answer_;
+  Kernel weigh_answer_;
+};
+
+}  // namespace splash::sim

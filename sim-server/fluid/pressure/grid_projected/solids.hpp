@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What bodies, slope and wave maker leave open of the grid (solids.cl), and how the pressures there
+// push bodies.
+#pragma once
+
+#include <vector>
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+#include "sim-server/fluid/pressure/pressure_solver.hpp"
+
+namespace splash::sim {
+
+class GridSolids {
+ public:
+  /// `any`: the scene may have some. Without, nothing is cut, and the arrays have one element.
+  GridSolids(Device& device, const cl::Program& program, const MacFields& fields, bool any);
+
+  /// Where they are in this step.
+  void place(Fluid& fluid, const Step& step);
+  /// What the last step's pressures did to each of so many bodies. Waits.
+  [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) const;
+
+  [[nodiscard]] bool any() const noexcept { return any_; }
+  /// Of cells, by their open part [1].
+  [[nodiscard]] const Buffer<float>& fill() const noexcept { return any_ ? filled_ : fields_.fill; }
+  [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
+  [[nodiscard]] const Buffer<float>& space() const noexcept { return space_; }
+  [[nodiscard]] const Buffer<int>& owner() const noexcept { return owner_; }
+
+ private:
+  const MacFields& fields_;
+  bool any_;
+  Buffer<float> gap_;         ///< open part around faces [1]
+  Buffer<float> upper_;       ///< of the upper half of cells along each axis [1]
+  Buffer<float> space_;       ///< of cells [1]
+  Buffer<int> owner_;         ///< whose a cell is (room.h)
+  Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
+  Buffer<float> filled_;
+  Kernel cut_cells_;
+  Kernel open_faces_;
+  Kernel fill_beside_solids_;
+};
+
+}  // namespace splash::sim

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "sim-server/fluid/pressure/grid_projected/system.hpp"
+
+#include "sim-server/fluid/fluid.hpp"
+
+namespace splash::sim {
+namespace {
+
+/// Of a solve, at most.
+constexpr int kIterations = 40;
+
+}  // namespace
+
+PressureSystem::PressureSystem(Device& device, const cl::Program& program, const MacFields& fields,
+                               const GridSolids& solids, const CoupledBodies& bodies)
+    : fields_(fields),
+      solids_(solids),
+      bodies_(bodies),
+      most_(device, 1),
+      link_(device, 3 * fields.room),
+      open_(device, fields.room),
+      damped_(device, fields.room),
+      x_(device, fields.room),
+      b_(device, fields.room),
+      r_(device, fields.room),
+      found_(device, fields.room),
+      way_(device, fields.room),
+      along_(device, fields.room),
+      state_(device, 1),
+      push_faces_(program, "push_faces", device.profile().group),
+      lay_system_(program, "lay_system", device.profile().group),
+      solve_pressure_(program, "solve_pressure", fields.team),
+      project_faces_(program, "project_faces", device.profile().group) {}
+
+void PressureSystem::push_faces(Fluid& fluid, const Step& step) {
+  push_faces_.run(fluid.device().queue(), fields_.vectors,
+                  {{"p", fluid.params_buffer()},
+                   {"g", fields_.on_device},
+                   {"dt", as_float(step.dt)},
+                   {"mean", fields_.mean},
+                   {"weight", fields_.weight},
+                   {"pushed", fields_.change},
+                   {"most", most_}});
+}
+
+void PressureSystem::lay(Fluid& fluid, const Step& step) {
+  lay_system_.run(fluid.device().queue(), fields_.vectors,
+                  {{"p", fluid.params_buffer()},
+                   {"g", fields_.on_device},
+                   {"dt", as_float(step.dt)},
+                   {"bodies", fluid.boundary().steps()},
+                   {"first_body", step.first_body},
+                   {"piston_speed", as_float(step.piston_speed)},
+                   {"gap", solids_.gap()},
+                   {"owner", solids_.owner()},
+                   {"fill", solids_.fill()},
+                   {"pushed", fields_.change},
+                   {"pressure", fields_.pressure},
+                   {"room", static_cast<int>(fields_.room)},
+                   {"link", link_},
+                   {"start", found_},
+                   {"wet", fields_.wet},
+                   {"most", most_}},
+                  unknowns());
+}
+
+void PressureSystem::solve(Fluid& fluid, const Step& step) {
+  solve(fluid, step, kIterations, found_, state_);
+}
+
+void PressureSystem::solve(Fluid& fluid, const Step& step, int iterations,
+                           const Buffer<float>& found, const Buffer<SolveState>& state) {
+  solve_pressure_.run_teams(fluid.device().queue(), 1,
+                            {{"p", fluid.params_buffer()},
+                             {"g", fields_.on_device},
+                             {"iterations", iterations},
+                             {"room", static_cast<int>(fields_.room)},
+                             {"free_count", bodies_.count(fluid)},
+                             {"frees", bodies_.solved(fluid)},
+                             {"bodies", fluid.boundary().steps()},
+                             {"first_body", step.first_body},
+                             {"owner", solids_.owner()},
+                             {"grip", bodies_.grip()},
+                             {"most", most_},
+                             {"link", link_},
+                             {"open", open_},
+                             {"damped", damped_},
+                             {"x", x_},
+                             {"b", b_},
+                             {"r", r_},
+                             {"found", found},
+                             {"way", way_},
+                             {"along", along_},
+                             {"state", state}});
+}
+
+void PressureSystem::project(Fluid& fluid, const Step& step) {
+  project_faces_.run(fluid.device().queue(), fields_.vectors,
+                     {{"p", fluid.params_buffer()},
+                      {"g", fields_.on_device},
+                      {"dt", as_float(step.dt)},
+                      {"gap", solids_.gap()},
+                      {"fill", solids_.fill()},
+                      {"mean", fields_.mean},
+                      {"weight", fields_.weight},
+                      {"found", found_},
+                      {"wet", fields_.wet},
+                      {"pushed", fields_.change},
+                      {"pressure", fields_.pressure}});
+}
+
+SolveWork PressureSystem::work() const {
+  const SolveState& s = state_read_[0];
+  return {s.solves, s.total, s.most, s.given_up, static_cast<double>(s.error)};
+}
+
+void PressureSystem::forget_work(Device& device) {
+  state_.enqueue_clear(device);
+  state_read_ = {};
+}
+
+void PressureSystem::forget(Device& device) {
+  for (Buffer<float>* array : {&link_, &open_, &damped_, &x_, &b_, &r_, &found_, &way_, &along_}) {
+    array->enqueue_clear(device);
+  }
+}
+
+}  // namespace splash::sim

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The system that gives the pressures of a step (system.cl), its solution (solve.cl), and what that
+// does to the velocities on faces (project.cl).
+#pragma once
+
+#include <array>
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/pressure/grid_projected/coupling.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+#include "sim-server/fluid/pressure/grid_projected/solids.hpp"
+#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
+#include "sim-server/fluid/pressure/pressure_solver.hpp"
+
+namespace splash::sim {
+
+class PressureSystem {
+ public:
+  PressureSystem(Device& device, const cl::Program& program, const MacFields& fields,
+                 const GridSolids& solids, const CoupledBodies& bodies);
+
+  /// What gravity and viscosity change of the faces' velocities.
+  void push_faces(Fluid& fluid, const Step& step);
+  void lay(Fluid& fluid, const Step& step);
+  void solve(Fluid& fluid, const Step& step);
+  /// From what is in `found` to the solution there, of the system as it is laid, or with another
+  /// right side in unknowns().
+  void solve(Fluid& fluid, const Step& step, int iterations, const Buffer<float>& found,
+             const Buffer<SolveState>& state);
+  void project(Fluid& fluid, const Step& step);
+
+  /// The last solve's: pressure times the step over the density [m2/s].
+  [[nodiscard]] const Buffer<float>& found() const noexcept { return found_; }
+  /// What the surface adds to a cell's equation; a solve changes it.
+  [[nodiscard]] const Buffer<float>& open() const noexcept { return open_; }
+  /// What a solve begins from, as arguments.
+  [[nodiscard]] std::array<KernelArg, 5> unknowns() const {
+    return {{{"open", open_}, {"x", x_}, {"right", b_}, {"rest", r_}, {"way", way_}}};
+  }
+
+  void enqueue_work(Device& device) { state_.enqueue_read(device, state_read_); }
+  [[nodiscard]] SolveWork work() const;
+  void forget_work(Device& device);
+  /// What a step that went wrong left would go on from one to the next.
+  void forget(Device& device);
+
+ private:
+  const MacFields& fields_;
+  const GridSolids& solids_;
+  const CoupledBodies& bodies_;
+  Buffer<int> most_;
+
+  // Over all levels; the last three over the finest.
+  Buffer<float> link_;
+  Buffer<float> open_;
+  Buffer<float> damped_;
+  Buffer<float> x_;
+  Buffer<float> b_;
+  Buffer<float> r_;
+  Buffer<float> found_;
+  Buffer<float> way_;
+  Buffer<float> along_;
+
+  Buffer<SolveState> state_;
+  std::array<SolveState, 1> state_read_ = {};
+  Kernel push_faces_;
+  Kernel lay_system_;
+  Kernel solve_pressure_;
+  Kernel project_faces_;
+};
+
+}  // namespace splash::sim
