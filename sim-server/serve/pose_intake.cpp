@@ -54,7 +54,10 @@ PoseRefusal PoseIntake::give(std::int32_t body, const Vector3& position, const Q
   if (moves && refusal == PoseRefusal::too_far) say_far(body, position, moment.arrival);
   if (moves && is_no_pose(refusal)) return refusal;
   if (const auto rival = senders.hear(moment.from, moment.arrival)) {
-    say_both(body, moves ? *rival : moment.from, moves ? moment.from : *rival);
+    const std::string name = name_of(simulation_.scene(), body);
+    say_both({"poses of body " + name, name, "lets go or is silent for 0.5 s",
+              "let it move another body"},
+             moves ? *rival : moment.from, moves ? moment.from : *rival);
   }
   if (moves) {
     const bool follows = refusal != PoseRefusal::not_tracked;
@@ -95,9 +98,53 @@ void PoseIntake::stand(const FloorTouch& touch, double arrival) const {
   }
 }
 
+bool PoseIntake::follows(PoseSenders& senders, const PoseMoment& moment,
+                         const std::function<void(const protocol::Endpoint& waits,
+                                                  const protocol::Endpoint& moves)>& tell) {
+  const bool moves = senders.lets(moment.from, moment.arrival);
+  if (const auto rival = senders.hear(moment.from, moment.arrival)) {
+    tell(moves ? *rival : moment.from, moves ? moment.from : *rival);
+  }
+  if (moves) senders.follow(moment.from);
+  if (!moves) ++counts_[static_cast<std::size_t>(PoseRefusal::other_sender)];
+  return moves;
+}
+
+bool PoseIntake::follows_source(const std::string& address, const std::string& source,
+                                const PoseMoment& moment) {
+  const std::pair key = {address, source};
+  if (!source_senders_.contains(key)) {
+    std::erase_if(source_senders_,
+                  [&](const auto& entry) { return entry.second.are_silent(moment.arrival); });
+  }
+  PoseSenders& senders = source_senders_.try_emplace(key, kFloorEnds).first->second;
+  return follows(senders, moment, [&](const auto& waits, const auto& moves) {
+    say_both({"TUIO's " + address + " as source '" + source + "'", "TUIO", "is silent for 3 s",
+              "give it another source name"},
+             waits, moves);
+  });
+}
+
+bool PoseIntake::follows_tiles(std::int32_t first, const PoseMoment& moment) {
+  PoseSenders& senders = tile_senders_.try_emplace(first, kFloorEnds).first->second;
+  return follows(senders, moment, [&](const auto& waits, const auto& moves) {
+    if (moment.arrival < next_tiles_line_) return;  // that of another sensor said it
+    next_tiles_line_ = moment.arrival + kLinePeriod;
+    say_both({"the floor's sensor " + std::to_string(first), "the floor", "is silent for 3 s",
+              "let it send other sensors"},
+             waits, moves);
+  });
+}
+
 bool PoseIntake::track(const protocol::Message& message, const PoseMoment& moment) {
   const GiveTouch touch = [&](const FloorTouch& told) { stand(told, moment.arrival); };
-  if (surfaces_.take(message, moment.arrival, touch) || floor_.take(message, touch)) return true;
+  const LetSource lets_source = [&](const std::string& address, const std::string& source) {
+    return follows_source(address, source, moment);
+  };
+  const LetTiles lets_tiles = [&](std::int32_t first) { return follows_tiles(first, moment); };
+  const bool of_floor = surfaces_.take(message, moment.arrival, touch, lets_source) ||
+                        floor_.take(message, touch, lets_tiles);
+  if (of_floor) return true;
   const bool taken = trackers_.take(message, stamp_of(moment), [&](const MappedPose& pose) {
     const auto body = static_cast<std::int32_t>(pose.body);
     const bool is_pose = pose.refusal == PoseRefusal::none;
@@ -146,18 +193,17 @@ void PoseIntake::say_far(std::int32_t body, const Vector3& place, double now) {
   if (tell_) tell_(name + " is " + *far + ": metres? z up?");
 }
 
-void PoseIntake::say_both(std::int32_t body, const protocol::Endpoint& waits,
+void PoseIntake::say_both(const Shared& shared, const protocol::Endpoint& waits,
                           const protocol::Endpoint& moves) const {
-  const std::string name = name_of(simulation_.scene(), body);
   const std::string first = to_string(waits);
   const std::string last = to_string(moves);
   std::fprintf(stderr,
-               "sim-server: %s and %s both send poses of body %s: it follows %s, which began last, "
-               "until that lets go or is silent for %.1f s. Stop one of them, or let it move "
-               "another body.\n",
-               first.c_str(), last.c_str(), name.c_str(), last.c_str(), kSenderEnds);
+               "sim-server: %s and %s both send %s: it follows %s, which began last, until that "
+               "%s. Stop one of them, or %s.\n",
+               first.c_str(), last.c_str(), shared.what.c_str(), last.c_str(), shared.until.c_str(),
+               shared.remedy.c_str());
   // A reason is cut behind 64 characters, which both addresses have to come before.
-  if (tell_) tell_(first + " yields to " + last + " on " + name);
+  if (tell_) tell_(first + " yields to " + last + " on " + shared.name);
 }
 
 std::uint64_t PoseIntake::refused() const noexcept {

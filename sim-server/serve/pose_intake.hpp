@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Passes poses from the wire to the bodies that they move, each body's from one sender at a time.
+// Passes poses from the wire to the bodies that they move, each body's from one sender at a time,
+// and what floors say to the feet on them, each source and each sensor from one sender at a time.
 // Refused poses are counted by reason and reported to stderr and to viewers, once a second at most.
 #pragma once
 
@@ -8,6 +9,7 @@
 #include <bitset>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,13 +58,28 @@ class PoseIntake {
 
  private:
   void stand(const FloorTouch& touch, double arrival) const;
+  /// What two senders both send, in the words of the line on it.
+  struct Shared {
+    std::string what;
+    std::string name;    ///< short, for viewers
+    std::string until;   ///< the sender that began last is followed
+    std::string remedy;  ///< beside stopping one of them
+  };
+  /// Whether `moment.from` is whom a floor follows. `tell` is called with who waits and who moves
+  /// it once two send at the same time.
+  [[nodiscard]] bool follows(PoseSenders& senders, const PoseMoment& moment,
+                             const std::function<void(const protocol::Endpoint& waits,
+                                                      const protocol::Endpoint& moves)>& tell);
+  [[nodiscard]] bool follows_source(const std::string& address, const std::string& source,
+                                    const PoseMoment& moment);
+  [[nodiscard]] bool follows_tiles(std::int32_t first, const PoseMoment& moment);
   [[nodiscard]] PoseRefusal give(std::int32_t body, const Vector3& position,
                                  const Quaternion& rotation, const PoseMoment& moment);
   void note(std::int32_t body, PoseRefusal refusal, double now);
   void say(std::int32_t body, PoseRefusal refusal, double now);
   /// Of a body that a pose puts far from the water, once until it comes near.
   void say_far(std::int32_t body, const Vector3& place, double now);
-  void say_both(std::int32_t body, const protocol::Endpoint& waits,
+  void say_both(const Shared& shared, const protocol::Endpoint& waits,
                 const protocol::Endpoint& moves) const;
 
   const Simulation& simulation_;
@@ -70,12 +87,15 @@ class PoseIntake {
   TrackerMap trackers_;
   TuioFeet surfaces_;
   PressureFeet floor_;
-  std::vector<PoseSenders> senders_;  ///< of each body
+  std::vector<PoseSenders> senders_;                  ///< of each body
+  std::map<std::int32_t, PoseSenders> tile_senders_;  ///< by the first sensor of their messages
+  std::map<std::pair<std::string, std::string>, PoseSenders> source_senders_;  ///< of TUIO
   std::array<std::atomic<std::uint64_t>, kPoseRefusals> counts_ = {};
   std::bitset<256> reported_;  ///< bodies that no pose can move
   std::bitset<256> far_;       ///< bodies that were told to be far from the water
   double next_line_ = 0.0;     ///< monotonic [s]
   double next_far_line_ = 0.0;
+  double next_tiles_line_ = 0.0;
 };
 
 }  // namespace splash::sim

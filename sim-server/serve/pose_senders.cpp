@@ -15,7 +15,7 @@ constexpr double kLinePeriod = 1.0;  ///< between two lines on a body [s]
 }  // namespace
 
 bool PoseSenders::lets(const protocol::Endpoint& from, double now) const {
-  const auto sends = [now](const Sender& sender) { return now - sender.heard <= kSenderEnds; };
+  const auto sends = [&](const Sender& sender) { return now - sender.heard <= ends_; };
   const auto own = std::find_if(senders_.begin(), senders_.end(),
                                 [&](const Sender& sender) { return sender.from == from; });
   if (own == senders_.end() || !sends(*own)) return true;
@@ -37,13 +37,18 @@ std::optional<protocol::Endpoint> PoseSenders::hear(const protocol::Endpoint& fr
     senders_.push_back({from, now, now});
     return std::nullopt;
   }
-  if (now - own->heard > kSenderEnds) own->began = now;
+  if (now - own->heard > ends_) own->began = now;
   own->heard = now;
   const bool is_told = followed_ == from || own->told == followed_ || now < next_line_;
   if (!followed_ || is_told) return std::nullopt;
   own->told = followed_;
   next_line_ = now + kLinePeriod;
   return followed_;
+}
+
+bool PoseSenders::are_silent(double now) const {
+  return std::all_of(senders_.begin(), senders_.end(),
+                     [&](const Sender& sender) { return now - sender.heard > ends_; });
 }
 
 void PoseSenders::forget(const protocol::Endpoint& from) {

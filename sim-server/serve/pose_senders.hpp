@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which sender of poses moves a body: of those that send, the one that began last. What sends again
-// after a silence begins anew.
+// Which of several senders is followed, for a body's poses or for a floor: of those that send, the
+// one that began last. What sends again after a silence begins anew.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,17 @@
 
 namespace splash::sim {
 
-/// A sender that says nothing for longer than this has ended [s].
+/// A sender of poses that says nothing for longer than this has ended [s].
 inline constexpr double kSenderEnds = 0.5;
+/// The same of a floor, of which nobody may touch anything for a while [s].
+inline constexpr double kFloorEnds = 3.0;
 
-/// The senders of one body's poses.
+/// The senders of one body's poses, or of one floor.
 class PoseSenders {
  public:
+  /// `ends`: the silence after which a sender has ended [s].
+  explicit PoseSenders(double ends = kSenderEnds) : ends_(ends) {}
+
   /// Whether a pose that `from` sends at `now` [s] moves the body: no other sender began later.
   [[nodiscard]] bool lets(const protocol::Endpoint& from, double now) const;
   /// A pose of `from` came. Returns whom the body follows in its place, the first time that these
@@ -26,6 +31,7 @@ class PoseSenders {
   /// Whose last pose the body followed; empty: it takes none.
   void follow(const std::optional<protocol::Endpoint>& followed) { followed_ = followed; }
   [[nodiscard]] bool is_followed() const noexcept { return followed_.has_value(); }
+  [[nodiscard]] bool are_silent(double now) const;
   /// Until `from` sends again the others have the body; then it begins anew.
   void forget(const protocol::Endpoint& from);
 
@@ -36,6 +42,7 @@ class PoseSenders {
     double heard = 0.0;                           ///< its last one [s]
     std::optional<protocol::Endpoint> told = {};  ///< the other one of the last line on it
   };
+  double ends_;  ///< [s]
   std::vector<Sender> senders_;
   std::optional<protocol::Endpoint> followed_;
   double next_line_ = -std::numeric_limits<double>::infinity();  ///< [s]

@@ -53,9 +53,10 @@ PressureFeet::PressureFeet(const Scene& scene)
   }
 }
 
-bool PressureFeet::take(const protocol::Message& message, const GiveTouch& give) {
+bool PressureFeet::take(const protocol::Message& message, const GiveTouch& give,
+                        const LetTiles& lets) {
   if (feet_.empty() || message.address != "/tile/pressure") return false;
-  if (tiles_.take(message)) follow(tiles_.loads(), give);
+  if (tiles_.take(message, lets)) follow(tiles_.loads(), give);
   return true;
 }
 

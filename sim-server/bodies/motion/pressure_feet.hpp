@@ -21,9 +21,9 @@ class PressureFeet {
  public:
   explicit PressureFeet(const Scene& scene);
 
-  /// Tells what each foot does now, once a scan of the floor is complete. False: no message of a
-  /// floor, or of one that the scene has no use for.
-  bool take(const protocol::Message& message, const GiveTouch& give);
+  /// Tells what each foot does now, once a scan of the floor is complete, of the readings that
+  /// count. False: no message of a floor, or of one that the scene has no use for.
+  bool take(const protocol::Message& message, const GiveTouch& give, const LetTiles& lets = {});
   /// The same for loads.
   void follow(const std::vector<TileLoad>& loads, const GiveTouch& give);
 

@@ -21,11 +21,12 @@ TileLoads::TileLoads(const TrackingSettings& tracking)
       turn_(from_turn({0.0, 0.0, std::numbers::pi / 180.0 * tracking.yaw})),
       readings_(static_cast<std::size_t>(floor_.columns * floor_.rows * floor_.sensors), 0.0) {}
 
-bool TileLoads::take(const protocol::Message& message) {
+bool TileLoads::take(const protocol::Message& message, const LetTiles& lets) {
   if (message.arguments.empty()) return false;
   const auto* first = std::get_if<std::int32_t>(&message.arguments.front());
   if (first == nullptr || *first < 0) return false;
   std::size_t at = static_cast<std::size_t>(*first);
+  if (lets && at < readings_.size() && !lets(*first)) return false;
   for (std::size_t i = 1; i < message.arguments.size() && at < readings_.size(); ++i, ++at) {
     const auto* force = std::get_if<float>(&message.arguments[i]);
     // A floor only pushes: what is below zero is a sensor's drift.

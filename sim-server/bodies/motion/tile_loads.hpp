@@ -2,13 +2,17 @@
 // What the tiles of a floor carry: readings of their force sensors to a force and a place for each.
 #pragma once
 
-#include <optional>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "protocol/message.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
+
+/// Whether readings that begin with this sensor count; empty: all do.
+using LetTiles = std::function<bool(std::int32_t first)>;
 
 /// What a tile carries.
 struct TileLoad {
@@ -24,7 +28,7 @@ class TileLoads {
 
   /// /tile/pressure first f...: takes the readings in. True: with these a scan is complete, or they
   /// begin another one.
-  bool take(const protocol::Message& message);
+  bool take(const protocol::Message& message, const LetTiles& lets = {});
   /// Tiles that carry more than nothing, as of the last readings.
   [[nodiscard]] std::vector<TileLoad> loads() const;
 

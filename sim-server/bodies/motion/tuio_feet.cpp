@@ -48,12 +48,13 @@ std::optional<Quaternion> TuioFeet::rotation_of(const Foot& foot, const TuioCurs
   return unit(compose(turn_, compose(turned, foot.rest)));
 }
 
-bool TuioFeet::take(const protocol::Message& message, double arrival, const GiveTouch& give) {
+bool TuioFeet::take(const protocol::Message& message, double arrival, const GiveTouch& give,
+                    const LetSource& lets) {
   const bool wanted = std::any_of(feet_.begin(), feet_.end(), [&](const Foot& foot) {
     return foot.settings.address == message.address;
   });
   if (!wanted) return false;
-  if (const auto frame = reader_.take(message, arrival)) follow(*frame, arrival, give);
+  if (const auto frame = reader_.take(message, arrival, lets)) follow(*frame, arrival, give);
   return true;
 }
 

@@ -18,9 +18,10 @@ class TuioFeet {
  public:
   explicit TuioFeet(const Scene& scene);
 
-  /// Tells what each foot does now, once a frame is complete. False: the scene has no use for such
-  /// a message.
-  bool take(const protocol::Message& message, double arrival, const GiveTouch& give);
+  /// Tells what each foot does now, once a frame is complete of a source that may speak. False: the
+  /// scene has no use for such a message.
+  bool take(const protocol::Message& message, double arrival, const GiveTouch& give,
+            const LetSource& lets = {});
 
  private:
   /// The address, the source and its session number.

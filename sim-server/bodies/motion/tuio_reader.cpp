@@ -87,7 +87,8 @@ void TuioReader::change(Source& source, const protocol::Message& message) {
   source.changed[*id] = cursor;
 }
 
-std::optional<TuioFrame> TuioReader::take(const protocol::Message& message, double arrival) {
+std::optional<TuioFrame> TuioReader::take(const protocol::Message& message, double arrival,
+                                          const LetSource& lets) {
   const auto what = text_at(message, 0);
   if (!what || layout_of(message.address) == nullptr) return std::nullopt;
   if (*what == "source") {
@@ -96,6 +97,10 @@ std::optional<TuioFrame> TuioReader::take(const protocol::Message& message, doub
   }
   Source* const source = open(message.address, arrival);
   if (source == nullptr) return std::nullopt;
+  if (lets && !lets(message.address, source->frame.source)) {
+    if (*what == "fseq") speaking_[message.address].clear();
+    return std::nullopt;
+  }
   if (*what == "set") change(*source, message);
   if (*what == "alive") {
     source->alive.clear();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ struct TuioFrame {
   std::map<std::int32_t, TuioCursor> cursors;
 };
 
+/// Whether a source at an address may speak, asked for each of its messages; empty: all may.
+using LetSource = std::function<bool(const std::string& address, const std::string& source)>;
+
 /// True for the addresses above.
 [[nodiscard]] bool is_tuio(const std::string& address) noexcept;
 
@@ -35,7 +39,8 @@ class TuioReader {
  public:
   /// A message at one of the addresses, in the order of its bundle, at `arrival` [s]. What lives,
   /// once a frame is complete and no older than the one before.
-  std::optional<TuioFrame> take(const protocol::Message& message, double arrival);
+  std::optional<TuioFrame> take(const protocol::Message& message, double arrival,
+                                const LetSource& lets = {});
 
  private:
   struct Source {
