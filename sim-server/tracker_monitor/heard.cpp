@@ -25,8 +25,10 @@ std::string host_of(std::uint32_t address) {
   return text.substr(0, text.rfind(':'));
 }
 
+/// Its types and the texts before its numbers: a sender that writes 1 where it means 1.0 sends
+/// messages of two kinds, of which one may be no pose.
 std::string labels_of(const protocol::Message& message) {
-  std::string labels;
+  std::string labels = protocol::type_tags(message) + ' ';
   for (const auto& argument : message.arguments) {
     const auto* text = std::get_if<std::string>(&argument);
     if (text == nullptr) break;

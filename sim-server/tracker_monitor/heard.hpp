@@ -23,7 +23,8 @@ class Heard {
   [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }
 
  private:
-  /// One tracker's messages: an address, the texts before its numbers, who sends it and where to.
+  /// One tracker's messages: an address, the types and the texts before its numbers, who sends it
+  /// and where to.
   struct Key {
     std::string address;
     std::string labels;

@@ -19,6 +19,12 @@ constexpr double kNotMetres = 20.0;     ///< coordinates beyond are no metres of
 
 const std::string kHole = "{name}";
 
+constexpr const char* kWhatAxesAre =
+    "# see that `axes` are the sender's: [x, y, z] has z up, [x, -z, y] has y up, [x, z, y] has\n"
+    "# y up and is mirrored. Lift the tracker: the number that changes is the scene's z. Move it\n"
+    "# along the scene's x, then its y: these change. What falls where it should grow wants a -.\n"
+    "# `position` and `yaw` of `tracking` say where the sender's room lies in the scene\n";
+
 /// What stands for {name} in `text`: of a text without the hole "", if it is the same.
 std::optional<std::string> name_in(const std::string& pattern, const std::string& text) {
   const std::size_t at = pattern.find(kHole);
@@ -60,11 +66,29 @@ std::string source_lines(const std::string& source) {
   return "tracking:\n  sources:\n    - {body: BODY, " + source + "}\n";
 }
 
+/// Whether what is set, a cursor, an object or a blob, is within the surface's edges.
+bool is_on_surface(const protocol::Message& message) {
+  const std::size_t x = message.address == "/tuio/2Dobj" ? 3 : 2;
+  for (std::size_t i = x; i < std::min(x + 2, message.arguments.size()); ++i) {
+    const auto* const part = std::get_if<float>(&message.arguments[i]);
+    if (part != nullptr && !(*part >= 0.0F && *part <= 1.0F)) return false;
+  }
+  return true;
+}
+
 /// Of a whole bundle the lines are offered once.
 std::optional<std::string> of_surface(const protocol::Message& message) {
-  if (!message.address.starts_with("/tuio/2D")) return std::nullopt;
-  const bool first = !message.arguments.empty() && text_of(message.arguments.front()) == "alive";
-  if (!first) return "# part of a frame, see alive\n";
+  if (!message.address.starts_with("/tuio/")) return std::nullopt;
+  if (!message.address.starts_with("/tuio/2D")) {
+    return "# of TUIO only /tuio/2Dcur, /tuio/2Dobj and /tuio/2Dblb are read: send one of these\n";
+  }
+  const std::string part =
+      message.arguments.empty() ? std::string() : text_of(message.arguments.front());
+  if (part == "set" && !is_on_surface(message)) {
+    return "# x or y is beyond 0 to 1, the surface's edges: TUIO counts in parts of the surface.\n"
+           "# Pixels or millimetres put feet beside it: change that in the sender\n";
+  }
+  if (part != "alive") return "# part of a frame, see alive\n";
   const bool plain = message.address == tracker_presets().at("tuio").address;
   return source_lines("preset: tuio, floor: [1.83, 1.83]" +
                       (plain ? "" : ", address: " + message.address)) +
@@ -112,7 +136,10 @@ std::string spelled_out(const protocol::Message& message) {
     if (number == nullptr) break;
     numbers.push_back(static_cast<double>(*number));
   }
-  if (numbers.size() < 3) return "# no position: three numbers at least (type f) are wanted\n";
+  if (numbers.size() < 3) {
+    return "# no position: three numbers at least of type f are wanted, behind what names the\n"
+           "# tracker. A sender that writes 1 where it means 1.0 sends type i: let it write 1.0\n";
+  }
   std::string source = "address: " + message.address;
   std::string match;
   for (std::size_t i = 0; i < first; ++i) {
@@ -124,7 +151,12 @@ std::string spelled_out(const protocol::Message& message) {
   if (numbers.size() >= 7) {
     const double length =
         std::hypot(std::hypot(numbers[3], numbers[4]), std::hypot(numbers[5], numbers[6]));
-    if (std::abs(length - 1.0) <= kUnitTolerance) source += ", rotation: " + list_of(first + 3, 4);
+    if (std::abs(length - 1.0) <= kUnitTolerance) {
+      source += ", rotation: " + list_of(first + 3, 4);
+      std::string w_first = list_of(first + 4, 3);
+      w_first.insert(w_first.size() - 1, ", " + std::to_string(first + 3));
+      doubt += "# `rotation` is x, y, z, w; of a sender that begins with w it is " + w_first + "\n";
+    }
   } else if (numbers.size() == 6) {
     source += ", rotation: " + list_of(first + 3, 3);
     doubt += "# three angles: see that `euler` and `angles` are the sender's\n";
@@ -133,7 +165,7 @@ std::string spelled_out(const protocol::Message& message) {
     source += ", unit: 0.001";
     doubt += "# taken for millimetres: see that `unit` is the sender's\n";
   }
-  return source_lines(source) + doubt + "# see that `axes` are the sender's: [x, y, z] has z up\n";
+  return source_lines(source) + doubt + kWhatAxesAre;
 }
 
 }  // namespace
@@ -144,7 +176,8 @@ std::string mapping_lines(const protocol::Message& message) {
   }
   if (message.address == "/tile/pressure") {
     return "tracking:\n  floor: {columns: 6, rows: 6, tile: 0.305, sensors: 1}\n"
-           "# and a body for each foot, with motion: {kind: pressure}\n";
+           "# with the numbers of this floor, and a body for each foot, with motion: {kind: "
+           "pressure}\n";
   }
   if (protocol::find_address(message.address) != nullptr) {
     return "# a message of splash's own (protocol/README.md), no pose\n";

@@ -24,8 +24,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The one pose that messages make in a scene with the lines offered for the first of them.
-std::optional<MappedPose> pose_by(const std::vector<Message>& messages) {
+/// The one pose that messages make in a scene with the lines offered for the first of them, and
+/// what a user adds to its source.
+std::optional<MappedPose> pose_by(const std::vector<Message>& messages,
+                                  const std::string& more = "") {
   std::string lines = mapping_lines(messages.front());
   const std::size_t at = lines.find("BODY");
   if (at == std::string::npos) return std::nullopt;
@@ -34,7 +36,7 @@ std::optional<MappedPose> pose_by(const std::vector<Message>& messages) {
       "water: [{lower: [0, 0, 0], upper: [1, 1, 0.5]}]\nbodies:\n"
       "  - {name: hand, shape: {size: [0.1, 0.1, 0.1]}, motion: {kind: osc}, "
       "rest: {position: [0, 0, 1]}}\n" +
-          lines.replace(at, 4, "hand"),
+          lines.insert(lines.find('}', at), more).replace(at, 4, "hand"),
       "offered.yaml");
   TrackerMap map(scene);
   std::optional<MappedPose> found;
@@ -73,7 +75,35 @@ TEST(Listen, SpellsOutWhatNoPresetKnows) {
   EXPECT_NEAR(turned->rotation[1], 0.6, 1.0e-6);
   expect_at(pose_by({{"/mm", {1000.0F, 2000.0F, 300.0F}}}), {1.0, 2.0, 0.3});
   EXPECT_THAT(mapping_lines({"/button", {1}}), HasSubstr("no position"));
+  EXPECT_THAT(mapping_lines({"/phone", {1000, 2000, 300}}), HasSubstr("let it write 1.0"));
+  EXPECT_THAT(
+      mapping_lines({"/wand", {1.0F, 2.0F, 3.0F, 1.0F, 0.0F, 0.0F, 0.0F}}),
+      AllOf(HasSubstr("rotation: [3, 4, 5, 6]"), HasSubstr("begins with w it is [4, 5, 6, 3]")));
   EXPECT_THAT(mapping_lines({"/body/pose", {0, 1.0F}}), HasSubstr("needs no line"));
+}
+
+// The axes that are named for a sender with y up put what it sends where it is, to the left as to
+// the right.
+TEST(Listen, NamesTheAxesOfSendersWithYUp) {
+  const Message message = {"/wand", {1.0F, 2.0F, 3.0F}};
+  const std::string words = mapping_lines(message);
+  EXPECT_THAT(words, AllOf(HasSubstr("[x, -z, y] has y up,"),
+                           HasSubstr("[x, z, y] has\n# y up and is mirrored")));
+  expect_at(pose_by({message}, ", axes: [x, -z, y]"), {1.0, -3.0, 2.0});
+  expect_at(pose_by({message}, ", axes: [x, z, y]"), {1.0, 3.0, 2.0});
+}
+
+TEST(Listen, SaysWhatOfTuioIsNotRead) {
+  const auto set = [](float x, float y) {
+    return mapping_lines({"/tuio/2Dcur", {std::string("set"), 3, x, y, 0.0F, 0.0F, 0.0F}});
+  };
+  EXPECT_THAT(set(0.2F, 1.0F), HasSubstr("see alive"));
+  EXPECT_THAT(set(0.2F, 480.0F), HasSubstr("beyond 0 to 1"));
+  EXPECT_THAT(set(-0.2F, 0.5F), HasSubstr("beyond 0 to 1"));
+  const Message object = {"/tuio/2Dobj", {std::string("set"), 3, 40, 0.5F, 0.5F, 3.0F}};
+  EXPECT_THAT(mapping_lines(object), HasSubstr("see alive")) << "angles are no places";
+  EXPECT_THAT(mapping_lines({"/tuio/3Dcur", {std::string("alive"), 3}}),
+              HasSubstr("only /tuio/2Dcur"));
 }
 
 TEST(Listen, TellsOnceHowEachIsMappedAndHowOftenItComes) {
@@ -91,6 +121,10 @@ TEST(Listen, TellsOnceHowEachIsMappedAndHowOftenItComes) {
   EXPECT_THAT(just.report(0.001), HasSubstr("2.0/s")) << "one came";
   heard.take(packet, phone, 57300, 1.1);
   EXPECT_THAT(heard.report(1.5), AllOf(HasSubstr("2.0/s"), Not(HasSubstr("tracking:"))));
+  heard.take(protocol::encode(Message{"/phone", {0, 2.0F, 3.0F}}), phone, 57300, 1.6);
+  heard.take(packet, phone, 57300, 1.6);
+  EXPECT_THAT(heard.report(2.0), AllOf(HasSubstr(",iff 0 2.000 3.000\n        # no position"),
+                                       HasSubstr(",fff 1.000 2.000 3.000")));
 }
 
 TEST(Listen, TellsWhatTheGateRefuses) {
