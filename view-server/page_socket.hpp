@@ -75,7 +75,6 @@ class Page : public std::enable_shared_from_this<Page> {
     beast::get_lowest_layer(socket_).close();
     owner_.left(shared_from_this());
   }
-  std::set<std::int32_t> grabbed = {};    ///< bodies
   std::set<std::string> listens_to = {};  ///< addresses of the tree
 
  private:

@@ -20,8 +20,10 @@
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/reply_budget.hpp"
+#include "protocol/time_tag.hpp"
 #include "view-server/admission.hpp"
 #include "view-server/feed.hpp"
+#include "view-server/holds.hpp"
 #include "view-server/page_socket.hpp"
 #include "view-server/query.hpp"
 #include "view-server/visit.hpp"
@@ -139,7 +141,11 @@ class Server::Hub final : public PageOwner, public Host {
   void wants_state() override { ask_for_state(); }
   void left(const std::shared_ptr<Page>& page) override {
     if (pages_.erase(page) + listeners_.erase(page) == 0) return;
-    for (const std::int32_t body : page->grabbed) say(options_.sim, {"/body/grab", {body, 0}});
+    for (const std::int32_t body : holds_.of(page.get())) {
+      holds_.let_go(body, page.get());
+      say(options_.sim, {"/body/grab", {body, 0}});
+    }
+    tell_presence();
     look();
   }
 
@@ -189,7 +195,7 @@ class Server::Hub final : public PageOwner, public Host {
   }
 
   void greet(Page& page) {
-    page.send(presence(), Page::Content::text);
+    page.send(presence(page), Page::Content::text);
     for (const Feed* feed : {&water_, &sound_}) {
       if (feed->connected()) page.send(feed->greeting());
     }
@@ -213,7 +219,7 @@ class Server::Hub final : public PageOwner, public Host {
       case Way::synth:
         return say(options_.synth, said.message);
       case Way::sim:
-        if (page != nullptr) note_grab(*page, said.message);
+        if (!may_say(said.message, page)) return;
         if (said.made) return send(options_.sim, protocol::encode(*said.made, {said.message}));
         return say(options_.sim, said.message);
     }
@@ -260,18 +266,24 @@ class Server::Hub final : public PageOwner, public Host {
     });
   }
 
-  [[nodiscard]] SharedFrame presence() const {
-    const std::string text = std::string(R"({"sim": )") + (water_.connected() ? "true" : "false") +
-                             R"(, "synth": )" + (sound_.connected() ? "true" : "false") + "}";
+  [[nodiscard]] SharedFrame presence(const Page& page) const {
+    const std::string text = nlohmann::json({{"sim", water_.connected()},
+                                             {"synth", sound_.connected()},
+                                             {"held", holds_.of_others(&page)}})
+                                 .dump();
     protocol::ViewFrame bytes(text.size());
     std::transform(text.begin(), text.end(), bytes.begin(),
                    [](char c) { return static_cast<std::byte>(c); });
     return std::make_shared<const protocol::ViewFrame>(std::move(bytes));
   }
 
+  void tell_presence() {
+    for (const auto& page : pages_) page->send(presence(*page), Page::Content::text);
+  }
+
   void note_feed(const Feed& feed) {
     (&feed == &sound_ ? sound_asked_ : state_asked_) = false;
-    for (const auto& page : pages_) page->send(presence(), Page::Content::text);
+    tell_presence();
     if (!feed.connected()) return;
     ask_for_sound();
     subscribe();
@@ -347,14 +359,22 @@ class Server::Hub final : public PageOwner, public Host {
         bytes_of(protocol::pong(std::get<protocol::TimeTag>(ping.arguments.front()), now, now)));
   }
 
-  static void note_grab(Page& page, const protocol::Message& message) {
-    if (message.address != "/body/grab") return;
-    const auto body = std::get<std::int32_t>(message.arguments[0]);
-    if (std::get<std::int32_t>(message.arguments[1]) != 0) {
-      page.grabbed.insert(body);
-    } else {
-      page.grabbed.erase(body);
+  /// Not of a body that another visitor holds.
+  bool may_say(const protocol::Message& message, Page* page) {
+    const bool grab = message.address == "/body/grab";
+    if (!grab && message.address != "/body/pose") return true;
+    const auto* body = std::get_if<std::int32_t>(&message.arguments[0]);
+    if (body == nullptr) return true;  // by its name: another program's
+    const double now = protocol::monotonic_now();
+    if (!grab) return holds_.moves(*body, page, now);
+    const bool takes = std::get<std::int32_t>(message.arguments[1]) != 0;
+    const bool may = takes ? holds_.take(*body, page, now) : holds_.let_go(*body, page);
+    if (!may && page != nullptr) {
+      page->send(bytes_of(
+          protocol::fail(message.address, "another visitor holds body " + std::to_string(*body))));
     }
+    tell_presence();
+    return may;
   }
 
   void listen_to_programs() {
@@ -416,6 +436,7 @@ class Server::Hub final : public PageOwner, public Host {
   bool looks_ = false;       ///< at the programs
   std::chrono::steady_clock::time_point looks_since_ = {};
   Known known_;
+  Holds holds_;
   std::map<std::string, float> changed_;  ///< numbers of rig and scene since their frames
   bool state_asked_ = false;
   bool sound_asked_ = false;

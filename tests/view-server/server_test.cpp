@@ -23,6 +23,7 @@
 #include "protocol/frame_stream.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
+#include "view-server/holds.hpp"
 
 namespace splash::view {
 namespace {
@@ -133,6 +134,20 @@ class ViewServer : public testing::Test {
     return false;
   }
 
+  /// The next body that the simulator is told to take or let go; -1: it is told a pose first, or
+  /// nothing.
+  int next_grab() {
+    std::array<std::byte, protocol::kMaxDatagram> buffer;
+    for (int i = 0; i < 100; ++i) {
+      const auto got = sim_.receive(buffer.data(), buffer.size(), 5.0);
+      if (!got) return -1;
+      const auto said = protocol::decode({buffer.data(), got->size}).packet.messages.at(0);
+      if (said.address == "/body/pose") return -1;
+      if (said.address == "/body/grab") return std::get<std::int32_t>(said.arguments[0]);
+    }
+    return -1;
+  }
+
   protocol::FrameStream water_;
   protocol::FrameStream sound_;
   protocol::UdpSocket sim_;
@@ -220,6 +235,45 @@ TEST_F(ViewServer, CommandsReachTheProgramsAndWhatWasGrabbedIsLetGo) {
     EXPECT_THAT(page->hear("a page may not say this"), HasSubstr("/quit"));
   }
   EXPECT_TRUE(gets(sim_, "/body/grab")) << "the page has gone";
+}
+
+// To the simulator both are one sender.
+TEST_F(ViewServer, ABodyIsHeldByOneVisitorAtATime) {
+  const auto pose = [](float x) {
+    return osc(
+        protocol::to_message(protocol::BodyPose{2, {x, 0.0F, 0.4F}, 0.0F, 0.0F, 0.0F, 1.0F}));
+  };
+  auto first = open();
+  const auto second = open();
+  first->say(message(2, osc({"/body/grab", {2, 1}})));
+  EXPECT_THAT(second->hear("[2]"), HasSubstr(R"("held":[2])"));
+  first->say(message(2, pose(0.1F)));
+  EXPECT_TRUE(gets(sim_, "/body/pose"));
+  second->say(message(2, osc({"/body/grab", {2, 1}})));
+  EXPECT_THAT(second->hear("[2]"), HasSubstr("another visitor holds body 2"));
+  second->say(message(2, pose(0.2F)));
+  second->say(message(2, osc({"/body/grab", {2, 0}})));
+  second->say(message(2, osc({"/body/grab", {3, 1}})));
+  EXPECT_EQ(next_grab(), 3) << "the body that is held elsewhere hears nothing of the second one";
+  first.reset();
+  EXPECT_EQ(next_grab(), 2) << "let go by the server, since its visitor is gone";
+  EXPECT_THAT(second->hear("[]"), HasSubstr(R"("held":[])"));
+  second->say(message(2, osc({"/body/grab", {2, 1}})));
+  EXPECT_EQ(next_grab(), 2);
+}
+
+TEST(Holds, ASilentVisitorLosesItsBodyToTheNextWhoTakesIt) {
+  const int one = 0;
+  const int other = 0;
+  Holds holds;
+  EXPECT_TRUE(holds.take(0, &one, 0.0));
+  EXPECT_TRUE(holds.moves(0, &one, 1.0));
+  EXPECT_FALSE(holds.take(0, &other, 1.4));
+  EXPECT_TRUE(holds.take(0, &other, 1.6));
+  EXPECT_FALSE(holds.moves(0, &one, 1.7));
+  EXPECT_FALSE(holds.let_go(0, &one));
+  EXPECT_THAT(holds.of_others(&one), testing::ElementsAre(0));
+  EXPECT_THAT(holds.of_others(&other), testing::IsEmpty());
 }
 
 /// The JSON that comes for a path.

@@ -84,6 +84,36 @@ TEST_F(Hands, APenHoldsTheDisc) {
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
+/// Another visitor, of whom only the connection is there.
+constexpr const char* kVisitor = R"js((async () => {
+  const { encode } = await import('/osc.js');
+  window.visitor = new WebSocket(`ws://${location.host}/view`);
+  await new Promise((open) => { visitor.onopen = open; });
+  visitor.send(encode('/body/grab', ',ii', 0, 1));
+}))js";
+
+TEST_F(Hands, ABodyThatAnotherVisitorHoldsIsNotTakenAndIsSaidToBeHeld) {
+  PlayedPage& page = PlayedPage::shared();
+  page.load("?points", 300, 220);
+  Chromium& browser = page.browser();
+  const Json at = way_down(browser)[0];
+  browser.evaluate(std::string(kVisitor) + "()");
+  ASSERT_TRUE(browser.wait_for("splash.grabs.isHeld(0)", PlayedPage::kTimeout));
+  const auto press = [&] {
+    browser.mouse("mousePressed", at[0], at[1]);
+    const bool holds = browser.evaluate("splash.grabs.holds(0)");
+    browser.mouse("mouseReleased", at[0], at[1]);
+    return holds;
+  };
+  EXPECT_FALSE(press());
+  EXPECT_EQ(browser.evaluate("document.getElementById('state').textContent"),
+            "Another visitor holds disc; it is free when they let go");
+  browser.evaluate("visitor.close()");
+  ASSERT_TRUE(browser.wait_for("!splash.grabs.isHeld(0)", PlayedPage::kTimeout));
+  EXPECT_TRUE(press());
+  EXPECT_THAT(browser.errors(), IsEmpty());
+}
+
 /// `points`: [[x, y], ...] of the fingers that touch the page, each under its number.
 void touch(Chromium& browser, const char* type, const Json& points) {
   Json fingers = Json::array();

@@ -32,7 +32,7 @@ export class Gamepads {
       return;
     }
     if (!hold) {
-      const index = this.solids.bodies.findIndex((body, i) => !body.free && !this.grabs.holds(i));
+      const index = this.solids.bodies.findIndex((body, i) => !body.free && !this.grabs.isHeld(i));
       if (index < 0) return;
       const { place, turn } = this.solids.bodies[index];
       if (!this.grabs.take(holder, index, place, turn)) return;

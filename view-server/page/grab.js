@@ -16,6 +16,7 @@ export class Grabs {
   constructor(link) {
     this.link = link;
     this.held = new Map(); // holder -> what it holds
+    this.elsewhere = []; // bodies that other visitors hold
     this.box = null;
     setInterval(() => this.send(), (1000 * PERIOD) / 2);
   }
@@ -31,8 +32,21 @@ export class Grabs {
     return [...this.held.values()].some((grab) => grab.index === index);
   }
 
+  /// Whether somebody holds it, here or at another page.
+  isHeld(index) {
+    return this.holds(index) || this.elsewhere.includes(index);
+  }
+
+  /// Other visitors hold these bodies; returns those of them that were thought to be held here.
+  heldElsewhere(indices) {
+    this.elsewhere = indices;
+    const lost = [...this.held].filter(([, { index }]) => indices.includes(index));
+    for (const [holder] of lost) this.held.delete(holder);
+    return lost.map(([, { index }]) => index);
+  }
+
   take(holder, index, place, turn) {
-    if (this.holds(index)) return false;
+    if (this.isHeld(index)) return false;
     const now = seconds();
     this.held.set(holder, { index, place: [...place], turn: [...turn],
       path: new HandPath(place, turn, now), filter: new OneEuro(place), next: now });

@@ -66,6 +66,7 @@ const link = new Link({
   closed: () => { alive = { sim: false, synth: false }; playout.clear(); },
   told: (said) => {
     alive = said;
+    grabs.heldElsewhere(said.held).forEach(tellHeld);
     if (!said.sim || !said.synth) words.forget();
   },
   SPC1: (scene) => {
@@ -115,7 +116,7 @@ const panel = new Panel(at, link, (what, name) => {
   if (what === 'scene') centres = true;
   tellState();
 });
-const pointers = new Pointers(canvas, camera, solids, grabs);
+const pointers = new Pointers(canvas, camera, solids, grabs, tellHeld);
 const gamepads = new Gamepads(camera, solids, grabs);
 const film = new Film(canvas, sound);
 
@@ -165,6 +166,10 @@ function refused([command, reason]) {
     panel.rigs.reset();
   }
   warn(`${command}: ${reason}${reason.includes(' yields to ') ? '; stop one of these senders' : ''}`);
+}
+
+function tellHeld(index) {
+  warn(`Another visitor holds ${world.bodies[index].name}; it is free when they let go`);
 }
 
 let warned = -Infinity; // when [ms]
@@ -217,7 +222,7 @@ function poseBodies({ older, newer, share: t }) {
   newer.bodies.forEach((body, i) => {
     const from = older.bodies[i] ?? body;
     solids.pose(i, mix(from.place, body.place, t), between(from.turn, body.turn, t));
-    solids.bodies[i].glow = grabs.holds(i) ? 1 : pointers.hovered === i ? 0.45 : 0;
+    solids.bodies[i].glow = grabs.holds(i) ? 1 : pointers.hovered === i && !grabs.isHeld(i) ? 0.45 : 0;
   });
 }
 

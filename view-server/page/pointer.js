@@ -8,8 +8,9 @@ import { about, add, conjugate, dot, product, scale, sub, turn } from './vector.
 const MOVES = 'onpointerrawupdate' in window ? 'pointerrawupdate' : 'pointermove';
 
 export class Pointers {
-  constructor(canvas, camera, solids, grabs) {
-    Object.assign(this, { canvas, camera, solids, grabs });
+  /// `refused(index)`: another visitor holds the body that was to be taken.
+  constructor(canvas, camera, solids, grabs, refused) {
+    Object.assign(this, { canvas, camera, solids, grabs, refused });
     this.down = new Map(); // pointer id -> {x, y, depth, offset} or {x, y} of the camera
     const on = (name, act) => canvas.addEventListener(name, act, { passive: false });
     on('pointerdown', (e) => this.start(e));
@@ -47,7 +48,8 @@ export class Pointers {
     const ray = this.rayOf(event);
     const { index, distance } = event.button === 2 ? { index: -1 } : this.pick(ray);
     const hold = { x: event.clientX, y: event.clientY };
-    if (index >= 0) {
+    if (this.grabs.elsewhere.includes(index)) this.refused(index);
+    else if (index >= 0) {
       const body = this.solids.bodies[index];
       const hit = add(ray.from, scale(ray.along, distance));
       if (this.grabs.take(event.pointerId, index, body.place, body.turn)) {
@@ -70,7 +72,7 @@ export class Pointers {
     if (!hold) {
       const over = this.pick(this.rayOf(event)).index;
       this.hovered = over;
-      this.canvas.style.cursor = over >= 0 ? 'grab' : 'default';
+      this.canvas.style.cursor = over < 0 ? 'default' : this.grabs.isHeld(over) ? 'not-allowed' : 'grab';
       return;
     }
     if (hold.depth === undefined) this.turnCamera(hold, event);
