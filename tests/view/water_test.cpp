@@ -67,6 +67,22 @@ TEST_F(DrawnWater, TheFarWallsMirrorTheFloor) {
   EXPECT_THAT(browser().errors(), IsEmpty());
 }
 
+// Shallow water over a beach: the ray meets the slope, not the level floor below it.
+TEST_F(DrawnWater, TheFarWallMirrorsABeach) {
+  const auto build = [](const std::string& slope) {
+    browser().evaluate("splash.solids.build(Object.assign(splash.world(), { slope: " + slope +
+                       " }))");
+  };
+  build("{ foot: -0.2, gradient: 0.4 }");
+  constexpr double kNear = PlayedPage::kHalf - 0.008;  // of the wall; the water is 2 to 6 cm deep
+  const double far = brightness(browser(), {{-0.1, kNear, 0.0, kNear}});
+  const double front = brightness(browser(), {{-0.1, -0.1, 0.0, -0.1}});
+  build("null");
+  EXPECT_GT(far, 0.8 * front);
+  RecordProperty("far_to_front", std::to_string(far / front));
+  EXPECT_THAT(browser().errors(), IsEmpty());
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

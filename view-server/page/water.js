@@ -197,6 +197,7 @@ uniform mat4 viewBack, projection, both;
 uniform vec2 slope, skew;
 uniform vec3 eye, absorbed; // [1/m] of red, green, blue
 uniform vec3 tankLower, tankUpper;
+uniform vec2 rise;          // of the floor: from this x on [m], by so much along x
 uniform float foamLength;   // [m] of fast water that is white
 out vec4 colour;
 
@@ -244,7 +245,9 @@ void main() {
   float straight = max(solidDistance(uv) - z, 0.0) / max(-view.z, 0.2);
   float path = min(mix(thick.r, straight, 0.5), 1.1 * straight);
   vec3 bent = mat3(viewBack) * refract(view, n, 0.75);
-  path = min(path, max(world.z - tankLower.z, 0.0) / max(-bent.z, 0.05));
+  float steep = world.x > rise.x ? rise.y : 0.0;
+  float ground = tankLower.z + steep * (world.x - rise.x);
+  path = min(path, max(world.z - ground, 0.0) / max(steep * bent.x - bent.z, 0.05));
   vec3 meets = world + path * bent;
   if (bent.z < -0.6) {
     meets.xy = tankLower.xy + abs(meets.xy - tankLower.xy);
@@ -398,6 +401,7 @@ export class Water {
       solidDepth: this.solids.distance, surface: this.surface.colour,
       depth: this.depths[0].colour, thickness: this.thick[0].colour,
       absorbed: [1.9 * strength, 0.55 * strength, 0.38 * strength],
+      rise: world.slope ? [world.slope.foot, world.slope.gradient] : [0, 0],
       foamLength: 0.8 * world.spacing });
 
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.solids.frame);
