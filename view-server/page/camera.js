@@ -15,18 +15,20 @@ export class Camera {
     this.size = 1;
   }
 
-  /// Looks at the whole tank, above what the charts cover at the bottom.
+  /// Looks at the whole tank, above what the charts cover at the bottom, and in an upright window the
+  /// buttons.
   frame({ lower, upper }) {
     this.size = length(sub(upper, lower));
     this.target = scale(add(lower, upper), 0.5);
     this.target[2] -= 0.12 * (upper[2] - lower[2]);
     const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) =>
       [0, 1, 2].map((i) => (bits & (1 << i) ? upper[i] : lower[i])));
+    const bottom = this.aspect < 1 ? -0.5 : -0.66;
     const fits = () => {
       const { both } = this.matrices();
       return corners.every((corner) => {
         const [x, y] = transform(both, corner);
-        return Math.abs(x) < 0.94 && y < 0.9 && y > -0.66;
+        return Math.abs(x) < 0.94 && y < 0.9 && y > bottom;
       });
     };
     for (this.distance = this.size; !fits() && this.distance < 8 * this.size;) this.distance *= 1.03;

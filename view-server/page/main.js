@@ -80,6 +80,8 @@ const link = new Link({
     settleRig();
     at('scene').textContent = scene.name;
     document.title = `${scene.name} - splash`;
+    const names = scene.bodies.filter(({ motion }) => motion !== 'free').map(({ name }) => name);
+    at('grabbable').textContent = names.slice(0, 3).join(' or ').replaceAll('_', ' ') || 'a body';
   },
   SPS1: (state) => {
     pace.answered();
