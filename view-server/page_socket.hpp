@@ -60,7 +60,7 @@ class Page : public std::enable_shared_from_this<Page> {
   void send(const SharedFrame& bytes, Content content = Content::bytes) {
     if (waiting_.size() < kQueueMax) put(bytes, content);
   }
-  /// However much waits: a page asks for the next one when it has drawn this.
+  /// However much waits: a page asks for the next one when it has got this.
   void send_state(const SharedFrame& frame) {
     if (!wants_state()) return;
     wants_state_ = false;

@@ -205,7 +205,7 @@ TEST_F(ViewServer, APageThatDoesNotReadHasOneStateWaiting) {
   EXPECT_TRUE(water_.wanted());
 }
 
-// Else it would wait for ever, for it asks again when it has drawn one.
+// Else it would wait for ever, for it asks again when it has got one.
 TEST_F(ViewServer, AStateReachesAPageForWhomMuchElseWaits) {
   const auto page = open();
   const std::string large(1 << 16, 's');

@@ -152,5 +152,34 @@ TEST_F(DrawnWater, WaterIsWhereTheNewestStateHasIt) {
   EXPECT_THAT(browser().errors(), IsEmpty());
 }
 
+// However few pictures a page draws, each finds the newest state; who draws none fetches none.
+TEST_F(DrawnWater, StatesComeAtTheirOwnRateWhilePicturesAreDrawn) {
+  browser().evaluate(R"js({
+    window.usual = requestAnimationFrame;
+    window.came = 0;
+    const { playout } = splash;
+    playout.push = (...given) => { came += 1; Object.getPrototypeOf(playout).push.apply(playout, given); };
+    requestAnimationFrame = (act) => setTimeout(act, 250);
+  })js");
+  const auto passed = [] {
+    return browser().evaluate(R"js((async () => {
+      const before = [came, splash.pictures()];
+      await new Promise((done) => { setTimeout(done, 2000); });
+      return [came - before[0], splash.pictures() - before[1]];
+    })())js");
+  };
+  const Json slow = passed();
+  EXPECT_GT(slow[0], 2 * slow[1].get<int>()) << slow;
+  browser().evaluate("requestAnimationFrame = (act) => { window.next = act; }");
+  static_cast<void>(passed());
+  EXPECT_EQ(passed(), Json({0, 0})) << "no picture, no state";
+  browser().evaluate("requestAnimationFrame = usual; next()");
+  EXPECT_TRUE(browser().wait_for(
+      "splash.pictures() > " + browser().evaluate("splash.pictures() + 2").dump(),
+      PlayedPage::kTimeout));
+  browser().evaluate("delete splash.playout.push");
+  EXPECT_THAT(browser().errors(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace splash::tests

@@ -46,6 +46,7 @@ const water = smooth ? new Water(gl) : null;
 const asPoints = () => !smooth || (pace.isTooSlow && !headset.session);
 let points = null; // made when they are drawn for the first time
 
+const IDLE = 1; // without a picture, after which no state is asked for [s]
 const FALL = 0.8; // of a shown peak from one frame of levels to the next
 
 let world = null; // the scene
@@ -84,8 +85,11 @@ const link = new Link({
     at('grabbable').textContent = names.slice(0, 3).join(' or ').replaceAll('_', ' ') || 'a body';
   },
   SPS1: (state) => {
-    pace.answered();
     playout.push(state, link.now());
+    // The next one is asked for at once, so that a picture finds the newest however long it is since
+    // the last; by a page that draws none, with the next picture.
+    if (performance.now() - 1000 * IDLE < drawnLast) link.ask();
+    else asks = true;
     if (world && world.level === null) setLevel(state);
   },
   SPR1: (rig) => {
@@ -229,7 +233,8 @@ function poseBodies({ older, newer, share: t }) {
 }
 
 let pictures = 0;
-let answered = null; // the newest state that was drawn and answered with a question for the next
+let drawnLast = -Infinity; // when a picture was begun [ms]
+let asks = false; // the next picture asks for a state
 function picture() {
   requestAnimationFrame(picture);
   gamepads.poll();
@@ -262,11 +267,9 @@ let begun = 0; // its picture [Unix s]
 function prepare() {
   const now = link.now();
   const view = world && playout.at(now, pace.rate, sound.lag === null ? 0 : sound.lag - 0.025);
-  const newest = playout.states.at(-1);
-  if (newest && newest !== answered) {
-    answered = newest;
-    pace.askInTime(() => link.ask());
-  }
+  drawnLast = performance.now();
+  if (asks) link.ask();
+  asks = false;
   if (!view) return false;
   moment = view.moment;
   begun = now;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How sharp pictures may be, and when to ask for the next state, on a machine that draws as fast as
-// this one does.
-import { KEEP, quantile } from './playout.js';
+// How sharp pictures may be on a machine that draws as fast as this one does.
+import { KEEP } from './playout.js';
 
 /// Shares of the pixels along each axis: of the window's for the picture, of the picture's for the
 /// water in it. Each draws half as many as the one before it, or more.
@@ -15,7 +14,6 @@ const SETTLE = 0.5; // after each change before the rate counts [s]
 const SHARPER_AFTER = 5; // of a fast rate [s]
 const AGAIN = 10; // of fast points, after which water is tried again; twice as long each time [s]
 const AGAIN_MAX = 320; // [s]
-const LOOKED_AT = 30; // answers
 
 export class Pace {
   /// `share` of the whole picture's pixels along each axis for the water; null: as the machine
@@ -28,8 +26,6 @@ export class Pace {
     this.left = 0; // of fast points before water is tried again [s]
     this.took = 1 / 60; // a picture, a mean [s]
     this.begin();
-    this.waits = []; // from asking to the answer [s]
-    this.asked = null; // when [s]
   }
 
   /// Counts from here on, as after a time in which the browser took no pictures.
@@ -83,23 +79,5 @@ export class Pace {
 
   go(level, isTooSlow = this.isTooSlow) {
     Object.assign(this, { level, isTooSlow, since: 0, pictures: 0 });
-  }
-
-  /// Calls `ask` so that the answer is there just before the next picture, and not long before.
-  askInTime(ask) {
-    const wait = this.took - quantile(this.waits, 0.9) - 0.004;
-    const send = () => {
-      this.asked = performance.now() / 1000;
-      ask();
-    };
-    if (this.waits.length === 0 || wait < 0.004) send();
-    else setTimeout(send, 1000 * wait);
-  }
-
-  answered() {
-    if (this.asked === null) return;
-    this.waits.push(performance.now() / 1000 - this.asked);
-    if (this.waits.length > LOOKED_AT) this.waits.shift();
-    this.asked = null;
   }
 }
