@@ -6,9 +6,9 @@
 
 #include "program/config_file.hpp"
 #include "protocol/time_tag.hpp"
-#include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/solver_choice.hpp"
+#include "sim-server/show/body_mesh.hpp"
 
 namespace splash::sim {
 namespace {
@@ -37,7 +37,7 @@ const char* name_of(MotionKind kind) {
   return "free";
 }
 
-Json mesh_of(const TriangleMesh& mesh) {
+Json json_of(const TriangleMesh& mesh) {
   Json vertices = Json::array();
   for (const Vector3& vertex : mesh.vertices) {
     for (const double x : vertex) vertices.push_back(1e-6 * std::round(1e6 * x));
@@ -57,7 +57,7 @@ Json body_of(const BodySettings& body) {
           {"size", shape.size},
           {"rocker", shape.rocker},
           {"flat", shape.flat},
-          {"mesh", shape.mesh ? mesh_of(shape.mesh->surface) : Json()}};
+          {"mesh", json_of(body_mesh(shape))}};
 }
 
 /// Where a slider of even steps would spend few of them on what is mostly wanted.

@@ -22,8 +22,13 @@ constexpr std::uint32_t kGrabbed = 4;  ///< flag of a body in a state
 constexpr const char* kStill = R"({"scene": "still", "description": "", "particles": 4000,
   "spacing": 0.02, "solver": "none", "frame_rate": 50,
   "tank": {"lower": [-0.2, -0.2, 0], "upper": [0.2, 0.2, 0.5]}, "slope": null, "wave_maker": null,
-  "bodies": [{"name": "disc", "motion": "script", "kind": "cylinder", "size": [0.15, 0.15, 0.05],
-              "rocker": 0, "flat": 0, "mesh": null}],
+  "bodies": [{"name": "disc", "motion": "script", "kind": "box", "size": [0.15, 0.15, 0.05],
+              "rocker": 0, "flat": 0, "mesh": {
+    "vertices": [-0.075, -0.075, -0.025, 0.075, -0.075, -0.025, -0.075, 0.075, -0.025,
+                 0.075, 0.075, -0.025, -0.075, -0.075, 0.025, 0.075, -0.075, 0.025,
+                 -0.075, 0.075, 0.025, 0.075, 0.075, 0.025],
+    "triangles": [0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                  2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5]}}],
   "rows": [], "scenes": []})";
 constexpr const char* kSilent = R"({"rig": "none", "description": "", "sample_rate": 48000,
   "outputs": [], "channels": [], "rows": [], "middle": null, "rigs": [], "sounds": []})";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mouse, pen and fingers: on a body they hold it in the view plane, on the background they turn the
 // camera; the wheel moves what is held in depth, else the camera; two fingers zoom.
-import { rayHits } from './shapes.js';
+import { rayHits } from './triangles.js';
 import { about, add, conjugate, dot, product, scale, sub, turn } from './vector.js';
 
 /// The first comes as the hand moves, the other once a picture.

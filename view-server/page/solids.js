@@ -2,8 +2,8 @@
 // What is not water: the ground, the tank with its floor, slope and tiles, and the bodies.
 import { program, use } from './gl.js';
 import { LIGHT, LIT } from './light.js';
-import { poseMatrix } from './vector.js';
-import { trianglesOf } from './shapes.js';
+import { trianglesOf } from './triangles.js';
+import { normalised, poseMatrix } from './vector.js';
 
 const VERTEX = `
 layout(location = 0) in vec3 own;
@@ -122,16 +122,32 @@ function quad(a, b, c, d, normal) {
   return { places: [a, b, c, a, c, d], normals: Array(6).fill(normal) };
 }
 
-/// A bar from a to b along one axis.
-function bar(a, b, thick) {
-  const { places, normals } = trianglesOf({ kind: 'box',
-    size: [0, 1, 2].map((i) => Math.abs(b[i] - a[i]) + thick) });
-  const middle = [0, 1, 2].map((i) => (a[i] + b[i]) / 2);
-  return { places: places.map((p) => p.map((x, i) => x + middle[i])), normals };
-}
-
 const joined = (parts) => ({ places: parts.flatMap((p) => p.places),
   normals: parts.flatMap((p) => p.normals) });
+
+/// The box from a to b, `thick` more along each axis. `round`: faces share the normals of their
+/// corners, so that a box which the shader widens stays closed.
+function bar(a, b, thick, round = false) {
+  const parts = [];
+  for (let axis = 0; axis < 3; ++axis) {
+    for (const side of [-1, 1]) {
+      const at = (p, q) => {
+        const cube = [0, 0, 0];
+        cube[axis] = side;
+        cube[(axis + 1) % 3] = side * p;
+        cube[(axis + 2) % 3] = q;
+        return cube;
+      };
+      const corners = [at(-1, -1), at(1, -1), at(1, 1), at(-1, 1)];
+      const places = corners.map((cube) =>
+        cube.map((x, i) => (a[i] + b[i] + x * (Math.abs(b[i] - a[i]) + thick)) / 2));
+      const face = quad(...places, at(0, 0));
+      if (round) face.normals = [0, 1, 2, 0, 2, 3].map((k) => normalised(corners[k]));
+      parts.push(face);
+    }
+  }
+  return joined(parts);
+}
 
 function floorOf({ tank: { lower: l, upper: u }, slope }) {
   const at = slope ? Math.max(slope.foot, l[0]) : u[0];
@@ -167,7 +183,7 @@ function edgesOf(world) {
         a[i] = b[i] = p ? u[i] : l[i];
         a[k] = b[k] = q ? u[k] : l[k];
         b[axis] = u[axis];
-        bars.push(bar(a, b, thick));
+        bars.push(bar(a, b, thick, true));
       }
     }
   }

@@ -16,7 +16,6 @@ function scene(buffer) {
   const told = json(buffer);
   told.name = told.scene;
   for (const body of told.bodies) {
-    if (!body.mesh) continue;
     body.vertices = inThrees(body.mesh.vertices);
     body.triangles = inThrees(body.mesh.triangles);
   }
