@@ -19,8 +19,8 @@ namespace {
 /// moves as it is, all else in its logarithm.
 void add_rows(const Sound& sound, std::vector<Knob>& knobs) {
   const auto* const first = reinterpret_cast<const double*>(&sound);
-  each_part(sound, [&](const std::string& name, const auto& fields, const auto& part) {
-    for (const auto& field : fields) {
+  each_part(sound, [&](const std::string& name, const auto& part) {
+    for (const auto& field : fields_of(part, name)) {
       const program::Row& row = field.row;
       knobs[static_cast<std::size_t>(&number_of(part, field) - first)] = {
           name + '/' + row.key, row.min, row.max, row.min > 0.0 && row.unit != "dB", row.unit,

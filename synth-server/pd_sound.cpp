@@ -28,8 +28,8 @@ struct PdRow {
 
 std::vector<PdRow> rows_of(const Sound& sound) {
   std::vector<PdRow> rows;
-  each_part(sound, [&rows](const char* name, const auto& fields, const auto& part) {
-    for (const auto& field : fields) {
+  each_part(sound, [&rows](const char* name, const auto& part) {
+    for (const auto& field : fields_of(part, name)) {
       const std::string& key = field.row.key;
       if (std::find(kUnplayed.begin(), kUnplayed.end(), key) != kUnplayed.end()) continue;
       rows.push_back({name, field.row, number_of(part, field)});

@@ -24,10 +24,10 @@ NamedSound read_map(const ConfigMap& map) {
   refuse_others(map);
   NamedSound sound;
   std::vector<std::string> parts;
-  each_part(sound.sound, [&](const char* name, auto&&, auto&) { parts.emplace_back(name); });
+  each_part(sound.sound, [&](const char* name, auto&) { parts.emplace_back(name); });
   map.read(sound_fields(), parts, sound);
-  each_part(sound.sound, [&](const char* name, const auto& fields, auto& part) {
-    if (const auto child = map.optional_child(name)) child->read(fields, {}, part);
+  each_part(sound.sound, [&](const char* name, auto& part) {
+    if (const auto child = map.optional_child(name)) child->read(fields_of(part, name), {}, part);
   });
   return sound;
 }

@@ -32,8 +32,8 @@ std::string describe_fields(const std::vector<Field<Part>>& fields, const Part& 
 std::string describe_sound_keys() {
   const NamedSound paper;
   std::string text = "### A sound\n\n" + describe_fields(sound_fields(), paper);
-  each_part(paper.sound, [&text](const char* name, const auto& fields, const auto& part) {
-    text += "\n### `" + std::string(name) + "`\n\n" + describe_fields(fields, part);
+  each_part(paper.sound, [&text](const char* name, const auto& part) {
+    text += "\n### `" + std::string(name) + "`\n\n" + describe_fields(fields_of(part, name), part);
   });
   return text;
 }

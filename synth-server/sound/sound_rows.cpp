@@ -12,11 +12,18 @@ constexpr double kMostGain = 24.0;
 constexpr const char* kSection5 = "paper, section 5.2.1";
 constexpr const char* kSection6 = "paper, section 6";
 
-/// Bubbles and cavities have the same rows; `what` they speak of, in the plural.
-std::vector<Field<ToneSound>> tone_fields(const std::string& what) {
+/// Of a kind of event.
+std::string plural_of(const std::string& name) {
+  for (const protocol::KindNames& kind : protocol::kKindNames) {
+    if (kind.name() == name) return kind.plural;
+  }
+  return name;
+}
+
+std::vector<Field<ToneSound>> fields(const ToneSound& /*part*/, const std::string& name) {
   return {{{.key = "gain_db",
             .unit = "dB",
-            .meaning = "gain of all " + what,
+            .meaning = "gain of all " + plural_of(name),
             .min = kLeastGain,
             .max = kMostGain},
            &ToneSound::gain_db},
@@ -189,30 +196,13 @@ std::vector<Field<ImpactSound>> felt_fields() {
        &ImpactSound::fast_db}};
 }
 
-}  // namespace
-
-std::vector<Field<NamedSound>> sound_fields() {
-  return {{{.key = "name", .unit = "", .meaning = "what the sound is called", .required = true},
-           &NamedSound::name},
-          {{.key = "description", .unit = "", .meaning = "one line for lists"},
-           &NamedSound::description}};
-}
-
-std::vector<Field<ImpactSound>> impact_fields() {
+std::vector<Field<ImpactSound>> fields(const ImpactSound& /*part*/, const std::string& /*name*/) {
   std::vector<Field<ImpactSound>> all = burst_fields();
   for (auto&& field : felt_fields()) all.push_back(std::move(field));
   return all;
 }
 
-std::vector<Field<ToneSound>> bubble_fields() {
-  return tone_fields("bubbles");
-}
-
-std::vector<Field<ToneSound>> cavity_fields() {
-  return tone_fields("cavities");
-}
-
-std::vector<Field<CloudSound>> cloud_fields() {
+std::vector<Field<CloudSound>> fields(const CloudSound& /*part*/, const std::string& /*name*/) {
   return {{{.key = "coupling",
             .unit = "1",
             .meaning = "0: each bubble sounds as if it were alone; 1: those around it lower its "
@@ -239,7 +229,7 @@ std::vector<Field<CloudSound>> cloud_fields() {
            &CloudSound::singles}};
 }
 
-std::vector<Field<FineSound>> fine_fields() {
+std::vector<Field<FineSound>> fields(const FineSound& /*part*/, const std::string& /*name*/) {
   return {
       {{.key = "amount",
         .unit = "1",
@@ -265,7 +255,7 @@ std::vector<Field<FineSound>> fine_fields() {
        &FineSound::release}};
 }
 
-std::vector<Field<FootSound>> foot_fields() {
+std::vector<Field<FootSound>> fields(const FootSound& /*part*/, const std::string& /*name*/) {
   return {
       {{.key = "texture",
         .unit = "m",
@@ -338,5 +328,24 @@ std::vector<Field<FootSound>> foot_fields() {
             "by 650"},
        &FootSound::least}};
 }
+
+}  // namespace
+
+std::vector<Field<NamedSound>> sound_fields() {
+  return {{{.key = "name", .unit = "", .meaning = "what the sound is called", .required = true},
+           &NamedSound::name},
+          {{.key = "description", .unit = "", .meaning = "one line for lists"},
+           &NamedSound::description}};
+}
+
+template <class Part>
+std::vector<Field<Part>> fields_of(const Part& part, const std::string& name) {
+  return fields(part, name);
+}
+template std::vector<Field<ImpactSound>> fields_of(const ImpactSound&, const std::string&);
+template std::vector<Field<ToneSound>> fields_of(const ToneSound&, const std::string&);
+template std::vector<Field<CloudSound>> fields_of(const CloudSound&, const std::string&);
+template std::vector<Field<FineSound>> fields_of(const FineSound&, const std::string&);
+template std::vector<Field<FootSound>> fields_of(const FootSound&, const std::string&);
 
 }  // namespace splash::synth

@@ -85,6 +85,18 @@ struct Sound {
   FootSound foot;
 };
 
+/// Calls `visit` with each part of a sound: its name in files, and its numbers. `AnySound` is const
+/// when they are read only.
+template <class AnySound, class Visit>
+void each_part(AnySound& sound, Visit&& visit) {
+  visit("impact", sound.impact);
+  visit("bubble", sound.bubble);
+  visit("cavity", sound.cavity);
+  visit("cloud", sound.cloud);
+  visit("fine", sound.fine);
+  visit("foot", sound.foot);
+}
+
 /// Gains of the components, in the order of protocol::Event [dB].
 [[nodiscard]] inline protocol::ByKind<double> component_gains(const Sound& sound) noexcept {
   const std::array gains = {sound.impact.gain_db, sound.bubble.gain_db, sound.cavity.gain_db};
