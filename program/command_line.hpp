@@ -1,13 +1,33 @@
 // SPDX-License-Identifier: MIT
-// What is wrong on a command line.
+// Command lines: read, and what is wrong on them.
 #pragma once
 
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "program/failure.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
 namespace splash::program {
+
+/// What the command line says: options, or the code to exit with (help and errors are printed).
+template <class Options>
+struct Parsed {
+  std::optional<Options> options;
+  int exit_code = kExitOk;
+};
+
+/// Reads a command line as `app` describes it, then calls `take`, which refuses options by
+/// std::invalid_argument. Returns the code to exit with (help and errors are printed), or none.
+[[nodiscard]] std::optional<int> read_command_line(
+    CLI::App& app, int argc, const char* const* argv, const std::function<void()>& take = [] {});
 
 // Describes words on the command line that no option takes.
 

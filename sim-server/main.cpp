@@ -6,14 +6,13 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <functional>
-#include <iostream>
 #include <memory>
 #include <optional>
 
 #include "program/config.hpp"
 #include "program/config_file.hpp"
+#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
 #include "program/this_program.hpp"
@@ -371,21 +370,8 @@ program::OptionValues run(const Options& options) {
 int main(int argc, char** argv) {
   const auto [options, exit_code] = parse_options(argc, argv);
   if (!options) return exit_code;
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
-  std::signal(SIGXFSZ, SIG_IGN);  // nor does a file as long as it may be: that is a full disk
-  try {
-    const program::OptionValues next =
-        naming_opencl_errors([&chosen = *options] { return run(chosen); });
+  return program::exit_code_of("sim-server", [&, &chosen = *options] {
+    const program::OptionValues next = naming_opencl_errors([&chosen] { return run(chosen); });
     if (!next.empty()) program::start_anew(program::with_options({argv, argv + argc}, next));
-    return program::kExitOk;
-  } catch (const program::ConfigError& error) {  // begins with its file, line and column
-    std::cerr << error.what() << '\n';
-    return error.code();
-  } catch (const program::Failure& failure) {
-    std::cerr << "sim-server: " << failure.what() << '\n';
-    return failure.code();
-  } catch (const std::exception& error) {
-    std::cerr << "sim-server: " << error.what() << '\n';
-    return program::kExitInternal;
-  }
+  });
 }

@@ -2,11 +2,9 @@
 #include "sim-server/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <stdexcept>
 
 #include "program/command_line.hpp"
-#include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 
@@ -111,17 +109,6 @@ void apply(const Texts& texts, Options& options) {
   options.real_time = !texts.fast;
 }
 
-std::vector<std::string> names_of(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
-  return names;
-}
-
-ParsedOptions refuse(const std::string& text) {
-  std::cerr << "sim-server: " << text << " (sim-server --help lists the options)\n";
-  return {std::nullopt, program::kExitUsage};
-}
-
 }  // namespace
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
@@ -133,19 +120,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_scene(app, options);
   add_wire(app, options, texts);
   add_device(app, options);
-  try {
-    app.parse(argc, argv);
+  const auto code = program::read_command_line(app, argc, argv, [&] {
     check(options);
     apply(texts, options);
-  } catch (const CLI::Success& help) {
-    return {std::nullopt, app.exit(help) == 0 ? program::kExitOk : program::kExitUsage};
-  } catch (const CLI::ExtrasError&) {
-    return refuse(program::unknown_option(app.remaining(), names_of(app)));
-  } catch (const CLI::ParseError& error) {
-    return refuse(error.what());
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  }
+  });
+  if (code) return {std::nullopt, *code};
   return {options, program::kExitOk};
 }
 

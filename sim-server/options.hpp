@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "program/command_line.hpp"
 #include "protocol/udp_socket.hpp"
 
 namespace splash::sim {
@@ -36,11 +37,7 @@ struct Options {
   std::string device;     ///< its number, a part of its name, "gpu" or "cpu"; empty: chosen
 };
 
-/// What the command line says: options, or the code to exit with (help and errors are printed).
-struct ParsedOptions {
-  std::optional<Options> options;
-  int exit_code = 0;
-};
+using ParsedOptions = program::Parsed<Options>;
 [[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);
 
 }  // namespace splash::sim

@@ -5,9 +5,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 
 #include "program/config_file.hpp"
+#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
 #include "program/this_program.hpp"
@@ -176,17 +176,8 @@ program::OptionValues run(Options options) {
 int main(int argc, char** argv) {
   const auto [options, exit_code] = parse_options(argc, argv);
   if (!options) return exit_code;
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
-  std::signal(SIGXFSZ, SIG_IGN);  // nor does a file as long as it may be: that is a full disk
-  try {
-    const program::OptionValues next = run(*options);
+  return program::exit_code_of("synth-server", [&, &chosen = *options] {
+    const program::OptionValues next = run(chosen);
     if (!next.empty()) program::start_anew(program::with_options({argv, argv + argc}, next));
-    return program::kExitOk;
-  } catch (const program::Failure& failure) {
-    std::cerr << "synth-server: " << failure.what() << '\n';
-    return failure.code();
-  } catch (const std::exception& error) {
-    std::cerr << "synth-server: " << error.what() << '\n';
-    return program::kExitInternal;
-  }
+  });
 }

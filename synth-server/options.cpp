@@ -3,11 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <iostream>
 #include <stdexcept>
 
 #include "program/command_line.hpp"
-#include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 #include "synth-server/voice_options.hpp"
@@ -204,17 +202,6 @@ void apply(const Texts& texts, Options& options) {
   options.horizon = 1e-3 * texts.horizon_ms;
 }
 
-std::vector<std::string> names_of(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
-  return names;
-}
-
-ParsedOptions refuse(const std::string& text) {
-  std::cerr << "synth-server: " << text << " (synth-server --help lists the options)\n";
-  return {std::nullopt, program::kExitUsage};
-}
-
 }  // namespace
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
@@ -228,19 +215,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_playing(app, options, texts);
   add_sound(app, options.sound);
   add_voices(app, texts.voices, options.engine);
-  try {
-    app.parse(argc, argv);
+  const auto code = program::read_command_line(app, argc, argv, [&] {
     check(options);
     apply(texts, options);
-  } catch (const CLI::Success& help) {
-    return {std::nullopt, app.exit(help) == 0 ? program::kExitOk : program::kExitUsage};
-  } catch (const CLI::ExtrasError&) {
-    return refuse(program::unknown_option(app.remaining(), names_of(app)));
-  } catch (const CLI::ParseError& error) {
-    return refuse(error.what());
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  }
+  });
+  if (code) return {std::nullopt, *code};
   return {options, program::kExitOk};
 }
 

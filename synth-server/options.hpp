@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "program/command_line.hpp"
 #include "protocol/udp_socket.hpp"
 #include "synth-server/render/engine.hpp"
 #include "synth-server/voice_options.hpp"
@@ -53,11 +54,7 @@ struct Options {
   bool verbose = false;
 };
 
-/// What the command line says: options, or the code to exit with (help and errors are printed).
-struct ParsedOptions {
-  std::optional<Options> options;
-  int exit_code = 0;
-};
+using ParsedOptions = program::Parsed<Options>;
 [[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);
 
 }  // namespace splash::synth

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // view-server: from the command line to an exit code.
-#include <csignal>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 
+#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
 #include "view-server/announce.hpp"
@@ -34,15 +32,5 @@ void run(const view::Options& options) {
 int main(int argc, char** argv) {
   const auto [options, exit_code] = view::parse_options(argc, argv);
   if (!options) return exit_code;
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away ends nothing
-  try {
-    run(*options);
-    return program::kExitOk;
-  } catch (const program::Failure& failure) {
-    std::cerr << "view-server: " << failure.what() << '\n';
-    return failure.code();
-  } catch (const std::exception& error) {
-    std::cerr << "view-server: " << error.what() << '\n';
-    return program::kExitInternal;
-  }
+  return program::exit_code_of("view-server", [&chosen = *options] { run(chosen); });
 }

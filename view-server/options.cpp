@@ -2,11 +2,9 @@
 #include "view-server/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <stdexcept>
 
 #include "program/command_line.hpp"
-#include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 
@@ -54,17 +52,6 @@ void apply(const Texts& texts, Options& options) {
       protocol::endpoint_of("--synth-show", texts.synth_show, protocol::kSynthShowPort);
 }
 
-std::vector<std::string> names_of(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
-  return names;
-}
-
-ParsedOptions refuse(const std::string& text) {
-  std::cerr << "view-server: " << text << " (view-server --help lists the options)\n";
-  return {std::nullopt, program::kExitUsage};
-}
-
 }  // namespace
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
@@ -74,18 +61,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                "view-server");
   app.set_version_flag("--version", "view-server " + protocol::version());
   add_all(app, options, texts);
-  try {
-    app.parse(argc, argv);
-    apply(texts, options);
-  } catch (const CLI::Success& help) {
-    return {std::nullopt, app.exit(help) == 0 ? program::kExitOk : program::kExitUsage};
-  } catch (const CLI::ExtrasError&) {
-    return refuse(program::unknown_option(app.remaining(), names_of(app)));
-  } catch (const CLI::ParseError& error) {
-    return refuse(error.what());
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  }
+  const auto code = program::read_command_line(app, argc, argv, [&] { apply(texts, options); });
+  if (code) return {std::nullopt, *code};
   return {options, program::kExitOk};
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "program/command_line.hpp"
 #include "protocol/udp_socket.hpp"
 
 namespace splash::view {
@@ -19,11 +20,7 @@ struct Options {
   std::vector<std::string> origins;  ///< further names that the server is reached under
 };
 
-/// What the command line says: options, or the code to exit with (help and errors are printed).
-struct ParsedOptions {
-  std::optional<Options> options;
-  int exit_code = 0;
-};
+using ParsedOptions = program::Parsed<Options>;
 [[nodiscard]] ParsedOptions parse_options(int argc, const char* const* argv);
 
 }  // namespace splash::view

@@ -5,13 +5,13 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "program/command_line.hpp"
+#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
@@ -84,11 +84,11 @@ void take_all(std::vector<Ear>& ears, Heard& heard) {
   }
 }
 
-int listen(const ListenOptions& options) {
+void listen(const ListenOptions& options) {
   std::vector<Ear> ears = open_ears(options.ports);
   if (ears.empty()) {
-    std::cerr << "splash-listen: none of the ports can be listened at: name another\n";
-    return program::kExitUnavailable;
+    throw program::Failure(program::kExitUnavailable,
+                           "none of the ports can be listened at: name another");
   }
   std::string list;
   for (const Ear& ear : ears) list += ' ' + std::to_string(ear.port);
@@ -118,7 +118,6 @@ int listen(const ListenOptions& options) {
     std::fflush(stdout);
     if (over) break;
   }
-  return program::kExitOk;
 }
 
 }  // namespace
@@ -137,22 +136,9 @@ int main(int argc, char** argv) {
       ->type_name("PORT");
   app.add_option("--seconds", options.seconds, "End after so many; left out: at Ctrl-C")
       ->check(CLI::PositiveNumber);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "splash-listen: " << error.what() << " (splash-listen --help lists the options)\n";
-    return program::kExitUsage;
-  }
+  if (const auto code = program::read_command_line(app, argc, argv)) return *code;
   if (options.ports.empty()) options.ports.assign(kUsualPorts.begin(), kUsualPorts.end());
   std::signal(SIGINT, note_end);
   std::signal(SIGTERM, note_end);
-  std::signal(SIGPIPE, SIG_IGN);
-  try {
-    return listen(options);
-  } catch (const std::exception& error) {
-    std::cerr << "splash-listen: " << error.what() << '\n';
-    return program::kExitInternal;
-  }
+  return program::exit_code_of("splash-listen", [&options] { listen(options); });
 }

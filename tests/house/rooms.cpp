@@ -43,7 +43,7 @@ bool is_ours(std::string_view header) {
 
 const std::vector<Room>& rooms() {
   static const std::vector<Room> kRooms = {
-      {"program", {}, {"yaml-cpp/"}},
+      {"program", {}, {"CLI/", "yaml-cpp/"}},
       {"protocol", {"program"}, {}},
 
       {"sim-server/scene", {"program", "protocol", "sim-server/scene/mesh"}, {}},

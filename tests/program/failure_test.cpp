@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "program/config.hpp"
+#include "program/exit_code.hpp"
 #include "program/files.hpp"
 
 namespace splash::program {
@@ -32,26 +33,15 @@ static_assert(kUnrelated<ConfigError, WriteError> && kUnrelated<ConfigError, Dat
               kUnrelated<ConfigError, StandInError> && kUnrelated<WriteError, DataError> &&
               kUnrelated<WriteError, StandInError> && kUnrelated<DataError, StandInError>);
 
-/// As main() does it.
-int exit_code_of(const std::function<void()>& run) {
-  try {
-    run();
-    return kExitOk;
-  } catch (const Failure& failure) {
-    return failure.code();
-  } catch (const std::exception&) {
-    return kExitInternal;
-  }
-}
-
 TEST(Failure, EachKindHasItsExitCode) {
-  EXPECT_EQ(exit_code_of([] { throw ConfigError({.file = "a.yaml"}, "wrong"); }), kExitConfig);
-  EXPECT_EQ(exit_code_of([] { throw WriteError("cannot write", ENOSPC); }), kExitIo);
-  EXPECT_EQ(exit_code_of([] { throw DataError("no log"); }), kExitData);
-  EXPECT_EQ(exit_code_of([] { throw StandInError("no device"); }), kExitUnavailable);
-  EXPECT_EQ(exit_code_of([] { throw Failure(kExitUsage, "--what"); }), kExitUsage);
-  EXPECT_EQ(exit_code_of([] { throw LibraryError(); }), kExitInternal);
-  EXPECT_EQ(exit_code_of([] {}), kExitOk);
+  EXPECT_EQ(exit_code_of("test", [] { throw ConfigError({.file = "a.yaml"}, "wrong"); }),
+            kExitConfig);
+  EXPECT_EQ(exit_code_of("test", [] { throw WriteError("cannot write", ENOSPC); }), kExitIo);
+  EXPECT_EQ(exit_code_of("test", [] { throw DataError("no log"); }), kExitData);
+  EXPECT_EQ(exit_code_of("test", [] { throw StandInError("no device"); }), kExitUnavailable);
+  EXPECT_EQ(exit_code_of("test", [] { throw Failure(kExitUsage, "--what"); }), kExitUsage);
+  EXPECT_EQ(exit_code_of("test", [] { throw LibraryError(); }), kExitInternal);
+  EXPECT_EQ(exit_code_of("test", [] {}), kExitOk);
 }
 
 /// Writes with a device's help, and goes on without the file when that cannot be written.
@@ -72,7 +62,7 @@ TEST(Failure, AnErrorOfTheDeviceIsNoFileThatCannotBeWritten) {
 
 TEST(FailingWith, ChangesTheNamedKindAlone) {
   const auto code_of = [](const std::function<void()>& run) {
-    return exit_code_of([&] { failing_with<std::runtime_error>(kExitData, run); });
+    return exit_code_of("test", [&] { failing_with<std::runtime_error>(kExitData, run); });
   };
   EXPECT_EQ(code_of([] { throw std::runtime_error("no WAV file"); }), kExitData);
   EXPECT_EQ(code_of([] { throw LibraryError(); }), kExitInternal) << "another kind";
