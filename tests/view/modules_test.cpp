@@ -147,5 +147,16 @@ TEST_F(Modules, ATimeWithoutPicturesIsNotASlowOne) {
   EXPECT_EQ(pace, Json({1, 1, false}));
 }
 
+// The page is often there before the simulator, which makes its kernels.
+TEST_F(Modules, ASimulatorThatIsNotYetThereHasNotEnded) {
+  const Json said = with_the_modules(R"js((async () => {
+    const { Words } = await import('/words.js');
+    const words = new Words();
+    const say = (sim) => words.say({ open: true, synth: true, rests: true, sim });
+    return [false, true, false].map((sim) => [say(sim).text.split(' ')[0], say(sim).bad]);
+  })())js");
+  EXPECT_EQ(said.dump(), R"([["Waiting",false],["The",false],["No",true]])");
+}
+
 }  // namespace
 }  // namespace splash::tests

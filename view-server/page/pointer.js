@@ -43,7 +43,7 @@ export class Pointers {
 
   start(event) {
     event.preventDefault();
-    this.canvas.focus();
+    this.canvas.focus({ focusVisible: false });
     this.canvas.setPointerCapture(event.pointerId);
     const ray = this.rayOf(event);
     const { index, distance } = event.button === 2 ? { index: -1 } : this.pick(ray);

@@ -19,6 +19,7 @@ const PACE = 11; // simulated seconds in a second
 export class Words {
   constructor() {
     this.told = new Map(); // program -> [{at, values}]
+    this.simWasThere = false;
   }
 
   /// `at`: [s].
@@ -44,6 +45,10 @@ export class Words {
     if (!open) return bad('view-server does not answer; connecting again');
     if (going && performance.now() - going.since < 1000 * PATIENCE) {
       return { text: `The ${going.what} ${going.name} is being made ready`, bad: false };
+    }
+    this.simWasThere ||= sim;
+    if (!this.simWasThere) {
+      return { text: 'Waiting for the simulator, which is started with --show: the first time it makes its kernels, for a minute or more', bad: false };
     }
     if (!sim && !synth) return bad('Neither simulator nor synth answers: are they started with --show?');
     if (!sim) return bad('No simulator: it has ended, or was not started with --show');
