@@ -116,12 +116,12 @@ static lane_flags may_be_caught(constant FluidParams* p, const Bodies* bodies,
 static void keep_lanes_out(constant FluidParams* p, const Bodies* bodies, const lanes from[3],
                            lanes x[3], lanes v[3]) {
   float3 lower, upper;
-  lower.x = least(fmin(x[0], from[0]));
-  lower.y = least(fmin(x[1], from[1]));
-  lower.z = least(fmin(x[2], from[2]));
-  upper.x = most(fmax(x[0], from[0]));
-  upper.y = most(fmax(x[1], from[1]));
-  upper.z = most(fmax(x[2], from[2]));
+  lower.x = least(SMALLER(x[0], from[0]));
+  lower.y = least(SMALLER(x[1], from[1]));
+  lower.z = least(SMALLER(x[2], from[2]));
+  upper.x = most(LARGER(x[0], from[0]));
+  upper.y = most(LARGER(x[1], from[1]));
+  upper.z = most(LARGER(x[2], from[2]));
   if (!bodies_near_box(bodies->steps, bodies->first, bodies->count, lower, upper)) return;
   const lane_flags caught = may_be_caught(p, bodies, from, x);
   if (!any_lane(caught)) return;

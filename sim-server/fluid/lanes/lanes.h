@@ -7,6 +7,11 @@
 
 #define FAR_AWAY SPLASH_FAR_AWAY
 
+// The smaller and the larger of two: one instruction each, where fmin and fmax take four to pass
+// over what is no number. If one is none, b.
+#define SMALLER(a, b) ((a) < (b) ? (a) : (b))
+#define LARGER(a, b) ((a) > (b) ? (a) : (b))
+
 #if LANES == 16
 typedef float16 lanes;
 typedef int16 lane_flags;  // of each lane: 0, or all bits set
@@ -21,10 +26,10 @@ static float total(lanes a) {
   return d.x + d.y;
 }
 static float least(lanes a) {
-  const float8 b = fmin(a.lo, a.hi);
-  const float4 c = fmin(b.lo, b.hi);
-  const float2 d = fmin(c.lo, c.hi);
-  return fmin(d.x, d.y);
+  const float8 b = SMALLER(a.lo, a.hi);
+  const float4 c = SMALLER(b.lo, b.hi);
+  const float2 d = SMALLER(c.lo, c.hi);
+  return SMALLER(d.x, d.y);
 }
 #elif LANES == 8
 typedef float8 lanes;
@@ -39,9 +44,9 @@ static float total(lanes a) {
   return d.x + d.y;
 }
 static float least(lanes a) {
-  const float4 c = fmin(a.lo, a.hi);
-  const float2 d = fmin(c.lo, c.hi);
-  return fmin(d.x, d.y);
+  const float4 c = SMALLER(a.lo, a.hi);
+  const float2 d = SMALLER(c.lo, c.hi);
+  return SMALLER(d.x, d.y);
 }
 #elif LANES == 1
 typedef float lanes;

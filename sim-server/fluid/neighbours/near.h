@@ -33,9 +33,9 @@ static void begin_search(Near* near) {
 #if LANES > 1
 // Squared distance from the group's box, along one axis after the other [m2].
 static lanes apart(const Group* g, lanes x, lanes y, lanes z) {
-  const lanes dx = fmax(fmax(g->lower.x - x, x - g->upper.x), 0.0f);
-  const lanes dy = fmax(fmax(g->lower.y - y, y - g->upper.y), 0.0f);
-  const lanes dz = fmax(fmax(g->lower.z - z, z - g->upper.z), 0.0f);
+  const lanes dx = fmax(LARGER(g->lower.x - x, x - g->upper.x), 0.0f);
+  const lanes dy = fmax(LARGER(g->lower.y - y, y - g->upper.y), 0.0f);
+  const lanes dz = fmax(LARGER(g->lower.z - z, z - g->upper.z), 0.0f);
   return dx * dx + dy * dy + dz * dz;
 }
 

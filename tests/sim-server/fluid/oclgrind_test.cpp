@@ -74,12 +74,15 @@ const Kernels kStep = {"place_bodies", "gather_body_volumes", "compute_density",
 const Kernels kTurn = {"turn_water"};
 /// Where pressure pushes pairs of particles.
 const Kernels kPairs = {"compute_acceleration", "integrate"};
-const Kernels kGrid = {
-    "cut_cells",    "open_faces",     "fill_beside_solids", "find_deviation",  "gather_faces",
-    "gather_again", "move_particles", "project_faces",      "sample_pressure", "solve_pressure",
-    "find_spacing", "push_faces",     "lay_system",         "let_fall",        "grip_water",
-    "push_bodies",  "tie_bodies",     "tell_tugs",          "weigh_pressure",  "ask_for_answer",
-    "weigh_answer", "mark_faces",     "weigh_faces",        "weigh_given",     "sum_given"};
+const Kernels kGrid = {"cut_cells",      "open_faces",     "fill_beside_solids", "find_deviation",
+                       "move_particles", "project_faces",  "find_spacing",       "sample_pressure",
+                       "solve_pressure", "push_faces",     "lay_system",         "let_fall",
+                       "grip_water",     "push_bodies",    "tie_bodies",         "tell_tugs",
+                       "weigh_pressure", "ask_for_answer", "weigh_answer",       "mark_faces",
+                       "weigh_faces",    "weigh_given",    "sum_given"};
+/// From particles to its faces, on CPUs and on GPUs.
+const Kernels kScatter = {"scatter_to_faces", "add_up_faces"};
+const Kernels kGather = {"gather_faces"};
 /// Of a scene with bodies that the water moves.
 const Kernels kMoved = {"weigh_water", "answer_bodies", "carry_water", "keep_out_of_free",
                         "move_bodies"};
@@ -98,7 +101,9 @@ const std::vector<Watched> kWatched = {
     {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kTurn})},
     {"grid_projected", "sim_fluid_two_steps 16 1 1", "Oclgrind: 251 particles",
-     join({kRuns, kStep, kGrid, kMoved})},
+     join({kRuns, kStep, kGrid, kScatter, kMoved})},
+    {"scalar_grid_projected", "sim_fluid_two_steps 1 1 1", "Oclgrind: 251 particles",
+     join({kRanks, kStep, kGrid, kGather, kMoved})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kFree})},
     {"scalar_free_bodies", "sim_fluid_two_steps 1 0 1", "Oclgrind: 251 particles",

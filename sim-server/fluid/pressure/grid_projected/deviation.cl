@@ -18,7 +18,7 @@ kernel void find_deviation(constant FluidParams* p, constant MacGrid* g,
       place_on_grid(g, LOAD(position, i), LOAD(position + n, i), LOAD(position + 2 * n, i));
   const lanes none = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const lanes unseen = LOAD(velocity + axis * n, i) - from_faces(g, &at, axis, mean);
+    const lanes unseen = LOAD(velocity + axis * n, i) - sum_of_faces(g, &at, axis, mean, 0).whole;
     STORE(select(none, unseen, at.on_grid), deviation + axis * n, i);
   }
 }

@@ -29,10 +29,9 @@ GridProjected::GridProjected(Device& device, const FluidParams& params, const cl
       bodies_(device, program, fields_, solids_),
       system_(device, program, fields_, solids_, bodies_),
       felt_(device, program, fields_, solids_, bodies_, system_),
+      to_faces_(device, program, fields_),
       deviation_(device, fields_.carried.size()),
       seen_(device, 3 * fields_.room),
-      gather_faces_(program, "gather_faces"),
-      gather_again_(program, "gather_again"),
       find_deviation_(program, "find_deviation", device.profile().group),
       find_spacing_(program, "find_spacing", device.profile().group),
       move_particles_(program, "move_particles", device.profile().group),
@@ -55,17 +54,7 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   const Buffer<FluidParams>& params = fluid.params_buffer();
   const PointArrays& particles = fluid.particles();
   const Boundary& boundary = fluid.boundary();
-  const Buffer<int>& cells = fluid.grid().cell_start();
-  const Buffer<float>& places = particles.position;
-  gather_faces_.run(queue, fields_.strips,
-                    {{"p", params},
-                     {"g", fields_.on_device},
-                     {"cell_start", cells},
-                     {"position", places},
-                     {"value", particles.velocity},
-                     {"mean", fields_.mean},
-                     {"weight", fields_.weight},
-                     {"fill", fields_.fill}});
+  to_faces_.find(fluid, particles.velocity, fields_.mean);
   find_deviation_.run(queue, fluid.groups(),
                       {{"p", params},
                        {"g", fields_.on_device},
@@ -73,14 +62,7 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
                        {"velocity", particles.velocity},
                        {"mean", fields_.mean},
                        {"deviation", deviation_}});
-  gather_again_.run(queue, fields_.strips,
-                    {{"p", params},
-                     {"g", fields_.on_device},
-                     {"cell_start", cells},
-                     {"position", places},
-                     {"value", deviation_},
-                     {"weight", fields_.weight},
-                     {"mean", seen_}});
+  to_faces_.find(fluid, deviation_, seen_);
   solids_.place(fluid, step);
   system_.push_faces(fluid, step);
   bodies_.let_fall(fluid, step);

@@ -15,6 +15,7 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
 #include "sim-server/fluid/pressure/grid_projected/system.hpp"
+#include "sim-server/fluid/pressure/grid_projected/to_faces.hpp"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 
 namespace splash::sim {
@@ -78,10 +79,9 @@ class GridProjected : public PressureSolver {
   CoupledBodies bodies_;
   PressureSystem system_;
   FeltForces felt_;
+  ToFaces to_faces_;
   Buffer<float> deviation_;  ///< of particles [m/s]
   Buffer<float> seen_;       ///< its mean on faces [m/s]
-  Kernel gather_faces_;
-  Kernel gather_again_;
   Kernel find_deviation_;
   Kernel find_spacing_;
   Kernel move_particles_;

@@ -221,26 +221,32 @@ static lane_flags are_walls(const MacLevel l, const Cells* at, int axis) {
   return (lane_flags)(at->z) == none;
 }
 
-// Of a field on the faces along an axis, the sum over the eight places around particles by their
-// weights; if it `has_gaps`, of those where it is known, and the `weight` of these.
-static lanes sum_by_place(constant MacGrid* g, const Placed* at, int axis,
-                          global const float* field, bool has_gaps, lanes* weight) {
+// Of the faces along an axis, sums over the eight places around particles by their weights: of a
+// field that is known everywhere, of one that has gaps where that is known, and of the weights
+// there.
+typedef struct {
+  lanes whole, known, weight;
+} FaceSums;
+
+static void add_faces(FaceSums* sums, lanes weight, lanes whole) { sums->whole += weight * whole; }
+
+static void add_known(FaceSums* sums, lanes weight, lanes value) {
+  const lanes w = select((lanes)(0.0f), weight, value < (lanes)(MAC_KNOWN));
+  sums->known += w * value;
+  sums->weight += w;
+}
+
+static FaceSums sum_by_place(constant MacGrid* g, const Placed* at, int axis,
+                             global const float* whole, global const float* gappy) {
   const Around a = around(g, at, axis);
+  FaceSums sums = {0.0f, 0.0f, 0.0f};
   lanes value[8];
-  load_around(&a, field, value);
-  const lanes none = 0.0f;
-  lanes sum = 0.0f;
-  *weight = 0.0f;
-  for (int k = 0; k < 8; ++k) {
-    if (!has_gaps) {
-      sum += a.weight[k] * value[k];
-      continue;
-    }
-    const lane_flags known = value[k] < (lanes)(MAC_KNOWN);
-    sum += select(none, a.weight[k] * value[k], known);
-    *weight += select(none, a.weight[k], known);
-  }
-  return sum;
+  load_around(&a, whole, value);
+  for (int k = 0; k < 8; ++k) add_faces(&sums, a.weight[k], value[k]);
+  if (gappy == 0) return sums;
+  load_around(&a, gappy, value);
+  for (int k = 0; k < 8; ++k) add_known(&sums, a.weight[k], value[k]);
+  return sums;
 }
 
 #ifdef PICKS
@@ -250,49 +256,43 @@ static lanes hat_at(Between b, int place) {
 
 // The same, row by row of the box around all particles of a vector: each lane picks its two of a
 // row's values.
-static lanes sum_by_row(constant MacGrid* g, const Placed* at, int axis, global const float* field,
-                        bool has_gaps, lanes* weight) {
+static FaceSums sum_by_row(constant MacGrid* g, const Placed* at, int axis,
+                           global const float* whole, global const float* gappy) {
   const MacLevel l = g->level[0];
   const Between bx = axis == 0 ? at->face[0] : at->middle[0];
   const Between by = axis == 1 ? at->face[1] : at->middle[1];
   const Between bz = axis == 2 ? at->face[2] : at->middle[2];
   const int x = at->first[axis != 0].x;
   const lane_flags lower = WHOLE(bx.lower) - x, upper = lower + 1;
-  const lanes none = 0.0f;
-  lanes sum = 0.0f;
-  *weight = 0.0f;
+  FaceSums sums = {0.0f, 0.0f, 0.0f};
   for (int z = at->first[axis != 2].z; z <= at->last[axis != 2].z + 1; ++z) {
     const lanes wz = hat_at(bz, z);
     for (int y = at->first[axis != 1].y; y <= at->last[axis != 1].y + 1; ++y) {
       const lanes here = wz * hat_at(by, y), above = here * bx.share, below = here - above;
-      const lanes row = LOAD(field, (z + 1) * l.layer + (y + 1) * l.row + x + 1);
-      const lanes a = picked(row, lower), b = picked(row, upper);
-      if (!has_gaps) {
-        sum += below * a + above * b;
-        continue;
-      }
-      const lane_flags knows_a = a < (lanes)(MAC_KNOWN), knows_b = b < (lanes)(MAC_KNOWN);
-      sum += select(none, below * a, knows_a) + select(none, above * b, knows_b);
-      *weight += select(none, below, knows_a) + select(none, above, knows_b);
+      const int c = (z + 1) * l.layer + (y + 1) * l.row + x + 1;
+      const lanes row = LOAD(whole, c);
+      add_faces(&sums, below, picked(row, lower));
+      add_faces(&sums, above, picked(row, upper));
+      if (gappy == 0) continue;
+      const lanes known = LOAD(gappy, c);
+      add_known(&sums, below, picked(known, lower));
+      add_known(&sums, above, picked(known, upper));
     }
   }
-  return sum;
+  return sums;
 }
 #endif
 
-static lanes sum_of_faces(constant MacGrid* g, const Placed* at, int axis,
-                          global const float* faces, bool has_gaps, lanes* weight) {
-  global const float* field = faces + axis * g->level[0].cells;
+// `gappy`: 0 if there is none. Nothing above the grid.
+static FaceSums sum_of_faces(constant MacGrid* g, const Placed* at, int axis,
+                             global const float* whole, global const float* gappy) {
+  const int first = axis * g->level[0].cells;
+  whole += first;
+  if (gappy != 0) gappy += first;
 #ifdef PICKS
   if (at->last[axis != 0].x - at->first[axis != 0].x < LANES - 1) {
-    return sum_by_row(g, at, axis, field, has_gaps, weight);
+    return sum_by_row(g, at, axis, whole, gappy);
   }
 #endif
-  return sum_by_place(g, at, axis, field, has_gaps, weight);
-}
-
-// Mean of the faces along an axis around particles, by the hat; nothing above the grid.
-static lanes from_faces(constant MacGrid* g, const Placed* at, int axis, global const float* mean) {
-  lanes weight;
-  return sum_of_faces(g, at, axis, mean, false, &weight);
+  return sum_by_place(g, at, axis, whole, gappy);
 }

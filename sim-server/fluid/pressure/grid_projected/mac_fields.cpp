@@ -10,14 +10,6 @@ std::size_t cells_in(const MacGrid& grid) {
          static_cast<std::size_t>(level.nz + 1);
 }
 
-/// Two cells with vectors, one without (gather.cl).
-std::size_t strips_in(const MacGrid& grid, const Device& device) {
-  const MacLevel& level = grid.level[0];
-  const int across = level.nx / (device.lanes() > 1 ? 2 : 1) + 1;
-  return static_cast<std::size_t>(across) * static_cast<std::size_t>(level.ny + 1) *
-         static_cast<std::size_t>(level.nz + 1);
-}
-
 /// Vectors of cells from the lowest layer to the one above the last (mac_cell.h).
 std::size_t vectors_in(const MacGrid& grid, const Device& device) {
   const MacLevel& level = grid.level[0];
@@ -30,7 +22,6 @@ std::size_t vectors_in(const MacGrid& grid, const Device& device) {
 MacFields::MacFields(Device& device, const FluidParams& params)
     : grid(lay_mac_grid(params)),
       cells(cells_in(grid)),
-      strips(strips_in(grid, device)),
       vectors(vectors_in(grid, device)),
       room(mac_room(grid)),
       team(device.profile().team > 1 ? device.profile().judges : 1),

@@ -14,7 +14,6 @@ struct MacFields {
 
   MacGrid grid;
   std::size_t cells;    ///< inside, and one more along each axis
-  std::size_t strips;   ///< of these that are gathered for together
   std::size_t vectors;  ///< of them and those around
   std::size_t room;     ///< of an array over all levels
   std::size_t team;     ///< work-items of a work-group that solves, or sums over bodies' cells

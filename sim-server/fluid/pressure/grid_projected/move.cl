@@ -14,12 +14,10 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
-// Mean change of the known faces around particles along an axis; where there is none they fall.
-static lanes change_along(constant MacGrid* g, const Placed* at, int axis,
-                          global const float* change, lanes falls) {
-  lanes weight;
-  const lanes sum = sum_of_faces(g, at, axis, change, true, &weight);
-  return select(falls, sum / weight, at->on_grid & (weight > (lanes)(MAC_SEEN)));
+// What velocities are multiplied by to stay below the limit; 1 where they are none.
+static lanes slowed(constant FluidParams* p, const lanes v[3]) {
+  const lanes size = inverse_root(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  return fmin(p->speed_limit * size, (lanes)(1.0f));
 }
 
 // `filtered`: 1 - exp(-rate dt). `kick`: part of the spacing's push that stays as speed. `carried`:
@@ -47,15 +45,16 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
   for (int axis = 0; axis < 3; ++axis) {
     const lanes a = LOAD(acceleration + axis * n, first);
     const lanes d = LOAD(deviation + axis * n, first);
-    const lanes twice = select(none, d - from_faces(g, &at, axis, seen), at.on_grid);
+    const FaceSums here = sum_of_faces(g, &at, axis, seen, change);
+    const lanes twice = select(none, d - here.whole, at.on_grid);
+    // Where no face is known particles fall.
+    const lane_flags known = at.on_grid & (here.weight > (lanes)(MAC_SEEN));
     before[axis] = LOAD(velocity + axis * n, first);
-    const lanes v = before[axis] + change_along(g, &at, axis, change, falls[axis]);
+    const lanes v = before[axis] + select(falls[axis], here.known / here.weight, known);
     way[axis] = v - d + dt * a;
     u[axis] = v - filtered * twice + kick * dt * a;
   }
-  const lanes slower = fmin(p->speed_limit * rsqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]), 1.0f);
-  const lanes shorter =
-      fmin(p->speed_limit * rsqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]), 1.0f);
+  const lanes slower = slowed(p, u), shorter = slowed(p, way);
   for (int axis = 0; axis < 3; ++axis) {
     u[axis] *= slower;
     way[axis] *= shorter;
@@ -70,12 +69,13 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
     STORE(push + u[axis] - loose[axis], jolt + axis * n, first);
   }
   keep_in_tank(p, piston, piston_speed, &x[0], &x[1], &x[2], &u[0], &u[1], &u[2]);
+  const float per_step = 1.0f / dt;
   const lane_flags here = LANE_NUMBERS < (lane_flags)(p->count - first);
   for (int axis = 0; axis < 3; ++axis) {
     const lane_flags stopped = x[axis] != free[axis];
-    STORE(select(way[axis], (x[axis] - from[axis]) / dt, stopped), carried + axis * n, first);
+    STORE(select(way[axis], (x[axis] - from[axis]) * per_step, stopped), carried + axis * n, first);
     STORE(select(from[axis], x[axis], here), position + axis * n, first);
     STORE(select(before[axis], u[axis], here), velocity + axis * n, first);
-    STORE((u[axis] - before[axis]) / dt, acceleration + axis * n, first);
+    STORE((u[axis] - before[axis]) * per_step, acceleration + axis * n, first);
   }
 }

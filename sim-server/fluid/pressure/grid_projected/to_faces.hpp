@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Values of particles to the grid's faces: on CPUs by scatter.cl, on GPUs by gather.cl.
+#pragma once
+
+#include <cstddef>
+
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+
+namespace splash::sim {
+
+class Fluid;
+
+class ToFaces {
+ public:
+  /// `fields` outlives it.
+  ToFaces(Device& device, const cl::Program& program, const MacFields& fields);
+
+  /// Of the sorted particles' `value`, x, y and z; `mean`: of those around faces. The weights and
+  /// fills of `fields`, too.
+  void find(Fluid& fluid, const Buffer<float>& value, const Buffer<float>& mean);
+
+ private:
+  const MacFields& fields_;
+  std::size_t items_;    ///< that scatter; 0: one for each cell gathers
+  Buffer<float> grids_;  ///< of these items
+  Buffer<int> layers_;   ///< that they reached, first and last
+  Kernel gather_;
+  Kernel scatter_;
+  Kernel add_up_;
+};
+
+}  // namespace splash::sim
