@@ -1,22 +1,29 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too
-# (twice as long). Reading the system headers takes most of the time, so units with the same options
-# are joined into one and read together; if clang-tidy finds fault with those, each is read alone. A
-# unit found clean is not read again until it, a header of ours or the rules change. Arguments: the
-# source tree, the build folder.
+# clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too,
+# and the static analyzer follows calls from one function into others (several times as long).
+# Reading the system headers takes most of the time, so units with the same options are joined into
+# one and read together; if clang-tidy finds fault with those, each is read alone. A unit found clean
+# is not read again until it, a header of ours or the rules change. Arguments: the source tree, the
+# build folder.
 set -euo pipefail
 cd "$1"
 build=$2
 clean=$build/tidy-clean
 joined=$build/tidy-joined
-readonly kMost=24  # units read together
+readonly kMost=32  # units read together
 rm -rf "$joined"
 mkdir -p "$clean" "$joined"
 commands=$build/separate.json
 awk -f tests/house/separate_units.awk "$build/compile_commands.json" >"$commands"
 
+extra=--extra-arg=-Wno-unknown-warning-option
+if [[ -z ${SPLASH_TIDY_ALL:-} ]]; then  # following calls is half of all time
+  for word in -Xclang -analyzer-config -Xclang mode=shallow; do extra+=" --extra-arg=$word"; done
+fi
+
 rules=$(clang-tidy --version
+  echo "$extra"
   cat .clang-tidy tests/.clang-tidy
   find program protocol sim-server synth-server pd-patches tests \( -name '*.hpp' -o -name '*.h' \) \
     -exec cat {} +)
@@ -42,7 +49,8 @@ unquoted() {  # options as JSON has them: a shell's \" within them is a quote
 read_alone() {  # options, source: silent when clean
   local output words
   read -ra words <<<"$(unquoted "$1")"  # one of its commands: tests may compile it, too
-  if output=$(clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option "$2" -- "${words[@]}" 2>&1); then
+  # shellcheck disable=SC2086
+  if output=$(clang-tidy --quiet $extra "$2" -- "${words[@]}" 2>&1); then
     touch "$(key_of "$@")"
   else
     printf '%s\n' "$output" | grep -v 'warnings generated\|^Suppressed\|^Use -header-filter' || true
@@ -57,8 +65,9 @@ read_together() {  # options, sources
   shift
   text=$(mktemp "$joined/XXXXXX.cpp")
   for source in "$@"; do printf '#line 1 "%s"\n%s\n' "$source" "$(<"$source")"; done >"$text"
+  # shellcheck disable=SC2086
   if (($# > 1)) && clang-tidy --quiet --config-file=.clang-tidy \
-      --checks=-readability-duplicate-include --extra-arg=-Wno-unknown-warning-option \
+      --checks=-readability-duplicate-include $extra \
       "$text" -- "${words[@]}" &>"$text.log"; then
     for source in "$@"; do touch "$(key_of "$options" "$source")"; done
   else
@@ -67,7 +76,7 @@ read_together() {  # options, sources
   return "$failed"
 }
 export -f key_of unquoted read_alone read_together
-export build clean joined rules
+export build clean joined rules extra
 
 # Tests, which have rules of their own, are read one by one.
 join_units() {
