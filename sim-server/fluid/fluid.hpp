@@ -24,7 +24,7 @@ namespace splash::sim {
 
 /// How kernels are built.
 struct KernelBuild {
-  bool whole = false;  ///< with parts that the scene does not need, too (parts.hpp)
+  bool whole = whole_asked();  ///< with parts that the scene does not need, too (parts.hpp)
 };
 
 /// Health and limits of the whole fluid.

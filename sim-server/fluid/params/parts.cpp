@@ -2,6 +2,7 @@
 #include "sim-server/fluid/params/parts.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "sim-server/fluid/params/smoothing.hpp"
 
@@ -16,6 +17,10 @@ KernelParts parts_needed(const FluidParams& params, const std::vector<BodyShape>
           params.viscous != 0.0F || params.artificial != 0.0F,
           std::any_of(shapes.begin(), shapes.end(),
                       [](const BodyShape& shape) { return shape.kind == SPLASH_MESH; })};
+}
+
+bool whole_asked() {
+  return std::getenv("SPLASH_WHOLE") != nullptr;
 }
 
 std::vector<std::string> kernel_defines(const KernelParts& parts) {

@@ -27,6 +27,9 @@ struct KernelParts {
 [[nodiscard]] KernelParts parts_needed(const FluidParams& params,
                                        const std::vector<BodyShape>& shapes);
 
+/// Whether $SPLASH_WHOLE is set: all scenes then share the programs that have every part.
+[[nodiscard]] bool whole_asked();
+
 /// What programs with these parts are built with.
 [[nodiscard]] std::vector<std::string> kernel_defines(const KernelParts& parts);
 
