@@ -119,8 +119,7 @@ MacFaces MacReference::known(const ReferenceGathered& water) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto below = c - static_cast<std::size_t>(step_[axis]);
       const bool beside = water.fill[c] > kFull || water.fill[below] > kFull;
-      known[axis][c] =
-          water.weight[axis][c] > kLight && (is_wall(cell, axis) || beside) ? 1.0 : 0.0;
+      known[axis][c] = water.weight[axis][c] > kLight && beside ? 1.0 : 0.0;
     }
   });
   return known;

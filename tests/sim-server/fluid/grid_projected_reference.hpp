@@ -30,7 +30,7 @@ class MacReference {
   /// Of the faces around a place, by the hat; those alone that `known` says.
   [[nodiscard]] Vector3 at(const Vector3& place, const MacFaces& faces, const MacFaces& known,
                            const Vector3& otherwise) const;
-  /// Which faces a solve finds: walls, and those beside a cell with water.
+  /// Which faces a solve finds: those beside a cell with water.
   [[nodiscard]] MacFaces known(const ReferenceGathered& water) const;
   /// What the step changes at faces: gravity, viscosity `nu`, and pressures in Pa.
   [[nodiscard]] MacFaces change(const ReferenceGathered& water, const FluidParams& params,

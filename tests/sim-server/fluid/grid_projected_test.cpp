@@ -346,6 +346,46 @@ TEST(GridProjected, ABallUnderWaterIsBorneByWhatItDisplaces) {
   EXPECT_NEAR(force / (998.0 * 9.81 * ball_volume), 1.0, 0.05);
 }
 
+/// A drop flies freely until it touches the dry floor or a dry wall, half a spacing off, and goes
+/// no farther.
+TEST(GridProjected, ALoneDropFliesUntilItTouches) {
+  Device device;
+  constexpr double kRadius = 0.01;  // half a spacing [m]
+  constexpr double kTowards = 0.5;  // to the wall at x = 0 [m/s]
+  const std::vector<std::vector<Vector3>> drops = {
+      {{0.13, 0.2, 0.17}},
+      {{0.13, 0.2, 0.17}, {0.15, 0.2, 0.17}, {0.13, 0.22, 0.17}, {0.15, 0.22, 0.17}}};
+  for (const std::vector<Vector3>& drop : drops) {
+    Water water = fill(tank_scene(0.02, {0.4, 0.4, 0.4}, 0.2), PressureKind::grid_projected);
+    water.settle = false;
+    water.particles = drop;
+    water.start(device);
+    Snapshot state = water.fluid->snapshot();
+    for (std::size_t i = 0; i < drop.size(); ++i) {
+      state.velocity[part(*water.fluid, 0, i)] = static_cast<float>(-kTowards);
+    }
+    water.fluid->restore(state);
+    for (int k = 1; k <= 100; ++k) {
+      water.step(kStep);
+      const Snapshot now = water.fluid->snapshot();
+      for (std::size_t i = 0; i < drop.size(); ++i) {
+        const Vector3& from = drop[static_cast<std::size_t>(now.id[i])];
+        const Vector3 x = vector_of(*water.fluid, now.position, i);
+        const Vector3 v = vector_of(*water.fluid, now.velocity, i);
+        const double fall = 0.5 * 9.81 * kStep * kStep * k * (k + 1);
+        const bool down = from[2] - fall < kRadius;
+        EXPECT_NEAR(x[2], down ? kRadius : from[2] - fall, 1.0e-5) << k;
+        EXPECT_NEAR(v[2], down ? 0.0 : -9.81 * kStep * k, 1.0e-4) << k;
+        const bool beside = drop[0][0] - kTowards * kStep * k < kRadius;  // the first of it
+        if (!beside) {
+          EXPECT_NEAR(v[0], -kTowards, 1.0e-5) << k;
+        }
+        EXPECT_GE(x[0], kRadius - 1.0e-5) << k;
+      }
+    }
+  }
+}
+
 /// The first sloshing mode of a tank 1 m long, half a metre deep, on ten layers.
 TEST(GridProjected, AWaveLasts) {
   Device device;

@@ -20,6 +20,31 @@ static lanes slowed(constant FluidParams* p, const lanes v[3]) {
   return fmin(p->speed_limit * size, (lanes)(1.0f));
 }
 
+// What falls, along the axes for which the grid knows no face around it, goes on until it touches a
+// wall, half a spacing off, as its lattice begins: of what would come nearer, the motion towards the
+// wall ends. `loose`: 1 where it falls along an axis, or 0. `from`: where the step begins, `way`: the
+// velocity of its motion.
+static void touch_walls(constant FluidParams* p, float dt, float piston, float piston_speed,
+                        const lanes loose[3], const lanes from[3], lanes way[3], lanes u[3]) {
+  const lanes none = 0.0f;
+  for (int k = 0; k < p->wall_count; ++k) {
+    const float n[3] = {p->walls[k].nx, p->walls[k].ny, p->walls[k].nz};
+    const lanes part = n[0] * n[0] * loose[0] + n[1] * n[1] * loose[1] + n[2] * n[2] * loose[2];
+    const lane_flags falls = part > (lanes)(0.5f);
+    if (!any_lane(falls)) continue;
+    const float speed = k == p->piston ? piston_speed : 0.0f;
+    const lanes gap = wall_distance(p, k, from[0], from[1], from[2], piston) - 0.5f * p->spacing;
+    const lanes allowed = speed - fmax(gap, none) / dt;
+    const lanes excess = allowed - (n[0] * way[0] + n[1] * way[1] + n[2] * way[2]);
+    const lane_flags touches = falls & (excess > none);
+    const lanes stopped = fmax(speed - (n[0] * u[0] + n[1] * u[1] + n[2] * u[2]), none);
+    for (int axis = 0; axis < 3; ++axis) {
+      way[axis] += select(none, n[axis] * excess, touches);
+      u[axis] += select(none, n[axis] * stopped, touches);
+    }
+  }
+}
+
 // `filtered`: 1 - exp(-rate dt). `kick`: part of the spacing's push that stays as speed. `carried`:
 // the velocity that took each particle where it is. `jolt`: acceleration by the spacing to bodies
 // [m/s2]; if any body is felt (`feels` is not 0), it is replaced by the change of velocity that
@@ -42,6 +67,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
                           dt * (p->gravity_y - p->pull_y * (from[1] - p->centre_y)),
                           dt * (p->gravity_z - p->pull_z * (from[2] - p->centre_z))};
   const lanes none = 0.0f;
+  lanes loose[3];
   for (int axis = 0; axis < 3; ++axis) {
     const lanes a = LOAD(acceleration + axis * n, first);
     const lanes d = LOAD(deviation + axis * n, first);
@@ -49,11 +75,13 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
     const lanes twice = select(none, d - here.whole, at.on_grid);
     // Where no face is known particles fall.
     const lane_flags known = at.on_grid & (here.weight > (lanes)(MAC_SEEN));
+    loose[axis] = select((lanes)(1.0f), none, known);
     before[axis] = LOAD(velocity + axis * n, first);
     const lanes v = before[axis] + select(falls[axis], here.known / here.weight, known);
     way[axis] = v - d + dt * a;
     u[axis] = v - filtered * twice + kick * dt * a;
   }
+  touch_walls(p, dt, piston, piston_speed, loose, from, way, u);
   const lanes slower = slowed(p, u), shorter = slowed(p, way);
   for (int axis = 0; axis < 3; ++axis) {
     u[axis] *= slower;
@@ -62,11 +90,11 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
   }
   const lanes free[3] = {x[0], x[1], x[2]};
   const Bodies near = {shapes, meshes, bodies, first_body, body_count};
-  const lanes loose[3] = {u[0], u[1], u[2]};
+  const lanes unstopped[3] = {u[0], u[1], u[2]};
   keep_lanes_out(p, &near, from, x, u);
   for (int axis = 0; axis < 3 && feels; ++axis) {
     const lanes push = kick * dt * LOAD(jolt + axis * n, first);
-    STORE(push + u[axis] - loose[axis], jolt + axis * n, first);
+    STORE(push + u[axis] - unstopped[axis], jolt + axis * n, first);
   }
   keep_in_tank(p, piston, piston_speed, &x[0], &x[1], &x[2], &u[0], &u[1], &u[2]);
   const float per_step = 1.0f / dt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Faces beside water get what the pressures do to them, walls stop: what the step changed at each
-// face is left in `pushed`, or MAC_UNKNOWN where there is no water, or a solid closes the face.
+// Faces beside water get what the pressures do to them, and walls beside it stop it: what the step
+// changed at each face is left in `pushed`, or MAC_UNKNOWN where there is no water, or a solid
+// closes the face.
 // Then the pressures of cells with water are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"
@@ -37,7 +38,7 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     const int face = axis * l.cells + c;
     const lane_flags wall = are_walls(l, &at, axis);
     const lane_flags beside = LOAD(wet, c) + LOAD(wet, c - step[axis]) > none;
-    const lane_flags open = (open_of(gap, face) > none) & (wall | beside);
+    const lane_flags open = (open_of(gap, face) > none) & beside;
     const lanes by = inverse[axis] * growth(fill, wet, found, c, step[axis]);
     const lanes change = LOAD(pushed, face) - LOAD(mean, face) - select(by, none, wall);
     const lane_flags known = at.real & open & (LOAD(weight, face) > (lanes)(MAC_LIGHT));
