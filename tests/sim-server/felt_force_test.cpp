@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The force of the water that those feel who ask for it: that of sums in double precision, the
 // weight of what a held body displaces, also near the floor, all the momentum that the water gets
-// of tracked and of grabbed bodies, and how it changes with the body's speed. While nobody asks
-// nothing is found.
+// of tracked and of grabbed bodies (on a grid: felt_momentum_test.cpp), and how it changes with the
+// body's speed. While nobody asks nothing is found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 
 #include "sim-server/bodies/skin.hpp"
 #include "sim-server/device/device.hpp"
-#include "sim-server/gauge/balance.hpp"
 #include "sim-server/gauge/body_push.hpp"
 #include "sim-server/gauge/film_force.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -329,76 +328,6 @@ TEST(FeltForce, OfWaterAtRestOnAGridIsThatOfItsPressures) {
     EXPECT_GT(length(press.force), 1.0);
     EXPECT_LT(length(push.force - press.force), 2.0e-3 * length(press.force));
     EXPECT_LT(length(push.torque - torque), 2.0e-3 * 0.12 * length(press.force));
-  }
-}
-
-/// Weightless water without walls around, a plate of `size` in or before it, and how that goes.
-struct Blow {
-  const char* says;
-  double spacing;
-  std::string water;
-  std::string size;
-  double begins;                       ///< x of the plate's middle [m]
-  std::function<double(double)> goes;  ///< along x, by time [m]
-  double lasts;                        ///< [s]
-};
-
-/// The largest that the water's momentum along x was, and how far what the forces gave was ever
-/// from it [N s].
-struct Balance {
-  double most = 0.0;
-  double off = 0.0;
-};
-
-Balance balance_on_a_grid(const Blow& blow) {
-  Device device;
-  const Scene scene = parse_scene(
-      "fluid: {settle: never, solver: grid_projected, spacing: " + std::to_string(blow.spacing) +
-          ", gravity: [0, 0, 0]}\n" +
-          "tank: {lower: [-1.1, -0.7, -0.8], upper: [1.1, 0.7, 1.0]}\nwater: [{" + blow.water +
-          "}]\nbodies:\n  - name: plate\n    shape: {size: " + blow.size +
-          "}\n    motion: {kind: osc}\n    rest: {position: [" + std::to_string(blow.begins) +
-          ", 0, 0.3]}\n",
-      "blow.yaml");
-  Simulation simulation(device, scene, {});
-  simulation.feel(true);
-  const auto momentum_now = [&] { return momentum(read_water(simulation.fluid(), false)).sum; };
-  Vector3 expected = momentum_now();
-  Balance balance;
-  while (simulation.seconds() < blow.lasts) {
-    const double now = simulation.seconds();
-    static_cast<void>(simulation.live_body(0)->push({blow.begins + blow.goes(now), 0.0, 0.3},
-                                                    {0.0, 0.0, 0.0, 1.0}, {now, {}}));
-    const FrameResult frame = simulation.advance();
-    const double lasted = frame.seconds - now;
-    EXPECT_EQ(frame.pushes.size(), 1U);
-    if (frame.pushes.empty()) return balance;
-    expected = expected - lasted * frame.pushes[0].force;
-    const Vector3 found = momentum_now();
-    balance.most = std::max(balance.most, std::abs(found[0]));
-    balance.off = std::max(balance.off, std::abs(expected[0] - found[0]));
-  }
-  std::printf("%s: momentum up to %.4f N s, by forces within %.4f: %.2f %%\n", blow.says,
-              balance.most, balance.off, 100.0 * balance.off / balance.most);
-  return balance;
-}
-
-// Pressures on a grid act on volumes, and what gets their momentum are particles.
-TEST(FeltForce, OfWaterOnAGridIsAllTheMomentumThatItGets) {
-  const std::string ball = "lower: [-0.1, -0.1, 0.2], upper: [0.1, 0.1, 0.4], form: sphere";
-  const std::string block = "lower: [-0.4, -0.24, 0.06], upper: [0.4, 0.24, 0.54]";
-  const auto at = [](double speed) { return [speed](double time) { return speed * time; }; };
-  const auto in_and_out = [](double time) { return 0.12 * (1.0 - std::cos(9.0 * time)); };
-  const std::string plate = "[0.06, 0.16, 0.16]";
-  const std::vector<Blow> blows = {
-      {"a ball, struck at 0.3 m/s", 0.02, ball, plate, -0.15, at(0.3), 0.5},
-      {"a ball, struck at 1 m/s", 0.02, ball, plate, -0.15, at(1.0), 0.22},
-      {"a block, struck at 1.5 m/s", 0.02, block, plate, -0.45, at(1.5), 0.2},
-      {"through a block at 1 m/s", 0.02, block, plate, -0.2, at(1.0), 0.22},
-      {"in and out", 0.015, block, "[0.08, 0.1, 0.2]", -0.48, in_and_out, 0.7}};
-  for (const Blow& blow : blows) {
-    const Balance balance = balance_on_a_grid(blow);
-    EXPECT_LT(balance.off, 0.02 * balance.most) << blow.says;
   }
 }
 

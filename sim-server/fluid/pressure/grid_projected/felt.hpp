@@ -32,6 +32,7 @@ class FeltForces {
   void weigh(Fluid& fluid, const Step& step);
   /// Of particles, by bodies other than by pressure: spacing and moving fill it [m/s].
   [[nodiscard]] const Buffer<float>& jolt() const noexcept { return given_.jolt(); }
+  [[nodiscard]] const Buffer<float>& whose() const noexcept { return given_.whose(); }
   /// What a step that went wrong left would go on from one to the next.
   void forget(Device& device) { answer_.enqueue_clear(device); }
 

@@ -25,6 +25,8 @@ class GivenMomentum {
 
   /// Of particles, by bodies other than by pressure: spacing and moving fill it [m/s].
   [[nodiscard]] const Buffer<float>& jolt() const noexcept { return jolt_; }
+  /// Of faces: index of the felt body to which they belong, or -1.
+  [[nodiscard]] const Buffer<float>& whose() const noexcept { return whose_; }
 
  private:
   const MacFields& fields_;
@@ -32,7 +34,7 @@ class GivenMomentum {
   Buffer<float> jolt_;
   Buffer<float> given_;  ///< of faces [m/s]
   Buffer<float> taken_;  ///< of faces [N s]
-  Buffer<float> whose_;  ///< of faces: index of the felt body, or -1
+  Buffer<float> whose_;
   Buffer<float> parts_;  ///< sums of parts of the water and of the faces [N s, N m s]
   Kernel mark_faces_;
   Kernel weigh_faces_;

@@ -67,6 +67,7 @@ class GridProjected : public PressureSolver {
   // For tests, between steps.
   [[nodiscard]] const MacFields& fields() const noexcept { return fields_; }
   [[nodiscard]] const GridSolids& solids() const noexcept { return solids_; }
+  [[nodiscard]] const FeltForces& felt() const noexcept { return felt_; }
   [[nodiscard]] const Buffer<float>& deviation() const noexcept { return deviation_; }
   [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_; }
 
