@@ -153,6 +153,17 @@ TEST_F(Hands, OneFingerHoldsTheDiscWhileAnotherTurnsTheCameraAndTwoZoom) {
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
+TEST_F(Hands, ABodyUnderTheWaterIsSeenThroughPoints) {
+  PlayedPage& page = PlayedPage::shared();
+  page.load("?points", 300, 220, 0.44);
+  Chromium& browser = page.browser();
+  const Json colours =
+      drawn(browser, seen(browser, {{0.0, 0.0, PlayedPage::kRest}, {0.0, 0.0, 0.1}}));
+  EXPECT_GT(colours[0][0].get<int>(), colours[1][0].get<int>() + 25) << colours;
+  EXPECT_GT(colours[0][2].get<int>(), 50) << "through the water " << colours;
+  EXPECT_THAT(browser.errors(), IsEmpty());
+}
+
 /// A headset that the page is made to believe in: one eye that sees what the camera sees, and one
 /// controller, whose place is `hand.place`, in WebXR's axes.
 constexpr const char* kHeadset = R"js((async () => {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where textures of floats cannot be drawn into: the water as shaded points, bodies as they are.
+// Where textures of floats cannot be drawn into, or graphics are too slow for water: the water as
+// shaded points, the tank's edges, and the bodies as they are, dimmed behind the water.
 import { program, use } from './gl.js';
 import { PARTICLE } from './particles.js';
+import { GROUND, SOLID_VERTEX, STILL } from './solids.js';
 
 const VERTEX = `${PARTICLE}
 uniform mat4 both, projection;
@@ -20,29 +22,21 @@ void main() {
   if (dot(q, q) > 1.0) discard;
   colour = vec4(tint * (0.55 + 0.45 * sqrt(1.0 - dot(q, q))), 1.0);
 }`;
-const BODY_VERTEX = `
-layout(location = 0) in vec3 own;
-layout(location = 1) in vec3 normal;
-uniform mat4 pose, both;
-out vec3 n;
-void main() {
-  n = mat3(pose) * normal;
-  gl_Position = both * pose * vec4(own, 1.0);
-}`;
-const BODY_FRAGMENT = `
-in vec3 n;
+const SOLID_FRAGMENT = `
+in vec3 facing;
 uniform vec3 tint;
-uniform float glow;
+uniform float glow, cover;
 out vec4 colour;
 void main() {
-  colour = vec4(tint * (0.5 + 0.5 * abs(normalize(n).z)) + 0.3 * glow, 1.0);
+  colour = vec4(tint * (0.5 + 0.5 * abs(normalize(facing).z)) + 0.3 * glow, cover);
 }`;
+const BEHIND = 0.4; // of a body's light comes through the water before it
 
 export class Points {
   constructor(gl) {
     this.gl = gl;
     this.water = program(gl, VERTEX, FRAGMENT);
-    this.body = program(gl, BODY_VERTEX, BODY_FRAGMENT);
+    this.solid = program(gl, SOLID_VERTEX, SOLID_FRAGMENT);
   }
 
   draw({ width, height }, camera, world, particles, solids, drawMarks) {
@@ -52,14 +46,21 @@ export class Points {
     gl.clearColor(0.04, 0.07, 0.10, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
-    for (const { pose, tint, glow, draw } of solids.bodies) {
-      use(gl, this.body, { ...camera, pose, tint, glow });
-      draw();
-    }
+    const drawSolids = (all, cover, bars = { halfThick: 0, halfPixel: 0 }) => {
+      for (const { pose = STILL, tint, glow = 0, draw } of all) {
+        use(gl, this.solid, { ...camera, ...bars, pose, tint, glow, cover });
+        draw();
+      }
+    };
+    drawSolids([...solids.bodies, ...solids.still.filter(({ material }) => material !== GROUND)], 1);
+    drawSolids([solids.edges], 1, solids.bars(camera, height));
     use(gl, this.water, { ...camera, ...particles.uniforms, radius: 0.5 * world.spacing, height });
     particles.drawWater();
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthFunc(gl.GREATER);
+    drawSolids(solids.bodies, BEHIND);
+    gl.depthFunc(gl.LESS);
     drawMarks();
     gl.disable(gl.BLEND);
   }

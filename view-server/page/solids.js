@@ -5,7 +5,7 @@ import { LIGHT, LIT } from './light.js';
 import { trianglesOf } from './triangles.js';
 import { normalised, poseMatrix } from './vector.js';
 
-const VERTEX = `
+export const SOLID_VERTEX = `
 layout(location = 0) in vec3 own;
 layout(location = 1) in vec3 normal;
 uniform mat4 pose, both;
@@ -96,8 +96,9 @@ void main() {
   colour = vec4(seen, 1.0);
 }`;
 
+export const GROUND = 0;
 const NONE = new Float32Array(64); // no tile is lit
-const STILL = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+export const STILL = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
 export const PALETTE = [[0.72, 0.20, 0.11], [0.78, 0.45, 0.07], [0.60, 0.12, 0.30],
   [0.28, 0.50, 0.12]];
 
@@ -200,7 +201,7 @@ function boardOf({ tank: { lower: l, upper: u } }) {
 export class Solids {
   constructor(gl) {
     this.gl = gl;
-    this.shader = program(gl, VERTEX, FRAGMENT);
+    this.shader = program(gl, SOLID_VERTEX, FRAGMENT);
     this.bodies = [];
   }
 
@@ -216,7 +217,7 @@ export class Solids {
     const sand = world.slope ? [0.60, 0.49, 0.33] : [0.27, 0.34, 0.37];
     this.still = [
       { material: 1, tint: sand, draw: draw(floorOf(world)) },
-      { material: 0, tint: [0.030, 0.043, 0.058], draw: draw(ground) },
+      { material: GROUND, tint: [0.030, 0.043, 0.058], draw: draw(ground) },
     ];
     this.board = null;
     if (world.wave_maker) {
@@ -251,10 +252,15 @@ export class Solids {
       { tiles: rig.tiles, levels: rig.levels });
   }
 
+  /// For the edges, in a picture of so many rows.
+  bars(camera, height) {
+    return { halfThick: 0.5 * thicknessOf(this.world), halfPixel: 1 / (camera.focal * height) };
+  }
+
   /// Where no water is before them; `water`: how far it is, `pixels`: of the picture.
   drawEdges(camera, light, hidden) {
     this.drawAll([this.edges], camera, light, { tiles: [0, 0, 1, 0], ...hidden,
-      halfThick: 0.5 * thicknessOf(this.world), halfPixel: 1 / (camera.focal * hidden.pixels[1]) });
+      ...this.bars(camera, hidden.pixels[1]) });
   }
 
   drawAll(solids, camera, light, more) {
