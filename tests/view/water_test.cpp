@@ -158,7 +158,11 @@ TEST_F(DrawnWater, StatesComeAtTheirOwnRateWhilePicturesAreDrawn) {
     window.usual = requestAnimationFrame;
     window.came = 0;
     const { playout } = splash;
-    playout.push = (...given) => { came += 1; Object.getPrototypeOf(playout).push.apply(playout, given); };
+    const { push } = playout;
+    playout.push = (...given) => {
+      came += 1;
+      push.apply(playout, given);
+    };
     requestAnimationFrame = (act) => setTimeout(act, 250);
   })js");
   const auto passed = [] {

@@ -27,7 +27,8 @@ const options = new URLSearchParams(location.search); // ?points, ?share=0.5
 const canvas = at('water');
 const gl = canvas.getContext('webgl2', { antialias: false, powerPreference: 'high-performance' });
 if (!gl) {
-  at('state').textContent = 'This browser has no WebGL 2, without which nothing can be drawn.';
+  at('state').textContent = 'This browser has no WebGL 2, without which nothing can be drawn: '
+    + 'turn on graphics acceleration in its settings, or take another browser.';
   throw new Error('no WebGL 2');
 }
 canvas.addEventListener('webglcontextlost', () => location.reload());

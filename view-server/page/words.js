@@ -48,7 +48,8 @@ export class Words {
     }
     this.simWasThere ||= sim;
     if (!this.simWasThere) {
-      return { text: 'Waiting for the simulator, which is started with --show: the first time it makes its kernels, for a minute or more', bad: false };
+      return { bad: false, text: 'Waiting for the simulator, which is started with --show: the first time it makes its '
+        + 'kernels, for a minute or more' };
     }
     if (!sim && !synth) return bad('Neither simulator nor synth answers: are they started with --show?');
     if (!sim) return bad('No simulator: it has ended, or was not started with --show');
@@ -62,7 +63,8 @@ export class Words {
     }
     const pace = this.last('sim-server')?.[PACE] ?? 1;
     if (pace > 0 && pace < 0.9) {
-      return bad(`Slower than real time: ${pace.toFixed(2)} simulated seconds in a second`);
+      return bad(`Slower than real time: ${pace.toFixed(2)} simulated seconds in a second; a smaller scene or a `
+        + 'faster device helps');
     }
     return { text: muted ? 'Muted' : description, bad: false };
   }
