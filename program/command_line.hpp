@@ -11,6 +11,7 @@
 
 #include "program/failure.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming)  CLI11 is not read by those who read options
 namespace CLI {
 class App;
 }  // namespace CLI
