@@ -74,12 +74,14 @@ const Kernels kStep = {"place_bodies", "gather_body_volumes", "compute_density",
 const Kernels kTurn = {"turn_water"};
 /// Where pressure pushes pairs of particles.
 const Kernels kPairs = {"compute_acceleration", "integrate"};
-const Kernels kGrid = {"cut_cells",      "open_faces",     "fill_beside_solids", "find_deviation",
-                       "move_particles", "project_faces",  "find_spacing",       "sample_pressure",
-                       "solve_pressure", "push_faces",     "lay_system",         "let_fall",
-                       "grip_water",     "push_bodies",    "tie_bodies",         "tell_tugs",
-                       "weigh_pressure", "ask_for_answer", "weigh_answer",       "mark_faces",
-                       "weigh_faces",    "weigh_given",    "sum_given"};
+const Kernels kGrid = {"cut_cells",      "open_faces",    "fill_beside_solids", "find_deviation",
+                       "move_particles", "project_faces", "find_spacing",       "sample_pressure",
+                       "solve_pressure", "push_faces",    "lay_system",         "let_fall",
+                       "grip_water",     "push_bodies",   "tie_bodies",         "tell_tugs",
+                       "weigh_pressure", "mark_faces",    "weigh_faces",        "weigh_given",
+                       "sum_given"};
+/// How pushes on felt bodies depend on speeds.
+const Kernels kAnswers = {"ask_for_answer", "weigh_answer"};
 /// From particles to its faces, on CPUs and on GPUs.
 const Kernels kScatter = {"scatter_to_faces", "add_up_faces"};
 const Kernels kGather = {"gather_faces"};
@@ -101,7 +103,7 @@ const std::vector<Watched> kWatched = {
     {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kTurn})},
     {"grid_projected", "sim_fluid_two_steps 16 1 1", "Oclgrind: 251 particles",
-     join({kRuns, kStep, kGrid, kScatter, kMoved})},
+     join({kRuns, kStep, kGrid, kAnswers, kScatter, kMoved})},
     {"scalar_grid_projected", "sim_fluid_two_steps 1 1 1", "Oclgrind: 251 particles",
      join({kRanks, kStep, kGrid, kGather, kMoved})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",
