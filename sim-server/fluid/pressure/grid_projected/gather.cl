@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Particles to faces: of each face the mean of the particles around it, weighed by the hat, and of
-// each cell how full it is. On GPUs: one work-item for a cell with its lower faces looks through the
-// sorted particles near it. No atomics: the same bits on every run. On CPUs: scatter.cl.
+// Particles to faces on GPUs (on CPUs: scatter.cl): of each face the mean of the particles around
+// it, weighed by the hat, and of each cell how full it is. One work-item for a cell with its lower
+// faces looks through the sorted particles near it. No atomics: the same bits on every run.
 
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/neighbours/grid.h"
