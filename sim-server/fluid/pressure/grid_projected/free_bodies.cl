@@ -88,8 +88,8 @@ kernel void push_bodies(constant FluidParams* p, constant MacGrid* g, int free_c
   for (int k = 0; k < free_count; ++k) {
     float push[6], answer[6];
     find_push(g, &all, k, found, parts, push);
-    answer_push(&all, k, push, answer);
     if (FIRST_ITEM > 0) continue;
+    answer_push(&all, k, push, answer);
     const FreeBody f = frees[k];
     BodyStep b = bodies[first_body + f.body];
     const float3 dv = -(float3)(answer[0], answer[1], answer[2]);
