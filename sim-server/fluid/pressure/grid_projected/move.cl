@@ -21,9 +21,9 @@ static lanes slowed(constant FluidParams* p, const lanes v[3]) {
 }
 
 // What falls, along the axes for which the grid knows no face around it, goes on until it touches a
-// wall, half a spacing off, as its lattice begins: of what would come nearer, the motion towards the
-// wall ends. `loose`: 1 where it falls along an axis, or 0. `from`: where the step begins, `way`: the
-// velocity of its motion.
+// wall, half a spacing off, as its lattice begins: of what would come nearer, the motion towards
+// the wall ends. `loose`: 1 where it falls along an axis, or 0. `from`: where the step begins,
+// `way`: the velocity of its motion.
 static void touch_walls(constant FluidParams* p, float dt, float piston, float piston_speed,
                         const lanes loose[3], const lanes from[3], lanes way[3], lanes u[3]) {
   const lanes none = 0.0f;
