@@ -117,8 +117,23 @@ MacFaces MacReference::known(const ReferenceGathered& water) const {
   each([&](const std::array<int, 3>& cell) {
     const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto below = c - static_cast<std::size_t>(step_[axis]);
-      const bool beside = water.fill[c] > kFull || water.fill[below] > kFull;
+      const auto holds = [&](const std::array<int, 3>& at) {
+        return water.fill[static_cast<std::size_t>(number(at[0], at[1], at[2]))] > kFull;
+      };
+      auto below = cell;
+      --below[axis];
+      bool beside = holds(cell) || holds(below);
+      // A wall stops what is within a cell along it from water, too.
+      for (std::size_t along = 0; along < 3 && is_wall(cell, axis) && cell[2] < cells_[2];
+           ++along) {
+        for (const int side : {-1, 1}) {
+          if (along == axis) continue;
+          auto next = cell, next_below = below;
+          next[along] += side;
+          next_below[along] += side;
+          beside = beside || holds(next) || (axis < 2 && holds(next_below));
+        }
+      }
       known[axis][c] = water.weight[axis][c] > kLight && beside ? 1.0 : 0.0;
     }
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Faces beside water get what the pressures do to them, and walls beside it stop it: what the step
-// changed at each face is left in `pushed`, or MAC_UNKNOWN where there is no water, or a solid
-// closes the face.
+// Faces beside water get what the pressures do to them, and walls beside it stop it, as far as a
+// cell along the wall: what the step changed at each face is left in `pushed`, or MAC_UNKNOWN where
+// there is no water, or a solid closes the face.
 // Then the pressures of cells with water are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"
@@ -22,6 +22,24 @@ static lanes growth(global const float* fill, global const float* wet, global co
   return select(select(fall, rise, here), f - below, here & there);
 }
 
+// Whether one of the cells along the wall from those that have its faces along an axis holds water:
+// what has risen above the surface there is still stopped with it.
+static lane_flags are_washed(const MacLevel l, global const float* wet, const Cells* at, int axis) {
+  const int step[3] = {1, l.row, l.layer};
+  const lanes none = 0.0f;
+  lanes sum = 0.0f;
+  for (int along = 0; along < 3; ++along) {
+    if (along == axis) continue;
+    for (int side = -1; side < 2; side += 2) {
+      const bool ends = along == 2 && at->z + side < 0;
+      const int c = at->first + (ends ? 0 : side * step[along]);
+      sum += LOAD(wet, c);
+      if (axis < 2) sum += LOAD(wet, c - step[axis]);  // nothing is below the floor
+    }
+  }
+  return sum > none;
+}
+
 kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt,
                           global const float* gap, global const float* fill,
                           global const float* mean, global const float* weight,
@@ -37,7 +55,8 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
   for (int axis = 0; axis < 3; ++axis) {
     const int face = axis * l.cells + c;
     const lane_flags wall = are_walls(l, &at, axis);
-    const lane_flags beside = LOAD(wet, c) + LOAD(wet, c - step[axis]) > none;
+    lane_flags beside = LOAD(wet, c) + LOAD(wet, c - step[axis]) > none;
+    if (at.z < l.nz && any_lane(wall)) beside |= wall & are_washed(l, wet, &at, axis);
     const lane_flags open = (open_of(gap, face) > none) & beside;
     const lanes by = inverse[axis] * growth(fill, wet, found, c, step[axis]);
     const lanes change = LOAD(pushed, face) - LOAD(mean, face) - select(by, none, wall);
