@@ -6,8 +6,8 @@
 
 namespace splash::program {
 
-/// Runs a program, of the name `program`. Returns its exit code; the error that ended it is told on
-/// standard error, behind the program's name if it does not begin with a file and a line.
+/// Calls `run` and returns the exit code of the program. An exception that ends it is printed to
+/// standard error: after the name `program`, unless its text begins with a file and a line.
 [[nodiscard]] int exit_code_of(const char* program, const std::function<void()>& run);
 
 }  // namespace splash::program

@@ -65,8 +65,8 @@ class PoseIntake {
     std::string until;   ///< the sender that began last is followed
     std::string remedy;  ///< beside stopping one of them
   };
-  /// Whether `moment.from` is whom a floor follows. `tell` is called with who waits and who moves
-  /// it once two send at the same time.
+  /// Returns whether the floor follows the sender `moment.from`. When a second sender begins,
+  /// `tell` is called with the sender that is refused and the one that is followed.
   [[nodiscard]] bool follows(PoseSenders& senders, const PoseMoment& moment,
                              const std::function<void(const protocol::Endpoint& waits,
                                                       const protocol::Endpoint& moves)>& tell);

@@ -11,7 +11,8 @@
 
 namespace splash::sim {
 
-/// Whether readings that begin with this sensor count; empty: all do.
+/// Returns whether a message counts whose first reading is of sensor `first`. An empty function
+/// lets all messages count.
 using LetTiles = std::function<bool(std::int32_t first)>;
 
 /// What a tile carries.

@@ -29,7 +29,8 @@ struct TuioFrame {
   std::map<std::int32_t, TuioCursor> cursors;
 };
 
-/// Whether a source at an address may speak, asked for each of its messages; empty: all may.
+/// Returns whether a message counts that the TUIO source `source` sent to the OSC address
+/// `address`; called for each message. An empty function lets all messages count.
 using LetSource = std::function<bool(const std::string& address, const std::string& source)>;
 
 /// True for the addresses above.

@@ -27,7 +27,8 @@ struct KernelParts {
 [[nodiscard]] KernelParts parts_needed(const FluidParams& params,
                                        const std::vector<BodyShape>& shapes);
 
-/// Whether $SPLASH_WHOLE is set: all scenes then share the programs that have every part.
+/// Whether the environment variable SPLASH_WHOLE is set. Kernels then have every part, so that all
+/// scenes share the same compiled programs.
 [[nodiscard]] bool whole_asked();
 
 /// What programs with these parts are built with.

@@ -17,30 +17,30 @@ class CoupledBodies {
   CoupledBodies(Device& device, const cl::Program& program, const MacFields& fields,
                 const GridSolids& solids);
 
-  /// From now on there are so many.
+  /// Makes room for `count` free bodies.
   void release(Device& device, std::size_t count);
-  /// As they would be without water.
+  /// Gives the bodies the velocities that they would have after the step without water.
   void let_fall(Fluid& fluid, const Step& step);
-  /// Once the system is laid: K of the cells beside them.
+  /// Finds K (coupling.h) of the cells beside the bodies. The system has been laid.
   void find_grip(Fluid& fluid, const Step& step);
-  /// The same for `count` others, to `grip`.
+  /// Finds the same for `count` other bodies and writes it to `grip`.
   void find_grip(Fluid& fluid, const Step& step, int count, const Buffer<FreeBody>& bodies,
                  const Buffer<float>& grip);
-  /// What the water does to them with the system's solution.
+  /// Gives the bodies the change of velocity by the pressures `found`, the system's solution.
   void push(Fluid& fluid, const Step& step, const Buffer<float>& found);
 
-  /// None before the water lets them go.
+  /// The number of free bodies; 0 before they are released.
   [[nodiscard]] int count(Fluid& fluid) const;
-  /// With what their springs add to their inertia.
+  /// The free bodies, with what their springs add to their inertia.
   [[nodiscard]] const Buffer<FreeBody>& solved(Fluid& fluid) const;
   [[nodiscard]] const Buffer<float>& grip() const noexcept { return grip_; }
 
-  /// What the next step depends on.
+  /// State that the next step depends on.
   [[nodiscard]] const cl::Buffer& kept() const noexcept { return kept_.memory(); }
   void forget(Device& device) { kept_.enqueue_clear(device); }
 
  private:
-  /// Whether any hangs on a device.
+  /// Whether a spring ties any free body to a haptic device or a tracker.
   [[nodiscard]] bool any_hung(Fluid& fluid) const;
   [[nodiscard]] const Buffer<FreeBody>& frees(Fluid& fluid) const;
 

@@ -6,7 +6,8 @@
 namespace splash::sim {
 namespace {
 
-/// Of a solve for how pushes change, at most: its error counts by its square (felt.cl).
+/// Iterations of a solve for the derivative of a force, at most: the error of the derivative is of
+/// the order of the solution's error squared (felt.cl).
 constexpr int kAnswerIterations = 4;
 
 }  // namespace

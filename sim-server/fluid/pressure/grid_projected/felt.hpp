@@ -21,19 +21,20 @@ class FeltForces {
   FeltForces(Device& device, const cl::Program& program, const MacFields& fields,
              const GridSolids& solids, CoupledBodies& bodies, PressureSystem& system);
 
-  /// From the next step on somebody feels bodies, or nobody does.
+  /// Turns the computation of felt forces on or off, from the next step on.
   void feel(Device& device, bool on);
   [[nodiscard]] bool feels() const noexcept { return feels_; }
-  /// The system is laid and not yet solved.
+  /// Copies the part of the laid system that its solve overwrites. Called before that solve.
   void keep_system(Fluid& fluid);
-  /// Whom this step's weigh() is for.
+  /// Sets the bodies whose forces weigh() finds in this step.
   void add(const FeltBodies& felt);
-  /// The particles moved: adds to the bodies' sums.
+  /// Adds this step's forces to the bodies' sums. The particles have moved.
   void weigh(Fluid& fluid, const Step& step);
-  /// Of particles, by bodies other than by pressure: spacing and moving fill it [m/s].
+  /// Of each particle, the change of velocity by bodies other than by the grid's pressure, which
+  /// find_spacing and move_particles write [m/s].
   [[nodiscard]] const Buffer<float>& jolt() const noexcept { return given_.jolt(); }
   [[nodiscard]] const Buffer<float>& whose() const noexcept { return given_.whose(); }
-  /// What a step that went wrong left would go on from one to the next.
+  /// Clears what a failed step left, which later steps would begin from.
   void forget(Device& device) { answer_.enqueue_clear(device); }
 
  private:

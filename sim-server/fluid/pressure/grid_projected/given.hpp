@@ -15,17 +15,19 @@ class GivenMomentum {
   GivenMomentum(Device& device, const cl::Program& program, const MacFields& fields,
                 const GridSolids& solids);
 
-  /// Before the first step in which somebody feels a body.
+  /// Allocates the arrays. Called before the first step in which a body is felt.
   void make_room(Device& device);
-  /// The particles moved: takes from the sums of `felt` what the bodies gave beyond the pressures
-  /// `found`; or, for one of them, adds the derivative by a `part` of its speed, to which the
-  /// pressures `found` are the answer.
+  /// Subtracts from the sums of `felt` the momentum that the bodies gave the particles beyond the
+  /// pressures `found`. With `only`, the index of one body, adds instead the derivative by
+  /// component `part` of its speed, for which `found` is the derivative of the pressures. The
+  /// particles have moved.
   void weigh(Fluid& fluid, const Step& step, const FeltBodies& felt, const Buffer<float>& found,
              int only = -1, int part = 0);
 
-  /// Of particles, by bodies other than by pressure: spacing and moving fill it [m/s].
+  /// Of each particle, the change of velocity by bodies other than by the grid's pressure, which
+  /// find_spacing and move_particles write [m/s].
   [[nodiscard]] const Buffer<float>& jolt() const noexcept { return jolt_; }
-  /// Of faces: index of the felt body to which they belong, or -1.
+  /// Of each face, the index of the felt body that it belongs to, or -1.
   [[nodiscard]] const Buffer<float>& whose() const noexcept { return whose_; }
 
  private:

@@ -221,9 +221,9 @@ static lane_flags are_walls(const MacLevel l, const Cells* at, int axis) {
   return (lane_flags)(at->z) == none;
 }
 
-// Of the faces along an axis, sums over the eight places around particles by their weights: of a
-// field that is known everywhere, of one that has gaps where that is known, and of the weights
-// there.
+// Weighted sums over the eight faces along an axis that are around each particle. `whole`: of a
+// field that is known on every face. `known`: of a field with gaps, over the faces where it is
+// known; `weight`: of the weights of these.
 typedef struct {
   lanes whole, known, weight;
 } FaceSums;

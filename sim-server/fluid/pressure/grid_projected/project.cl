@@ -22,8 +22,8 @@ static lanes growth(global const float* fill, global const float* wet, global co
   return select(select(fall, rise, here), f - below, here & there);
 }
 
-// Whether one of the cells along the wall from those that have its faces along an axis holds water:
-// what has risen above the surface there is still stopped with it.
+// Whether water is next to the cells beside a wall, along the wall; `axis`: across it. Such a wall
+// stops what has risen above the surface there, as it stops the water below.
 static lane_flags are_washed(const MacLevel l, global const float* wet, const Cells* at, int axis) {
   const int step[3] = {1, l.row, l.layer};
   const lanes none = 0.0f;

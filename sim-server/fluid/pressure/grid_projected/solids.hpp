@@ -17,13 +17,14 @@ class GridSolids {
   /// `any`: the scene may have some. Without, nothing is cut, and the arrays have one element.
   GridSolids(Device& device, const cl::Program& program, const MacFields& fields, bool any);
 
-  /// Where they are in this step.
+  /// Cuts the grid by the solids where they are in this step.
   void place(Fluid& fluid, const Step& step);
-  /// What the last step's pressures did to each of so many bodies. Waits.
+  /// The force and moment of the last step's pressures on each of so many bodies. Waits for the
+  /// device.
   [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) const;
 
   [[nodiscard]] bool any() const noexcept { return any_; }
-  /// Of cells, by their open part [1].
+  /// How full cells are, of their open part [1].
   [[nodiscard]] const Buffer<float>& fill() const noexcept { return any_ ? filled_ : fields_.fill; }
   [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
   [[nodiscard]] const Buffer<float>& space() const noexcept { return space_; }

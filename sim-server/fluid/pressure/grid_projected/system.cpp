@@ -6,7 +6,7 @@
 namespace splash::sim {
 namespace {
 
-/// Of a solve, at most.
+/// Iterations of a solve, at most.
 constexpr int kIterations = 40;
 
 }  // namespace

@@ -20,21 +20,21 @@ class PressureSystem {
   PressureSystem(Device& device, const cl::Program& program, const MacFields& fields,
                  const GridSolids& solids, const CoupledBodies& bodies);
 
-  /// What gravity and viscosity change of the faces' velocities.
+  /// Adds gravity and viscosity to the velocities on faces.
   void push_faces(Fluid& fluid, const Step& step);
   void lay(Fluid& fluid, const Step& step);
   void solve(Fluid& fluid, const Step& step);
-  /// From what is in `found` to the solution there, of the system as it is laid, or with another
-  /// right side in unknowns().
+  /// Solves the system as it is laid, or with another right side in unknowns(), in at most so many
+  /// `iterations`. `found` holds the first guess and then the solution.
   void solve(Fluid& fluid, const Step& step, int iterations, const Buffer<float>& found,
              const Buffer<SolveState>& state);
   void project(Fluid& fluid, const Step& step);
 
-  /// The last solve's: pressure times the step over the density [m2/s].
+  /// The last solution: pressure times the step's length over the density [m2/s].
   [[nodiscard]] const Buffer<float>& found() const noexcept { return found_; }
   /// What the surface adds to a cell's equation; a solve changes it.
   [[nodiscard]] const Buffer<float>& open() const noexcept { return open_; }
-  /// What a solve begins from, as arguments.
+  /// The arrays that a solve begins from, as kernel arguments.
   [[nodiscard]] std::array<KernelArg, 5> unknowns() const {
     return {{{"open", open_}, {"x", x_}, {"right", b_}, {"rest", r_}, {"way", way_}}};
   }
@@ -42,7 +42,7 @@ class PressureSystem {
   void enqueue_work(Device& device) { state_.enqueue_read(device, state_read_); }
   [[nodiscard]] SolveWork work() const;
   void forget_work(Device& device);
-  /// What a step that went wrong left would go on from one to the next.
+  /// Clears what a failed step left, which later steps would begin from.
   void forget(Device& device);
 
  private:

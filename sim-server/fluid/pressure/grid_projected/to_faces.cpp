@@ -6,8 +6,8 @@
 namespace splash::sim {
 namespace {
 
-/// That scatter, on whatever CPU: in what order sums are found must not depend on it. More have too
-/// many grids to add up.
+/// Work-items that scatter, the same on every CPU, so that sums are found in the same order. More
+/// would have too many grids to add up.
 constexpr std::size_t kItems = 4;
 
 /// Numbers in the grid of an item (scatter.cl).

@@ -17,15 +17,15 @@ class ToFaces {
   /// `fields` outlives it.
   ToFaces(Device& device, const cl::Program& program, const MacFields& fields);
 
-  /// Of the sorted particles' `value`, x, y and z; `mean`: of those around faces. The weights and
-  /// fills of `fields`, too.
+  /// Finds the mean of `value`, x, y and z of each sorted particle, around each face; the weights
+  /// of faces and the fill of cells in `fields`, too.
   void find(Fluid& fluid, const Buffer<float>& value, const Buffer<float>& mean);
 
  private:
   const MacFields& fields_;
-  std::size_t items_;    ///< that scatter; 0: one for each cell gathers
-  Buffer<float> grids_;  ///< of these items
-  Buffer<int> layers_;   ///< that they reached, first and last
+  std::size_t items_;    ///< work-items that scatter; 0: one work-item for each cell gathers
+  Buffer<float> grids_;  ///< a grid for each of these items
+  Buffer<int> layers_;   ///< first and last layer that each of them reached
   Kernel gather_;
   Kernel scatter_;
   Kernel add_up_;
