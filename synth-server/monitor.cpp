@@ -107,9 +107,9 @@ std::vector<Pan> pans_of(const Rig& rig) {
 
 namespace {
 
-constexpr int kAsked = 16;            ///< frames that a viewer may have asked for
+constexpr int kAsked = 32;            ///< frames that a viewer may have asked for
 constexpr std::size_t kSlots = 64;    ///< that wait to be made frames of
-constexpr double kSoundRate = 50.0;   ///< frames of sound [1/s]
+constexpr double kSoundRate = 100.0;  ///< frames of sound [1/s]
 constexpr double kLevelsRate = 20.0;  ///< [1/s]
 constexpr auto kPause = std::chrono::milliseconds(4);
 

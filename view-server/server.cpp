@@ -37,7 +37,7 @@ constexpr std::size_t kPagesMax = 16;
 /// What the kernel keeps of what a page does not read [bytes].
 constexpr int kSendBuffer = 1 << 18;
 constexpr std::size_t kListensMax = 1024;  ///< addresses
-constexpr std::size_t kSoundAsked = 16;    ///< as many as the synth allows
+constexpr std::size_t kSoundAsked = 32;    ///< as many as the synth allows
 constexpr int kNotifyEvery = 10;           ///< seconds; the programs forget clients after a minute
 /// So long the programs are looked at for one question about the tree, and so soon it is answered.
 constexpr auto kInterest = std::chrono::seconds(30);

@@ -43,6 +43,42 @@ TEST_F(Modules, ShownPicturesAreYoungWhereFramesComeInTime) {
   EXPECT_LT(ages[0].get<double>(), ages[2].get<double>());
 }
 
+// Frames of 10 ms of sound that come up to so much too late, for a minute, and are as long after it
+// in the ring as the latest needs, without a gap in its second half.
+TEST_F(Modules, SoundWaitsAsLongAsTheLatestArrivalNeeds) {
+  const Json heard = with_the_modules(R"js((async () => {
+    Object.assign(globalThis, { sampleRate: 48000, currentTime: 0,
+      AudioWorkletProcessor: class { port = { postMessage() {} }; },
+      registerProcessor: (name, made) => { globalThis.Monitor = made; } });
+    await import('/monitor_worklet.js');
+    const heard = [];
+    for (const late of [0, 0.02, 0.05]) {
+      const monitor = new Monitor();
+      const samples = new Float32Array(960).fill(0.5);
+      const [left, right] = [new Float32Array(128), new Float32Array(128)];
+      let [came, gaps, fill] = [0, 0, 0];
+      for (let k = 0; k < 60 * 375; ++k) {
+        const now = k / 375;
+        // Each eighth frame is as late as they get, and those behind it wait for it.
+        while (came * 0.01 + (came % 8 === 0 ? late : 0) <= now) {
+          monitor.take({ samples, rate: 48000, moment: came * 0.01, first: 480 * came });
+          came += 1;
+        }
+        monitor.process(null, [[left, right]]);
+        if (now < 30) continue;
+        gaps += left.some((sample) => sample < 0.4) ? 1 : 0;
+        fill += monitor.written - monitor.read;
+      }
+      heard.push({ late, gaps, fill: fill / (30 * 375 * 48000) });
+    }
+    return heard;
+  })())js");
+  for (const Json& ring : heard) {
+    EXPECT_EQ(ring["gaps"], 0) << ring;
+    EXPECT_LT(ring["fill"].get<double>(), ring["late"].get<double>() + 0.025) << ring;
+  }
+}
+
 // Eight particles between x = y = 0 and 1 m, in the middle but for two near the x wall, one of
 // which flies, and one in a corner.
 TEST_F(Modules, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {

@@ -3,17 +3,19 @@
 // need, read a little faster or slower to hold that.
 
 const RING = 1 << 15; // frames
-const LEAST = 0.03; // [s] in the ring at best
-const MOST = 0.11;
+const SPARE = 0.01; // [s] left in the ring when an arrival is as late as they get
+const MOST = 0.11; // [s] in the ring in the mean
+const LOOK = 2; // [s] after which the ring's fill is chosen anew
 
 class Monitor extends AudioWorkletProcessor {
   constructor() {
     super();
     this.ring = [new Float32Array(RING), new Float32Array(RING)];
     this.clear();
-    this.wanted = 0.045;
-    this.fill = this.wanted;
-    this.calm = 0;
+    this.wanted = 0.03; // [s] in the ring in the mean
+    this.fill = this.wanted; // a mean of what is there [s]
+    this.dip = 0; // how far below it the ring has been since the last look [s]
+    this.looked = 0; // how long ago [s]
     this.gain = 0;
     this.port.onmessage = ({ data }) => this.take(data);
   }
@@ -69,18 +71,25 @@ class Monitor extends AudioWorkletProcessor {
   pace(rate, stored) {
     this.fill += 0.01 * (stored - this.fill);
     const off = Math.min(Math.max((this.fill - this.wanted) * 0.2, -0.005), 0.005);
-    this.calm += 128 / sampleRate;
-    if (this.calm > 5) {
-      this.calm = 0;
-      this.wanted = Math.max(LEAST, this.wanted - 0.002);
+    this.dip = Math.max(this.dip, this.fill - stored);
+    this.looked += 128 / sampleRate;
+    if (this.looked > LOOK && this.playing) {
+      const enough = Math.min(this.dip + SPARE, MOST);
+      this.wanted += (enough > this.wanted ? 1 : 0.2) * (enough - this.wanted);
+      this.look();
     }
     return (rate / sampleRate) * (1 + off);
   }
 
+  look() {
+    this.dip = 0;
+    this.looked = 0;
+  }
+
   starve() {
     this.playing = false;
-    this.calm = 0;
     this.wanted = Math.min(MOST, this.wanted + 0.01);
+    this.look();
   }
 
   tell(rate) {

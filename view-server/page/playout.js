@@ -13,6 +13,10 @@ export function quantile(values, share) {
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : 0;
 }
 
+function mean(values) {
+  return values.reduce((a, b) => a + b, 0) / Math.max(values.length, 1);
+}
+
 function note(values, value) {
   values.push(value);
   if (values.length > KEEP) values.shift();
@@ -41,12 +45,13 @@ export class Playout {
     if (this.states.length > 8) this.states.shift();
   }
 
-  /// {older, newer, share} at this moment, of `rate` pictures a second; null before the first state.
-  at(now, rate, extra = 0) {
+  /// {older, newer, share} at this moment, of `rate` pictures a second, `lag` [s] old in the mean at
+  /// least when they are drawn; null before the first state.
+  at(now, rate, lag = 0) {
     if (this.states.length === 0) return null;
     const late = rate < EVEN ? 0 : quantile(this.lateness, 0.9);
     const free = Math.max(AGE_MAX - this.drawing, 0);
-    const wanted = Math.min(Math.max(Math.min(late, free), extra - this.drawing, 0), HOLD_MAX);
+    const wanted = Math.min(Math.max(Math.min(late, free), lag - mean(this.drawn), 0), HOLD_MAX);
     this.hold += 0.05 * (wanted - this.hold);
     const shown = now - this.hold;
     while (this.states.length > 2 && this.states[1].moment <= shown) this.states.shift();
