@@ -41,10 +41,11 @@ TEST_F(Page, TheWaterIsWhereItIsAndMoves) {
   for (const Json& colour : browser.colours(water)) EXPECT_GT(turquoise(colour), 30.0) << colour;
   for (const Json& colour : browser.colours(beside)) EXPECT_LT(turquoise(colour), 22.0) << colour;
   Json grid = Json::array();
-  for (int i = 0; i < 400; ++i) grid.push_back({20 + 34 * (i % 20), 10 + 18 * (i / 20)});
+  for (int i = 0; i < 400; ++i) grid.push_back({180 + 18 * (i % 20), 52 + 10 * (i / 20)});
   const Json first = browser.colours(grid);
-  EXPECT_TRUE(browser.wait_for(
-      "splash.pictures() > " + browser.evaluate("splash.pictures() + 4").dump(), kTimeout));
+  const std::string newest = "splash.playout.states.at(-1).simulated";
+  const std::string later = browser.evaluate(newest + " + 1").dump();
+  EXPECT_TRUE(browser.wait_for(newest + " > " + later, kTimeout));
   const Json second = browser.colours(grid);
   int different = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {

@@ -27,7 +27,7 @@ class DrawnWater : public testing::Test {
   }
   void SetUp() override {
     if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
-    browser().evaluate("splash.camera.frame(splash.world().tank)");
+    browser().evaluate("splash.camera.frame(splash.world().tank, -0.7, 0.87)");
     ASSERT_TRUE(fill(kDepth));
   }
   /// Whether all that the page shows has water of this depth [m].

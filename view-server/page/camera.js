@@ -4,6 +4,8 @@ import { add, clamp, inverse, length, lookAt, multiply, perspective, scale, sub,
   from './vector.js';
 
 const FOVY = 0.66; // [rad]
+const NEAREST = 0.25; // eye from what it looks at, in lengths of the tank
+const FARTHEST = 6;
 
 export class Camera {
   constructor() {
@@ -15,23 +17,20 @@ export class Camera {
     this.size = 1;
   }
 
-  /// Looks at the whole tank, above what the charts cover at the bottom, and in an upright window the
-  /// buttons.
-  frame({ lower, upper }) {
+  /// Looks at the whole tank between two heights of the picture, -1 at the bottom and 1 at the top.
+  frame({ lower, upper }, low, high) {
     this.size = length(sub(upper, lower));
     this.target = scale(add(lower, upper), 0.5);
-    this.target[2] -= 0.12 * (upper[2] - lower[2]);
     const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) =>
       [0, 1, 2].map((i) => (bits & (1 << i) ? upper[i] : lower[i])));
-    const bottom = this.aspect < 1 ? -0.5 : -0.66;
-    const fits = () => {
-      const { both } = this.matrices();
-      return corners.every((corner) => {
-        const [x, y] = transform(both, corner);
-        return Math.abs(x) < 0.94 && y < 0.9 && y > bottom;
-      });
-    };
-    for (this.distance = this.size; !fits() && this.distance < 8 * this.size;) this.distance *= 1.03;
+    for (this.distance = this.size; this.distance < FARTHEST * this.size; this.distance *= 1.03) {
+      const { both, focal } = this.matrices();
+      const seen = corners.map((corner) => transform(both, corner));
+      const [bottom, top] = [Math.min, Math.max].map((f) => f(...seen.map(([, y]) => y)));
+      const lift = 0.5 * (low + high - bottom - top); // in the picture
+      this.target[2] -= (lift * this.distance) / (focal * Math.cos(this.elevation));
+      if (top - bottom < high - low && seen.every(([x]) => Math.abs(x) < 0.94)) break;
+    }
   }
 
   orbit(right, up) {
@@ -40,7 +39,7 @@ export class Camera {
   }
 
   zoom(factor) {
-    this.distance = clamp(this.distance * factor, 0.25 * this.size, 6 * this.size);
+    this.distance = clamp(this.distance * factor, NEAREST * this.size, FARTHEST * this.size);
   }
 
   get eye() {

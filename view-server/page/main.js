@@ -146,7 +146,23 @@ function setLevel(state) {
   heights.sort();
   world.level = state.lower[2] + state.unit * heights[Math.floor(0.9 * state.count)] + world.spacing / 2;
   camera.aspect = canvas.width / canvas.height;
-  camera.frame(world.tank);
+  state.bodies.forEach(({ place, turn }, i) => solids.pose(i, place, turn));
+  frameTank();
+}
+
+/// The tank, and the bodies above it, between the buttons and the charts; in upright windows, which
+/// have the buttons below the water, between the hint and the buttons; anywhere in a tiny window.
+function frameTank() {
+  const height = canvas.clientHeight;
+  const [hint, buttons, charts] = ['#hint', 'nav', 'footer'].map((name) =>
+    document.querySelector(name).getBoundingClientRect());
+  const above = buttons.bottom < height / 2;
+  const [top, bottom] = above ? [buttons.bottom, charts.top] : [hint.bottom, buttons.top];
+  const free = bottom - top > height / 3 ? [bottom, top] : [height, 0];
+  const { lower, upper: [x, y, brim] } = world.tank;
+  const tops = solids.bodies.map(({ place, reach }) => place[2] + reach);
+  const highest = Math.min(Math.max(brim, ...tops), brim + 0.5 * (brim - lower[2]));
+  camera.frame({ lower, upper: [x, y, highest] }, ...free.map((y) => 1 - (2 * y) / height));
 }
 
 /// Where the place and the moment after the bundle stand, and how strong it is drawn.
@@ -322,7 +338,7 @@ const ACTS = {
     }).catch((error) => warn(error.message));
     return pressed('headset', headset.session !== null);
   },
-  look: () => world && camera.frame(world.tank),
+  look: () => world && frameTank(),
   picture: () => { wantsPicture = true; },
   film: () => {
     if (film.isOn) return film.stop();

@@ -228,7 +228,8 @@ export class Solids {
     this.bodies = world.bodies.map((body, index) => {
       const mesh = trianglesOf(body);
       return { ...mesh, draw: draw(mesh), free: body.motion === 'free', tint: PALETTE[index % PALETTE.length], glow: 0,
-        pose: STILL, place: [0, 0, 0], turn: [0, 0, 0, 1] };
+        pose: STILL, place: [0, 0, 0], turn: [0, 0, 0, 1],
+        reach: mesh.places.reduce((far, place) => Math.max(far, Math.hypot(...place)), 0) }; // [m]
     });
   }
 
