@@ -11,10 +11,6 @@
 namespace splash::sim {
 namespace {
 
-float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 /// The farthest point of a body that appears moves away from its centre so fast, as in a plunge: an
 /// eighth of the slowest sound that scenes have by default, about [m/s].
 constexpr double kAppears = 2.0;

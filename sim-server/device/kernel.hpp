@@ -32,11 +32,6 @@ struct KernelCount {
 /// told.
 void tell_of_kernels(std::function<void(const KernelCount&)> told);
 
-/// A number in the precision of the kernels.
-[[nodiscard]] inline float as_float(double value) {
-  return static_cast<float>(value);
-}
-
 /// A value for the parameter `name`, a literal: a buffer, which must live until the launch, or a
 /// number.
 class KernelArg {

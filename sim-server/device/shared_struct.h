@@ -26,6 +26,11 @@ inline constexpr std::string_view kAnyKernelType = "any";
 template <>
 inline constexpr std::string_view kKernelType<std::byte> = kAnyKernelType;
 
+/// A number in the precision of the kernels.
+[[nodiscard]] inline float as_float(double value) {
+  return static_cast<float>(value);
+}
+
 }  // namespace splash::sim
 
 #define SPLASH_SHARED_STRUCT(type, bytes)                                        \

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 # clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too,
 # and the static analyzer follows calls from one function into others (several times as long).
-# Reading the system headers takes most of the time, so units with the same options are joined into
-# one and read together; if clang-tidy finds fault with those, each is read alone. A unit found clean
-# is not read again until it, a header of ours or the rules change. Arguments: the source tree, the
-# build folder.
+# Reading the system headers takes most of the time, so units of the product are joined into one and
+# read together, with the options of all: they differ only in definitions and folders that others have
+# no use for. If clang-tidy finds fault with those, each is read alone. A unit found clean is not read
+# again until it, a header of ours or the rules change. Arguments: the source tree, the build folder.
 set -euo pipefail
 cd "$1"
 build=$2
@@ -33,7 +33,17 @@ units=$(paste -d'\t' \
   <(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$commands") \
   <(sed -n 's/^ *"command": "[^ ]*\( [^ ]*c++\)\{0,1\} \(.*\) -o [^ ]* -c .*/\2/p' \
       "$commands" | sed 's/ -O[0-3]//g') |
-  grep -F "$1/" | grep -vF "$build/" | grep -v "^$1/${SPLASH_TIDY_ALL-tests}/" | sort -u -k1,1)
+  grep -F "$1/" | grep -vF "$build/" | grep -v "^$1/${SPLASH_TIDY_ALL-tests}/" | sort -u -k1,1 |
+  awk -F'\t' -v tests="$1/tests/" '
+    { source[NR] = $1; options[NR] = $2 }
+    index($1, tests) != 1 {
+      gsub(/-isystem /, "-isystem", $2)
+      count = split($2, words, " ")
+      for (i = 1; i <= count; ++i) if (!seen[words[i]]++) all = all words[i] " "
+    }
+    END {
+      for (i = 1; i <= NR; ++i) print source[i] "\t" (index(source[i], tests) == 1 ? options[i] : all)
+    }')
 [[ -n $units ]] || { echo "no sources of $1 in $commands" >&2; exit 1; }
 
 key_of() {  # options, source: the mark that the unit is clean
