@@ -55,7 +55,7 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
             std::min(fluid.device().profile().sort_chunks, 1)),
       state_buffer_(fluid.device(), room),
       spawn_bubbles_(program, "spawn_bubbles"),
-      carry_bubbles_(program, "carry_bubbles") {
+      carry_bubbles_(program, "carry_bubbles", fluid.device().profile().group) {
   const auto particles = static_cast<std::size_t>(fluid.params().count);
   memory_ = Buffer<float>(fluid.device(), std::vector<float>(particles, SPLASH_PARTICLE_SLOW));
   std::vector<int> slots(room);

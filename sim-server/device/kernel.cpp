@@ -104,10 +104,6 @@ Kernel::Kernel(const cl::Program& program, const std::string& name, std::size_t 
   note_made();
 }
 
-std::size_t Kernel::groups_of(std::size_t count) const noexcept {
-  return count >= group_ ? (count + group_ - 1) / group_ : count;
-}
-
 /// Whether the program's source gives a parameter this type: a device may have its own way to say
 /// it.
 bool Kernel::is_written(const std::string& name, const std::string& type) const {
@@ -170,8 +166,8 @@ void Kernel::check_complete() {
   is_new_ = false;
 }
 
-void Kernel::launch(cl::CommandQueue& queue, std::size_t count, std::size_t group) {
-  const cl_int error = enqueue(queue(), kernel_(), count, group);
+void Kernel::launch(cl::CommandQueue& queue, std::size_t groups) {
+  const cl_int error = enqueue(queue(), kernel_(), groups * group_, group_);
   if (error != CL_SUCCESS) throw cl::Error(error, "clEnqueueNDRangeKernel");
   if (has_run_) return;
   has_run_ = true;

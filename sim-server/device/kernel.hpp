@@ -65,13 +65,13 @@ struct KernelParameter {
 [[nodiscard]] std::vector<KernelParameter> parameters_in(const std::string& source,
                                                          const std::string& kernel);
 
-/// Run over `count` work-items padded to whole groups; kernels return at once for indices past the
-/// end.
+/// Run over `count` work-items padded to whole groups, however few; kernels return at once for
+/// indices past the end. OpenCL on CPUs compiles a kernel anew for each size of its groups.
 class Kernel {
  public:
   Kernel() = default;
-  /// `group`: work-items handed out together, few when each is worth microseconds; fewer where the
-  /// device allows this kernel no more.
+  /// `group`: work-items handed out together, few when each is worth microseconds, 1 when there are
+  /// no more than a CPU has cores; fewer where the device allows this kernel no more.
   Kernel(const cl::Program& program, const std::string& name, std::size_t group = 64);
   Kernel(Kernel&&) = default;
   Kernel& operator=(Kernel&&) = default;
@@ -86,8 +86,7 @@ class Kernel {
            const More&... more) {
     if (count == 0) return;
     set_all(args, more...);
-    const std::size_t group = count >= group_ ? group_ : 1;
-    launch(queue, groups_of(count) * group, group);
+    launch(queue, (count + group_ - 1) / group_);
   }
 
   /// Of whole work-groups, whose items work together.
@@ -96,7 +95,7 @@ class Kernel {
                  const More&... more) {
     if (teams == 0) return;
     set_all(args, more...);
-    launch(queue, teams * group_, group_);
+    launch(queue, teams);
   }
 
   /// The same by position, unchecked.
@@ -104,18 +103,15 @@ class Kernel {
   void run(cl::CommandQueue& queue, std::size_t count, const Args&... args) {
     if (count == 0) return;
     set_by_position(args...);
-    const std::size_t group = count >= group_ ? group_ : 1;
-    launch(queue, groups_of(count) * group, group);
+    launch(queue, (count + group_ - 1) / group_);
   }
   template <class... Args>
   void run_teams(cl::CommandQueue& queue, std::size_t teams, const Args&... args) {
     if (teams == 0) return;
     set_by_position(args...);
-    launch(queue, teams * group_, group_);
+    launch(queue, teams);
   }
 
-  /// Work-groups of a run over `count` work-items.
-  [[nodiscard]] std::size_t groups_of(std::size_t count) const noexcept;
   [[nodiscard]] const std::vector<KernelParameter>& parameters() const noexcept {
     return parameters_;
   }
@@ -153,7 +149,7 @@ class Kernel {
   [[nodiscard]] bool is_written(const std::string& name, const std::string& type) const;
   [[nodiscard]] Binding bind(const KernelArg& arg) const;
   void check_complete();
-  void launch(cl::CommandQueue& queue, std::size_t count, std::size_t group);
+  void launch(cl::CommandQueue& queue, std::size_t groups);
 
   cl::Kernel kernel_;
   std::string name_;

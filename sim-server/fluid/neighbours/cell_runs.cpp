@@ -11,10 +11,10 @@ CellRuns::CellRuns(Device& device, const cl::Program& program, std::size_t cells
       count_(device, cells * static_cast<std::size_t>(chunks)),
       block_sum_(device, static_cast<std::size_t>(blocks_)),
       extent_(device, static_cast<std::size_t>(chunks) + 2),
-      count_cells_(program, "count_cells"),
-      sum_blocks_(program, "sum_blocks"),
-      place_cells_(program, "place_cells"),
-      sort_points_(program, "sort_points") {}
+      count_cells_(program, "count_cells", 1),
+      sum_blocks_(program, "sum_blocks", 1),
+      place_cells_(program, "place_cells", 1),
+      sort_points_(program, "sort_points", 1) {}
 
 void CellRuns::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, int points,
                     const PointArrays& from, const PointArrays& to, const Buffer<int>& cell_start,

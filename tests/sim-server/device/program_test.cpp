@@ -57,7 +57,7 @@ TEST(Programs, TellHowManyOfTheirKernelsHaveRun) {
   EXPECT_GE(told[0].all, 2);
 }
 
-TEST(Programs, RunNothingOfNothingAndWholeTeams) {
+TEST(Programs, RunNothingOfNothingAndElseWholeGroups) {
   Device device;
   const KernelSource kernel = {"some/count.cl",
                                "kernel void count(global int* out) {\n"
@@ -67,13 +67,16 @@ TEST(Programs, RunNothingOfNothingAndWholeTeams) {
   count.run(device.queue(), 0, out.memory());
   count.run_teams(device.queue(), 0, out.memory());
   EXPECT_EQ(out.read(device, 100), std::vector<int>(100, 0));
-  count.run_teams(device.queue(), 2, out.memory());
   std::vector<int> expected(100, 0);
+  count.run(device.queue(), 1, out.memory());
+  std::fill(expected.begin(), expected.begin() + 24, 24001);
+  EXPECT_EQ(out.read(device, 100), expected);
+  count.run_teams(device.queue(), 2, out.memory());
   std::fill(expected.begin(), expected.begin() + 48, 24001);
   EXPECT_EQ(out.read(device, 100), expected);
-  EXPECT_EQ(count.groups_of(48), 2U);
-  EXPECT_EQ(count.groups_of(49), 3U);
-  EXPECT_EQ(count.groups_of(23), 23U);  // one work-item each
+  count.run(device.queue(), 49, out.memory());  // a third group for one more
+  std::fill(expected.begin() + 48, expected.begin() + 72, 24001);
+  EXPECT_EQ(out.read(device, 100), expected);
 }
 
 // A device may allow fewer work-items to a group than a kernel would like.

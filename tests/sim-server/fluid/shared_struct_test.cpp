@@ -191,7 +191,7 @@ TEST(SharedStructs, HaveTheSameOffsetsOnTheDevice) {
   std::vector<KernelSource> sources = shared_headers();
   sources.push_back({"find.cl", text + "}\n"});
   Device device;
-  Kernel find(build_program(device, sources, {}), "find");
+  Kernel find(build_program(device, sources, {}), "find", 1);
   const Buffer<int> offset(device, kMembers.size());
   find.run(device.queue(), 1, {{"offset", offset}});
   const std::vector<int> found = offset.read(device, kMembers.size());
