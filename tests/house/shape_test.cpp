@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "tests/house/source_tree.hpp"
 
@@ -13,8 +12,6 @@ namespace {
 
 using testing::IsEmpty;
 
-constexpr std::size_t kManyCodeLines =
-    500;  // an idea is cut where it ends, not where a file is full
 constexpr std::size_t kMaxColumns = 100;
 
 const std::vector<std::string> kSources = {".hpp", ".cpp", ".h", ".cl"};
@@ -70,13 +67,6 @@ TEST(Shape, EveryHeaderIsReadOnce) {
                                              "#pragma once") == file.lines.end();
                           }),
               IsEmpty());
-}
-
-TEST(Shape, LongFilesAreNamed) {  // a warning: length is no fault by itself
-  for (const SourceFile& file : read_files(SPLASH_SOURCE_DIR, kSources)) {
-    const std::size_t lines = count_code_lines(file);
-    if (lines > kManyCodeLines) std::printf("%s has %zu lines of code\n", file.path.c_str(), lines);
-  }
 }
 
 TEST(Shape, NoLineIsTooWide) {

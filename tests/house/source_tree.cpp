@@ -108,17 +108,6 @@ std::map<std::string, Target> targets_of(const std::vector<SourceFile>& cmake_fi
   return targets;
 }
 
-std::size_t count_code_lines(const SourceFile& file) {
-  const bool hash_comments =
-      file.path.ends_with(".txt") || file.path.ends_with(".cmake") || file.path.ends_with(".sh");
-  const std::string_view mark = hash_comments ? "#" : "//";
-  return static_cast<std::size_t>(
-      std::count_if(file.lines.begin(), file.lines.end(), [&](const std::string& line) {
-        const std::size_t start = line.find_first_not_of(" \t");
-        return start != std::string::npos && line.compare(start, mark.size(), mark) != 0;
-      }));
-}
-
 std::string room_of(std::string_view path) {
   const std::size_t first = path.find('/');
   if (first == std::string_view::npos) return "";

@@ -34,9 +34,6 @@ struct Target {
 /// target_link_libraries calls of CMakeLists.txt files. A ${name} stays as it is written.
 std::map<std::string, Target> targets_of(const std::vector<SourceFile>& cmake_files);
 
-/// Lines that are neither blank nor only comment (// and #, as the file's ending says).
-std::size_t count_code_lines(const SourceFile& file);
-
 /// "sim-server/fluid" for "sim-server/fluid/pressure/density.cl"; "sim-server" for its own files.
 std::string room_of(std::string_view path);
 
