@@ -167,7 +167,6 @@ TEST(FeltForce, OfWaterOnAGridIsAllTheMomentumThatItGets) {
       {"a ball, struck at 1 m/s", 0.02, ball, plate, -0.15, at(1.0), 0.22},
       {"a block, struck at 1.5 m/s", 0.02, block, plate, -0.45, at(1.5), 0.2},
       {"through a block at 1 m/s", 0.02, block, plate, -0.2, at(1.0), 0.22},
-      {"in and out", 0.015, block, oar, -0.48, in_and_out, 0.7},
       {"in and out", 0.02, block, oar, -0.48, in_and_out, 0.7},
       {"in and out", 0.03, block, oar, -0.48, in_and_out, 0.7}};
   for (const Blow& blow : blows) {
