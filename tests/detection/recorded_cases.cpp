@@ -127,7 +127,7 @@ void add_walks(std::vector<Case>& all, const Material& material) {
   Case shipped_walk;
   shipped_walk.sweep = "walk";
   shipped_walk.name = "walk.yaml, against force plates";
-  shipped_walk.scene = shipped("walk.yaml");
+  shipped_walk.scene = scene_text("walk.yaml");
   shipped_walk.seconds = duration(recording);
   shipped_walk.feet = true;
   shipped_walk.tracker = plain;

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scenes as they ship.
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-
 #include "tests/detection/shipped.hpp"
 #include "tests/detection/sweeps.hpp"
-#include "tests/support/source_folder.hpp"
 
 namespace splash::detection {
 namespace {
@@ -15,7 +10,7 @@ Case shipped_case(const std::string& name, double seconds, Count cavities, bool 
   Case item;
   item.sweep = "scenes";
   item.name = name;
-  item.scene = shipped(name + ".yaml");
+  item.scene = scene_text(name + ".yaml");
   item.seconds = seconds;
   item.wishes.cavities = cavities;
   item.quick = quick;
@@ -23,26 +18,6 @@ Case shipped_case(const std::string& name, double seconds, Count cavities, bool 
 }
 
 }  // namespace
-
-std::filesystem::path scene_folder() {
-  return tests::source_folder() / "configs" / "scenes";
-}
-
-std::string shipped(const std::string& name) {
-  std::ifstream file(scene_folder() / name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::runtime_error("no scene " + name);
-  return text.str();
-}
-
-std::string changed(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {
-    throw std::runtime_error("not once in the scene: " + from);
-  }
-  return text.replace(at, from.size(), to);
-}
 
 std::string without_wave_impacts(const std::string& text) {
   const std::string key = "impact_waves: true";

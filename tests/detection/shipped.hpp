@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The scenes of configs/scenes as text.
+// What the cases change in the scenes of configs/scenes.
 #pragma once
 
-#include <filesystem>
 #include <string>
+
+#include "tests/support/scene_text.hpp"
 
 namespace splash::detection {
 
-[[nodiscard]] std::filesystem::path scene_folder();
-/// Throws std::runtime_error.
-[[nodiscard]] std::string shipped(const std::string& name);
-/// With its only `from` replaced; throws std::runtime_error when there is none or another.
-[[nodiscard]] std::string changed(std::string text, const std::string& from, const std::string& to);
+using tests::changed;
+using tests::scene_folder;
+using tests::scene_text;
+
 /// Without the line that makes waves on a standing body impacts, if there is one.
 [[nodiscard]] std::string without_wave_impacts(const std::string& text);
 

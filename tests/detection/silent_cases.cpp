@@ -102,8 +102,8 @@ Case standing_in_waves() {
   Case item;
   item.sweep = "standing";
   item.name = "beach waves";
-  item.scene =
-      without_wave_impacts(changed(shipped("beach.yaml"), "particles: 15000", "particles: 8000"));
+  item.scene = without_wave_impacts(
+      changed(scene_text("beach.yaml"), "particles: 15000", "particles: 8000"));
   item.seconds = 6.0;
   item.wishes.cavities = Count{0, 0};
   return item;

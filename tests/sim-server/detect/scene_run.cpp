@@ -3,14 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "sim-server/scene/scene_reader.hpp"
-#include "tests/support/source_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -24,22 +20,6 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 }
 
 }  // namespace
-
-std::string scene_text(const std::string& name) {
-  std::ifstream file(tests::source_folder() / "configs" / "scenes" / name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::runtime_error("no scene " + name);
-  return text.str();
-}
-
-std::string changed(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {
-    throw std::runtime_error("not once in the scene: " + from);
-  }
-  return text.replace(at, from.size(), to);
-}
 
 double water_level(Simulation& simulation, double floor) {
   Fluid& fluid = simulation.fluid();

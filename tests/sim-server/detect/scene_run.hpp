@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::sim {
 
-/// Text of configs/scenes/`name`.
-[[nodiscard]] std::string scene_text(const std::string& name);
-/// `text` with its only `from` replaced; throws std::runtime_error when there is none or another.
-[[nodiscard]] std::string changed(std::string text, const std::string& from, const std::string& to);
+using tests::changed;
+using tests::scene_text;
 
 /// How high the water stands under the first body, and that body's centre, at the end of a frame.
 struct Gauge {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The scenes of configs/scenes as text, and what tests change in it.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/source_folder.hpp"
+
+namespace splash::tests {
+
+inline std::filesystem::path scene_folder() {
+  return source_folder() / "configs" / "scenes";
+}
+
+/// Of configs/scenes/`name`; throws std::runtime_error when there is none.
+inline std::string scene_text(const std::string& name) {
+  std::ifstream file(scene_folder() / name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::runtime_error("no scene " + name);
+  return text.str();
+}
+
+/// `text` with its only `from` replaced; throws std::runtime_error when there is none or another.
+inline std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {
+    throw std::runtime_error("not once in the scene: " + from);
+  }
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace splash::tests
