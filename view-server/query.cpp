@@ -173,9 +173,8 @@ std::optional<std::string> behind(std::string_view prefix, const std::string& ad
 }
 
 /// Of a frame, those of one program, whose values are told anew.
-std::vector<Known::Row> read_rows(std::string_view text, std::map<std::string, double>& values) {
+std::vector<Known::Row> read_rows(const Json& frame, std::map<std::string, double>& values) {
   std::vector<Known::Row> rows;
-  const Json frame = Json::parse(text, nullptr, false);
   if (!frame.is_object() || !frame.contains("rows") || !frame["rows"].is_array()) return rows;
   for (const Json& row : frame["rows"]) {
     try {
@@ -189,6 +188,17 @@ std::vector<Known::Row> read_rows(std::string_view text, std::map<std::string, d
   return rows;
 }
 
+/// Of a scene's frame, in its order; "" where a body has none.
+std::vector<std::string> read_bodies(const Json& frame) {
+  std::vector<std::string> names;
+  if (!frame.is_object() || !frame.contains("bodies")) return names;
+  for (const Json& body : frame["bodies"]) {
+    const bool named = body.is_object() && body.contains("name") && body["name"].is_string();
+    names.push_back(named ? body["name"].get<std::string>() : std::string());
+  }
+  return names;
+}
+
 }  // namespace
 
 bool is_of_scene(std::string_view row) {
@@ -197,12 +207,14 @@ bool is_of_scene(std::string_view row) {
 
 void note_rig(std::string_view text, Known& known) {
   std::erase_if(known.values, [](const auto& value) { return !is_of_scene(value.first); });
-  known.rows = read_rows(text, known.values);
+  known.rows = read_rows(Json::parse(text, nullptr, false), known.values);
 }
 
 void note_scene(std::string_view text, Known& known) {
   std::erase_if(known.values, [](const auto& value) { return is_of_scene(value.first); });
-  known.scene_rows = read_rows(text, known.values);
+  const Json frame = Json::parse(text, nullptr, false);
+  known.scene_rows = read_rows(frame, known.values);
+  known.bodies = read_bodies(frame);
 }
 
 Answer query(const Known& known, std::string_view path, std::string_view attribute, int port) {

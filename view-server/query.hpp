@@ -28,6 +28,7 @@ struct Known {
   };
   std::vector<Row> rows = {};
   std::vector<Row> scene_rows = {};
+  std::vector<std::string> bodies = {};         ///< names, in the scene's order
   std::map<std::string, double> values = {};    ///< of both
   std::optional<protocol::Message> sim = {};    ///< /status.reply
   std::optional<protocol::Message> synth = {};  ///< same
@@ -38,7 +39,7 @@ struct Known {
 
 /// The rows, and their values, of a frame of kind SPR1 from byte 16 on; none where it is no JSON.
 void note_rig(std::string_view text, Known& known);
-/// The same of a frame of kind SPC1.
+/// The same of a frame of kind SPC1, and its bodies.
 void note_scene(std::string_view text, Known& known);
 
 struct Answer {

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -359,12 +360,22 @@ class Server::Hub final : public PageOwner, public Host {
         bytes_of(protocol::pong(std::get<protocol::TimeTag>(ping.arguments.front()), now, now)));
   }
 
+  /// The number of the body that a message names by number or by name; empty: none of the scene's.
+  [[nodiscard]] std::optional<std::int32_t> body_of(const protocol::Message& message) const {
+    const auto* number = std::get_if<std::int32_t>(&message.arguments[0]);
+    if (number != nullptr) return *number;
+    const auto& names = known_.bodies;
+    const auto found =
+        std::find(names.begin(), names.end(), std::get<std::string>(message.arguments[0]));
+    if (found == names.end()) return std::nullopt;
+    return static_cast<std::int32_t>(found - names.begin());
+  }
   /// Not of a body that another visitor holds.
   bool may_say(const protocol::Message& message, Page* page) {
     const bool grab = message.address == "/body/grab";
     if (!grab && message.address != "/body/pose") return true;
-    const auto* body = std::get_if<std::int32_t>(&message.arguments[0]);
-    if (body == nullptr) return true;  // by its name: another program's
+    const auto body = body_of(message);
+    if (!body) return true;  // the simulator refuses it
     const double now = protocol::monotonic_now();
     if (!grab) return holds_.moves(*body, page, now);
     const bool takes = std::get<std::int32_t>(message.arguments[1]) != 0;

@@ -98,7 +98,8 @@ protocol::ViewFrame frame_of(std::string_view kind, std::string_view text) {
 class ViewServer : public testing::Test {
  protected:
   ViewServer()
-      : water_({}, frame_of(protocol::kSceneFrame, "the scene")),
+      : water_({}, frame_of(protocol::kSceneFrame,
+                            R"({"scene": "the scene", "bodies": [{}, {}, {"name": "duck"}]})")),
         sound_({.listen = {}, .allowed = {}, .most_asked = 16},
                frame_of(protocol::kRigFrame, "the rig")),
         sim_(protocol::Endpoint{}),
@@ -260,6 +261,25 @@ TEST_F(ViewServer, ABodyIsHeldByOneVisitorAtATime) {
   EXPECT_THAT(second->hear("[]"), HasSubstr(R"("held":[])"));
   second->say(message(2, osc({"/body/grab", {2, 1}})));
   EXPECT_EQ(next_grab(), 2);
+}
+
+// As the scene's frame names it; of no other body does a visitor keep the others.
+TEST_F(ViewServer, ABodyIsHeldByOneVisitorWhetherItsPosesGiveItsNumberOrItsName) {
+  const auto pose = [](const std::string& name) {
+    return osc({"/body/pose", {name, 0.1F, 0.0F, 0.4F, 0.0F, 0.0F, 0.0F, 1.0F}});
+  };
+  const auto first = open();
+  const auto second = open();
+  first->say(message(2, osc({"/body/grab", {2, 1}})));
+  EXPECT_THAT(second->hear("[2]"), HasSubstr(R"("held":[2])"));
+  second->say(message(2, pose("duck")));
+  second->say(message(2, osc({"/body/grab", {3, 1}})));
+  EXPECT_EQ(next_grab(), 2);
+  EXPECT_EQ(next_grab(), 3) << "a pose of the body that is held elsewhere came before";
+  second->say(message(2, pose("hand")));
+  EXPECT_TRUE(gets(sim_, "/body/pose"));
+  first->say(message(2, pose("duck")));
+  EXPECT_TRUE(gets(sim_, "/body/pose"));
 }
 
 TEST(Holds, ASilentVisitorLosesItsBodyToTheNextWhoTakesIt) {
