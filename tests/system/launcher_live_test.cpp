@@ -106,6 +106,29 @@ TEST(LauncherEnding, CtrlCLetsBothProgramsCloseTheirFiles) {
   fs::remove(report);
 }
 
+// The simulator says how it gets on in its log, and the page shows it.
+TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
+  const fs::path folder = temporary_path("play");
+  Terminal terminal("play --out '" + folder.string() + "'");
+  ASSERT_TRUE(terminal.wait_for_text("Open http://")) << terminal.text();
+  ASSERT_TRUE(terminal.wait_for_text("Ctrl-C ends all")) << terminal.text();
+  const auto log = [&] {
+    std::ifstream file(folder / "sim.log");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  while (log().find("real time x") == std::string::npos) usleep(100'000);
+  terminal.press_ctrl_c();
+  EXPECT_EQ(terminal.wait_for_end(), 130) << terminal.text();
+
+  const std::string& text = terminal.text();
+  const std::size_t open = text.find("Open http://") + 5;
+  const std::string address = text.substr(open, text.find_first_of("\r\n", open) - open);
+  EXPECT_THAT(text, HasSubstr("running: " + address + " Ctrl-C ends all"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("real time x"))) << "it would scroll the address away";
+  EXPECT_THAT(text, HasSubstr("pacing ")) << "the simulator's closing words";
+  fs::remove_all(folder);
+}
+
 // The picture is of the recording, and what it is drawn from is cleared away.
 TEST(LauncherDemo, LeavesSoundLogFiguresAndPicture) {
   const fs::path folder = temporary_path("demo");
