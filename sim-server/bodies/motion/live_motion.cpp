@@ -51,11 +51,16 @@ Fading fading(const Vector3& offset, double fades, double slack, double dt) {
   return {left, rate > slack ? -(1.0 - slack / rate) / fades * left : Vector3{}};
 }
 
+Vector3 at_most(double limit, const Vector3& vector) {
+  const double size = length(vector);
+  return size > limit ? (limit / size) * vector : vector;
+}
+
 }  // namespace
 
 LiveMotion::LiveMotion(const Keyframe& rest, const LiveLimits& limits, const LiveGap& gap,
                        double delay_limit)
-    : rest_(rest), gap_(gap), delay_limit_(delay_limit), gate_(limits) {
+    : rest_(rest), limits_(limits), gap_(gap), delay_limit_(delay_limit), gate_(limits) {
   rest_.rotation = unit(rest_.rotation);
 }
 
@@ -70,16 +75,25 @@ double LiveMotion::way_gone(double dt, double coast) const {
   return coast + gap_.fade * u * (1.0 - u * u * (1.0 - 0.5 * u));
 }
 
+/// Poses that are a fraction of a millisecond apart may differ by as much as those of 10 ms may,
+/// from which a fit makes any speed.
+BodyState LiveMotion::fitted(const Plan& plan, double moment) const {
+  BodyState state = plan.fit.at(moment);
+  state.velocity = at_most(limits_.speed, state.velocity);
+  state.spin = at_most(limits_.spin, state.spin);
+  return state;
+}
+
 BodyState LiveMotion::played(const Plan& plan, double moment) const {
   if (!plan.seen) return {rest_.position, rest_.rotation, {}, {}};
   if (moment < plan.first) {
     const BodyState first = plan.fit.at(plan.first);
     return {first.position, first.rotation, {}, {}};
   }
-  if (moment <= plan.last) return plan.fit.at(moment);
+  if (moment <= plan.last) return fitted(plan, moment);
   BodyState state = plan.fit.at(plan.last);
   // A change of speed goes on for a moment, and is not believed for longer.
-  const BodyState ahead = plan.fit.at(plan.last + std::min(moment - plan.last, kChanges));
+  const BodyState ahead = fitted(plan, plan.last + std::min(moment - plan.last, kChanges));
   state.velocity = ahead.velocity;
   state.spin = ahead.spin;
   const double dt = moment - plan.last;

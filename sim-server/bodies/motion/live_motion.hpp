@@ -62,12 +62,15 @@ class LiveMotion : public PosedMotion {
   /// speed instead.
   [[nodiscard]] double speed_left(double dt, double coast) const;
   [[nodiscard]] double way_gone(double dt, double coast) const;
+  /// What the poses around `moment` say, no faster than a body may be.
+  [[nodiscard]] BodyState fitted(const Plan& plan, double moment) const;
   [[nodiscard]] BodyState played(const Plan& plan, double moment) const;
   [[nodiscard]] BodyState state(const Plan& plan, double seconds) const;
   void set_time(Plan& next, const PlayedFrame& frame, double lateness, double period) const;
   void set_offsets(Plan& next, bool jumped) const;
 
   Keyframe rest_;
+  LiveLimits limits_;
   LiveGap gap_;
   double delay_limit_;
   Plan plan_;

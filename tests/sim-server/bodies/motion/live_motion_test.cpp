@@ -226,6 +226,23 @@ TEST(LiveMotion, AHeapOfPosesIsTheLastOfThem) {
   EXPECT_LT(length(state.velocity), 0.1);
 }
 
+// Two programs that both move it, with tags by the same clock.
+TEST(LiveMotion, PosesThatDifferWithinAnInstantMakeNoSpeedThatABodyCannotHave) {
+  const LiveLimits limits;
+  LiveMotion motion(kRest, limits);
+  double fastest = 0.0;  // [m/s]
+  for (int i = 0; i < 50; ++i) {
+    const double now = 1.0 + 0.010 * i;
+    motion.push({0.0, 0.0, 1.0}, kUpright, {now, now, 1});
+    motion.push({0.0, 0.19, 1.0}, from_turn({0.0, 0.0, 0.9}), {now, now + 1.0e-4, 1});
+    const BodyState state = at(motion, now);
+    fastest = std::max(fastest, length(state.velocity));
+    EXPECT_LE(length(state.spin), limits.spin + 0.001) << i;
+  }
+  EXPECT_LE(fastest, 1.5 * limits.speed) << "with the change of place that fades out";
+  EXPECT_GT(fastest, 1.0);
+}
+
 TEST(LiveMotion, MayBeReadWhileItIsWritten) {
   LiveMotion motion(kRest);
   std::thread writer([&] {
