@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/serve/pose_intake.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -11,6 +12,9 @@ namespace splash::sim {
 namespace {
 
 constexpr double kLinePeriod = 1.0;  ///< between two lines on refused poses [s]
+
+/// TUIO sources whose senders are remembered: as many as its reader knows.
+constexpr std::size_t kMostSources = 16;
 
 constexpr const char* kWhatPosesAre =
     "Poses are in metres, x y z with z up, from the tank's origin; `unit`, `axes`, `position` and "
@@ -116,6 +120,11 @@ bool PoseIntake::follows_source(const std::string& address, const std::string& s
   if (!source_senders_.contains(key)) {
     std::erase_if(source_senders_,
                   [&](const auto& entry) { return entry.second.are_silent(moment.arrival); });
+    if (source_senders_.size() == kMostSources) {
+      source_senders_.erase(std::min_element(
+          source_senders_.begin(), source_senders_.end(),
+          [](const auto& a, const auto& b) { return a.second.heard() < b.second.heard(); }));
+    }
   }
   PoseSenders& senders = source_senders_.try_emplace(key, kFloorEnds).first->second;
   return follows(senders, moment, [&](const auto& waits, const auto& moves) {

@@ -46,9 +46,10 @@ std::optional<protocol::Endpoint> PoseSenders::hear(const protocol::Endpoint& fr
   return followed_;
 }
 
-bool PoseSenders::are_silent(double now) const {
-  return std::all_of(senders_.begin(), senders_.end(),
-                     [&](const Sender& sender) { return now - sender.heard > ends_; });
+double PoseSenders::heard() const {
+  double last = -std::numeric_limits<double>::infinity();
+  for (const Sender& sender : senders_) last = std::max(last, sender.heard);
+  return last;
 }
 
 void PoseSenders::forget(const protocol::Endpoint& from) {

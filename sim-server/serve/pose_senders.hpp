@@ -31,7 +31,9 @@ class PoseSenders {
   /// Whose last pose the body followed; empty: it takes none.
   void follow(const std::optional<protocol::Endpoint>& followed) { followed_ = followed; }
   [[nodiscard]] bool is_followed() const noexcept { return followed_.has_value(); }
-  [[nodiscard]] bool are_silent(double now) const;
+  /// When any of them sent last [s].
+  [[nodiscard]] double heard() const;
+  [[nodiscard]] bool are_silent(double now) const { return now - heard() > ends_; }
   /// Until `from` sends again the others have the body; then it begins anew.
   void forget(const protocol::Endpoint& from);
 

@@ -170,5 +170,17 @@ TEST_F(FloorSenders, SourcesOfOtherNamesAreOtherSurfaces) {
   EXPECT_TRUE(told_.empty());
 }
 
+// Of sixteen, the source that was silent for longest is forgotten, and who sent as it with it.
+TEST_F(FloorSenders, NoMoreThanSixteenTuioSourcesAreRemembered) {
+  open("touch", kTable);
+  touch(kFirst, 10.0, 1, 7, 0.1F, "pad");
+  touch(kLast, 10.1, 2, 4, 0.9F, "pad");
+  touch(kFirst, 10.2, 3, 7, 0.1F, "pad");
+  expect_up(0, 10.2);
+  for (int k = 0; k < 16; ++k) touch(kFirst, 11.3, 1, 0, 0.0F, std::to_string(k));
+  touch(kFirst, 12.4, 4, 7, 0.1F, "pad");
+  expect_at(0, 12.4, 0.2);
+}
+
 }  // namespace
 }  // namespace splash::sim
