@@ -4,8 +4,10 @@
 //   k = (<|v|^2> - |<v>|^2) / 2     energy of the motion that is narrower than that [m2/s2],
 //   a = 1 - water - bodies - walls  share of air.
 // Eddies hand k on within reach / sqrt(k) (Kolmogorov 1941). What exceeds `least` lifts air:
-//   rate = factor 2 a (k - least)^(3/2),
-// so a sum over the particles is an integral over the water that does not ask how many they are.
+//   rate = factor 4 a (1 - a) (k - least)^(3/2).
+// Twice the product of both shares is the chance that of two places near by one holds air and the
+// other does not: a half at a flat surface, none deep in water, little around drops in the air. A
+// sum over the particles is an integral over the water that does not ask how many they are.
 
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/fluid/boundary/walls.h"
@@ -134,6 +136,6 @@ kernel void fold_air(constant FluidParams* p, global const int* cell_start,
   if (!(air > LEAST_AIR)) return;
   const int place = atomic_inc(counts);
   if (place >= room) return;
-  const AirFold fold = {id[i], x, y, z, factor * 2.0f * air * excess * sqrt(excess)};
+  const AirFold fold = {id[i], x, y, z, factor * 4.0f * air * (1.0f - air) * excess * sqrt(excess)};
   out[place] = fold;
 }

@@ -11,8 +11,8 @@ namespace {
 /// Particles within an eddy's width tell its energy from their mean motion [spacings].
 constexpr double kLeastWidth = 2.0;
 
-/// Air that a particle entrains each second, over 2 a (k - k0)^(3/2) [s2]; 0 without gravity,
-/// against which the work would be done.
+/// Air that a particle entrains each second, over 4 a (1 - a) (k - k0)^(3/2) [s2]; 0 without
+/// gravity, against which the work would be done.
 double factor_of(const DetectSettings& settings, const FluidParams& p, double width) {
   const double gravity =
       std::hypot(static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),

@@ -2,8 +2,9 @@
 // Where water folds air in, and how much: a share of the energy that it loses at its surface
 // becomes work on air (air_fold.cl),
 //   dV/dt = eta rho eps / (rho g z) dV_water,   eps = (k - k0)^(3/2) / L,
-// over water of which the share 2 a of the surroundings is air. L and z are bubble_eddy, eta
-// bubble_energy, and k0 = 3/2 bubble_onset^2 is what isotropic eddies of that speed have.
+// over water in whose surroundings air has the share a and lies beside water, 4 a (1 - a): 1 at a
+// flat surface. L and z are bubble_eddy, eta bubble_energy, and k0 = 3/2 bubble_onset^2 is what
+// isotropic eddies of that speed have.
 #pragma once
 
 #include <vector>

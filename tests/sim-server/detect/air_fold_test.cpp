@@ -76,8 +76,8 @@ TEST_P(FoldAir, IsAShareOfTheEnergyThatEddiesLoseBesideAir) {
           << "particle " << state.id[i] << ", k " << eddies.energy << ", air " << eddies.air;
       if (!should) continue;
       const double loss = std::pow(eddies.energy - least, 1.5) / width;  // [m2/s3]
-      const double rate =
-          s.bubble_energy * loss * 2.0 * eddies.air * volume / (gravity * s.bubble_eddy);
+      const double mixed = 4.0 * eddies.air * (1.0 - eddies.air);
+      const double rate = s.bubble_energy * loss * mixed * volume / (gravity * s.bubble_eddy);
       ASSERT_NEAR(static_cast<double>(fold->second.rate), rate, 0.01 * rate + 1e-4 * volume);
       ++checked;
     }
