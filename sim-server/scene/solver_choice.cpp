@@ -199,7 +199,7 @@ std::string solver_notice(const Scene& scene) {
   const std::string name = name_of(scene.fluid.solver);
   if (choice.solver == scene.fluid.solver) return name + ": " + choice.reason;
   if (scene.fluid.solver != PressureKind::grid_projected) return name + ", as the scene says";
-  const std::string slaps = unsuited(scene).empty() ? ": slaps may be too soft" : "";
+  const std::string slaps = unsuited(scene).empty() ? ": slaps are too soft" : "";
   return name + ", as the scene says, but " + choice.reason + slaps + ", and " +
          name_of(choice.solver) + " is what solver: auto would take";
 }

@@ -42,7 +42,6 @@ class GridSolids {
   Kernel cut_cells_;
   Kernel open_faces_;
   Kernel fill_beside_solids_;
-  Kernel cover_surface_;
 };
 
 }  // namespace splash::sim
