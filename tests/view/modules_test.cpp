@@ -43,8 +43,9 @@ TEST_F(Modules, ShownPicturesAreYoungWhereFramesComeInTime) {
   EXPECT_LT(ages[0].get<double>(), ages[2].get<double>());
 }
 
-// Frames of 10 ms of sound that come up to so much too late, for a minute, and are as long after it
-// in the ring as the latest needs, without a gap in its second half.
+// For a minute, every eighth frame of 10 ms of sound comes so many seconds late. In the second half
+// of it no sample is missing, and the ring holds on average what such a frame needs, and 25 ms at
+// most.
 TEST_F(Modules, SoundWaitsAsLongAsTheLatestArrivalNeeds) {
   const Json heard = with_the_modules(R"js((async () => {
     Object.assign(globalThis, { sampleRate: 48000, currentTime: 0,
@@ -76,6 +77,39 @@ TEST_F(Modules, SoundWaitsAsLongAsTheLatestArrivalNeeds) {
   for (const Json& ring : heard) {
     EXPECT_EQ(ring["gaps"], 0) << ring;
     EXPECT_LT(ring["fill"].get<double>(), ring["late"].get<double>() + 0.025) << ring;
+  }
+}
+
+// From the side, from above and straight down; wide and upright windows; flat and high tanks.
+TEST_F(Modules, TheWholeTankIsFramedFromEveryElevation) {
+  const Json framed = with_the_modules(R"js((async () => {
+    const { Camera } = await import('/camera.js');
+    const { transform } = await import('/vector.js');
+    const framed = [];
+    for (const aspect of [0.5, 1, 2]) for (const elevation of [0.03, 0.47, 1.5]) {
+      for (const upper of [[2, 2, 0.5], [0.5, 0.5, 0.8]]) {
+        const camera = Object.assign(new Camera(), { aspect, elevation });
+        camera.frame({ lower: [0, 0, 0], upper }, -0.7, 0.85);
+        const { both } = camera.matrices();
+        const seen = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) =>
+          transform(both, upper.map((x, i) => (bits & (1 << i) ? x : 0))));
+        const [xs, ys] = [0, 1].map((i) => seen.map((place) => place[i]));
+        framed.push({ aspect, elevation, upper, nearest: camera.distance === camera.size,
+          side: Math.max(...xs.map(Math.abs)), bottom: Math.min(...ys), top: Math.max(...ys) });
+      }
+    }
+    return framed;
+  })())js");
+  EXPECT_EQ(framed.size(), 18U);
+  for (const Json& one : framed) {
+    const double side = one["side"];
+    const double bottom = one["bottom"];
+    const double top = one["top"];
+    EXPECT_LT(side, 0.94) << one;
+    EXPECT_GT(bottom, -0.70) << one;
+    EXPECT_LT(top, 0.85) << one;
+    EXPECT_TRUE(one["nearest"].get<bool>() || side > 0.85 || top - bottom > 1.35)
+        << "as large as there is room for " << one;
   }
 }
 

@@ -27,9 +27,9 @@ export class Camera {
       const { both, focal } = this.matrices();
       const seen = corners.map((corner) => transform(both, corner));
       const [bottom, top] = [Math.min, Math.max].map((f) => f(...seen.map(([, y]) => y)));
-      const lift = 0.5 * (low + high - bottom - top); // in the picture
-      this.target[2] -= (lift * this.distance) / (focal * Math.cos(this.elevation));
-      if (top - bottom < high - low && seen.every(([x]) => Math.abs(x) < 0.94)) break;
+      if (bottom > low && top < high && seen.every(([x]) => Math.abs(x) < 0.94)) break;
+      const lift = (0.5 * (low + high - bottom - top) * this.distance) / focal; // [m]
+      this.target = sub(this.target, scale(this.up, lift));
     }
   }
 
@@ -47,6 +47,12 @@ export class Camera {
     return add(this.target, scale([
       flat * Math.cos(this.azimuth), flat * Math.sin(this.azimuth), Math.sin(this.elevation),
     ], this.distance));
+  }
+
+  /// Upwards in the picture.
+  get up() {
+    const over = Math.sin(this.elevation);
+    return [-over * Math.cos(this.azimuth), -over * Math.sin(this.azimuth), Math.cos(this.elevation)];
   }
 
   /// Everything that shaders want to know.
