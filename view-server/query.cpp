@@ -188,7 +188,7 @@ std::vector<Known::Row> read_rows(const Json& frame, std::map<std::string, doubl
   return rows;
 }
 
-/// Of a scene's frame, in its order; "" where a body has none.
+/// The names of the bodies in a scene's frame, in its order; "" for a body without a name.
 std::vector<std::string> read_bodies(const Json& frame) {
   std::vector<std::string> names;
   if (!frame.is_object() || !frame.contains("bodies")) return names;

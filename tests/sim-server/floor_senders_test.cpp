@@ -170,7 +170,8 @@ TEST_F(FloorSenders, SourcesOfOtherNamesAreOtherSurfaces) {
   EXPECT_TRUE(told_.empty());
 }
 
-// Of sixteen, the source that was silent for longest is forgotten, and who sent as it with it.
+// A seventeenth source takes the place of the one that has been silent for longest, whose senders
+// are forgotten.
 TEST_F(FloorSenders, NoMoreThanSixteenTuioSourcesAreRemembered) {
   open("touch", kTable);
   touch(kFirst, 10.0, 1, 7, 0.1F, "pad");

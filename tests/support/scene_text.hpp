@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes of configs/scenes as text, and what tests change in it.
+// The scenes of configs/scenes as text, and a way to change a line of it in a test.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ inline std::filesystem::path scene_folder() {
   return source_folder() / "configs" / "scenes";
 }
 
-/// Of configs/scenes/`name`; throws std::runtime_error when there is none.
+/// The text of configs/scenes/`name`; throws std::runtime_error when there is no such file.
 inline std::string scene_text(const std::string& name) {
   std::ifstream file(scene_folder() / name);
   std::ostringstream text;

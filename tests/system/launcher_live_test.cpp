@@ -106,7 +106,7 @@ TEST(LauncherEnding, CtrlCLetsBothProgramsCloseTheirFiles) {
   fs::remove(report);
 }
 
-// The simulator says how it gets on in its log, and the page shows it.
+// The simulator's progress lines go to its log alone.
 TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
   const fs::path folder = temporary_path("play");
   Terminal terminal("play --out '" + folder.string() + "'");

@@ -75,8 +75,8 @@ double LiveMotion::way_gone(double dt, double coast) const {
   return coast + gap_.fade * u * (1.0 - u * u * (1.0 - 0.5 * u));
 }
 
-/// Poses that are a fraction of a millisecond apart may differ by as much as those of 10 ms may,
-/// from which a fit makes any speed.
+/// The gate lets poses that are a fraction of a millisecond apart differ by as much as poses 10 ms
+/// apart may, and a line through them can have any slope.
 BodyState LiveMotion::fitted(const Plan& plan, double moment) const {
   BodyState state = plan.fit.at(moment);
   state.velocity = at_most(limits_.speed, state.velocity);

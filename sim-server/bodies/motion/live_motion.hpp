@@ -62,7 +62,7 @@ class LiveMotion : public PosedMotion {
   /// speed instead.
   [[nodiscard]] double speed_left(double dt, double coast) const;
   [[nodiscard]] double way_gone(double dt, double coast) const;
-  /// What the poses around `moment` say, no faster than a body may be.
+  /// The fit to the poses around `moment`; speed and spin are no more than a body may have.
   [[nodiscard]] BodyState fitted(const Plan& plan, double moment) const;
   [[nodiscard]] BodyState played(const Plan& plan, double moment) const;
   [[nodiscard]] BodyState state(const Plan& plan, double seconds) const;

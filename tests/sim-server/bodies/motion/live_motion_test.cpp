@@ -226,7 +226,7 @@ TEST(LiveMotion, AHeapOfPosesIsTheLastOfThem) {
   EXPECT_LT(length(state.velocity), 0.1);
 }
 
-// Two programs that both move it, with tags by the same clock.
+// Two programs move the body, with time tags of the same clock.
 TEST(LiveMotion, PosesThatDifferWithinAnInstantMakeNoSpeedThatABodyCannotHave) {
   const LiveLimits limits;
   LiveMotion motion(kRest, limits);
