@@ -162,7 +162,7 @@ TEST(GridSleep, IsNotDisturbedByWhatMovesHighAbove) {
 // A tracker sees the ball elsewhere, where no water is: it leaves a hole.
 TEST(GridSleep, EndsWhenABodyIsGone) {
   Device device;
-  Simulation simulation(device, pond(ball_at(0.12, "osc")), {});
+  Simulation simulation(device, pond(ball_at(0.1, "osc")), {});
   ASSERT_GT(run(simulation, 6.0).slept, 0.0);
   const double now = simulation.seconds();
   static_cast<void>(

@@ -20,12 +20,24 @@ constexpr double kThickness = 0.04;
 constexpr double kSlapEnds = 4.0;
 constexpr double kEcho = 7.0;
 constexpr double kShown = 5.0;  // middle of what the picture shows
+constexpr int kPlaces = 100;    // on the line between them
 
 struct Slap {
   double speed = 0.0;    // [m/s]
   double impulse = 0.0;  // [N s]
   Curve curve;           // impulse over 4/3 rho R^3 U against time since contact in R / c
 };
+
+/// Where the line through the later impulse begins; a force is the same all through a step.
+double begun(const Column& since, const Column& sum) {
+  Column x;
+  Column y;
+  for (int k = 0; k <= kPlaces; ++k) {
+    x.push_back(kSlapEnds + (kEcho - kSlapEnds) * k / kPlaces);
+    y.push_back(interpolate(since, sum, x.back()));
+  }
+  return fit_line(x, y, kSlapEnds, kEcho).first;
+}
 
 Slap measure(const Run& run) {
   const Column& time = run.gauges["time"];
@@ -38,11 +50,11 @@ Slap measure(const Run& run) {
   Column sum;
   double total = 0.0;
   for (std::size_t k = 1; k < time.size(); ++k) {
-    total += 0.5 * (force[k] + force[k - 1]) * (time[k] - time[k - 1]);
+    total += force[k] * (time[k] - time[k - 1]);  // that of the step
     since.push_back((time[k] - contact) * sound / kRadius);
     sum.push_back(total);
   }
-  slap.impulse = fit_line(since, sum, kSlapEnds, kEcho).first;
+  slap.impulse = begun(since, sum);
   const double theory = 4.0 / 3.0 * 998.0 * std::pow(kRadius, 3) * slap.speed;
   for (std::size_t k = 0; k < since.size(); ++k) {
     if (std::abs(since[k] - kShown) > kShown + 2.0) continue;

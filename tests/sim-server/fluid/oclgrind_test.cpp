@@ -79,7 +79,7 @@ const Kernels kGrid = {"cut_cells",      "open_faces",    "fill_beside_solids", 
                        "solve_pressure", "push_faces",    "lay_system",         "let_fall",
                        "grip_water",     "push_bodies",   "tie_bodies",         "tell_tugs",
                        "weigh_pressure", "mark_faces",    "weigh_faces",        "weigh_given",
-                       "sum_given"};
+                       "sum_given",      "cover_surface"};
 /// How pushes on felt bodies depend on speeds.
 const Kernels kAnswers = {"ask_for_answer", "weigh_answer"};
 /// From particles to its faces, on CPUs and on GPUs.

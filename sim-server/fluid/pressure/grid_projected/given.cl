@@ -8,10 +8,11 @@
 //   I = rho0 V open ((f' - f) / h + dt g t)
 // over the faces of the cells that the body owns (room.h) or that are near it, with the weights w
 // of move.cl, and over the particles that are nearer to it than to any other body. du: change of
-// velocity at a face by pressure and gravity; t: part of the distance between the two cell centres
-// that is water. In water at rest du and I are zero, so that the weight of a few particles too many
-// or too few does not count as a force. The derivative of F by a component of the body's velocity
-// is the same sum with A^-1 K of that component for f, and without g and jolt.
+// velocity at a face by pressure, gravity and solids that cover it; t: part of the distance between
+// the two cell centres that is water. In water at rest du and I are zero, so that the weight of a
+// few particles too many or too few does not count as a force. The derivative of F by a component
+// of the body's velocity is the same sum with A^-1 K of that component for f, and without g and
+// jolt.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_face.h"
@@ -33,10 +34,12 @@ static float3 edge_of(constant MacGrid* g) {
 // For each face: `whose`, the index among the felt bodies of the one it belongs to, or OF_NOBODY;
 // `given`, du [m/s]; `taken`, I [N s]. A face belongs to the owner of the cell above it, else of
 // the cell below it, and, if no body owns either, to the first felt body near it. `falls`: the time
-// for which gravity acts [s].
-kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls, int felt_count,
-                       constant FreeBody* felt, global const BodyStep* bodies, int first_body,
-                       global const int* owner, global const float* gap, global const float* fill,
+// for which gravity acts [s]. Of the derivative by velocity component `part` of felt body `only`,
+// if that is not negative.
+kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls, int only,
+                       int part, int felt_count, constant FreeBody* felt,
+                       global const BodyStep* bodies, int first_body, global const int* owner,
+                       global const float* gap, global const float* free, global const float* fill,
                        global const float* wet, global const float* found,
                        global const float* change, global float* given, global float* taken,
                        global float* whose) {
@@ -64,16 +67,24 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
     given[face] = taken[face] = 0.0f;
     if (of == OF_NOBODY || wet[c] + wet[below] == 0.0f) continue;
     const bool here = wet[c] > 0.0f, there = wet[below] > 0.0f;
-    const float part = here == there ? 1.0f
-                       : here        ? way_to_surface_of(fill[c], fill[below])
-                                     : way_to_surface_of(fill[below], fill[c]);
+    const float way = here == there ? 1.0f
+                      : here        ? way_to_surface_of(fill[c], fill[below])
+                                    : way_to_surface_of(fill[below], fill[c]);
     const float fall = falls * (axis == 0   ? p->gravity_x - p->pull_x * (place.x - p->centre_x)
                                 : axis == 1 ? p->gravity_y - p->pull_y * (place.y - p->centre_y)
                                             : p->gravity_z - p->pull_z * (place.z - p->centre_z));
     const float rise = (here ? found[c] : 0.0f) - (there ? found[below] : 0.0f);
-    const float grows = rise / part * inverse[axis];
-    taken[face] = heavy * gap[face] * part * (fall - grows);
-    if (change[face] < MAC_KNOWN) given[face] = fall - grows;
+    const float grows = rise / way * inverse[axis];
+    taken[face] = heavy * gap[face] * way * (fall - grows);
+    if (change[face] >= MAC_KNOWN) continue;
+    given[face] = only < 0 ? change[face] : -free[face] * grows;
+    if (only == of) {
+      const float3 e = (float3)(part % 3 == 0, part % 3 == 1, part % 3 == 2);
+      const BodyStep b = bodies[first_body + felt[of].body];
+      const float3 arm = place - (float3)(b.px, b.py, b.pz);
+      const float3 goes = part < 3 ? e : cross(e, arm) / felt[of].size;
+      given[face] += (1.0f - free[face]) * (axis == 0 ? goes.x : axis == 1 ? goes.y : goes.z);
+    }
   }
 }
 

@@ -40,8 +40,31 @@ static lane_flags are_washed(const MacLevel l, global const float* wet, const Ce
   return sum > none;
 }
 
+// How fast the solids beside the lower faces of cells, `s` from those below, go along an axis
+// [m/s].
+static lanes solids_beside(constant MacGrid* g, global const BodyStep* bodies,
+                           global const int* owner, float piston_speed, const Cells* at,
+                           lane_flags covered, int axis, int s) {
+  int x[LANES], y[LANES], is_covered[LANES];
+  float speed[LANES];
+  STORE(at->x, x, 0);
+  STORE(at->y, y, 0);
+  STORE(covered, is_covered, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    speed[lane] = 0.0f;
+    if (!is_covered[lane]) continue;
+    const int c = at->first + lane;
+    const int whose = owner[c] != OF_NOBODY ? owner[c] : owner[c - s];
+    speed[lane] =
+        solid_at_face(g, bodies, whose, piston_speed, (int4)(x[lane], y[lane], at->z, 0), axis);
+  }
+  return LOAD(speed, 0);
+}
+
 kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt,
-                          global const float* gap, global const float* fill,
+                          global const BodyStep* bodies, int first_body, float piston_speed,
+                          global const float* gap, global const float* free,
+                          global const int* owner, global const float* fill,
                           global const float* mean, global const float* weight,
                           global const float* found, global const float* wet, global float* pushed,
                           global float* pressure) {
@@ -57,9 +80,20 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     const lane_flags wall = are_walls(l, &at, axis);
     lane_flags beside = LOAD(wet, c) + LOAD(wet, c - step[axis]) > none;
     if (at.z < l.nz && any_lane(wall)) beside |= wall & are_washed(l, wet, &at, axis);
-    const lane_flags open = (open_of(gap, face) > none) & beside;
+    lane_flags open = (open_of(gap, face) > none) & beside;
     const lanes by = inverse[axis] * growth(fill, wet, found, c, step[axis]);
-    const lanes change = LOAD(pushed, face) - LOAD(mean, face) - select(by, none, wall);
+    lanes change = LOAD(pushed, face) - LOAD(mean, face) - select(by, none, wall);
+    if (HAS_SOLIDS) {
+      const lanes freed = LOAD(free, face);
+      const lane_flags covered = at.real & (freed < (lanes)(1.0f));
+      if (any_lane(covered)) {
+        open |= covered;
+        const lanes goes = solids_beside(g, bodies + first_body, owner, piston_speed, &at, covered,
+                                         axis, step[axis]);
+        change =
+            select(change, freed * change + (1.0f - freed) * (goes - LOAD(mean, face)), covered);
+      }
+    }
     const lane_flags known = at.real & open & (LOAD(weight, face) > (lanes)(MAC_LIGHT));
     STORE(select((lanes)(MAC_UNKNOWN), change, known), pushed, face);
   }

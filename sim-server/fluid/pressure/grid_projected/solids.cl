@@ -13,6 +13,7 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"
+#include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 #define LEAST_SEEN 1e-4f  // cells that see less open space are full of nothing [1]
 #define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
@@ -65,10 +66,9 @@ static void corners_of(const float* d, int box, float* corner) {
 // How far the nearest solid is, and whose it is.
 static lanes solid_distance(constant FluidParams* p, constant BodyShape* shapes,
                             global const float* meshes, global const BodyStep* bodies,
-                            int first_body, int body_count, float piston, lanes x, lanes y,
-                            lanes z, lanes* owner) {
-  const BodyFace face =
-      nearest_face(shapes, meshes, bodies, first_body, body_count, x, y, z);
+                            int first_body, int body_count, float piston, lanes x, lanes y, lanes z,
+                            lanes* owner) {
+  const BodyFace face = nearest_face(shapes, meshes, bodies, first_body, body_count, x, y, z);
   lanes distance = face.distance;
   *owner = body_count > 0 ? face.owner : (lanes)(OF_NOBODY);
   if (has_slope(p)) {
@@ -121,9 +121,9 @@ static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, f
       place[2][lane] = lower.z + (k / 9) * apart.z;
     }
     lanes whose;
-    const lanes far = solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, s->count,
-                                     s->piston, LOAD(place[0], 0), LOAD(place[1], 0),
-                                     LOAD(place[2], 0), &whose);
+    const lanes far =
+        solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, s->count, s->piston,
+                       LOAD(place[0], 0), LOAD(place[1], 0), LOAD(place[2], 0), &whose);
     float part[LANES], owners[LANES];
     STORE(far, part, 0);
     STORE(whose, owners, 0);
@@ -220,10 +220,9 @@ static bool solids_near_cells(constant FluidParams* p, constant MacGrid* g, cons
   const int low_y = from / l.row - 1, high_y = to / l.row - 1;
   const bool one_row = low_y == high_y;
   const int low_x = one_row ? from % l.row - 1 : -1, high_x = one_row ? to % l.row - 1 : l.nx;
-  const float3 lower =
-      (float3)(g->x + low_x * g->hx, g->y + low_y * g->hy, g->z + at->z * g->hz);
-  const float3 upper = lower + (float3)((high_x - low_x + 1) * g->hx,
-                                        (high_y - low_y + 1) * g->hy, g->hz);
+  const float3 lower = (float3)(g->x + low_x * g->hx, g->y + low_y * g->hy, g->z + at->z * g->hz);
+  const float3 upper =
+      lower + (float3)((high_x - low_x + 1) * g->hx, (high_y - low_y + 1) * g->hy, g->hz);
   return solids_near(p, s->bodies, s->first, s->count, s->piston, lower, upper);
 }
 
@@ -333,8 +332,8 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
             cut & (there >= (lane_flags)(0)) & (there < (lane_flags)(count[axis]));
         if (!any_lane(beside)) continue;
         const int cell = c + (2 * side - 1) * step[axis];
-        const lanes share = closed * LOAD(room, cell) *
-                            LOAD(gap, axis * l.cells + c + side * step[axis]);
+        const lanes share =
+            closed * LOAD(room, cell) * LOAD(gap, axis * l.cells + c + side * step[axis]);
         water = select(water, water + share * LOAD(fill, cell), beside);
         space = select(space, space + share * LOAD(seen, cell), beside);
       }
@@ -342,4 +341,80 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
   }
   const lane_flags known = at.real & (space > (lanes)(LEAST_SEEN));
   STORE(select(none, water / space, known), filled, c);
+}
+
+// How much of the surface solids leave open, between the middles of cell `c` at `at` and the one
+// below it along an axis, `part` of the way up [1].
+static float open_surface(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
+                          int axis, float part) {
+  const float edge[3] = {g->hx, g->hy, g->hz}, from[3] = {g->x, g->y, g->z};
+  const int cell[3] = {at.x, at.y, at.z};
+  const int across[2] = {(axis + 1) % 3, (axis + 2) % 3};
+  float place[3][16], d[16];  // nine places, and the last one again for whole vectors
+  for (int n = 0; n < 16; ++n) {
+    const int k = min(n, 8);
+    place[axis][n] = from[axis] + (cell[axis] - 0.5f + part) * edge[axis];
+    place[across[0]][n] = from[across[0]] + (cell[across[0]] + 0.5f * (k % 3)) * edge[across[0]];
+    place[across[1]][n] = from[across[1]] + (cell[across[1]] + 0.5f * (k / 3)) * edge[across[1]];
+  }
+  for (int n = 0; n < 9; n += LANES) {
+    lanes whose;
+    const lanes far =
+        solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, s->count, s->piston,
+                       LOAD(place[0], n), LOAD(place[1], n), LOAD(place[2], n), &whose);
+    STORE(far, d, n);
+  }
+  float sum = 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    const int a = k % 2 + 3 * (k / 2);
+    const float flat[8] = {d[a], d[a + 1], d[a + 3], d[a + 4], d[a], d[a + 1], d[a + 3], d[a + 4]};
+    sum += 0.25f * open_box(flat);
+  }
+  return sum < LEAST_GAP ? 0.0f : sum;
+}
+
+// Between a cell that holds water and one that does not, a face is no more open than the surface
+// between them: water that a solid lies flat on has none. `free`: which part of what is open by
+// volume that leaves, 1 at all other faces; the rest goes with the solid.
+kernel void cover_surface(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
+                          global const float* meshes, global const BodyStep* bodies, int first_body,
+                          int body_count, float piston, global const int* owner,
+                          global const float* fill, global float* gap, global float* free) {
+  const Cells at = cells_of(g, get_global_id(0));
+  const MacLevel l = g->level[0];
+  if (at.z > l.nz) return;
+  const int c = at.first;
+  const int step[3] = {1, l.row, l.layer};
+  const lane_flags here[3] = {at.x, at.y, (lane_flags)(at.z)};
+  const int count[3] = {l.nx, l.ny, l.nz};
+  const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
+  const lane_flags nobody = OF_NOBODY, first = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int s = step[axis];
+    STORE((lanes)(1.0f), free, axis * l.cells + c);
+    const lanes above = LOAD(fill, c), below = LOAD(fill, c - s);
+    const lane_flags wet_above = above > (lanes)(MAC_FULL), wet_below = below > (lanes)(MAC_FULL);
+    const lane_flags ends = at.real & (wet_above ^ wet_below) & (here[axis] > first) &
+                            (here[axis] < (lane_flags)(count[axis])) &
+                            ((LOAD(owner, c) != nobody) | (LOAD(owner, c - s) != nobody));
+    if (!any_lane(ends)) continue;
+    const lanes part =
+        select(way_to_surface(below, above), 1.0f - way_to_surface(above, below), wet_above);
+    int x[LANES], y[LANES], is_end[LANES];
+    float up[LANES];
+    STORE(at.x, x, 0);
+    STORE(at.y, y, 0);
+    STORE(ends, is_end, 0);
+    STORE(part, up, 0);
+    for (int lane = 0; lane < LANES; ++lane) {
+      if (!is_end[lane]) continue;
+      const int face = axis * l.cells + c + lane;
+      const int4 cell = (int4)(x[lane], y[lane], at.z, 0);
+      const float volume = gap[face];
+      const float surface = open_surface(p, g, &solids, cell, axis, up[lane]);
+      if (surface >= volume) continue;
+      gap[face] = surface;
+      free[face] = surface / volume;
+    }
+  }
 }

@@ -20,7 +20,8 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
       filled_(device, any ? fields.room : 1),
       cut_cells_(program, "cut_cells", std::min<std::size_t>(device.profile().group, 16)),
       open_faces_(program, "open_faces", device.profile().group),
-      fill_beside_solids_(program, "fill_beside_solids", device.profile().group) {}
+      fill_beside_solids_(program, "fill_beside_solids", device.profile().group),
+      cover_surface_(program, "cover_surface", std::min<std::size_t>(device.profile().group, 16)) {}
 
 void GridSolids::place(Fluid& fluid, const Step& step) {
   if (!any_) return;
@@ -55,6 +56,19 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                            {"seen", seen_space_},
                            {"fill", fields_.fill},
                            {"filled", filled_}});
+  cover_surface_.run(queue, fields_.vectors,
+                     {{"p", params},
+                      {"g", fields_.on_device},
+                      {"shapes", boundary.shapes()},
+                      {"meshes", boundary.meshes()},
+                      {"bodies", boundary.steps()},
+                      {"first_body", step.first_body},
+                      {"body_count", boundary.body_count()},
+                      {"piston", as_float(step.piston)},
+                      {"owner", owner_},
+                      {"fill", filled_},
+                      {"gap", gap_},
+                      {"free", upper_}});
 }
 
 // As coupling.h does it for those that the water moves: - p V K.

@@ -27,6 +27,8 @@ class GridSolids {
   /// How full cells are, of their open part [1].
   [[nodiscard]] const Buffer<float>& fill() const noexcept { return any_ ? filled_ : fields_.fill; }
   [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
+  /// Part of a face's open volume that does not go with a solid which covers the surface [1].
+  [[nodiscard]] const Buffer<float>& free() const noexcept { return upper_; }
   [[nodiscard]] const Buffer<float>& space() const noexcept { return space_; }
   [[nodiscard]] const Buffer<int>& owner() const noexcept { return owner_; }
 
@@ -42,6 +44,7 @@ class GridSolids {
   Kernel cut_cells_;
   Kernel open_faces_;
   Kernel fill_beside_solids_;
+  Kernel cover_surface_;
 };
 
 }  // namespace splash::sim
