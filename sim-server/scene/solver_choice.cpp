@@ -122,6 +122,9 @@ std::string reason_of(const Scene& scene, const BodySettings& body) {
   if (body.motion.held != 0) return name + "is held, which grid_projected cannot do";
   const double most = slap_speed(0.5 * smaller_width(body), length(scene.fluid.gravity));
   const double entry = entry_speed(scene, body);
+  if (body.motion.kind == MotionKind::script && entry > 0.0) {
+    return name + "enters the water at " + number(entry) + " m/s";
+  }
   if (entry > most) {
     return name + "may strike the water at " + number(entry) + " m/s, and slaps from " +
            number(most) + " m/s on";
@@ -199,7 +202,7 @@ std::string solver_notice(const Scene& scene) {
   const std::string name = name_of(scene.fluid.solver);
   if (choice.solver == scene.fluid.solver) return name + ": " + choice.reason;
   if (scene.fluid.solver != PressureKind::grid_projected) return name + ", as the scene says";
-  const std::string slaps = unsuited(scene).empty() ? ": slaps are too soft" : "";
+  const std::string slaps = unsuited(scene).empty() ? ": slaps may be too soft" : "";
   return name + ", as the scene says, but " + choice.reason + slaps + ", and " +
          name_of(choice.solver) + " is what solver: auto would take";
 }
