@@ -18,7 +18,7 @@ constexpr double kFreed = 0.3 / 2.0 - 0.1 / 2.0;  // fall of the centre of mass 
 constexpr double kSettled = 5.0;       // from then on the water sloshes without breaking [s]
 constexpr double kViscosity = 1.0e-6;  // of real water, which rubs on walls [m2/s]
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_closed_box(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Series& g = run.gauges;
   const Column& time = g["time"];
@@ -45,7 +45,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
       {{"", time, lost}}};
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_closed_box() {
   return {{"all that is freed", {0.0, 15.0}, {1.0, 1.0}}};
 }
 
@@ -59,8 +59,8 @@ Case closed_box() {
           .spacings = {0.02, 0.0133333, 0.01},
           .size = 0.3,
           .size_name = "H",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_closed_box,
+          .reference = reference_closed_box,
           .x_label = "time [s]",
           .y_label = "energy lost over that freed"};
 }

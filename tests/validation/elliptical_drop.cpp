@@ -44,7 +44,7 @@ Exact integrate(double end) {
   return exact;
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_elliptical_drop(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Series& g = run.gauges;
   const Column& time = g["time"];
@@ -70,7 +70,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
           {{"short ", time, shorter}, {"long ", time, longer}}};
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_elliptical_drop() {
   const Exact exact = integrate(1.0);
   const Column time = combine(1.0 / kRate, exact.time, 0.0, exact.time);
   return {{"exact", time, exact.a}, {"exact", time, exact.b}};
@@ -86,8 +86,8 @@ Case elliptical_drop() {
           .spacings = {0.01, 0.005, 0.0025},
           .size = kRadius,
           .size_name = "R",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_elliptical_drop,
+          .reference = reference_elliptical_drop,
           .x_label = "time [s]",
           .y_label = "half axes [R]"};
 }

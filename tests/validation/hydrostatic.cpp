@@ -21,7 +21,7 @@ Column mean_of(const Series& gauges, const std::string& name, int places,
   return mean;
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_hydrostatic(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Series& g = run.gauges;
   const Column& time = g["time"];
@@ -55,7 +55,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
           {profile}};
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_hydrostatic() {
   return {{"rho g (H - z)", {998.0 * 9.81 * kDepth, 0.0}, {0.0, kDepth}}};
 }
 
@@ -69,8 +69,8 @@ Case hydrostatic() {
           .spacings = {0.03, 0.015, 0.01},
           .size = kDepth,
           .size_name = "H",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_hydrostatic,
+          .reference = reference_hydrostatic,
           .x_label = "pressure [Pa]",
           .y_label = "height [m]"};
 }

@@ -52,7 +52,7 @@ double period_of(const Column& time, const Column& swing) {
   return 2.0 * (crossings.back() - crossings[0]) / (static_cast<double>(crossings.size()) - 1.0);
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_oscillating_drop(const std::vector<Run>& runs) {
   const Series& g = runs.front().gauges;
   const Column& time = g["time"];
   const Column a = combine(2.0 / kRadius, g["drop_sx"], 0.0, time);
@@ -76,7 +76,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
           {{"along x ", time, a}, {"along z ", time, b}}};
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_oscillating_drop() {
   const Exact exact = integrate();
   return {{"exact", exact.time, exact.a}, {"exact", exact.time, exact.b}};
 }
@@ -91,8 +91,8 @@ Case oscillating_drop() {
           .spacings = {0.01, 0.005, 0.0025},
           .size = kRadius,
           .size_name = "R",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_oscillating_drop,
+          .reference = reference_oscillating_drop,
           .x_label = "time [s]",
           .y_label = "half axes [R]"};
 }

@@ -26,7 +26,7 @@ double closing_time(const Column& time, const Column& pocket) {
   return time[k] + (time[k + 1] - time[k]) * (kPocket - pocket[k]) / (pocket[k + 1] - pocket[k]);
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_pinch_off(const std::vector<Run>& runs) {
   Outcome outcome;
   Column times;
   for (const Run& run : runs) {
@@ -49,7 +49,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
   return outcome;
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_pinch_off() {
   return {{"Glasheen & McMahon 1996", {2.285, 2.285}, {0.0, 3000.0}}};
 }
 
@@ -63,8 +63,8 @@ Case pinch_off() {
           .spacings = {0.0125, 0.00833333, 0.00625},
           .size = kDiameter,
           .size_name = "D",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_pinch_off,
+          .reference = reference_pinch_off,
           .x_label = "time since contact [sqrt(R/g)]",
           .y_label = "closed volume [cm3]"};
 }

@@ -29,7 +29,7 @@ double noise(const Column& time, const Column& pressure, double window) {
   return std::sqrt(square / count);
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_pressure_noise(const std::vector<Run>& runs) {
   const Series& g = runs.front().gauges;
   const Column& time = g["time"];
   const double window = kMeanOver * std::sqrt(kHeight / 9.81);
@@ -52,7 +52,7 @@ Case pressure_noise() {
           .spacings = {0.02, 0.0133333, 0.01},
           .size = kHeight,
           .size_name = "H",
-          .evaluate = evaluate,
+          .evaluate = evaluate_pressure_noise,
           .reference =
               [] {
                 return std::vector<Curve>{{"at rest", {0.0, 3.1}, {979.0, 979.0}}};

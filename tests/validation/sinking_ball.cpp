@@ -49,7 +49,7 @@ double drag_between(double first, double last, double way) {
   return 0.5 * (low + high);
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_sinking_ball(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Column& time = run.gauges["time"];
   const Column& z = run.gauges["ball_z"];
@@ -72,7 +72,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
       {{"", way, down}}};
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_sinking_ball() {
   Curve curve = {"Cd 0.45, added mass 1/2, open water", {}, {}};
   for (int k = 0; k <= 30; ++k) {
     curve.x.push_back(0.01 * k);
@@ -91,8 +91,8 @@ Case sinking_ball() {
           .spacings = {0.02, 0.012},
           .size = kDiameter,
           .size_name = "D",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_sinking_ball,
+          .reference = reference_sinking_ball,
           .x_label = "way down [m]",
           .y_label = "speed [m/s]"};
 }

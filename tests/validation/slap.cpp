@@ -64,7 +64,7 @@ Slap measure(const Run& run) {
   return slap;
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_slap(const std::vector<Run>& runs) {
   Outcome outcome;
   Column log_speed;
   Column log_impulse;
@@ -85,7 +85,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
   return outcome;
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_slap() {
   return {{"4/3 rho R^3 U", {0.0, 8.0}, {1.0, 1.0}}};
 }
 
@@ -99,8 +99,8 @@ Case slap() {
           .spacings = {0.02, 0.0133333, 0.01},
           .size = 2.0 * kRadius,
           .size_name = "D",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_slap,
+          .reference = reference_slap,
           .x_label = "time since contact [R/c]",
           .y_label = "impulse [4/3 rho R^3 U]"};
 }

@@ -43,7 +43,7 @@ double impulse(const Column& time, const Column& pressure, double first, double 
   return sum;
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_spheric2(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Series heights = reference_named("kleefsman_2005_heights");
   const Series pressures = reference_named("kleefsman_2005_pressures");
@@ -75,7 +75,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
   return outcome;
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_spheric2() {
   const Series heights = reference_named("kleefsman_2005_heights");
   return {{"Kleefsman 2005, H2", heights["t"], heights["H2"]},
           {"Kleefsman 2005, H4", heights["t"], heights["H4"]}};
@@ -91,8 +91,8 @@ Case spheric2() {
           .spacings = {0.04, 0.03, 0.02},
           .size = 0.55,
           .size_name = "H",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_spheric2,
+          .reference = reference_spheric2,
           .x_label = "time [s]",
           .y_label = "height of the water [m]"};
 }

@@ -40,7 +40,7 @@ double mode_decay(const Column& time, const Column& centre) {
   return swing_decay(time, combine(1.0, centre, -0.5 * kLength, Column(centre.size(), 1.0)), 0.0);
 }
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_standing_wave(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Column& time = run.gauges["time"];
   const Column slope = combine(0.5, run.gauges["left_height"], -0.5, run.gauges["right_height"]);
@@ -58,7 +58,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
           {{"", time, slope}}};
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_standing_wave() {
   Curve airy = {"Airy, nu = 1e-3 m2/s", {}, {}};
   for (int k = 0; k <= 600; ++k) {
     const double t = 0.01 * k;
@@ -79,8 +79,8 @@ Case standing_wave() {
           .spacings = {0.05, 0.025, 0.0125},
           .size = kDepth,
           .size_name = "H",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_standing_wave,
+          .reference = reference_standing_wave,
           .x_label = "time [s]",
           .y_label = "height at the wall, half of the difference [m]"};
 }

@@ -13,7 +13,7 @@ constexpr double kSide = 0.2;  // of the scene [m]
 /// E = E0 exp(-2 nu (kx^2 + ky^2) t): Taylor & Green 1937.
 const double kSquares = 2.0 * std::pow(std::numbers::pi / kSide, 2);
 
-Outcome evaluate(const std::vector<Run>& runs) {
+Outcome evaluate_vortex(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Column& time = run.gauges["time"];
   const Column& kinetic = run.gauges["all_kinetic"];
@@ -29,7 +29,7 @@ Outcome evaluate(const std::vector<Run>& runs) {
           {{"", time, combine(1.0 / kinetic.front(), kinetic, 0.0, time)}}};
 }
 
-std::vector<Curve> reference() {
+std::vector<Curve> reference_vortex() {
   Curve exact = {"nu = 1e-3 m2/s", {}, {}};
   for (int k = 0; k <= 100; ++k) {
     exact.x.push_back(0.01 * k);
@@ -48,8 +48,8 @@ Case vortex() {
           .spacings = {0.02, 0.01, 0.005},
           .size = kSide,
           .size_name = "L",
-          .evaluate = evaluate,
-          .reference = reference,
+          .evaluate = evaluate_vortex,
+          .reference = reference_vortex,
           .x_label = "time [s]",
           .y_label = "kinetic energy over that at the start"};
 }
