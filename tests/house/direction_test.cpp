@@ -9,8 +9,6 @@
 namespace splash::house {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::vector<std::string> include_complaints(const std::vector<SourceFile>& files) {
@@ -48,19 +46,6 @@ TEST(Direction, LinksOfTheTreeFollowThePlan) {
   const auto files = read_files(SPLASH_SOURCE_DIR, {"CMakeLists.txt"});
   ASSERT_GT(targets_of(files).size(), 5U);
   EXPECT_THAT(link_complaints(files), IsEmpty());
-}
-
-TEST(Direction, ServersNeverKnowEachOther) {
-  const SourceFile sim{"sim-server/main.cpp", {R"(#include "synth-server/render/engine.hpp")"}};
-  const SourceFile synth{"synth-server/server.cpp", {"#include \"sim-server/scene/scene.hpp\""}};
-  EXPECT_THAT(include_complaints({sim, synth}),
-              ElementsAre(HasSubstr("may not know synth-server/render/engine.hpp"),
-                          HasSubstr("may not know sim-server/scene/scene.hpp")));
-}
-
-TEST(Direction, FolderWithoutRowIsRefused) {
-  EXPECT_THAT(complaint("sim-server/attic", "vector"), HasSubstr("has no row"));
-  EXPECT_THAT(complaint("sim-server/fluid/attic", "vector"), HasSubstr("has no row"));
 }
 
 }  // namespace

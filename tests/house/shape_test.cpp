@@ -59,16 +59,6 @@ TEST(Shape, EveryHeaderAndKernelIntroducesItself) {
               IsEmpty());
 }
 
-TEST(Shape, EveryHeaderIsReadOnce) {
-  const auto files = read_files(SPLASH_SOURCE_DIR, {".hpp"});
-  EXPECT_THAT(paths_where(files,
-                          [](const SourceFile& file) {
-                            return std::find(file.lines.begin(), file.lines.end(),
-                                             "#pragma once") == file.lines.end();
-                          }),
-              IsEmpty());
-}
-
 TEST(Shape, NoLineIsTooWide) {
   auto files = read_files(SPLASH_SOURCE_DIR, kSources);
   EXPECT_THAT(paths_where(files,
