@@ -11,8 +11,8 @@ namespace {
 
 /// No screen shows more [s].
 constexpr double kPeriod = 1.0 / 60.0;
-/// So long a viewer of slow or standing water waits for simulated time to go on [s].
-constexpr double kPatience = 0.1;
+/// So much longer a viewer of slow water waits for simulated time to go on [s].
+constexpr double kPatience = kPeriod;
 
 }  // namespace
 

@@ -20,7 +20,8 @@ class Show {
        std::function<std::vector<LiveRow>()> rows);
 
   /// Between two frames: shows what `state` tells and the water, if somebody waits for it, 60 times
-  /// a second and a simulated second at most. `now`: monotonic [s]; `seconds`: simulated [s].
+  /// a second and a simulated second at most, but 30 times a second where simulated time goes
+  /// slower. `now`: monotonic [s]; `seconds`: simulated [s].
   void frame(double now, double seconds, Fluid& fluid, const std::function<ShownState()>& state);
 
   /// So often the water was read back.

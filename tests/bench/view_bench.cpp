@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How old pictures are when they are shown, and how far apart picture and sound of the same event
-// are: all three programs on this machine, the page in Chromium without a screen, which draws
-// points, since software is slow at water. Prints what the page measures of itself.
+// are: all three programs on this machine, the page in Chromium without a screen and without a
+// graphics card, which draws points, since software is slow at water. Prints what the page measures
+// of itself.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -52,7 +53,7 @@ void look(const std::string& scene, const Settings& settings) {
               {"--sim", protocol::to_string(simulator.endpoint()), "--synth",
                protocol::to_string(synth.endpoint()), "--sim-show", shown_at(simulator.process()),
                "--synth-show", shown_at(synth.process())});
-  Chromium browser(settings.window);
+  Chromium browser(settings.window, "swiftshader-webgl");
   if (settings.blind) {
     browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", kBlind}});
   }

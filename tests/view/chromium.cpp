@@ -70,7 +70,7 @@ bool Chromium::is_there() {
   return !found().empty();
 }
 
-Chromium::Chromium(const std::string& window)
+Chromium::Chromium(const std::string& window, const std::string& graphics)
     : folder_(temporary_path("chromium-" + std::to_string(++browsers))) {
   fs::create_directories(folder_);
   to_ = fifo(folder_ + "/to");
@@ -78,7 +78,7 @@ Chromium::Chromium(const std::string& window)
   process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
       "/bin/sh", "-c", R"(exec "$@" 3<"$0/to" 4>"$0/from")", folder_, found(), "--headless=new",
       "--no-sandbox", "--disable-dev-shm-usage", "--remote-debugging-pipe",
-      "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      "--use-angle=" + graphics, "--enable-unsafe-swiftshader",
       "--autoplay-policy=no-user-gesture-required", "--window-size=" + window,
       "--user-data-dir=" + folder_ + "/profile", "--no-first-run", "--disable-extensions",
       "--disable-background-networking", "about:blank"});

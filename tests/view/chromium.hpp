@@ -18,9 +18,11 @@ class Chromium {
 
   /// Whether there is one.
   [[nodiscard]] static bool is_there();
-  /// Starts it with a window of so many CSS pixels and no page. Throws std::runtime_error when that
-  /// fails.
-  explicit Chromium(const std::string& window = "720,480");
+  /// Starts it with a window of so many CSS pixels and no page. `graphics`: in software for all
+  /// that it shows, or "swiftshader-webgl": for WebGL alone, as it does by itself where there is no
+  /// card. Throws std::runtime_error when that fails.
+  explicit Chromium(const std::string& window = "720,480",
+                    const std::string& graphics = "swiftshader");
   ~Chromium();
   Chromium(const Chromium&) = delete;
   Chromium& operator=(const Chromium&) = delete;

@@ -136,6 +136,56 @@ TEST_F(Modules, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
   EXPECT_EQ(drawn[1], Json({{990, 10}, {990, 11}, {990, 12}, {990, 13}, {990, 14}}));
 }
 
+// A block of 1,728 points, not quite in rows, drawn as discs into the pixels of a picture: each
+// that is seen anywhere is picked, and most of the others are not.
+TEST_F(Modules, PointsBehindOthersAreNotDrawn) {
+  const Json points = with_the_modules(R"js((async () => {
+    const { Camera } = await import('/camera.js');
+    const { Seen } = await import('/seen.js');
+    const { transform } = await import('/vector.js');
+    const camera = Object.assign(new Camera(), { aspect: 1.5, elevation: 0.4 });
+    camera.frame({ lower: [0, 0, 0], upper: [1.2, 1.2, 1.2] }, -0.7, 0.85);
+    const matrices = camera.matrices();
+    const [side, radius, width, height] = [12, 0.05, 480, 320];
+    const particles = new Uint16Array(4 * side ** 3);
+    for (let i = 0; i < side ** 3; ++i) {
+      [i % side, Math.floor(i / side) % side, Math.floor(i / side ** 2)].forEach((at, axis) => {
+        particles[4 * i + axis] = 1000 * (0.1 * at + 0.02 * Math.sin(7 * i + axis));
+      });
+    }
+    const state = { count: side ** 3, lower: [0, 0, 0], unit: 0.001,
+      particles: new Uint8Array(particles.buffer) };
+    const view = { older: state, newer: { ...state, lower: [0, 0, 0.1] }, share: 0.5 };
+    const depth = new Float32Array(width * height).fill(Infinity);
+    const front = new Int32Array(width * height).fill(-1);
+    for (let i = 0; i < side ** 3; ++i) {
+      const [x, y, z] = [0, 1, 2].map((axis) => particles[4 * i + axis] * state.unit);
+      const place = transform(matrices.both, [x, y, z + 0.05]);
+      const w = matrices.both[3] * x + matrices.both[7] * y + matrices.both[11] * (z + 0.05)
+        + matrices.both[15];
+      const r = (0.5 * matrices.projection[5] * radius * height) / w;
+      const [u, v] = [(0.5 + 0.5 * place[0]) * width, (0.5 + 0.5 * place[1]) * height];
+      for (let row = Math.max(Math.floor(v - r), 0); row < Math.min(v + r, height); ++row) {
+        const last = Math.min(u + r, width);
+        for (let column = Math.max(Math.floor(u - r), 0); column < last; ++column) {
+          const at = row * width + column;
+          if (Math.hypot(column + 0.5 - u, row + 0.5 - v) > r || depth[at] <= w) continue;
+          depth[at] = w;
+          front[at] = i;
+        }
+      }
+    }
+    const picked = new Set(new Seen().pick(view, matrices, radius, { width, height }));
+    const shown = new Set(front);
+    shown.delete(-1);
+    return { picked: picked.size, shown: shown.size,
+      missing: [...shown].filter((i) => !picked.has(i)).length };
+  })())js");
+  EXPECT_EQ(points["missing"], 0) << points;
+  EXPECT_GT(points["shown"], 300) << points;
+  EXPECT_LT(points["picked"], 900) << points;
+}
+
 // A machine on which a picture takes a time in proportion to its pixels: pictures get coarser until
 // they come often enough, and sharper again on one that is fast.
 TEST_F(Modules, APictureThatTakesLongGetsCoarser) {
@@ -174,19 +224,22 @@ TEST_F(Modules, PointsBecomeWaterAgainOnceThereIsTimeForIt) {
       for (const end = now + 1000 * seconds; now < end;) {
         const points = pace.isTooSlow;
         const drawing = points ? 0.002 : whole * pace.sharp ** 2 * (0.5 + 0.5 * pace.share ** 2);
-        now += 1000 * Math.max(drawing, 1 / 60);
+        now += 1000 * Math.max(drawing, pace.every / 60);
         pace.step(drawing);
         tries += points && !pace.isTooSlow ? 1 : 0;
         water += points ? 0 : 1;
       }
-      return { tries, water, points: pace.isTooSlow, sharp: pace.sharp, share: pace.share };
+      const { every, sharp, share } = pace;
+      return { tries, water, points: pace.isTooSlow, every, sharp, share };
     };
     const passes = new Pace(null);
     const stays = new Pace(null);
     return [run(passes, 10, 3), run(passes, 60, 0.001), run(stays, 10, 3), run(stays, 1200, 3)];
   })())js");
   EXPECT_EQ(seen[0]["points"], true) << seen;
+  EXPECT_EQ(seen[0]["every"], 2) << "leave the processor to the simulator " << seen;
   EXPECT_EQ(seen[1]["points"], false) << seen;
+  EXPECT_EQ(seen[1]["every"], 1) << seen;
   EXPECT_EQ(seen[1]["sharp"], 1) << seen;
   EXPECT_EQ(seen[1]["share"], 1) << seen;
   EXPECT_EQ(seen[2]["points"], true) << seen;

@@ -128,6 +128,7 @@ export function drawScope(canvas, sound) {
   }
   pen.fillStyle = '#8fa9b3';
   for (const [hertz, name] of [[50, '50'], [200, '200'], [1000, '1k'], [4000, '4k Hz']]) {
-    pen.fillText(name, w / 2 + 6 + half * (Math.log(hertz / low) / Math.log(top / low)), h);
+    const x = w / 2 + 6 + half * (Math.log(hertz / low) / Math.log(top / low));
+    pen.fillText(name, Math.min(x, w - pen.measureText(name).width), h);
   }
 }

@@ -25,7 +25,8 @@ import { Headset } from './xr.js';
 const at = (id) => document.getElementById(id);
 const options = new URLSearchParams(location.search); // ?points, ?share=0.5
 const canvas = at('water');
-const gl = canvas.getContext('webgl2', { antialias: false, powerPreference: 'high-performance' });
+const gl = canvas.getContext('webgl2',
+  { alpha: false, antialias: false, powerPreference: 'high-performance' });
 if (!gl) {
   at('state').textContent = 'This browser has no WebGL 2, without which nothing can be drawn: '
     + 'turn on graphics acceleration in its settings, or take another browser.';
@@ -252,12 +253,15 @@ function poseBodies({ older, newer, share: t }) {
 let pictures = 0;
 let drawnLast = -Infinity; // when a picture was begun [ms]
 let asks = false; // the next picture asks for a state
+let turns = 0; // of the browser's, since the last picture
 function picture() {
   requestAnimationFrame(picture);
   gamepads.poll();
   fences.look();
+  turns += 1;
   // No picture waits for another: it would show an older state.
-  if (fences.pending.length > 0) return;
+  if (fences.pending.length > 0 || turns < pace.every) return;
+  turns = 0;
   if (!headset.session) pace.step(playout.drawing);
   const dense = Math.min(window.devicePixelRatio, 2) * pace.sharp;
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
@@ -365,6 +369,9 @@ document.addEventListener('visibilitychange', () => {
   if (document.hidden) grabs.letAllGo();
   else pace.begin();
 });
+// What lies above the charts keeps clear of the figures, however many lines they take.
+new ResizeObserver(([{ target }]) =>
+  document.body.style.setProperty('--charts', `${target.offsetHeight}px`)).observe(document.querySelector('footer'));
 window.addEventListener('pagehide', () => grabs.letAllGo());
 
 setInterval(() => {

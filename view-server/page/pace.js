@@ -45,6 +45,12 @@ export class Pace {
     return this.fixed ?? LEVELS[this.level][1];
   }
 
+  /// One in so many of the browser's pictures is drawn. Graphics too slow for water are a processor,
+  /// which the simulator may need, too.
+  get every() {
+    return this.isTooSlow ? 2 : 1;
+  }
+
   /// Pictures a second, a mean.
   get rate() {
     return 1 / Math.max(this.took, 1e-3);
@@ -59,7 +65,7 @@ export class Pace {
     this.since += took;
     this.pictures += 1;
     if (this.fixed !== null || this.since < SETTLE || this.pictures < 2) return;
-    const meanRate = this.pictures / this.since;
+    const meanRate = (this.every * this.pictures) / this.since; // that there could be
     const coarsest = LEVELS.length - 1;
     if (this.isTooSlow && meanRate > SLOW && drawing < LONG) this.left -= took;
     if (this.isTooSlow && this.left < 0) {

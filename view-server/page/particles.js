@@ -41,6 +41,7 @@ export class Particles {
     this.gl = gl;
     this.held = [null, null];
     this.buffers = [gl.createBuffer(), gl.createBuffer()];
+    this.numbers = gl.createBuffer(); // of those that are drawn, where not all are
     this.several = { mirrored: { buffer: gl.createBuffer() }, drops: { buffer: gl.createBuffer() } };
     this.picked = {}; // {older, newer}, of which those are
   }
@@ -64,7 +65,9 @@ export class Particles {
 
   /// What follows is drawn between these two; `world`: tank, paddle, spacing; null: nothing is
   /// drawn several times.
-  show({ older, newer, share }, world) {
+  show(view, world) {
+    const { older, newer, share } = view;
+    this.view = view;
     if (world && (this.picked.older !== older || this.picked.newer !== newer)) {
       for (const [kind, { used, count }] of Object.entries(several({ older, newer }, world))) {
         this.fill(this.several[kind].buffer, used);
@@ -81,8 +84,8 @@ export class Particles {
   }
 
   /// Points out of buffers: where the older and the newer places lie in them, and how far apart; the
-  /// parts follow the newer places where there are any.
-  draw(count, [from, at], [to, then], stride, parts = false) {
+  /// parts follow the newer places where there are any. `picked`: the numbers of those that are drawn.
+  draw(count, [from, at], [to, then], stride, { parts = false, picked = null } = {}) {
     if (count === 0) return;
     const gl = this.gl;
     const handle = gl.createVertexArray();
@@ -97,13 +100,19 @@ export class Particles {
     take(2, to, () => gl.vertexAttribIPointer(2, 2, gl.UNSIGNED_BYTE, stride, then + 6));
     if (parts) take(3, to, () => gl.vertexAttribIPointer(3, 1, gl.UNSIGNED_INT, stride, then + PLACE));
     else gl.vertexAttribI4ui(3, 0, 0, 0, 0);
-    gl.drawArrays(gl.POINTS, 0, count);
+    if (picked) {
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.numbers);
+      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, picked, gl.STREAM_DRAW);
+      gl.drawElements(gl.POINTS, picked.length, gl.UNSIGNED_INT, 0);
+    } else {
+      gl.drawArrays(gl.POINTS, 0, count);
+    }
     gl.bindVertexArray(null);
     gl.deleteVertexArray(handle);
   }
 
-  drawWater() {
-    this.draw(this.count, [this.buffers[0], 0], [this.buffers[1], 0], PLACE);
+  drawWater(picked = null) {
+    this.draw(this.count, [this.buffers[0], 0], [this.buffers[1], 0], PLACE, { picked });
   }
 
   /// Bubbles have no fixed order: those of the newer state.
@@ -113,7 +122,7 @@ export class Particles {
   }
 
   drawSeveral({ buffer, count }) {
-    this.draw(count, [buffer, 0], [buffer, PLACE], 4 * WORDS, true);
+    this.draw(count, [buffer, 0], [buffer, PLACE], 4 * WORDS, { parts: true });
   }
 
   drawMirrored() {

@@ -3,6 +3,7 @@
 // shaded points, the tank's edges, and the bodies as they are, dimmed behind the water.
 import { program, use } from './gl.js';
 import { PARTICLE } from './particles.js';
+import { Seen } from './seen.js';
 import { GROUND, SOLID_VERTEX, STILL } from './solids.js';
 
 const VERTEX = `${PARTICLE}
@@ -31,12 +32,28 @@ void main() {
   colour = vec4(tint * (0.5 + 0.5 * abs(normalize(facing).z)) + 0.3 * glow, cover);
 }`;
 const BEHIND = 0.4; // of a body's light comes through the water before it
+const MOST = 0.4; // of the points
+const REST = 100; // pictures
 
 export class Points {
   constructor(gl) {
     this.gl = gl;
     this.water = program(gl, VERTEX, FRAGMENT);
     this.solid = program(gl, SOLID_VERTEX, SOLID_FRAGMENT);
+    this.seen = new Seen();
+    this.rest = 0; // pictures of which all points are drawn
+  }
+
+  /// The numbers of the points that are seen; null: all are drawn. Where most are seen, as in shallow
+  /// water, looking for the others takes longer than drawing them: a while later is soon enough.
+  pick(particles, camera, radius, size) {
+    if (this.rest > 0) {
+      this.rest -= 1;
+      return null;
+    }
+    const picked = this.seen.pick(particles.view, camera, radius, size);
+    if (picked.length > MOST * particles.count) this.rest = REST;
+    return picked;
   }
 
   draw({ width, height }, camera, world, particles, solids, drawMarks) {
@@ -54,8 +71,9 @@ export class Points {
     };
     drawSolids([...solids.bodies, ...solids.still.filter(({ material }) => material !== GROUND)], 1);
     drawSolids([solids.edges], 1, solids.bars(camera, height));
-    use(gl, this.water, { ...camera, ...particles.uniforms, radius: 0.5 * world.spacing, height });
-    particles.drawWater();
+    const radius = 0.5 * world.spacing;
+    use(gl, this.water, { ...camera, ...particles.uniforms, radius, height });
+    particles.drawWater(this.pick(particles, camera, radius, { width, height }));
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthFunc(gl.GREATER);
