@@ -77,11 +77,11 @@ struct Safety {
   /// The water gives the hand no energy but what the hand gave it before, of which it owes the last
   /// `credit` at most, and `advance` (the passivity observer of Hannaford & Ryu 2002). As the force
   /// cannot end at once, it is never larger than what can be taken back by `slew` before that
-  /// energy is used up, while the hand speeds up by `hand` meanwhile.
+  /// energy is used up, while the hand speeds up by `hand` meanwhile, or as it did of late.
   bool passive = true;
   double credit = 2.0;         ///< [J]
   double advance = 0.8e-3;     ///< [J]
-  double hand = 50.0;          ///< [m/s2]
+  double hand = 50.0;          ///< at least [m/s2]
   double horizon = 0.02;       ///< what was taken too much is given back by damping, so soon [s]
   double most_passive = 60.0;  ///< such damping, at most [N s/m]
 };
@@ -114,6 +114,7 @@ class ForceModel {
                                                  model_.spin, safety_.max_turning));
     }
     note_work(place, sound);
+    if (sound) note_hand(velocity, dt);
     limit(wanted.force, safety_.max_force);
     limit(wanted.torque, safety_.max_torque);
     if (safety_.passive && sound) make_passive(wanted.force, velocity, dt);
@@ -183,12 +184,27 @@ class ForceModel {
     energy_ = std::min(energy_ - dot(given_.force, way), safety_.credit);
   }
 
+  /// How fast the hand speeds up: what a mean of its velocity lags behind it by, over the mean's
+  /// time; the most of about the last second counts, and half as much again.
+  void note_hand(const Vector& velocity, double dt) {
+    constexpr double kMean = 0.005, kKeeps = 1.0;  // [s]
+    const double part = asked_ ? 1.0 - std::exp(-dt / kMean) : 1.0;
+    double square = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double lag = velocity[i] - mean_velocity_[i];
+      square += lag * lag;
+      mean_velocity_[i] += part * lag;
+    }
+    const double now = asked_ ? 1.5 * std::sqrt(square) / kMean : 0.0;
+    hand_ = std::max({now, hand_ * std::exp(-dt / kKeeps), safety_.hand});
+  }
+
   /// What the hand gets from a force along its motion at `speed` while the slew limit takes it
   /// back:
   ///   integral of (F - slew t) (speed + hand t) dt  until F = slew t.
   double cost(double force, double speed) const {
     const double time = force / safety_.slew;
-    return force * time * (speed / 2.0 + safety_.hand * time / 6.0);
+    return force * time * (speed / 2.0 + hand_ * time / 6.0);
   }
 
   /// The largest force that costs no more than `energy`. Below it there is none that does: the cost
@@ -213,7 +229,7 @@ class ForceModel {
     const double size = std::sqrt(dot(force, force));
     if (size <= 0.0) return;
     // A turn passes before the force can change.
-    const double speed = dot(force, velocity) / size + safety_.hand * dt;
+    const double speed = dot(force, velocity) / size + hand_ * dt;
     const double most = affordable(speed, std::max(energy, 0.0)) - safety_.slew * dt;
     limit(force, std::max(most, 0.0));
   }
@@ -228,6 +244,8 @@ class ForceModel {
   Vector place_ = {0.0, 0.0, 0.0};
   Wrench given_;  ///< what the hand gets
   double energy_ = 0.0;
+  Vector mean_velocity_ = {0.0, 0.0, 0.0};
+  double hand_ = 0.0;  ///< how fast it speeds up [m/s2]
 };
 
 /// OSC 1.0 as splash writes and reads it, of what a force loop needs.
