@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <numeric>
 
 #include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
@@ -217,6 +219,42 @@ TEST(GridSolids, WaterOnASlopeStaysStill) {
   for (int k = 0; k < 100; ++k) water.step(1.0e-2);
   std::printf("fastest %.4f of sqrt(gH)\n", water.fluid->stats().speed / std::sqrt(kGravity * 0.2));
   EXPECT_LT(water.fluid->stats().speed, 0.02 * std::sqrt(kGravity * 0.2));
+}
+
+/// Mean height of the highest so many particles within a box around the tank's middle, or outside
+/// it.
+double top_of(const Snapshot& now, std::size_t particles, const Vector3& half, bool within,
+              std::size_t highest) {
+  const std::size_t stride = now.position.size() / 3;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < particles; ++i) {
+    const bool inside = std::abs(static_cast<double>(now.position[i]) - 0.225) < half[0] &&
+                        std::abs(static_cast<double>(now.position[stride + i]) - 0.18) < half[1];
+    if (inside == within) heights.push_back(static_cast<double>(now.position[2 * stride + i]));
+  }
+  std::sort(heights.rbegin(), heights.rend());
+  return std::accumulate(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(highest),
+                         0.0) /
+         static_cast<double>(highest);
+}
+
+/// A hand that hangs a little more than a spacing above the water does not press it down.
+TEST(GridSolids, WhatHangsAboveTheWaterLeavesItLevel) {
+  Device device;
+  constexpr double kSpacing = 0.025;
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.size = {0.18, 0.09, 0.04};
+  Water water = with_solid(kSpacing, {0.45, 0.36, 0.84}, 0.24, shape,
+                           {{0.225, 0.18, 0.29}, {0, 0, 0, 1}, {}, {}});
+  water.start(device);
+  let_settle(water);
+  for (int k = 0; k < 40; ++k) water.step(1.0e-2);
+  const Snapshot now = water.fluid->snapshot();
+  const double beneath = top_of(now, water.particles.size(), {0.07, 0.03, 0.0}, true, 8);
+  const double elsewhere = top_of(now, water.particles.size(), {0.15, 0.18, 0.0}, false, 50);
+  std::printf("%.2f spacings lower beneath it\n", (elsewhere - beneath) / kSpacing);
+  EXPECT_NEAR(beneath, elsewhere, 0.25 * kSpacing);
 }
 
 /// A piston that goes slowly lifts the level as it takes room.

@@ -15,8 +15,9 @@
 #include "sim-server/fluid/pressure/grid_projected/room.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
-#define LEAST_SEEN 1e-4f  // cells that see less open space are full of nothing [1]
-#define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
+#define LEAST_SEEN 1e-4f   // cells that see less open space are full of nothing [1]
+#define LITTLE_TOLD 0.05f  // weight of what a cell says itself of what it does not see [1]
+#define LEAST_GAP 1e-3f    // faces that are less open are closed [1]
 
 // Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
 static float open_tetrahedron(float a, float b, float c, float d) {
@@ -253,41 +254,63 @@ kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant Bod
   }
 }
 
+// What solids leave open of cells: of their `lower` and `upper` halves along the axes, and of all
+// of them, `room`.
+typedef struct {
+  global const float* lower;
+  global const float* upper;
+  global const float* room;
+} OpenHalves;
+
 // What the hat of a cell's middle sees of open space: 3/4 of its weight is in the cell itself along
-// each axis, an eighth on either side.
-static float room_seen(const MacLevel l, global const float* room, int4 at) {
+// each axis, an eighth in the nearer half of the cell on either side.
+static float room_seen(const MacLevel l, const OpenHalves* open, int4 at) {
   float sum = 0.0f;
   for (int k = 0; k < 27; ++k) {
-    const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
-    const int4 there = (int4)(clamp(at.x + x, 0, l.nx - 1), clamp(at.y + y, 0, l.ny - 1),
-                              clamp(at.z + z, 0, l.nz - 1), 1);
-    const float part = (x ? 0.125f : 0.75f) * (y ? 0.125f : 0.75f) * (z ? 0.125f : 0.75f);
-    sum += part * room[number_of(l, there)];
+    const int side[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+    const int4 there =
+        (int4)(clamp(at.x + side[0], 0, l.nx - 1), clamp(at.y + side[1], 0, l.ny - 1),
+               clamp(at.z + side[2], 0, l.nz - 1), 1);
+    const int c = number_of(l, there);
+    const float all = open->room[c];
+    float part = 1.0f, nearer = all;
+    for (int axis = 0; axis < 3; ++axis) {
+      part *= side[axis] ? 0.125f : 0.75f;
+      if (!side[axis] || all < LEAST_SEEN) continue;
+      global const float* next = side[axis] > 0 ? open->lower : open->upper;
+      nearer *= next[axis * l.cells + c] / all;
+    }
+    sum += part * fmin(nearer, 1.0f);
   }
   return sum;
 }
 
-// The same of those of a vector of cells that are some solid's; of others 1.
-static lanes rooms_seen(const MacLevel l, global const float* room, global const int* owner,
-                        const Cells* at) {
-  const lane_flags cut = at->inside & (LOAD(owner, at->first) != (lane_flags)(OF_NOBODY));
-  if (!any_lane(cut)) return (lanes)(1.0f);
+// What cells see of open space, of those that are some solid's; of others 1.
+kernel void see_room(constant MacGrid* g, global const float* lower, global const float* upper,
+                     global const float* room, global const int* owner, global float* seen) {
+  const Cells at = cells_of(g, get_global_id(0));
+  const MacLevel l = g->level[0];
+  if (at.z > l.nz) return;
+  const lane_flags nobody = OF_NOBODY;
+  const lane_flags cut = at.inside & (LOAD(owner, at.first) != nobody);
+  STORE((lanes)(1.0f), seen, at.first);
+  if (!any_lane(cut)) return;
+  const OpenHalves open = {lower, upper, room};
   int x[LANES], y[LANES], is_cut[LANES];
-  float seen[LANES];
-  STORE(at->x, x, 0);
-  STORE(at->y, y, 0);
+  STORE(at.x, x, 0);
+  STORE(at.y, y, 0);
   STORE(cut, is_cut, 0);
   for (int lane = 0; lane < LANES; ++lane) {
-    seen[lane] = is_cut[lane] ? room_seen(l, room, (int4)(x[lane], y[lane], at->z, 1)) : 1.0f;
+    if (is_cut[lane]) {
+      seen[at.first + lane] = room_seen(l, &open, (int4)(x[lane], y[lane], at.z, 0));
+    }
   }
-  return LOAD(seen, 0);
 }
 
 // From halves to faces: `gap` begins as the lower ones. Of the tank's faces it is the area that is
-// open, and the piston's wall is behind it. `seen`: of open space, by each cell's hat.
-kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global const int* owner,
-                       global const float* upper, global const float* room, global float* gap,
-                       global float* seen) {
+// open, and the piston's wall is behind it.
+kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global const float* upper,
+                       global float* gap) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -305,11 +328,22 @@ kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global cons
     const lane_flags closed = open < (lanes)(LEAST_GAP);
     STORE(select(select(open, none, closed), none, at.real == (lane_flags)(0)), gap, face);
   }
-  STORE(rooms_seen(l, room, owner, &at), seen, at.first);
 }
 
-// How full cells are beside solids. The less open space a cell has, the more it counts what is
-// behind its open faces: in a gap where no particle fits there may be water.
+// How full cells are of what their hats see of open space.
+static lanes full_part(global const float* fill, global const float* seen, int c) {
+  return LOAD(fill, c) / fmax(LOAD(seen, c), (lanes)(LEAST_SEEN));
+}
+
+// How far cells can be relied on to tell where the surface is, by what they see of open space [1].
+static lanes seen_well(global const float* seen, int c) {
+  return within(5.0f * LOAD(seen, c) - 4.0f, 0.0f, 1.0f);
+}
+
+// How full cells are beside solids: as if what solids take of their hats were as full as the water
+// around goes on to be there, so that a solid which hangs above the water counts as air. The less
+// open space a cell has, the more it counts what is behind its open faces: in a gap where no
+// particle fits there may be water.
 kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
                                global const float* room, global const float* seen,
                                global const float* fill, global float* filled) {
@@ -320,27 +354,35 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
   const int step[3] = {1, l.row, l.layer};
   const lane_flags here[3] = {at.x, at.y, at.z};
   const int count[3] = {l.nx, l.ny, l.nz};
-  const lanes none = 0.0f, one = 1.0f, own = LOAD(room, c);
-  lanes water = own * LOAD(fill, c), space = own * LOAD(seen, c);
-  const lane_flags cut = at.real & (own < one);
-  if (any_lane(cut)) {
+  const lanes none = 0.0f, one = 1.0f, own = LOAD(room, c), hidden = one - LOAD(seen, c);
+  lanes told = LITTLE_TOLD, tells = LITTLE_TOLD * full_part(fill, seen, c);
+  lanes in_gaps = 0.0f, gaps = 0.0f;
+  if (any_lane(at.real & (hidden > none))) {
     const lanes closed = (one - own) * (one - own);
     for (int axis = 0; axis < 3; ++axis) {
       for (int side = 0; side < 2; ++side) {
+        const int s = (2 * side - 1) * step[axis];
         const lane_flags there = here[axis] + (2 * side - 1);
         const lane_flags beside =
-            cut & (there >= (lane_flags)(0)) & (there < (lane_flags)(count[axis]));
+            at.real & (there >= (lane_flags)(0)) & (there < (lane_flags)(count[axis]));
         if (!any_lane(beside)) continue;
-        const int cell = c + (2 * side - 1) * step[axis];
-        const lanes share =
-            closed * LOAD(room, cell) * LOAD(gap, axis * l.cells + c + side * step[axis]);
-        water = select(water, water + share * LOAD(fill, cell), beside);
-        space = select(space, space + share * LOAD(seen, cell), beside);
+        const lanes near = full_part(fill, seen, c + s), far = full_part(fill, seen, c + 2 * s);
+        const lanes well =
+            select(none, seen_well(seen, c + s) * seen_well(seen, c + 2 * s), beside);
+        const lanes goes_on = near + well * (fill_beyond(near, far) - near);
+        told += well;
+        tells += well * goes_on;
+        const lanes through = LOAD(room, c + s) * LOAD(gap, axis * l.cells + c + side * step[axis]);
+        const lanes share = select(none, closed * through * LOAD(seen, c + s), beside);
+        in_gaps += share * goes_on;
+        gaps += share;
       }
     }
   }
+  const lanes whole = LOAD(fill, c) + hidden * tells / told, sure = own * LOAD(seen, c);
+  const lanes space = sure + gaps;
   const lane_flags known = at.real & (space > (lanes)(LEAST_SEEN));
-  STORE(select(none, water / space, known), filled, c);
+  STORE(select(none, (sure * whole + in_gaps) / space, known), filled, c);
 }
 
 // How much of the surface solids leave open, between the middles of cell `c` at `at` and the one

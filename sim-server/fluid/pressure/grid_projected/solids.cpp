@@ -19,6 +19,7 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
       seen_space_(device, any ? fields.room : 1),
       filled_(device, any ? fields.room : 1),
       cut_cells_(program, "cut_cells", std::min<std::size_t>(device.profile().group, 16)),
+      see_room_(program, "see_room", std::min<std::size_t>(device.profile().group, 16)),
       open_faces_(program, "open_faces", device.profile().group),
       fill_beside_solids_(program, "fill_beside_solids", device.profile().group),
       cover_surface_(program, "cover_surface", std::min<std::size_t>(device.profile().group, 16)) {}
@@ -41,14 +42,15 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                   {"upper", upper_},
                   {"room", space_},
                   {"owner", owner_}});
+  see_room_.run(queue, fields_.vectors,
+                {{"g", fields_.on_device},
+                 {"lower", gap_},
+                 {"upper", upper_},
+                 {"room", space_},
+                 {"owner", owner_},
+                 {"seen", seen_space_}});
   open_faces_.run(queue, fields_.vectors,
-                  {{"p", params},
-                   {"g", fields_.on_device},
-                   {"owner", owner_},
-                   {"upper", upper_},
-                   {"room", space_},
-                   {"gap", gap_},
-                   {"seen", seen_space_}});
+                  {{"p", params}, {"g", fields_.on_device}, {"upper", upper_}, {"gap", gap_}});
   fill_beside_solids_.run(queue, fields_.vectors,
                           {{"g", fields_.on_device},
                            {"gap", gap_},

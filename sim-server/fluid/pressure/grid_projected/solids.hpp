@@ -42,6 +42,7 @@ class GridSolids {
   Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
   Buffer<float> filled_;
   Kernel cut_cells_;
+  Kernel see_room_;
   Kernel open_faces_;
   Kernel fill_beside_solids_;
   Kernel cover_surface_;
