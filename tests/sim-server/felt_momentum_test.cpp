@@ -171,7 +171,8 @@ TEST(FeltForce, OfWaterOnAGridIsAllTheMomentumThatItGets) {
       {"in and out", 0.03, block, oar, -0.48, in_and_out, 0.7}};
   for (const Blow& blow : blows) {
     const Balance found = balance(blow);
-    EXPECT_LT(found.off, (blow.spacing < 0.03 ? 0.02 : 0.04) * found.most) << blow.says;
+    // What the scheme gives the water far from the body adds up.
+    EXPECT_LT(found.off, (blow.lasts > 0.5 ? 0.04 : 0.02) * found.most) << blow.says;
     EXPECT_LT(found.left, 0.001 * found.most) << blow.says;
   }
 }
