@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which solver a scene with `solver: auto` gets: it follows from the scene file alone, before time
-// begins. The grid suits water that stands, runs in waves and carries bodies; it is too soft where
-// something strikes the water flat (sim-server/fluid/README, "Which solver").
+// begins. The grid suits water that stands, runs in waves and carries bodies; on it impacts of
+// bodies that enter slowly may be missed, and fast slaps may be too soft (sim-server/fluid/README,
+// "Which solver").
 #pragma once
 
 #include <string>

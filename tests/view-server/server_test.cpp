@@ -263,7 +263,7 @@ TEST_F(ViewServer, ABodyIsHeldByOneVisitorAtATime) {
   EXPECT_EQ(next_grab(), 2);
 }
 
-// Names are looked up in the scene's frame. Who holds one body keeps nobody from the others.
+// Names are looked up in the scene's frame. Holding one body does not block the other bodies.
 TEST_F(ViewServer, ABodyIsHeldByOneVisitorWhetherItsPosesGiveItsNumberOrItsName) {
   const auto pose = [](const std::string& name) {
     return osc({"/body/pose", {name, 0.1F, 0.0F, 0.4F, 0.0F, 0.0F, 0.0F, 1.0F}});

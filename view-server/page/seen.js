@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which points a picture shows. Deep in the water most lie wholly behind nearer ones; where graphics
-// are slow, drawing them takes most of the time, and finding them here far less.
+// Finds which points are visible. Deep in the water most points are entirely hidden behind nearer
+// ones; where graphics are slow, drawing these takes most of the time, and finding them here far less.
 
 import { mix } from './vector.js';
 

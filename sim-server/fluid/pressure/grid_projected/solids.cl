@@ -15,9 +15,9 @@
 #include "sim-server/fluid/pressure/grid_projected/room.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
-#define LEAST_SEEN 1e-4f   // cells that see less open space are full of nothing [1]
-#define LITTLE_TOLD 0.05f  // weight of what a cell says itself of what it does not see [1]
-#define LEAST_GAP 1e-3f    // faces that are less open are closed [1]
+#define LEAST_SEEN 1e-4f  // cells that see less open space are full of nothing [1]
+#define OWN_WEIGHT 0.05f  // of a cell's own fill in the estimate of what its hat cannot see [1]
+#define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
 
 // Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
 static float open_tetrahedron(float a, float b, float c, float d) {
@@ -291,8 +291,7 @@ kernel void see_room(constant MacGrid* g, global const float* lower, global cons
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
-  const lane_flags nobody = OF_NOBODY;
-  const lane_flags cut = at.inside & (LOAD(owner, at.first) != nobody);
+  const lane_flags cut = at.inside & (LOAD(owner, at.first) != (lane_flags)(OF_NOBODY));
   STORE((lanes)(1.0f), seen, at.first);
   if (!any_lane(cut)) return;
   const OpenHalves open = {lower, upper, room};
@@ -335,7 +334,7 @@ static lanes full_part(global const float* fill, global const float* seen, int c
   return LOAD(fill, c) / fmax(LOAD(seen, c), (lanes)(LEAST_SEEN));
 }
 
-// How far cells can be relied on to tell where the surface is, by what they see of open space [1].
+// How far the fill of cells says where the surface is, by how much open space they see [1].
 static lanes seen_well(global const float* seen, int c) {
   return within(5.0f * LOAD(seen, c) - 4.0f, 0.0f, 1.0f);
 }
@@ -355,7 +354,7 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
   const lane_flags here[3] = {at.x, at.y, at.z};
   const int count[3] = {l.nx, l.ny, l.nz};
   const lanes none = 0.0f, one = 1.0f, own = LOAD(room, c), hidden = one - LOAD(seen, c);
-  lanes told = LITTLE_TOLD, tells = LITTLE_TOLD * full_part(fill, seen, c);
+  lanes weights = OWN_WEIGHT, estimates = OWN_WEIGHT * full_part(fill, seen, c);
   lanes in_gaps = 0.0f, gaps = 0.0f;
   if (any_lane(at.real & (hidden > none))) {
     const lanes closed = (one - own) * (one - own);
@@ -367,19 +366,19 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
             at.real & (there >= (lane_flags)(0)) & (there < (lane_flags)(count[axis]));
         if (!any_lane(beside)) continue;
         const lanes near = full_part(fill, seen, c + s), far = full_part(fill, seen, c + 2 * s);
-        const lanes well =
+        const lanes trust =
             select(none, seen_well(seen, c + s) * seen_well(seen, c + 2 * s), beside);
-        const lanes goes_on = near + well * (fill_beyond(near, far) - near);
-        told += well;
-        tells += well * goes_on;
+        const lanes expected = near + trust * (fill_beyond(near, far) - near);
+        weights += trust;
+        estimates += trust * expected;
         const lanes through = LOAD(room, c + s) * LOAD(gap, axis * l.cells + c + side * step[axis]);
         const lanes share = select(none, closed * through * LOAD(seen, c + s), beside);
-        in_gaps += share * goes_on;
+        in_gaps += share * expected;
         gaps += share;
       }
     }
   }
-  const lanes whole = LOAD(fill, c) + hidden * tells / told, sure = own * LOAD(seen, c);
+  const lanes whole = LOAD(fill, c) + hidden * estimates / weights, sure = own * LOAD(seen, c);
   const lanes space = sure + gaps;
   const lane_flags known = at.real & (space > (lanes)(LEAST_SEEN));
   STORE(select(none, (sure * whole + in_gaps) / space, known), filled, c);
@@ -430,7 +429,7 @@ kernel void cover_surface(constant FluidParams* p, constant MacGrid* g, constant
   const lane_flags here[3] = {at.x, at.y, (lane_flags)(at.z)};
   const int count[3] = {l.nx, l.ny, l.nz};
   const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
-  const lane_flags nobody = OF_NOBODY, first = 0;
+  const lane_flags unowned = OF_NOBODY, first = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const int s = step[axis];
     STORE((lanes)(1.0f), free, axis * l.cells + c);
@@ -438,7 +437,7 @@ kernel void cover_surface(constant FluidParams* p, constant MacGrid* g, constant
     const lane_flags wet_above = above > (lanes)(MAC_FULL), wet_below = below > (lanes)(MAC_FULL);
     const lane_flags ends = at.real & (wet_above ^ wet_below) & (here[axis] > first) &
                             (here[axis] < (lane_flags)(count[axis])) &
-                            ((LOAD(owner, c) != nobody) | (LOAD(owner, c - s) != nobody));
+                            ((LOAD(owner, c) != unowned) | (LOAD(owner, c - s) != unowned));
     if (!any_lane(ends)) continue;
     const lanes part =
         select(way_to_surface(below, above), 1.0f - way_to_surface(above, below), wet_above);

@@ -32,16 +32,12 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
   cut_cells_.run(queue, fields_.vectors,
                  {{"p", params},
                   {"g", fields_.on_device},
-                  {"shapes", boundary.shapes()},
-                  {"meshes", boundary.meshes()},
-                  {"bodies", boundary.steps()},
-                  {"first_body", step.first_body},
-                  {"body_count", boundary.body_count()},
                   {"piston", as_float(step.piston)},
                   {"lower", gap_},
                   {"upper", upper_},
                   {"room", space_},
-                  {"owner", owner_}});
+                  {"owner", owner_}},
+                 boundary.outlines(), boundary.bodies_at(step));
   see_room_.run(queue, fields_.vectors,
                 {{"g", fields_.on_device},
                  {"lower", gap_},
@@ -61,16 +57,12 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
   cover_surface_.run(queue, fields_.vectors,
                      {{"p", params},
                       {"g", fields_.on_device},
-                      {"shapes", boundary.shapes()},
-                      {"meshes", boundary.meshes()},
-                      {"bodies", boundary.steps()},
-                      {"first_body", step.first_body},
-                      {"body_count", boundary.body_count()},
                       {"piston", as_float(step.piston)},
                       {"owner", owner_},
                       {"fill", filled_},
                       {"gap", gap_},
-                      {"free", upper_}});
+                      {"free", upper_}},
+                     boundary.outlines(), boundary.bodies_at(step));
 }
 
 // As coupling.h does it for those that the water moves: - p V K.
