@@ -263,7 +263,8 @@ typedef struct {
 } OpenHalves;
 
 // What the hat of a cell's middle sees of open space: 3/4 of its weight is in the cell itself along
-// each axis, an eighth in the nearer half of the cell on either side.
+// each axis, an eighth in the nearer half of the cell on either side, or of its own mirror image
+// behind a wall of the tank.
 static float room_seen(const MacLevel l, const OpenHalves* open, int4 at) {
   float sum = 0.0f;
   for (int k = 0; k < 27; ++k) {
@@ -271,13 +272,15 @@ static float room_seen(const MacLevel l, const OpenHalves* open, int4 at) {
     const int4 there =
         (int4)(clamp(at.x + side[0], 0, l.nx - 1), clamp(at.y + side[1], 0, l.ny - 1),
                clamp(at.z + side[2], 0, l.nz - 1), 1);
+    const int inside[3] = {at.x + side[0] == there.x, at.y + side[1] == there.y,
+                           at.z + side[2] == there.z};
     const int c = number_of(l, there);
     const float all = open->room[c];
     float part = 1.0f, nearer = all;
     for (int axis = 0; axis < 3; ++axis) {
       part *= side[axis] ? 0.125f : 0.75f;
       if (!side[axis] || all < LEAST_SEEN) continue;
-      global const float* next = side[axis] > 0 ? open->lower : open->upper;
+      global const float* next = (side[axis] > 0) == inside[axis] ? open->lower : open->upper;
       nearer *= next[axis * l.cells + c] / all;
     }
     sum += part * fmin(nearer, 1.0f);
