@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
+#include <variant>
 
 #include "pd-patches/event_list.hpp"
 #include "synth-server/output/rig_reader.hpp"
@@ -94,6 +95,29 @@ Channels render_with_synth(const std::vector<protocol::LogEntry>& log, const Rig
   });
   for (auto& channel : channels) channel.resize(static_cast<std::size_t>(frames));
   return channels;
+}
+
+std::vector<protocol::LogEntry> tones(const std::vector<protocol::LogEntry>& log, double seconds) {
+  std::vector<protocol::LogEntry> kept;
+  for (const protocol::LogEntry& entry : log) {
+    if (entry.seconds > seconds) break;
+    kept.push_back({entry.seconds, {}});
+    for (const protocol::Message& message : entry.messages) {
+      const auto event = protocol::to_event(message);
+      if (event && !std::holds_alternative<protocol::Impact>(*event)) {
+        kept.back().messages.push_back(message);
+      }
+    }
+  }
+  return kept;
+}
+
+double loudest(const Channels& channels) {
+  float peak = 0.0F;
+  for (const auto& channel : channels) {
+    for (const float sample : channel) peak = std::max(peak, std::abs(sample));
+  }
+  return static_cast<double>(peak);
 }
 
 double decibels(double ratio) {

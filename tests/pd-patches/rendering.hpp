@@ -59,6 +59,11 @@ struct EventAt {
                                          const RigPair& rig, std::int64_t frames,
                                          const synth::Sound& sound = {});
 
+/// The bubbles and cavities of a log's first `seconds`: noise cannot be compared sample by sample.
+[[nodiscard]] std::vector<protocol::LogEntry> tones(const std::vector<protocol::LogEntry>& log,
+                                                    double seconds);
+/// The largest sample of all channels.
+[[nodiscard]] double loudest(const Channels& channels);
 /// 20 log10 [dB].
 [[nodiscard]] double decibels(double ratio);
 /// Largest |a - b| in samples [begin, end) of all channels.

@@ -66,37 +66,13 @@ Channels render_with_sclang(const std::vector<protocol::LogEntry>& log) {
   return channels;
 }
 
-/// A recorded log's events of the first seconds that `wanted` takes.
-template <class Wanted>
-std::vector<protocol::LogEntry> part_of(const std::string& scene, const Wanted& wanted) {
-  std::vector<protocol::LogEntry> kept;
-  const std::string path = std::string(SPLASH_SOURCE_DIR) + "/tests/data/" + scene + ".osc";
-  for (const protocol::LogEntry& entry : protocol::read_log(path)) {
-    if (entry.seconds > static_cast<double>(kFrames) / pd::kRate - 0.5) break;
-    kept.push_back({entry.seconds, {}});
-    for (const protocol::Message& message : entry.messages) {
-      const auto event = protocol::to_event(message);
-      if (event && wanted(*event)) kept.back().messages.push_back(message);
-    }
-  }
-  return kept;
-}
-
-double loudest(const Channels& channels) {
-  float peak = 0.0F;
-  for (const auto& channel : channels) {
-    for (const float sample : channel) peak = std::max(peak, std::abs(sample));
-  }
-  return static_cast<double>(peak);
-}
-
 TEST(Example, PlaysTheBubblesAndCavitiesOfALogAsTheSynthDoes) {
   if (!has_sclang()) GTEST_SKIP() << kMissing;
-  const auto log = part_of("plunge", [](const protocol::Event& event) {
-    return !std::holds_alternative<protocol::Impact>(event);
-  });
+  const auto log =
+      pd::tones(protocol::read_log(std::string(SPLASH_SOURCE_DIR) + "/tests/data/plunge.osc"),
+                static_cast<double>(kFrames) / pd::kRate - 0.5);
   const Channels synth = render_with_synth(log, pd::kStereo, kFrames);
-  const double peak = loudest(synth);
+  const double peak = pd::loudest(synth);
   ASSERT_GT(peak, 0.05);
   ASSERT_LT(peak, 0.89) << "a limiter acts: these cannot be compared";
   const Channels example = render_with_sclang(log);
