@@ -23,9 +23,9 @@ class Modules : public testing::Test {
 // Pictures come 60 times a second and take 25 ms to be drawn, states 60 times, each up to 5 ms
 // before its moment or 24 ms after.
 TEST_F(Modules, ShownPicturesAreYoungWhereFramesComeInTime) {
-  const Json ages = with_the_modules(R"js((async () => {
+  const Json seen = with_the_modules(R"js((async () => {
     const { Playout } = await import('/playout.js');
-    const ages = [];
+    const [ages, least] = [[], []];
     for (const late of [-0.005, 0.005, 0.02]) {
       const playout = new Playout();
       for (let k = 0; k < 600; ++k) {
@@ -36,11 +36,15 @@ TEST_F(Modules, ShownPicturesAreYoungWhereFramesComeInTime) {
         playout.finished(playout.at(begun).moment, begun, begun + 0.025);
       }
       ages.push(playout.age);
+      least.push(playout.leastAge - late);
     }
-    return ages;
+    return [ages, least];
   })())js");
+  const Json& ages = seen[0];
   for (const Json& age : ages) EXPECT_LT(age.get<double>(), 0.060) << ages;
   EXPECT_LT(ages[0].get<double>(), ages[2].get<double>());
+  // Begun 8 ms after the latest state, which was 4 ms later than the mean.
+  for (const Json& age : seen[1]) EXPECT_NEAR(age.get<double>(), 0.004 + 0.008 + 0.025, 0.001);
 }
 
 // For a minute, every eighth frame of 10 ms of sound comes so many seconds late. In the second half
@@ -246,6 +250,30 @@ TEST_F(Modules, PointsBecomeWaterAgainOnceThereIsTimeForIt) {
   EXPECT_GE(seen[3]["tries"], 3) << seen;
   EXPECT_LE(seen[3]["tries"], 8) << "it flickers between both";
   EXPECT_LE(seen[3]["water"], 60) << seen;
+}
+
+// Simulated graphics on which water is too slow. A picture of all points takes 28 ms, less in
+// proportion to the points that are drawn; states are `state` seconds old when a picture is begun.
+TEST_F(Modules, FewerPointsAreDrawnWherePicturesWouldBeTooOld) {
+  const Json seen = with_the_modules(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    return [0.02, 0.045].map((state) => {
+      const pace = new Pace(null);
+      const strides = [];
+      for (const end = now + 60000; now < end;) {
+        const drawing = pace.isTooSlow ? 0.028 / pace.stride : 3;
+        now += 1000 * Math.max(drawing, pace.every / 60);
+        pace.step(drawing, state + drawing);
+        if (pace.isTooSlow) strides.push(pace.stride);
+      }
+      const end = strides.slice(-300);
+      return { most: Math.max(...end), least: Math.min(...end), points: pace.isTooSlow };
+    });
+  })())js");
+  EXPECT_EQ(seen[0].dump(), R"({"least":1,"most":1,"points":true})") << "states come in time";
+  EXPECT_EQ(seen[1].dump(), R"({"least":2,"most":2,"points":true})") << "it flickers";
 }
 
 // A page that is out of sight, in which the browser takes no pictures, is not a slow one.

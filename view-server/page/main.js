@@ -262,7 +262,7 @@ function picture() {
   // No picture waits for another: it would show an older state.
   if (fences.pending.length > 0 || turns < pace.every) return;
   turns = 0;
-  if (!headset.session) pace.step(playout.drawing);
+  if (!headset.session) pace.step(playout.drawing, playout.leastAge);
   const dense = Math.min(window.devicePixelRatio, 2) * pace.sharp;
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.round(x * dense));
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -307,7 +307,7 @@ function drawAll(size, seen) {
   const marks = () => rings.draw(seen, moment, camera.size);
   if (asPoints()) {
     points ??= new Points(gl);
-    return points.draw(size, seen, world, particles, solids, marks);
+    return points.draw(size, seen, world, particles, solids, marks, pace.stride);
   }
   lights.draw(world, particles, solids.bodies, pace.sharp * pace.share);
   const levels = new Float32Array(64);

@@ -111,8 +111,10 @@ export class Particles {
     gl.deleteVertexArray(handle);
   }
 
-  drawWater(picked = null) {
-    this.draw(this.count, [this.buffers[0], 0], [this.buffers[1], 0], PLACE, { picked });
+  /// One in `stride` of the particles, or those that are picked.
+  drawWater(picked = null, stride = 1) {
+    const count = Math.ceil(this.count / stride);
+    this.draw(count, [this.buffers[0], 0], [this.buffers[1], 0], stride * PLACE, { picked });
   }
 
   /// Bubbles have no fixed order: those of the newer state.

@@ -33,6 +33,7 @@ export class Playout {
     this.arrivals = []; // ages of states when they come [s]
     this.ages = []; // of finished pictures [s]
     this.drawn = []; // how long the graphics took for them [s]
+    this.found = []; // ages of the newest state when a picture is begun [s]
     this.hold = 0;
   }
 
@@ -49,6 +50,7 @@ export class Playout {
   /// least when they are drawn; null before the first state.
   at(now, rate, lag = 0) {
     if (this.states.length === 0) return null;
+    note(this.found, Math.max(now - this.states.at(-1).moment, 0));
     const late = rate < EVEN ? 0 : quantile(this.lateness, 0.9);
     const free = Math.max(AGE_MAX - this.drawing, 0);
     const wanted = Math.min(Math.max(Math.min(late, free), lag - mean(this.drawn), 0), HOLD_MAX);
@@ -75,6 +77,11 @@ export class Playout {
   /// How old 95 of 100 pictures were at most when they were drawn [s].
   get age() {
     return quantile(this.ages, 0.95);
+  }
+
+  /// How old 95 of 100 pictures would be at most if none were held back [s].
+  get leastAge() {
+    return quantile(this.found, 0.95) + this.drawing;
   }
 
   /// How old 95 of 100 states were at most when they came [s].

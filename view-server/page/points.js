@@ -56,7 +56,8 @@ export class Points {
     return picked;
   }
 
-  draw({ width, height }, camera, world, particles, solids, drawMarks) {
+  /// One in `stride` of the points, as large as to fill the same space.
+  draw({ width, height }, camera, world, particles, solids, drawMarks, stride = 1) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);
@@ -71,9 +72,10 @@ export class Points {
     };
     drawSolids([...solids.bodies, ...solids.still.filter(({ material }) => material !== GROUND)], 1);
     drawSolids([solids.edges], 1, solids.bars(camera, height));
-    const radius = 0.5 * world.spacing;
+    const radius = 0.5 * world.spacing * Math.cbrt(stride);
     use(gl, this.water, { ...camera, ...particles.uniforms, radius, height });
-    particles.drawWater(this.pick(particles, camera, radius, { width, height }));
+    const picked = stride > 1 ? null : this.pick(particles, camera, radius, { width, height });
+    particles.drawWater(picked, stride);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthFunc(gl.GREATER);
