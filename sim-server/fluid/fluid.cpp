@@ -97,6 +97,7 @@ void Fluid::accelerate(const Step& step) {
 }
 
 void Fluid::move(const Step& step) {
+  last_step_ = step.dt;
   solver_->move(*this, step);
   if (free_) free_->move(*this, step);
   if (!watched_) {

@@ -131,6 +131,8 @@ class Fluid {
   void compute_acceleration(const Step& step);
   /// Moves the state on as the accelerations say.
   void integrate(const Step& step);
+  /// How long it took the state to come to where it is from the one before [s].
+  [[nodiscard]] double last_step() const noexcept { return last_step_; }
   /// Work-items of the stages that handle a vector of particles at once.
   [[nodiscard]] std::size_t groups() const;
   [[nodiscard]] const PressureSolver& solver() const noexcept { return *solver_; }
@@ -198,7 +200,8 @@ class Fluid {
   Kernel stats_;
   Health health_;
   bool watched_ = false;
-  bool prepared_ = false;  ///< and not advanced since
+  double last_step_ = 0.0;  ///< [s]
+  bool prepared_ = false;   ///< and not advanced since
   Buffer<FluidStatsPart> stats_parts_;
   std::vector<FluidStatsPart> stats_read_;
 };

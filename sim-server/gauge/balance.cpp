@@ -26,7 +26,8 @@ Energies energies(const WaterState& water) {
   Energies sum;
   for (std::size_t i = 0; i < water.position.size(); ++i) {
     sum.kinetic += 0.5 * water.mass * dot(water.velocity[i], water.velocity[i]);
-    sum.potential += water.mass * water.potential_at(water.position[i]);
+    sum.potential +=
+        water.mass * water.potential_at(water.position[i] - water.lag * water.velocity[i]);
     sum.compression +=
         water.mass * compression_energy(water, water.density[i], water.peak_density[i]);
   }

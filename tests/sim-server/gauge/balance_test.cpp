@@ -53,6 +53,26 @@ TEST(Balance, EnergiesOfABlockThatMovesAsOne) {
   EXPECT_NEAR(e.total(), e.kinetic + e.potential + e.compression, 1e-12);
 }
 
+// A leapfrog's velocities are those of half a step before its positions: of a fall from rest the
+// sum of energies never changes.
+TEST(Balance, EnergyOfAFallInStepsStays) {
+  WaterState water = lattice_water({0.0, 0.0, 5.0}, {0.1, 0.1, 5.1}, 0.05);
+  water.density.assign(water.position.size(), 1000.0);
+  water.peak_density.assign(water.position.size(), 1000.0);
+  constexpr double kStep = 0.01;
+  water.lag = 0.5 * kStep;
+  double first = 0.0;
+  for (int k = 0; k < 50; ++k) {
+    for (std::size_t i = 0; i < water.position.size(); ++i) {
+      water.velocity[i][2] = -9.81 * (k + 0.5) * kStep;
+      water.position[i][2] += kStep * water.velocity[i][2];
+    }
+    const double total = energies(water).total();
+    if (k == 0) first = total;
+    ASSERT_NEAR(total / first, 1.0, 1.0e-12) << k;
+  }
+}
+
 TEST(Balance, ACentralFieldHasAPotentialWhoseSlopeItIs) {
   WaterState water = lattice_water({0.0, 0.0, 0.0}, {0.1, 0.1, 0.1}, 0.05);
   water.pull = {4.0, 0.0, 9.0};

@@ -110,6 +110,7 @@ void GridProjected::move(Fluid& fluid, const Step& step) {
                        {"bodies", fluid.boundary().steps()},
                        {"first_body", step.first_body},
                        {"body_count", fluid.boundary().body_count()},
+                       {"mean", fields_.mean},
                        {"change", fields_.change},
                        {"seen", seen_},
                        {"deviation", deviation_},

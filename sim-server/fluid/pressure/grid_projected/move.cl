@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Particles take from the grid what the step changed there, and move on:
 //   v  = u + du                           u: velocity before, du: mean change of the faces around
-//   x += dt (v - d) + dt^2 a              d: deviation, a: spacing
-//   u' = v - (1 - exp(-rate dt)) (d - S d) + kick dt a
-// They are carried by what the grid sees of their motion, and lose of the rest what it sees least
-// of: the second-order filter (1 - S)^2, which only takes energy and keeps momentum. Spacing is a
-// displacement, of which little becomes speed.
+//   x += dt w + dt^2 a                    w: the grid's velocity half a step ahead, a: spacing
+//   u' = v - (1 - exp(-rate dt)) (d - S d) + kick dt a              d: deviation
+// They are carried by what the grid sees of their motion, v - d, as it is where that takes them in
+// half a step (midpoint rule): a step along where they are would press strained water together by
+// dt^2 tr(grad w grad w) / 2. They lose of the rest what the grid sees least of: the second-order
+// filter (1 - S)^2, which only takes energy and keeps momentum. Spacing is a displacement, of which
+// little becomes speed.
 
 #include "sim-server/fluid/boundary/keep_out.h"
 #include "sim-server/fluid/boundary/walls.h"
@@ -13,6 +15,8 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+
+#define ALL_KNOWN 0.999f  // weight of the faces around that are known, if none is missing [1]
 
 // What velocities are multiplied by to stay below the limit; 1 where they are none.
 static lanes slowed(constant FluidParams* p, const lanes v[3]) {
@@ -45,18 +49,33 @@ static void touch_walls(constant FluidParams* p, float dt, float piston, float p
   }
 }
 
+// Turns velocities `way` into the grid's half a step ahead along them, where all faces around are
+// known, there and where the particles are (`whole`).
+static void look_ahead(constant MacGrid* g, float dt, global const float* mean,
+                       global const float* change, const lane_flags whole[3], const lanes from[3],
+                       lanes way[3]) {
+  const lanes half_step = 0.5f * dt;
+  const Placed at = place_on_grid(g, from[0] + half_step * way[0], from[1] + half_step * way[1],
+                                  from[2] + half_step * way[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const FaceSums there = sum_of_faces(g, &at, axis, mean, change);
+    const lane_flags inner = whole[axis] & at.on_grid & (there.weight > (lanes)(ALL_KNOWN));
+    way[axis] = select(way[axis], there.whole + there.known, inner);
+  }
+}
+
 // `filtered`: 1 - exp(-rate dt). `kick`: part of the spacing's push that stays as speed. `carried`:
 // the velocity that took each particle where it is. `jolt`: acceleration by the spacing to bodies
 // [m/s2]; if any body is felt (`feels` is not 0), it is replaced by the change of velocity that
 // this and moving particles back out of bodies caused [m/s].
 kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float dt, float filtered,
-                           float kick, float piston, float piston_speed,
-                           constant BodyShape* shapes, global const float* meshes,
-                           global const BodyStep* bodies, int first_body, int body_count,
+                           float kick, float piston, float piston_speed, constant BodyShape* shapes,
+                           global const float* meshes, global const BodyStep* bodies,
+                           int first_body, int body_count, global const float* mean,
                            global const float* change, global const float* seen,
                            global const float* deviation, global float* acceleration,
-                           global float* position, global float* velocity,
-                           global float* carried, int feels, global float* jolt) {
+                           global float* position, global float* velocity, global float* carried,
+                           int feels, global float* jolt) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   if (first >= p->count) return;
@@ -67,7 +86,8 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
                           dt * (p->gravity_y - p->pull_y * (from[1] - p->centre_y)),
                           dt * (p->gravity_z - p->pull_z * (from[2] - p->centre_z))};
   const lanes none = 0.0f;
-  lanes loose[3];
+  lanes loose[3], spaced[3];
+  lane_flags inner[3];
   for (int axis = 0; axis < 3; ++axis) {
     const lanes a = LOAD(acceleration + axis * n, first);
     const lanes d = LOAD(deviation + axis * n, first);
@@ -78,9 +98,13 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
     loose[axis] = select((lanes)(1.0f), none, known);
     before[axis] = LOAD(velocity + axis * n, first);
     const lanes v = before[axis] + select(falls[axis], here.known / here.weight, known);
-    way[axis] = v - d + dt * a;
-    u[axis] = v - filtered * twice + kick * dt * a;
+    inner[axis] = at.on_grid & (here.weight > (lanes)(ALL_KNOWN));
+    spaced[axis] = dt * a;
+    way[axis] = v - d;
+    u[axis] = v - filtered * twice + kick * spaced[axis];
   }
+  look_ahead(g, dt, mean, change, inner, from, way);
+  for (int axis = 0; axis < 3; ++axis) way[axis] += spaced[axis];
   touch_walls(p, dt, piston, piston_speed, loose, from, way, u);
   const lanes slower = slowed(p, u), shorter = slowed(p, way);
   for (int axis = 0; axis < 3; ++axis) {
