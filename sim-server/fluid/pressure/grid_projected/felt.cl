@@ -4,12 +4,14 @@
 //   dt F = - rho0 V K^T f,      d(dt F)/dq = - rho0 V K^T A^-1 K
 // of which the diagonal is kept: the mass of the water that goes with the body. A^-1 K is found as
 // f is, one part of q at a time; K^T A^-1 K is the energy that conjugate gradients come nearer to
-// from below, by the square of their error.
+// from below, by the square of their error. What the water near the body goes relative to it at the
+// step's beginning has an answer as well, of which given.cl needs what it does far from the body.
 
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/room.h"
 
 // Adds dt F of each body to the first half of its twelve `sums`, its torque about the body's centre
 // with it [N s], [N m s]. One work-group.
@@ -30,19 +32,39 @@ kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int bod
   }
 }
 
-// The system's right side becomes K of one `part` of the speeds of felt body `k`, its solution
-// begins at zero, and `open` is what it was before the last solve.
+// Water that flows through the lower face of a cell along an axis relative to a body that cuts the
+// cell beside it, over the face's area [m/s].
+static float flow_through(constant MacGrid* g, global const BodyStep* bodies, int body,
+                          global const float* gap, global const float* mean, int4 at, int axis) {
+  const MacLevel l = g->level[0];
+  const int face = axis * l.cells + number_of(l, at);
+  const int where = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
+  const bool wall = where == 0 || (axis < 2 && where == (axis == 0 ? l.nx : l.ny));
+  return gap[face] * ((wall ? 0.0f : mean[face]) - solid_at_face(g, bodies, body, 0.0f, at, axis));
+}
+
+// The system's right side becomes K of one `part` of the speeds of felt body `k`, or, if that is
+// SPLASH_BY_FLOW, what of -div u the cells have that it cuts, relative to it and without gravity.
+// The solution begins at zero, and `open` is what it was before the last solve.
 kernel void ask_for_answer(constant MacGrid* g, int k, int part, constant FreeBody* felt,
-                           global const int* owner, global const float* grip,
-                           global const float* surface, global float* open, global float* x,
-                           global float* right, global float* rest, global float* start,
-                           global float* way) {
+                           global const BodyStep* bodies, int first_body, global const int* owner,
+                           global const float* gap, global const float* mean,
+                           global const float* grip, global const float* surface,
+                           global float* open, global float* x, global float* right,
+                           global float* rest, global float* start, global float* way) {
   const int4 at = cell_of(g, get_global_id(0));
   if (at.w == 0) return;
   const MacLevel l = g->level[0];
   const int c = number_of(l, at);
   const bool beside = owner[c] == felt[k].body && open[c] > 0.0f;  // it has an equation
-  right[c] = beside ? grip[part * l.cells + c] : 0.0f;
+  float b = beside && part != SPLASH_BY_FLOW ? grip[part * l.cells + c] : 0.0f;
+  for (int axis = 0; axis < 3 && beside && part == SPLASH_BY_FLOW; ++axis) {
+    const int4 next = at + (int4)(axis == 0, axis == 1, axis == 2, 0);
+    const float inverse = axis == 0 ? g->ix : axis == 1 ? g->iy : g->iz;
+    b += inverse * (flow_through(g, bodies + first_body, owner[c], gap, mean, at, axis) -
+                    flow_through(g, bodies + first_body, owner[c], gap, mean, next, axis));
+  }
+  right[c] = b;
   open[c] = surface[c];
   x[c] = rest[c] = start[c] = way[c] = 0.0f;
 }

@@ -6,8 +6,8 @@
 namespace splash::sim {
 namespace {
 
-/// Iterations of a solve for the derivative of a force, at most: the error of the derivative is of
-/// the order of the solution's error squared (felt.cl).
+/// Iterations of a solve for an answer to a body, at most: the error of a derivative is of the
+/// order of the solution's error squared (felt.cl).
 constexpr int kAnswerIterations = 4;
 
 }  // namespace
@@ -63,8 +63,9 @@ void FeltForces::weigh(Fluid& fluid, const Step& step) {
                              {"sums", now_->sums}});
   given_.weigh(fluid, step, *now_, system_.found());
   for (int k = 0; k < count; ++k) {
-    if (!now_->wanted[static_cast<std::size_t>(k)]) continue;
-    for (int part = 0; part < 6; ++part) weigh_answer(fluid, step, k, part);
+    const bool rates = now_->wanted[static_cast<std::size_t>(k)];
+    for (int part = 0; rates && part < 6; ++part) weigh_answer(fluid, step, k, part);
+    weigh_answer(fluid, step, k, SPLASH_BY_FLOW);
   }
   now_.reset();
 }
@@ -76,25 +77,31 @@ void FeltForces::weigh_answer(Fluid& fluid, const Step& step, int k, int part) {
                        {"k", k},
                        {"part", part},
                        {"felt", now_->on_device},
+                       {"bodies", fluid.boundary().steps()},
+                       {"first_body", step.first_body},
                        {"owner", solids_.owner()},
+                       {"gap", solids_.gap()},
+                       {"mean", fields_.mean},
                        {"grip", grip_},
                        {"surface", surface_},
                        {"start", answer_}},
                       system_.unknowns());
   system_.solve(fluid, step, kAnswerIterations, answer_, answer_state_);
-  weigh_answer_.run_teams(queue, 1,
-                          {{"p", fluid.params_buffer()},
-                           {"g", fields_.on_device},
-                           {"k", k},
-                           {"part", part},
-                           {"body_count", static_cast<int>(now_->list.size())},
-                           {"felt", now_->on_device},
-                           {"bodies", fluid.boundary().steps()},
-                           {"first_body", step.first_body},
-                           {"owner", solids_.owner()},
-                           {"grip", grip_},
-                           {"found", answer_},
-                           {"sums", now_->sums}});
+  if (part != SPLASH_BY_FLOW) {
+    weigh_answer_.run_teams(queue, 1,
+                            {{"p", fluid.params_buffer()},
+                             {"g", fields_.on_device},
+                             {"k", k},
+                             {"part", part},
+                             {"body_count", static_cast<int>(now_->list.size())},
+                             {"felt", now_->on_device},
+                             {"bodies", fluid.boundary().steps()},
+                             {"first_body", step.first_body},
+                             {"owner", solids_.owner()},
+                             {"grip", grip_},
+                             {"found", answer_},
+                             {"sums", now_->sums}});
+  }
   given_.weigh(fluid, step, *now_, answer_, k, part);
 }
 

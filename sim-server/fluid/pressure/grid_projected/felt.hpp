@@ -33,12 +33,12 @@ class FeltForces {
   /// Of each particle, the change of velocity by bodies other than by the grid's pressure, which
   /// find_spacing and move_particles write [m/s].
   [[nodiscard]] const Buffer<float>& jolt() const noexcept { return given_.jolt(); }
-  [[nodiscard]] const Buffer<float>& whose() const noexcept { return given_.whose(); }
+  [[nodiscard]] const GivenMomentum& given() const noexcept { return given_; }
   /// Clears what a failed step left, which later steps would begin from.
   void forget(Device& device) { answer_.enqueue_clear(device); }
 
  private:
-  /// The derivative by one `part` of the speed of body `k`.
+  /// The derivative by one `part` of the speed of body `k`, or what its flow gives far from it.
   void weigh_answer(Fluid& fluid, const Step& step, int k, int part);
 
   const MacFields& fields_;

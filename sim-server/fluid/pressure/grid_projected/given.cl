@@ -12,7 +12,9 @@
 // the two cell centres that is water. In water at rest du and I are zero, so that the weight of a
 // few particles too many or too few does not count as a force. The derivative of F by a component
 // of the body's velocity is the same sum with A^-1 K of that component for f, and without g and
-// jolt.
+// jolt. Over all other faces, far off, the same sum is taken with the answer to the body's flow
+// (felt.cl) for f, as they give particles too much or too little of any pressure: of what the waves
+// do there on their own the body feels nothing.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_face.h"
@@ -35,7 +37,8 @@ static float3 edge_of(constant MacGrid* g) {
 // `given`, du [m/s]; `taken`, I [N s]. A face belongs to the owner of the cell above it, else of
 // the cell below it, and, if no body owns either, to the first felt body near it. `falls`: the time
 // for which gravity acts [s]. Of the derivative by velocity component `part` of felt body `only`,
-// if that is not negative.
+// if that is not negative; or, if `part` is SPLASH_BY_FLOW, of the answer to its flow, and then all
+// faces far off are its and no others.
 kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls, int only,
                        int part, int felt_count, constant FreeBody* felt,
                        global const BodyStep* bodies, int first_body, global const int* owner,
@@ -50,6 +53,7 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
   const int step[3] = {1, l.row, l.layer};
   const float inverse[3] = {g->ix, g->iy, g->iz};
   const float heavy = p->rest_density * g->hx * g->hy * g->hz;
+  const bool afar = part == SPLASH_BY_FLOW;
   for (int axis = 0; axis < 3; ++axis) {
     const int below = c - step[axis], face = axis * l.cells + c;
     const int where = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
@@ -63,6 +67,7 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
           bodies_near_box(bodies, first_body + felt[k].body, 1, place - far, place + far);
       if (whom == felt[k].body || (whom == OF_NOBODY && around_it)) of = k;
     }
+    if (afar) of = of == OF_NOBODY && !wall ? only : OF_NOBODY;
     whose[face] = of;
     given[face] = taken[face] = 0.0f;
     if (of == OF_NOBODY || wet[c] + wet[below] == 0.0f) continue;
@@ -78,7 +83,7 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
     taken[face] = heavy * gap[face] * way * (fall - grows);
     if (change[face] >= MAC_KNOWN) continue;
     given[face] = only < 0 ? change[face] : -free[face] * grows;
-    if (only == of) {
+    if (only == of && !afar) {
       const float3 e = (float3)(part % 3 == 0, part % 3 == 1, part % 3 == 2);
       const BodyStep b = bodies[first_body + felt[of].body];
       const float3 arm = place - (float3)(b.px, b.py, b.pz);
@@ -92,16 +97,17 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
 
 // Sum of -I over the faces of each felt body, or of body `only` if that is not negative. One
 // work-group.
-kernel void weigh_faces(constant MacGrid* g, int felt_count, int only, constant FreeBody* felt,
-                        global const BodyStep* bodies, int first_body, global const float* taken,
-                        global const float* whose, global float* parts) {
+kernel void weigh_faces(constant MacGrid* g, int felt_count, int only, int part,
+                        constant FreeBody* felt, global const BodyStep* bodies, int first_body,
+                        global const float* taken, global const float* whose, global float* parts) {
   local float of_team[JUDGES];
   const MacLevel l = g->level[0];
   for (int k = 0; k < felt_count; ++k) {
     if (only >= 0 && k != only) continue;
     const BodyStep b = bodies[first_body + felt[k].body];
     BodyStep wide = b;
-    const float3 far = (FACES_BEYOND + 1.0f) * edge_of(g);
+    const float cells = part == SPLASH_BY_FLOW ? l.nx + l.ny + l.nz : FACES_BEYOND + 1.0f;
+    const float3 far = cells * edge_of(g);
     wide.lower_x -= far.x;
     wide.lower_y -= far.y;
     wide.lower_z -= far.z;
@@ -161,9 +167,10 @@ static lanes given_along(constant MacGrid* g, const Placed* at, int axis, int k,
 // places before. `jolt`: the bodies' other changes of velocity (move.cl) [m/s], added if `counts`
 // is not 0.
 kernel void weigh_given(constant FluidParams* p, constant MacGrid* g, float dt, int only,
-                        int counts, constant FreeBody* felt, constant BodyShape* shapes,
-                        global const float* meshes, global const BodyStep* bodies, int first_body,
-                        int body_count, global const float* change, global const float* given,
+                        int part_of_speed, int counts, constant FreeBody* felt,
+                        constant BodyShape* shapes, global const float* meshes,
+                        global const BodyStep* bodies, int first_body, int body_count,
+                        global const float* change, global const float* given,
                         global const float* whose, global const float* position,
                         global const float* carried, global const float* jolt,
                         global float* parts) {
@@ -175,6 +182,7 @@ kernel void weigh_given(constant FluidParams* p, constant MacGrid* g, float dt, 
   const Share share = share_of(p->count, part, SPLASH_PUSH_PARTS, LANES, LANES);
   const int body = first_body + felt[k].body;
   const BodyStep b = bodies[body];
+  const bool afar = part_of_speed == SPLASH_BY_FLOW;
   const float3 beyond = (FACES_BEYOND + 2.0f) * edge_of(g);
   const lanes none = 0.0f;
   lanes sum[6] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
@@ -190,11 +198,14 @@ kernel void weigh_given(constant FluidParams* p, constant MacGrid* g, float dt, 
     const float3 upper = (float3)(most(select((lanes)(-FAR_AWAY), x[0], here)),
                                   most(select((lanes)(-FAR_AWAY), x[1], here)),
                                   most(select((lanes)(-FAR_AWAY), x[2], here)));
-    if (!bodies_near_box(bodies, body, 1, lower - beyond, upper + beyond)) continue;
+    if (!afar && !bodies_near_box(bodies, body, 1, lower - beyond, upper + beyond)) continue;
     const Placed at = place_on_grid(g, x[0], x[1], x[2]);
-    const BodyFace nearest =
-        nearest_face(shapes, meshes, bodies, first_body, body_count, x[0], x[1], x[2]);
-    const lane_flags own = (nearest.owner == (lanes)(felt[k].body)) & (lane_flags)(counts ? -1 : 0);
+    lane_flags own = 0;
+    if (counts) {
+      const BodyFace nearest =
+          nearest_face(shapes, meshes, bodies, first_body, body_count, x[0], x[1], x[2]);
+      own = nearest.owner == (lanes)(felt[k].body);
+    }
     for (int axis = 0; axis < 3; ++axis) {
       got[axis] = given_along(g, &at, axis, k, change, given, whose) +
                   select(none, LOAD(jolt + axis * n, i), own);
@@ -218,8 +229,9 @@ kernel void weigh_given(constant FluidParams* p, constant MacGrid* g, float dt, 
 }
 
 // One work-item for each body: subtracts the momentum that it gave from the first half of its
-// `sums`; or, if `only` is not negative, adds the derivative by velocity component `part` of that
-// body to the second half.
+// `sums`; or what `only` gave far off, without its moment, if that is not negative and `part` is
+// SPLASH_BY_FLOW; else adds the derivative by velocity component `part` of that body to the second
+// half.
 kernel void sum_given(int felt_count, int only, int part, constant FreeBody* felt,
                       global const float* parts, global float* sums) {
   const int k = get_global_id(0);
@@ -227,7 +239,7 @@ kernel void sum_given(int felt_count, int only, int part, constant FreeBody* fel
   for (int e = 0; e < 6; ++e) {
     float all = 0.0f;
     for (int one = 0; one < GIVEN_PARTS; ++one) all += parts[6 * (k * GIVEN_PARTS + one) + e];
-    if (only < 0) sums[12 * k + e] -= all;
+    if (only < 0 || (part == SPLASH_BY_FLOW && e < 3)) sums[12 * k + e] -= all;
     if (only >= 0 && e == part) sums[12 * k + 6 + e] += (e < 3 ? 1.0f : felt[k].size) * all;
   }
 }

@@ -19,16 +19,20 @@ class GivenMomentum {
   void make_room(Device& device);
   /// Subtracts from the sums of `felt` the momentum that the bodies gave the particles beyond the
   /// pressures `found`. With `only`, the index of one body, adds instead the derivative by
-  /// component `part` of its speed, for which `found` is the derivative of the pressures. The
-  /// particles have moved.
+  /// component `part` of its speed, for which `found` is the derivative of the pressures; or, with
+  /// SPLASH_BY_FLOW, subtracts what the particles far from all felt bodies got beyond the pressures
+  /// that answer its flow. The particles have moved.
   void weigh(Fluid& fluid, const Step& step, const FeltBodies& felt, const Buffer<float>& found,
              int only = -1, int part = 0);
 
   /// Of each particle, the change of velocity by bodies other than by the grid's pressure, which
   /// find_spacing and move_particles write [m/s].
   [[nodiscard]] const Buffer<float>& jolt() const noexcept { return jolt_; }
-  /// Of each face, the index of the felt body that it belongs to, or -1.
+  /// Of each face, the index of the felt body to which the last weigh() counted it, or -1.
   [[nodiscard]] const Buffer<float>& whose() const noexcept { return whose_; }
+  /// What it counted there: change of velocity [m/s], and the pressures' momentum [N s].
+  [[nodiscard]] const Buffer<float>& given() const noexcept { return given_; }
+  [[nodiscard]] const Buffer<float>& taken() const noexcept { return taken_; }
 
  private:
   const MacFields& fields_;
