@@ -131,7 +131,7 @@ class Fluid {
   void compute_acceleration(const Step& step);
   /// Moves the state on as the accelerations say.
   void integrate(const Step& step);
-  /// How long it took the state to come to where it is from the one before [s].
+  /// Length of the last step [s].
   [[nodiscard]] double last_step() const noexcept { return last_step_; }
   /// Work-items of the stages that handle a vector of particles at once.
   [[nodiscard]] std::size_t groups() const;

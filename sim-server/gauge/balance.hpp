@@ -8,7 +8,7 @@ namespace splash::sim {
 
 struct Energies {
   double kinetic = 0.0;      ///< sum m v^2 / 2 [J]
-  double potential = 0.0;    ///< -sum m g.x, x when the velocities were those; 0 at the origin [J]
+  double potential = 0.0;    ///< -sum m g.x at the moment of the velocities, 0 at the origin [J]
   double compression = 0.0;  ///< sum m e, see compression_energy [J]
   [[nodiscard]] double total() const { return kinetic + potential + compression; }
 };

@@ -81,7 +81,8 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   water.rest_density = static_cast<double>(p.rest_density);
   // What keeps the spacing of grid-projected water is no energy of it.
   water.sound_speed = p.solver == SPLASH_GRID_PROJECTED ? 0.0 : static_cast<double>(p.sound_speed);
-  // Its steps are long enough for positions and velocities to be half a one apart, as in leapfrog.
+  // As in leapfrog, velocities belong to the middle of the step and positions to its end. Only the
+  // grid's steps are long enough for this to matter.
   water.lag = p.solver == SPLASH_GRID_PROJECTED ? 0.5 * fluid.last_step() : 0.0;
   water.viscous = static_cast<double>(p.viscous);
   water.artificial = static_cast<double>(p.artificial);

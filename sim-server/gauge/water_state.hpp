@@ -28,7 +28,7 @@ struct WaterState {
   double sound_speed = 0.0;   ///< c0 [m/s]
   double viscous = 0.0;       ///< 10 nu [m2/s], as in fluid_params.h
   double artificial = 0.0;    ///< alpha c0 h [m2/s]
-  double lag = 0.0;           ///< of the velocities behind the positions [s]
+  double lag = 0.0;           ///< time by which the velocities are older than the positions [s]
   double point_weight = 1.0;  ///< a body's point weighs this more than the water it displaces [1]
   Vector3 gravity = {0.0, 0.0, 0.0};      ///< [m/s2]
   Vector3 pull = {0.0, 0.0, 0.0};         ///< squared rates of the central field [1/s2]

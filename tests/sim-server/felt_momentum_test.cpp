@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The momentum that weightless water on a grid gets of a plate that strikes it, against what the
-// plate felt: pressures act on volumes, and what gets their momentum are particles. What the plate
-// is not told is what they got far from it beyond pressures that do not answer it, which sums over
-// all particles and faces in double precision find.
+// A plate strikes weightless water on a grid: the change of the water's momentum against the sum of
+// the forces on the plate. Pressures act on volumes, but particles get the momentum. The force
+// leaves out what particles far from the plate gain beyond the pressures there, unless the plate
+// causes those pressures; this test sums that over all particles and faces in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,9 +54,9 @@ Between between(double from, double edge, int cells, bool faces, double x) {
   return {lower, std::clamp(at - lower, 0.0, 1.0)};
 }
 
-/// Momentum along x that particles, which were at `places`, got in the last step beyond the
-/// pressures at faces far from the felt body, without what the body was told of it:
-/// sum_faces (sum_i m w_i / W_i du - I), with I as in given.cl [N s].
+/// Momentum along x that the particles, which were at `places`, gained in the last step beyond that
+/// of the pressures at faces far from the felt body, less the part of it that the body's force
+/// includes: sum_faces (sum_i m w_i / W_i du - I), with I as in given.cl [N s].
 double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double dt) {
   const auto& solver = dynamic_cast<const GridProjected&>(fluid.solver());
   const MacGrid& g = solver.fields().grid;
@@ -68,9 +68,9 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
   };
   const auto change = read(solver.fields().change), gap = read(solver.solids().gap());
   const auto pressure = read(solver.fields().pressure), wet = read(solver.fields().wet);
-  const auto whose = read(solver.felt().given().whose());  // of those far from the body
-  const auto told = read(solver.felt().given().given()),
-             counted = read(solver.felt().given().taken());
+  const auto whose = read(solver.felt().given().whose());  // of faces far from the body
+  const GivenMomentum& included = solver.felt().given();   // in the body's force
+  const auto included_change = read(included.given()), included_push = read(included.taken());
   std::vector<double> mass(cells, 0.0);  // that takes over what a face changes [kg]
   for (const Vector3& place : places) {
     const Between x =
@@ -101,8 +101,8 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
   for (std::size_t c = 1; c < cells; ++c) {
     const double rise = wet[c] * pressure[c] - wet[c - 1] * pressure[c - 1];
     if ((mass[c] == 0.0 && rise == 0.0) || whose[c] < 0.0) continue;
-    given += mass[c] > 0.0 ? mass[c] * (change[c] - told[c]) : 0.0;
-    given += dt * area * gap[c] * rise + counted[c];
+    given += mass[c] > 0.0 ? mass[c] * (change[c] - included_change[c]) : 0.0;
+    given += dt * area * gap[c] * rise + included_push[c];
   }
   return given;
 }

@@ -28,9 +28,11 @@ class GivenMomentum {
   /// Of each particle, the change of velocity by bodies other than by the grid's pressure, which
   /// find_spacing and move_particles write [m/s].
   [[nodiscard]] const Buffer<float>& jolt() const noexcept { return jolt_; }
-  /// Of each face, the index of the felt body to which the last weigh() counted it, or -1.
+  /// For each face, the index of the felt body whose force the last weigh() attributed it to, or
+  /// -1.
   [[nodiscard]] const Buffer<float>& whose() const noexcept { return whose_; }
-  /// What it counted there: change of velocity [m/s], and the pressures' momentum [N s].
+  /// For each face, what the last weigh() used: the change of velocity that particles get [m/s],
+  /// and the momentum of the pressures [N s].
   [[nodiscard]] const Buffer<float>& given() const noexcept { return given_; }
   [[nodiscard]] const Buffer<float>& taken() const noexcept { return taken_; }
 
