@@ -186,7 +186,7 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
   EXPECT_LT(walls, static_cast<int>(count) / 4);
   EXPECT_GT(looked, static_cast<int>(count));
   EXPECT_LT(worst_speed, 1.0e-4);
-  EXPECT_LT(worst_place, 1.0e-6);
+  EXPECT_LT(worst_place, 1.0e-7);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedReference, ::testing::Values(Build{1}, Build{16}),
