@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <sstream>
 
 #include "protocol/time_tag.hpp"
@@ -33,6 +35,7 @@ struct Options {
   bool list = false;
   bool truth = false;
   int device = -1;
+  std::optional<sim::PressureKind> solver;
   Material material;
   fs::path hand;
   std::vector<std::string> hand_markers;
@@ -156,7 +159,8 @@ void bench(Options options) {
   std::vector<Outcome> outcomes;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     Progress progress(cases[k].sweep + ": " + cases[k].name, k + 1, cases.size());
-    outcomes.push_back(run_case(device, cases[k], [&](double share) { progress(share); }));
+    outcomes.push_back(
+        run_case(device, cases[k], options.solver, [&](double share) { progress(share); }));
     progress.end(outcomes.back());
     // After every run, so that a run that is broken off leaves what it found.
     write_report(options.out, device.facts().name, outcomes);
@@ -195,6 +199,10 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->expected(3);
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  app.add_option("--solver", options.solver, "Instead of what suits each case")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, sim::PressureKind>{
+          {"weakly_compressible", sim::PressureKind::weakly_compressible},
+          {"grid_projected", sim::PressureKind::grid_projected}}));
   CLI11_PARSE(app, argc, argv);
   try {
     bench(options);

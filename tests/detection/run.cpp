@@ -195,10 +195,11 @@ std::vector<Entry> truth_of(const Case& item) {
   return truth_of(item, scene, paths, scene.water.front().upper[2]);
 }
 
-Outcome run_case(sim::Device& device, const Case& item,
+Outcome run_case(sim::Device& device, const Case& item, std::optional<sim::PressureKind> solver,
                  const std::function<void(double)>& progress) {
   const std::clock_t start = std::clock();
-  const sim::Scene scene = scene_of(item);
+  sim::Scene scene = scene_of(item);
+  if (solver) scene.fluid.solver = *solver;
   const Paths paths(scene, item.tracker);
   sim::Simulation simulation(device, scene, item.tracker);
   Heard heard;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "sim-server/device/device.hpp"
 #include "tests/detection/sweeps.hpp"
@@ -19,8 +20,9 @@ struct Outcome {
 /// What is true of a case's bodies, but for those that the water moves.
 [[nodiscard]] std::vector<Entry> truth_of(const Case& item);
 
-/// `progress` gets the share done [0, 1].
+/// `solver` in place of the scene's, if there is one; `progress` gets the share done [0, 1].
 [[nodiscard]] Outcome run_case(sim::Device& device, const Case& item,
+                               std::optional<sim::PressureKind> solver = {},
                                const std::function<void(double)>& progress = {});
 
 }  // namespace splash::detection
