@@ -162,6 +162,8 @@ TEST(FeltForce, OfWaterOnAGridIsAllTheMomentumThatItGets) {
   const std::string block = "lower: [-0.4, -0.24, 0.06], upper: [0.4, 0.24, 0.54]";
   const auto at = [](double speed) { return [speed](double time) { return speed * time; }; };
   const auto in_and_out = [](double time) { return 0.12 * (1.0 - std::cos(9.0 * time)); };
+  const auto twice = [](double time) { return 0.1 * (1.0 - std::cos(9.0 * time)); };
+  const auto away = [](double time) { return 0.16 * std::sin(7.0 * time) - 0.25 * time; };
   const std::string plate = "[0.06, 0.16, 0.16]";
   const std::string oar = "[0.08, 0.1, 0.2]";
   const std::vector<Blow> blows = {
@@ -170,7 +172,10 @@ TEST(FeltForce, OfWaterOnAGridIsAllTheMomentumThatItGets) {
       {"a block, struck at 1.5 m/s", 0.02, block, plate, -0.45, at(1.5), 0.2},
       {"through a block at 1 m/s", 0.02, block, plate, -0.2, at(1.0), 0.22},
       {"in and out", 0.02, block, oar, -0.48, in_and_out, 0.7},
-      {"in and out", 0.03, block, oar, -0.48, in_and_out, 0.7}};
+      {"in and out", 0.03, block, oar, -0.48, in_and_out, 0.7},
+      {"in and out for longer", 0.02, block, oar, -0.48, in_and_out, 1.2},
+      {"a ball, struck twice", 0.02, ball, plate, -0.15, twice, 1.2},
+      {"in and out of the other side", 0.02, block, plate, -0.3, away, 1.2}};
   for (const Blow& blow : blows) {
     const Balance found = balance(blow);
     EXPECT_LT(found.off, 0.02 * found.most) << blow.says;

@@ -179,6 +179,29 @@ MacFaces MacReference::change(const ReferenceGathered& water, const FluidParams&
   return change;
 }
 
+MacFaces MacReference::shared(const ReferenceGathered& water, const MacFaces& change) const {
+  MacFaces shared = change;
+  each([&](const std::array<int, 3>& cell) {
+    const auto c = number(cell[0], cell[1], cell[2]);
+    const auto fill = [&](int at) { return water.fill[static_cast<std::size_t>(at)]; };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int below = c - step_[axis];
+      if (is_wall(cell, axis) || (fill(c) > kFull) == (fill(below) > kFull)) continue;
+      const bool here = fill(c) > kFull;
+      const int deep = here ? c + step_[axis] : below - step_[axis];
+      const int next = here ? c + step_[axis] : below;  // face
+      if (!(fill(deep) > kFull)) continue;
+      const auto face = static_cast<std::size_t>(c);
+      const double way =
+          here ? way_to_surface(fill(c), fill(below)) : way_to_surface(fill(below), fill(c));
+      const double part = std::min(1.0, way / (share_ * water.weight[axis][face]));
+      shared[axis][face] =
+          part * change[axis][face] + (1.0 - part) * change[axis][static_cast<std::size_t>(next)];
+    }
+  });
+  return shared;
+}
+
 MacField MacReference::left(const ReferenceGathered& water, const MacFaces& velocity) const {
   MacField left(water.fill.size(), 0.0);
   each([&](const std::array<int, 3>& cell) {

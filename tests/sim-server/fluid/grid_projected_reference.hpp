@@ -35,6 +35,9 @@ class MacReference {
   /// What the step changes at faces: gravity, viscosity `nu`, and pressures in Pa.
   [[nodiscard]] MacFaces change(const ReferenceGathered& water, const FluidParams& params,
                                 const MacField& pressure, double dt) const;
+  /// What of these changes particles get: at the surface those beyond the mass that pressure moves
+  /// go with the next face in the water.
+  [[nodiscard]] MacFaces shared(const ReferenceGathered& water, const MacFaces& change) const;
   /// In cells with water what is left to demand of these velocities, 0 in others [1/s].
   [[nodiscard]] MacField left(const ReferenceGathered& water, const MacFaces& velocity) const;
 

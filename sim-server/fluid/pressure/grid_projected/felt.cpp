@@ -18,7 +18,7 @@ FeltForces::FeltForces(Device& device, const cl::Program& program, const MacFiel
       solids_(solids),
       bodies_(bodies),
       system_(system),
-      given_(device, program, fields, solids),
+      given_(device, program, fields, solids, system),
       grip_(device, 1),
       surface_(device, 1),
       answer_(device, 1),

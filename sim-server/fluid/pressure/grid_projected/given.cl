@@ -70,7 +70,7 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
     if (afar) of = of == OF_NOBODY && !wall ? only : OF_NOBODY;
     whose[face] = of;
     given[face] = taken[face] = 0.0f;
-    if (of == OF_NOBODY || wet[c] + wet[below] == 0.0f) continue;
+    if (wall) continue;
     const bool here = wet[c] > 0.0f, there = wet[below] > 0.0f;
     const float way = here == there ? 1.0f
                       : here        ? way_to_surface_of(fill[c], fill[below])
@@ -80,10 +80,10 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
                                             : p->gravity_z - p->pull_z * (place.z - p->centre_z));
     const float rise = (here ? found[c] : 0.0f) - (there ? found[below] : 0.0f);
     const float grows = rise / way * inverse[axis];
-    taken[face] = heavy * gap[face] * way * (fall - grows);
+    if (of != OF_NOBODY && (here || there)) taken[face] = heavy * gap[face] * way * (fall - grows);
     if (change[face] >= MAC_KNOWN) continue;
     given[face] = only < 0 ? change[face] : -free[face] * grows;
-    if (only == of && !afar) {
+    if (only >= 0 && only == of && !afar) {
       const float3 e = (float3)(part % 3 == 0, part % 3 == 1, part % 3 == 2);
       const BodyStep b = bodies[first_body + felt[of].body];
       const float3 arm = place - (float3)(b.px, b.py, b.pz);

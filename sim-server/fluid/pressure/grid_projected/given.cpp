@@ -6,9 +6,10 @@
 namespace splash::sim {
 
 GivenMomentum::GivenMomentum(Device& device, const cl::Program& program, const MacFields& fields,
-                             const GridSolids& solids)
+                             const GridSolids& solids, PressureSystem& system)
     : fields_(fields),
       solids_(solids),
+      system_(system),
       jolt_(device, 1),
       given_(device, 1),
       taken_(device, 1),
@@ -54,6 +55,7 @@ void GivenMomentum::weigh(Fluid& fluid, const Step& step, const FeltBodies& felt
                    {"given", given_},
                    {"taken", taken_},
                    {"whose", whose_}});
+  if (only >= 0) system_.share_at_surface(fluid.device(), given_);
   weigh_faces_.run_teams(queue, 1,
                          {{"g", fields_.on_device},
                           body_count,

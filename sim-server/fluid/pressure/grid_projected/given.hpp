@@ -6,6 +6,7 @@
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
+#include "sim-server/fluid/pressure/grid_projected/system.hpp"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 
 namespace splash::sim {
@@ -13,7 +14,7 @@ namespace splash::sim {
 class GivenMomentum {
  public:
   GivenMomentum(Device& device, const cl::Program& program, const MacFields& fields,
-                const GridSolids& solids);
+                const GridSolids& solids, PressureSystem& system);
 
   /// Allocates the arrays. Called before the first step in which a body is felt.
   void make_room(Device& device);
@@ -39,6 +40,7 @@ class GivenMomentum {
  private:
   const MacFields& fields_;
   const GridSolids& solids_;
+  PressureSystem& system_;
   Buffer<float> jolt_;
   Buffer<float> given_;  ///< of faces [m/s]
   Buffer<float> taken_;  ///< of faces [N s]

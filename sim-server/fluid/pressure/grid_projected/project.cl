@@ -100,3 +100,31 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
   const float density = p->rest_density / dt;
   STORE(select(none, LOAD(wet, c) * LOAD(found, c) * density, at.real), pressure, c);
 }
+
+// The pressure at a face at the surface moves water of t rho0 V (system.cl), but the particles
+// around the face may have more mass, m: under a flat surface what the next face in the water lacks
+// of its own. So what they get is the mean of both faces' changes, (t du + (m - t) du') / m with m
+// in rho0 V, which adds up to the pressures' momentum. Of a `field` on faces, known where `change`
+// is.
+kernel void share_at_surface(constant MacGrid* g, global const float* gap, global const float* fill,
+                             global const float* weight, global const float* wet,
+                             global const float* change, global float* field) {
+  const int4 at = cell_of(g, get_global_id(0));
+  if (at.w == 0) return;
+  const MacLevel l = g->level[0];
+  const int c = number_of(l, at);
+  const int step[3] = {1, l.row, l.layer};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int s = step[axis], face = axis * l.cells + c;
+    const bool here = wet[c] > 0.0f;
+    if (here == (wet[c - s] > 0.0f) || change[face] >= MAC_KNOWN) continue;
+    if (HAS_SOLIDS && gap[face] < 1.0f) continue;
+    const int where = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
+    if (where == 0 || (axis < 2 && where == (axis == 0 ? l.nx : l.ny))) continue;
+    const int water = here ? c : c - s, air = here ? c - s : c, next = here ? face + s : face - s;
+    if (wet[2 * water - air] == 0.0f || change[next] >= MAC_KNOWN) continue;
+    const float way = way_to_surface_of(fill[water], fill[air]);
+    const float mass = fmax(g->share * weight[face], way);
+    field[face] = field[next] + way / mass * (field[face] - field[next]);
+  }
+}

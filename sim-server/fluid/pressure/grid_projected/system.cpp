@@ -30,7 +30,8 @@ PressureSystem::PressureSystem(Device& device, const cl::Program& program, const
       push_faces_(program, "push_faces", device.profile().group),
       lay_system_(program, "lay_system", device.profile().group),
       solve_pressure_(program, "solve_pressure", fields.team),
-      project_faces_(program, "project_faces", device.profile().group) {}
+      project_faces_(program, "project_faces", device.profile().group),
+      share_at_surface_(program, "share_at_surface") {}
 
 void PressureSystem::push_faces(Fluid& fluid, const Step& step) {
   push_faces_.run(fluid.device().queue(), fields_.vectors,
@@ -112,6 +113,18 @@ void PressureSystem::project(Fluid& fluid, const Step& step) {
                       {"wet", fields_.wet},
                       {"pushed", fields_.change},
                       {"pressure", fields_.pressure}});
+  share_at_surface(fluid.device(), fields_.change);
+}
+
+void PressureSystem::share_at_surface(Device& device, const Buffer<float>& field) {
+  share_at_surface_.run(device.queue(), fields_.cells,
+                        {{"g", fields_.on_device},
+                         {"gap", solids_.gap()},
+                         {"fill", solids_.fill()},
+                         {"weight", fields_.weight},
+                         {"wet", fields_.wet},
+                         {"change", fields_.change},
+                         {"field", field}});
 }
 
 SolveWork PressureSystem::work() const {

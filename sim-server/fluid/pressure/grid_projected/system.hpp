@@ -29,6 +29,8 @@ class PressureSystem {
   void solve(Fluid& fluid, const Step& step, int iterations, const Buffer<float>& found,
              const Buffer<SolveState>& state);
   void project(Fluid& fluid, const Step& step);
+  /// Turns changes of velocity on faces at the surface into those that the particles there get.
+  void share_at_surface(Device& device, const Buffer<float>& field);
 
   /// The last solution: pressure times the step's length over the density [m2/s].
   [[nodiscard]] const Buffer<float>& found() const noexcept { return found_; }
@@ -68,6 +70,7 @@ class PressureSystem {
   Kernel lay_system_;
   Kernel solve_pressure_;
   Kernel project_faces_;
+  Kernel share_at_surface_;
 };
 
 }  // namespace splash::sim
