@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page sends while a body is held.
+// What the page sends while a body is held, and what comes while it draws.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,6 +62,31 @@ TEST(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
   }
   EXPECT_LT(worst, 0.05);
   RecordProperty("worst_speed", std::to_string(worst));
+}
+
+// Who draws for a second, in which the simulator shows some fifty states, has several of them then,
+// and not only the one that was on its way before.
+TEST(States, ComeWhileThePageDraws) {
+  if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+  PlayedPage& page = PlayedPage::shared();
+  page.load("?points", 300, 220);
+  const Json told = page.browser().evaluate(R"((async () => {
+    const moments = [];
+    const { link, playout } = splash;
+    const push = playout.push;
+    playout.push = function (state, now) {
+      moments.push(state.moment);
+      return push.call(this, state, now);
+    };
+    await new Promise((done) => setTimeout(done, 100));
+    const begin = performance.now();
+    const from = link.now();
+    while (performance.now() < begin + 1000);
+    const to = link.now();
+    await new Promise((done) => setTimeout(done, 1000));
+    return moments.filter((moment) => moment > from && moment < to).length;
+  })())");
+  EXPECT_GE(told.get<int>(), 3);
 }
 
 }  // namespace

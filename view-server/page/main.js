@@ -88,10 +88,9 @@ const link = new Link({
   },
   SPS1: (state) => {
     playout.push(state, link.now());
-    // The next one is asked for at once, so that a picture finds the newest however long it is since
-    // the last; by a page that draws none, with the next picture.
-    if (performance.now() - 1000 * IDLE < drawnLast) link.ask();
-    else asks = true;
+    // A page that draws no picture takes none.
+    if (performance.now() - 1000 * IDLE < drawnLast) link.ask(1);
+    else untaken += 1;
     if (world && world.level === null) setLevel(state);
   },
   SPR1: (rig) => {
@@ -252,7 +251,7 @@ function poseBodies({ older, newer, share: t }) {
 
 let pictures = 0;
 let drawnLast = -Infinity; // when a picture was begun [ms]
-let asks = false; // the next picture asks for a state
+let untaken = 0; // states that came while no picture was drawn
 let turns = 0; // of the browser's, since the last picture
 function picture() {
   requestAnimationFrame(picture);
@@ -289,8 +288,8 @@ function prepare() {
   const now = link.now();
   const view = world && playout.at(now, pace.rate, sound.lag === null ? 0 : sound.lag - 0.025);
   drawnLast = performance.now();
-  if (asks) link.ask();
-  asks = false;
+  if (untaken > 0) link.ask(untaken);
+  untaken = 0;
   if (!view) return false;
   moment = view.moment;
   begun = now;

@@ -17,7 +17,9 @@ class Monitor extends AudioWorkletProcessor {
     this.dip = 0; // how far below it the ring has been since the last look [s]
     this.looked = 0; // how long ago [s]
     this.gain = 0;
-    this.port.onmessage = ({ data }) => this.take(data);
+    this.port.onmessage = ({ data: way }) => { // on which sound comes
+      way.onmessage = ({ data }) => this.take(data);
+    };
   }
 
   clear() {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The synth's stereo monitor in this browser: started by a click, measured against its own moments.
 
+const LOOK = 12; // measurements, six a second
+
 export class Sound {
   constructor(link) {
     this.link = link;
-    this.lag = null; // how much later than its moment a sample is heard here [s]
+    this.lag = null; // how much later than its moment a sample is heard here, in the mean [s]
+    this.lags = []; // of the last two seconds [s]
     this.rate = 48000;
     this.recent = new Float32Array(8192); // what was played last, left and right in turn
     this.at = 0;
@@ -23,11 +26,22 @@ export class Sound {
       this.node.port.onmessage = ({ data }) => this.measure(data);
     }
     await this.context.resume();
+    this.lead();
+    this.context.onstatechange = () => this.lead();
   }
 
   async stop() {
     await this.context?.suspend();
+  }
+
+  /// Leads the sound to the audio thread past this one, which may be drawing; while it plays.
+  lead() {
     this.lag = null;
+    this.lags = [];
+    if (!this.isOn) return this.link.hear(null);
+    const { port1, port2 } = new MessageChannel();
+    this.node.port.postMessage(port1, [port1]);
+    return this.link.hear(port2);
   }
 
   /// `context`: when the sample of `moment` goes out, by the audio's clock.
@@ -36,17 +50,14 @@ export class Sound {
     const ahead = stamp?.contextTime > 0
       ? context - stamp.contextTime - (performance.now() - stamp.performanceTime) / 1000
       : this.context.outputLatency || this.context.baseLatency || 0;
-    const lag = this.link.now() + ahead - moment;
-    this.lag = this.lag === null ? lag : this.lag + 0.1 * (lag - this.lag);
+    this.lags.push(this.link.now() + ahead - moment);
+    if (this.lags.length > LOOK) this.lags.shift();
+    this.lag = this.lags.reduce((a, b) => a + b) / this.lags.length;
   }
 
   take(frame) {
     this.rate = frame.rate;
     for (const sample of frame.samples) this.recent[this.at++ % this.recent.length] = sample;
-    if (!this.isOn || !this.node) return;
-    const samples = frame.samples.slice();
-    this.node.port.postMessage({ samples, rate: frame.rate, moment: frame.moment,
-      first: frame.first }, [samples.buffer]);
   }
 
   /// The last n frames of one side, oldest first.
