@@ -140,54 +140,58 @@ TEST_F(Modules, OnlyWaterNearWallsAndDropsAreDrawnSeveralTimes) {
   EXPECT_EQ(drawn[1], Json({{990, 10}, {990, 11}, {990, 12}, {990, 13}, {990, 14}}));
 }
 
-// A block of 1,728 points, not quite in rows, drawn as discs into the pixels of a picture: each
-// that is seen anywhere is picked, and most of the others are not.
-TEST_F(Modules, PointsBehindOthersAreNotDrawn) {
+// A block of 1,728 points, not quite in rows, of which each second is drawn as a disc: every pixel
+// has the speed and the distance of the nearest disc over its middle.
+TEST_F(Modules, PointsAreDrawnWhereTheyAreTheNearestBeforeTheOthers) {
   const Json points = with_the_modules(R"js((async () => {
     const { Camera } = await import('/camera.js');
-    const { Seen } = await import('/seen.js');
+    const { Splats } = await import('/splats.js');
     const { transform } = await import('/vector.js');
     const camera = Object.assign(new Camera(), { aspect: 1.5, elevation: 0.4 });
     camera.frame({ lower: [0, 0, 0], upper: [1.2, 1.2, 1.2] }, -0.7, 0.85);
     const matrices = camera.matrices();
-    const [side, radius, width, height] = [12, 0.05, 480, 320];
+    const [side, radius, width, height] = [12, 0.05, 240, 160];
     const particles = new Uint16Array(4 * side ** 3);
     for (let i = 0; i < side ** 3; ++i) {
       [i % side, Math.floor(i / side) % side, Math.floor(i / side ** 2)].forEach((at, axis) => {
         particles[4 * i + axis] = 1000 * (0.1 * at + 0.02 * Math.sin(7 * i + axis));
       });
+      particles[4 * i + 3] = i % 251;
     }
     const state = { count: side ** 3, lower: [0, 0, 0], unit: 0.001,
       particles: new Uint8Array(particles.buffer) };
     const view = { older: state, newer: { ...state, lower: [0, 0, 0.1] }, share: 0.5 };
-    const depth = new Float32Array(width * height).fill(Infinity);
-    const front = new Int32Array(width * height).fill(-1);
-    for (let i = 0; i < side ** 3; ++i) {
+    const nearest = new Float32Array(width * height).fill(1e9);
+    const speeds = new Uint8Array(width * height);
+    const near = new Set(); // pixels on the edge of a disc, within rounding
+    for (let i = 0; i < side ** 3; i += 2) {
       const [x, y, z] = [0, 1, 2].map((axis) => particles[4 * i + axis] * state.unit);
       const place = transform(matrices.both, [x, y, z + 0.05]);
       const w = matrices.both[3] * x + matrices.both[7] * y + matrices.both[11] * (z + 0.05)
         + matrices.both[15];
       const r = (0.5 * matrices.projection[5] * radius * height) / w;
       const [u, v] = [(0.5 + 0.5 * place[0]) * width, (0.5 + 0.5 * place[1]) * height];
-      for (let row = Math.max(Math.floor(v - r), 0); row < Math.min(v + r, height); ++row) {
-        const last = Math.min(u + r, width);
-        for (let column = Math.max(Math.floor(u - r), 0); column < last; ++column) {
-          const at = row * width + column;
-          if (Math.hypot(column + 0.5 - u, row + 0.5 - v) > r || depth[at] <= w) continue;
-          depth[at] = w;
-          front[at] = i;
-        }
+      for (let at = 0; at < width * height; ++at) {
+        const off = Math.hypot((at % width) + 0.5 - u, Math.floor(at / width) + 0.5 - v) - r;
+        if (Math.abs(off) < 1e-3) near.add(at);
+        if (off > 0 || nearest[at] <= w) continue;
+        nearest[at] = w;
+        speeds[at] = i % 251;
       }
     }
-    const picked = new Set(new Seen().pick(view, matrices, radius, { width, height }));
-    const shown = new Set(front);
-    shown.delete(-1);
-    return { picked: picked.size, shown: shown.size,
-      missing: [...shown].filter((i) => !picked.has(i)).length };
+    const drawn = new Splats().draw(view, matrices, radius, { width, height }, 2);
+    let [covered, wrong] = [0, 0];
+    for (let at = 0; at < width * height; ++at) {
+      covered += nearest[at] < 1e9 ? 1 : 0;
+      const same = Math.abs(drawn.axial[at] - nearest[at]) < 1e-5
+        && drawn.tone[2 * at] === speeds[at];
+      wrong += same || near.has(at) ? 0 : 1;
+    }
+    return { covered, wrong, near: near.size };
   })())js");
-  EXPECT_EQ(points["missing"], 0) << points;
-  EXPECT_GT(points["shown"], 300) << points;
-  EXPECT_LT(points["picked"], 900) << points;
+  EXPECT_EQ(points["wrong"], 0) << points;
+  EXPECT_GT(points["covered"], 8000) << points;
+  EXPECT_LT(points["near"], 400) << points;
 }
 
 // A machine on which a picture takes a time in proportion to its pixels: pictures get coarser until
@@ -250,6 +254,27 @@ TEST_F(Modules, PointsBecomeWaterAgainOnceThereIsTimeForIt) {
   EXPECT_GE(seen[3]["tries"], 3) << seen;
   EXPECT_LE(seen[3]["tries"], 8) << "it flickers between both";
   EXPECT_LE(seen[3]["water"], 60) << seen;
+}
+
+// Where the browser says that it draws in software, no picture of water comes before ten seconds of
+// points; unless the page's address wants water.
+TEST_F(Modules, SoftwareBeginsWithPoints) {
+  const Json seen = with_the_modules(R"js((async () => {
+    const { Pace } = await import('/pace.js');
+    let now = performance.now(); // [ms]
+    performance.now = () => now;
+    const pace = new Pace(null, true);
+    const begun = now;
+    while (pace.isTooSlow && now < begun + 60000) {
+      now += 1000 * (pace.every / 60);
+      pace.step(0.002);
+    }
+    return [(now - begun) / 1000, new Pace(0.5, true).isTooSlow, new Pace(null).isTooSlow];
+  })())js");
+  EXPECT_GT(seen[0].get<double>(), 9.9);
+  EXPECT_LT(seen[0].get<double>(), 12.0);
+  EXPECT_EQ(seen[1], false);
+  EXPECT_EQ(seen[2], false);
 }
 
 // Simulated graphics on which water is too slow. A picture of all points takes 28 ms, less in

@@ -52,7 +52,7 @@ export function use(gl, shader, values) {
 }
 
 /// `kind`: [internal format, format, type]; `filter` gl.LINEAR or gl.NEAREST.
-function texture(gl, width, height, kind, filter) {
+export function texture(gl, width, height, kind, filter) {
   const handle = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, handle);
   gl.texStorage2D(gl.TEXTURE_2D, 1, kind, width, height);

@@ -34,7 +34,9 @@ if (!gl) {
 }
 canvas.addEventListener('webglcontextlost', () => location.reload());
 const smooth = gl.getExtension('EXT_color_buffer_float') && !options.has('points');
-const pace = new Pace(options.has('share') ? Number(options.get('share')) || 1 : null);
+const named = gl.getExtension('WEBGL_debug_renderer_info')?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER;
+const inSoftware = /SwiftShader|llvmpipe|softpipe|Basic Render/i.test(gl.getParameter(named));
+const pace = new Pace(options.has('share') ? Number(options.get('share')) || 1 : null, inSoftware);
 
 const camera = new Camera();
 const particles = new Particles(gl);
@@ -43,10 +45,11 @@ const rings = new Rings(gl);
 const playout = new Playout();
 const fences = new Fences(gl, finished);
 const strip = new Strip(at('strip'));
-const lights = smooth ? new LightMaps(gl) : null;
-const water = smooth ? new Water(gl) : null;
 const asPoints = () => !smooth || (pace.isTooSlow && !headset.session);
-let points = null; // made when they are drawn for the first time
+// Made when they are drawn for the first time.
+let points = null;
+let lights = null;
+let water = null;
 
 const IDLE = 1; // without a picture, after which no state is asked for [s]
 const FALL = 0.8; // of a shown peak from one frame of levels to the next
@@ -226,7 +229,7 @@ function latency() {
 function tellFigures() {
   const ms = (x) => `${Math.round(1000 * x)} ms`;
   const sim = words.last('sim-server');
-  const parts = [`${world.particles} particles, ${world.solver}`, `${pace.rate.toFixed(0)} pictures/s${points && smooth ? ' (points: the water is too much for these graphics)' : ''}`,
+  const parts = [`${world.particles} particles, ${world.solver}`, `${pace.rate.toFixed(0)} pictures/s${smooth && asPoints() ? ' (points: the water is too much for these graphics)' : ''}`,
     paused() ? 'paused' : `95 % of states come within ${ms(playout.arrival)}, are drawn within ${ms(playout.age)}`];
   if (sound.lag !== null) {
     const { picture } = latency();
@@ -308,6 +311,8 @@ function drawAll(size, seen) {
     points ??= new Points(gl);
     return points.draw(size, seen, world, particles, solids, marks, pace.stride);
   }
+  lights ??= new LightMaps(gl);
+  water ??= new Water(gl);
   lights.draw(world, particles, solids.bodies, pace.sharp * pace.share);
   const levels = new Float32Array(64);
   if (peaks) levels.set(peaks.slice(tilesFirst, tilesFirst + 64));

@@ -19,14 +19,14 @@ const AGAIN_MAX = 320; // [s]
 
 export class Pace {
   /// `share` of the whole picture's pixels along each axis for the water; null: as the machine
-  /// allows.
-  constructor(share) {
+  /// allows. `inSoftware`: graphics are a processor, so that points are drawn first.
+  constructor(share, inSoftware = false) {
     this.fixed = share;
     this.level = 0; // in LEVELS
-    this.isTooSlow = false; // for water
+    this.isTooSlow = inSoftware && share === null; // for water
     this.pointsLevel = 0; // with which points begin
     this.again = AGAIN; // of fast points, the next time that water is too slow [s]
-    this.left = 0; // of fast points before water is tried again [s]
+    this.left = AGAIN; // of fast points before water is tried again [s]
     this.took = 1 / 60; // a picture, a mean [s]
     this.begin();
   }

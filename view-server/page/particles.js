@@ -41,7 +41,6 @@ export class Particles {
     this.gl = gl;
     this.held = [null, null];
     this.buffers = [gl.createBuffer(), gl.createBuffer()];
-    this.numbers = gl.createBuffer(); // of those that are drawn, where not all are
     this.several = { mirrored: { buffer: gl.createBuffer() }, drops: { buffer: gl.createBuffer() } };
     this.picked = {}; // {older, newer}, of which those are
   }
@@ -63,12 +62,15 @@ export class Particles {
     this.held[index] = state;
   }
 
-  /// What follows is drawn between these two; `world`: tank, paddle, spacing; null: nothing is
-  /// drawn several times.
+  /// What follows is drawn between these two; `world`: tank, paddle, spacing; null: the page itself
+  /// draws them, as points.
   show(view, world) {
     const { older, newer, share } = view;
     this.view = view;
-    if (world && (this.picked.older !== older || this.picked.newer !== newer)) {
+    this.count = newer.count;
+    this.bubbles = newer.bubbles;
+    if (!world) return;
+    if (this.picked.older !== older || this.picked.newer !== newer) {
       for (const [kind, { used, count }] of Object.entries(several({ older, newer }, world))) {
         this.fill(this.several[kind].buffer, used);
         this.several[kind].count = count;
@@ -79,13 +81,11 @@ export class Particles {
     this.upload(1, newer);
     this.uniforms = { frameOlder: [...older.lower, older.unit],
       frameNewer: [...newer.lower, newer.unit], share };
-    this.count = newer.count;
-    this.bubbles = newer.bubbles;
   }
 
   /// Points out of buffers: where the older and the newer places lie in them, and how far apart; the
-  /// parts follow the newer places where there are any. `picked`: the numbers of those that are drawn.
-  draw(count, [from, at], [to, then], stride, { parts = false, picked = null } = {}) {
+  /// parts follow the newer places where there are any.
+  draw(count, [from, at], [to, then], stride, parts = false) {
     if (count === 0) return;
     const gl = this.gl;
     const handle = gl.createVertexArray();
@@ -100,21 +100,13 @@ export class Particles {
     take(2, to, () => gl.vertexAttribIPointer(2, 2, gl.UNSIGNED_BYTE, stride, then + 6));
     if (parts) take(3, to, () => gl.vertexAttribIPointer(3, 1, gl.UNSIGNED_INT, stride, then + PLACE));
     else gl.vertexAttribI4ui(3, 0, 0, 0, 0);
-    if (picked) {
-      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.numbers);
-      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, picked, gl.STREAM_DRAW);
-      gl.drawElements(gl.POINTS, picked.length, gl.UNSIGNED_INT, 0);
-    } else {
-      gl.drawArrays(gl.POINTS, 0, count);
-    }
+    gl.drawArrays(gl.POINTS, 0, count);
     gl.bindVertexArray(null);
     gl.deleteVertexArray(handle);
   }
 
-  /// One in `stride` of the particles, or those that are picked.
-  drawWater(picked = null, stride = 1) {
-    const count = Math.ceil(this.count / stride);
-    this.draw(count, [this.buffers[0], 0], [this.buffers[1], 0], stride * PLACE, { picked });
+  drawWater() {
+    this.draw(this.count, [this.buffers[0], 0], [this.buffers[1], 0], PLACE);
   }
 
   /// Bubbles have no fixed order: those of the newer state.
@@ -124,7 +116,7 @@ export class Particles {
   }
 
   drawSeveral({ buffer, count }) {
-    this.draw(count, [buffer, 0], [buffer, PLACE], 4 * WORDS, { parts: true });
+    this.draw(count, [buffer, 0], [buffer, PLACE], 4 * WORDS, true);
   }
 
   drawMirrored() {

@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Where textures of floats cannot be drawn into, or graphics are too slow for water: the water as
 // shaded points, the tank's edges, and the bodies as they are, dimmed behind the water.
-import { program, use } from './gl.js';
-import { PARTICLE } from './particles.js';
-import { Seen } from './seen.js';
+import { OVER_ALL, program, texture, use } from './gl.js';
 import { GROUND, SOLID_VERTEX, STILL } from './solids.js';
+import { Splats } from './splats.js';
 
-const VERTEX = `${PARTICLE}
-uniform mat4 both, projection;
-uniform float radius, height;
-out vec3 tint;
-void main() {
-  gl_Position = both * vec4(place(), 1.0);
-  gl_PointSize = max(projection[1][1] * radius * height / gl_Position.w, 1.0);
-  tint = mix(vec3(0.10, 0.45, 0.62), vec3(0.9, 0.97, 1.0), smoothstep(0.2, 2.5, speed()));
-}`;
 const FRAGMENT = `
-in vec3 tint;
+in vec2 uv;
+uniform highp sampler2D axial, tone;
+uniform mat4 projection;
 out vec4 colour;
 void main() {
-  vec2 q = gl_PointCoord * 2.0 - 1.0;
-  if (dot(q, q) > 1.0) discard;
-  colour = vec4(tint * (0.55 + 0.45 * sqrt(1.0 - dot(q, q))), 1.0);
+  float w = texture(axial, uv).x;
+  float depth = 0.5 + 0.5 * (projection[3][2] / w - projection[2][2]);
+  if (depth > 1.0) discard;
+  gl_FragDepth = depth;
+  vec2 told = texture(tone, uv).xy;
+  float speed = 8.0 * told.x * told.x; // [m/s]
+  vec3 tint = mix(vec3(0.10, 0.45, 0.62), vec3(0.9, 0.97, 1.0), smoothstep(0.2, 2.5, speed));
+  colour = vec4(tint * (0.55 + 0.45 * told.y), 1.0);
 }`;
 const SOLID_FRAGMENT = `
 in vec3 facing;
@@ -32,28 +29,32 @@ void main() {
   colour = vec4(tint * (0.5 + 0.5 * abs(normalize(facing).z)) + 0.3 * glow, cover);
 }`;
 const BEHIND = 0.4; // of a body's light comes through the water before it
-const MOST = 0.4; // of the points
-const REST = 100; // pictures
 
 export class Points {
   constructor(gl) {
     this.gl = gl;
-    this.water = program(gl, VERTEX, FRAGMENT);
+    this.water = program(gl, OVER_ALL, FRAGMENT);
     this.solid = program(gl, SOLID_VERTEX, SOLID_FRAGMENT);
-    this.seen = new Seen();
-    this.rest = 0; // pictures of which all points are drawn
+    this.splats = new Splats();
+    this.size = {};
   }
 
-  /// The numbers of the points that are seen; null: all are drawn. Where most are seen, as in shallow
-  /// water, looking for the others takes longer than drawing them: a while later is soon enough.
-  pick(particles, camera, radius, size) {
-    if (this.rest > 0) {
-      this.rest -= 1;
-      return null;
+  /// The splats as textures.
+  upload({ width, height, axial, tone }) {
+    const gl = this.gl;
+    if (width !== this.size.width || height !== this.size.height) {
+      for (const handle of [this.axial, this.tone]) if (handle) gl.deleteTexture(handle);
+      this.size = { width, height };
+      this.axial = texture(gl, width, height, gl.R32F, gl.NEAREST);
+      this.tone = texture(gl, width, height, gl.RG8, gl.NEAREST);
     }
-    const picked = this.seen.pick(particles.view, camera, radius, size);
-    if (picked.length > MOST * particles.count) this.rest = REST;
-    return picked;
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1); // rows of two bytes a pixel
+    for (const [handle, format, type, data] of [[this.axial, gl.RED, gl.FLOAT, axial],
+      [this.tone, gl.RG, gl.UNSIGNED_BYTE, tone]]) {
+      gl.bindTexture(gl.TEXTURE_2D, handle);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, height, format, type, data);
+    }
+    return { axial: this.axial, tone: this.tone };
   }
 
   /// One in `stride` of the points, as large as to fill the same space.
@@ -73,9 +74,10 @@ export class Points {
     drawSolids([...solids.bodies, ...solids.still.filter(({ material }) => material !== GROUND)], 1);
     drawSolids([solids.edges], 1, solids.bars(camera, height));
     const radius = 0.5 * world.spacing * Math.cbrt(stride);
-    use(gl, this.water, { ...camera, ...particles.uniforms, radius, height });
-    const picked = stride > 1 ? null : this.pick(particles, camera, radius, { width, height });
-    particles.drawWater(picked, stride);
+    const splats = this.splats.draw(particles.view, camera, radius, { width, height }, stride);
+    use(gl, this.water, { ...camera, ...this.upload(splats) });
+    gl.bindVertexArray(null);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthFunc(gl.GREATER);
