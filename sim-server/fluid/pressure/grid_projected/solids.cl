@@ -137,11 +137,11 @@ static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, f
 }
 
 // Of an eighth of a cell with these corners: by its own eighths, and what that changed goes on to
-// where it would end (Richardson).
+// where it would end (Richardson); what is `flat` is as its corners say.
 static float open_eighth(constant FluidParams* p, const Solids* s, float3 lower, float3 edge,
-                         const float* corner) {
+                         const float* corner, bool flat) {
   const float whole = open_box(corner);
-  if (!(whole > 0.0f && whole < 1.0f)) return whole;
+  if (flat || !(whole > 0.0f && whole < 1.0f)) return whole;
   float d[27], sum = 0.0f;
   measure_box(p, s, lower, 0.5f * edge, d);
   for (int k = 0; k < 8; ++k) {
@@ -175,6 +175,35 @@ typedef struct {
   global int* owner;
 } OpenParts;
 
+// Whether nothing but the slope, which is flat, may cut a box.
+static bool only_slope_near(constant FluidParams* p, const Solids* s, float3 lower, float3 upper) {
+  if (bodies_near_box(s->bodies, s->first, s->count, lower, upper)) return false;
+  if (!HAS_PISTON || p->piston < 0) return true;
+  const float3 middle = 0.5f * (lower + upper);
+  return first_lane(wall_distance(p, p->piston, middle.x, middle.y, middle.z, s->piston)) >
+         length(upper - lower);
+}
+
+// Whether a cell is all open or all closed by what is not a body, the slope and the piston, and no
+// body is near: then no side of it needs to be measured.
+static bool is_uncut(constant FluidParams* p, constant MacGrid* g, const Solids* s, float3 lower,
+                     float3 upper, int c, const OpenParts* parts) {
+  if (bodies_near_box(s->bodies, s->first, s->count, lower, upper)) return false;
+  const float3 middle = 0.5f * (lower + upper);
+  lanes whose;
+  const float far = first_lane(solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, 0,
+                                              s->piston, middle.x, middle.y, middle.z, &whose));
+  if (fabs(far) < 0.501f * length(upper - lower)) return false;
+  if (far < g->hx + g->hy + g->hz) parts->owner[c] = (int)first_lane(whose);
+  if (far > 0.0f) return true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int face = axis * g->level[0].cells + c;
+    parts->lower[face] = parts->upper[face] = 0.0f;
+  }
+  parts->room[c] = 0.0f;
+  return true;
+}
+
 // Cell `c` at `at`, if solids may be near.
 static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids* solids, int4 at,
                      int c, const OpenParts* parts) {
@@ -184,6 +213,8 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
   if (!solids_near(p, solids->bodies, solids->first, solids->count, solids->piston, low, high)) {
     return;
   }
+  if (is_uncut(p, g, solids, low, high, c, parts)) return;
+  const bool flat = only_slope_near(p, solids, low, high);
   const float3 edge = 0.5f * (float3)(g->hx, g->hy, g->hz);
   float d[27];
   const int whose = measure_box(p, solids, low, edge, d);
@@ -197,7 +228,7 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
     float corner[8];
     corners_of(d, k, corner);
     const float3 from = low + edge * (float3)(x, y, z);
-    const float open = 0.25f * open_eighth(p, solids, from, edge, corner);
+    const float open = 0.25f * open_eighth(p, solids, from, edge, corner, flat);
     of_half[x] += open;
     of_half[2 + y] += open;
     of_half[4 + z] += open;
@@ -288,14 +319,17 @@ static float room_seen(const MacLevel l, const OpenHalves* open, int4 at) {
   return sum;
 }
 
-// What cells see of open space, of those that are some solid's; of others 1.
+// What cells see of open space, of those that are some solid's; of others 1. Nothing asks for that
+// of cells that are closed, 0.
 kernel void see_room(constant MacGrid* g, global const float* lower, global const float* upper,
                      global const float* room, global const int* owner, global float* seen) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
-  const lane_flags cut = at.inside & (LOAD(owner, at.first) != (lane_flags)(OF_NOBODY));
-  STORE((lanes)(1.0f), seen, at.first);
+  const lane_flags owned = at.inside & (LOAD(owner, at.first) != (lane_flags)(OF_NOBODY));
+  const lanes none = 0.0f, one = 1.0f, own = LOAD(room, at.first);
+  const lane_flags cut = owned & (own > none);
+  STORE(select(one, none, owned & (own <= none)), seen, at.first);
   if (!any_lane(cut)) return;
   const OpenHalves open = {lower, upper, room};
   int x[LANES], y[LANES], is_cut[LANES];
