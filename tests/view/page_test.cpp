@@ -186,15 +186,15 @@ TEST_F(Page, IsHeard) {
   RecordProperty("lag_ms", browser.evaluate("Math.round(1000 * splash.sound.lag)").dump());
   EXPECT_TRUE(browser.wait_for("splash.sound.lag < 0.5", kTimeout))
       << browser.evaluate("splash.sound.lag");
-  // It is heard while the page does something else for a second: of some tries, since a busy
-  // machine may leave the audio thread without a turn.
+  // Sound goes on while the page's main thread is busy for a second. One of ten tries has to show
+  // it, since a loaded machine may not let the audio thread run.
   browser.evaluate(R"js({
     const { sound } = splash;
     const { measure } = sound;
     window.heard = [];
-    sound.measure = (told) => {
-      heard.push(told.context);
-      return measure.call(sound, told);
+    sound.measure = (report) => {
+      heard.push(report.context);
+      return measure.call(sound, report);
     };
   })js");
   bool goes_on = false;

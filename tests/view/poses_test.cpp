@@ -64,13 +64,13 @@ TEST(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
   RecordProperty("worst_speed", std::to_string(worst));
 }
 
-// Who draws for a second, in which the simulator shows some fifty states, has several of them then,
-// and not only the one that was on its way before.
+// While the page's main thread is busy for a second, in which the simulator shows some fifty
+// states, several of them arrive, and not only the one that was on its way before.
 TEST(States, ComeWhileThePageDraws) {
   if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
   PlayedPage& page = PlayedPage::shared();
   page.load("?points", 300, 220);
-  const Json told = page.browser().evaluate(R"((async () => {
+  const Json states = page.browser().evaluate(R"((async () => {
     const moments = [];
     const { link, playout } = splash;
     const push = playout.push;
@@ -86,7 +86,7 @@ TEST(States, ComeWhileThePageDraws) {
     await new Promise((done) => setTimeout(done, 1000));
     return moments.filter((moment) => moment > from && moment < to).length;
   })())");
-  EXPECT_GE(told.get<int>(), 3);
+  EXPECT_GE(states.get<int>(), 3);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What view-server says and is told, by way of a thread that has the WebSocket; and the server's clock
-// by /ping.
+// Messages to and from view-server, through the thread that owns the WebSocket (socket.js), and the
+// server's clock, which is measured by /ping.
 import { decode, encode, encodeAt } from './osc.js';
 import { readFrame } from './wire.js';
 

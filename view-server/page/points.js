@@ -15,10 +15,10 @@ void main() {
   float depth = 0.5 + 0.5 * (projection[3][2] / w - projection[2][2]);
   if (depth > 1.0) discard;
   gl_FragDepth = depth;
-  vec2 told = texture(tone, uv).xy;
-  float speed = 8.0 * told.x * told.x; // [m/s]
+  vec2 coded = texture(tone, uv).xy; // root of the speed over 8 m/s; how much the disc faces us
+  float speed = 8.0 * coded.x * coded.x; // [m/s]
   vec3 tint = mix(vec3(0.10, 0.45, 0.62), vec3(0.9, 0.97, 1.0), smoothstep(0.2, 2.5, speed));
-  colour = vec4(tint * (0.55 + 0.45 * told.y), 1.0);
+  colour = vec4(tint * (0.55 + 0.45 * coded.y), 1.0);
 }`;
 const SOLID_FRAGMENT = `
 in vec3 facing;

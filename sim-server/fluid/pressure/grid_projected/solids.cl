@@ -175,20 +175,18 @@ typedef struct {
   global int* owner;
 } OpenParts;
 
-// Whether nothing but the slope, which is flat, may cut a box.
-static bool only_slope_near(constant FluidParams* p, const Solids* s, float3 lower, float3 upper) {
-  if (bodies_near_box(s->bodies, s->first, s->count, lower, upper)) return false;
-  if (!HAS_PISTON || p->piston < 0) return true;
+// Whether the piston may cut a box.
+static bool piston_near(constant FluidParams* p, const Solids* s, float3 lower, float3 upper) {
+  if (!HAS_PISTON || p->piston < 0) return false;
   const float3 middle = 0.5f * (lower + upper);
-  return first_lane(wall_distance(p, p->piston, middle.x, middle.y, middle.z, s->piston)) >
+  return first_lane(wall_distance(p, p->piston, middle.x, middle.y, middle.z, s->piston)) <=
          length(upper - lower);
 }
 
-// Whether a cell is all open or all closed by what is not a body, the slope and the piston, and no
-// body is near: then no side of it needs to be measured.
-static bool is_uncut(constant FluidParams* p, constant MacGrid* g, const Solids* s, float3 lower,
+// Of a cell that no body is near: whether slope and piston leave all of it open, or cover all of
+// it. Its open parts are then written without measuring its corners.
+static bool is_whole(constant FluidParams* p, constant MacGrid* g, const Solids* s, float3 lower,
                      float3 upper, int c, const OpenParts* parts) {
-  if (bodies_near_box(s->bodies, s->first, s->count, lower, upper)) return false;
   const float3 middle = 0.5f * (lower + upper);
   lanes whose;
   const float far = first_lane(solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, 0,
@@ -213,8 +211,9 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
   if (!solids_near(p, solids->bodies, solids->first, solids->count, solids->piston, low, high)) {
     return;
   }
-  if (is_uncut(p, g, solids, low, high, c, parts)) return;
-  const bool flat = only_slope_near(p, solids, low, high);
+  const bool by_bodies = bodies_near_box(solids->bodies, solids->first, solids->count, low, high);
+  if (!by_bodies && is_whole(p, g, solids, low, high, c, parts)) return;
+  const bool flat = !by_bodies && !piston_near(p, solids, low, high);  // the slope alone cuts it
   const float3 edge = 0.5f * (float3)(g->hx, g->hy, g->hz);
   float d[27];
   const int whose = measure_box(p, solids, low, edge, d);
@@ -319,8 +318,8 @@ static float room_seen(const MacLevel l, const OpenHalves* open, int4 at) {
   return sum;
 }
 
-// What cells see of open space, of those that are some solid's; of others 1. Nothing asks for that
-// of cells that are closed, 0.
+// What cells see of open space: of those that are some solid's; 1 of all others. Of closed cells it
+// is not needed, and 0 stands for it.
 kernel void see_room(constant MacGrid* g, global const float* lower, global const float* upper,
                      global const float* room, global const int* owner, global float* seen) {
   const Cells at = cells_of(g, get_global_id(0));
