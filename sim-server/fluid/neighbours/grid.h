@@ -38,6 +38,28 @@ static int2 neighbour_run(constant FluidParams* p, global const int* cell_start,
   return (int2)(cell_start[base + from - SLICES], cell_start[base + to + SLICES + 1]);
 }
 
+// The cells that a box lies in: slices `from` to `to` of each row.
+typedef struct {
+  int from, to, low_y, high_y, low_z, high_z;
+} RowBox;
+
+static RowBox rows_of_box(constant FluidParams* p, float3 lower, float3 upper) {
+  const RowBox box = {slice_x(p, lower.x),
+                       slice_x(p, upper.x),
+                       cell_along(lower.y, p->origin_y, p->inverse_cell, p->cells_y),
+                       cell_along(upper.y, p->origin_y, p->inverse_cell, p->cells_y),
+                       cell_along(lower.z, p->origin_z, p->inverse_cell, p->cells_z),
+                       cell_along(upper.z, p->origin_z, p->inverse_cell, p->cells_z)};
+  return box;
+}
+
+// The run of points in one row of the box: the first, and the one past the last.
+static int2 run_of_row(constant FluidParams* p, global const int* cell_start, RowBox box, int y,
+                       int z) {
+  const int base = (z * p->cells_y + y) * p->cells_x * SLICES;
+  return (int2)(cell_start[base + box.from], cell_start[base + box.to + 1]);
+}
+
 // How far the sort for CPUs goes through the cells (cell_count.cl, cell_sort.cl).
 
 // Most cells lie above the water: past the last one in use nothing is counted or placed, and

@@ -55,20 +55,16 @@ static void gather_run(constant FluidParams* p, constant MacGrid* g, int4 at, in
 static void gather(constant FluidParams* p, constant MacGrid* g, int4 at,
                    global const int* cell_start, global const float* position,
                    global const float* value, Gathered* sums) {
-  const float x = g->x + at.x * g->hx, y = g->y + at.y * g->hy, z = g->z + at.z * g->hz;
-  const int from = slice_x(p, x - g->hx), to = slice_x(p, x + 1.5f * g->hx);
-  const int low_y = cell_along(y - g->hy, p->origin_y, p->inverse_cell, p->cells_y);
-  const int high_y = cell_along(y + 1.5f * g->hy, p->origin_y, p->inverse_cell, p->cells_y);
-  const int low_z = cell_along(z - g->hz, p->origin_z, p->inverse_cell, p->cells_z);
-  const int high_z = cell_along(z + 1.5f * g->hz, p->origin_z, p->inverse_cell, p->cells_z);
-  const int rows = p->cells_x * SLICES;
-  // Nothing is this high.
-  if (cell_start[low_z * p->cells_y * rows] == cell_start[(high_z + 1) * p->cells_y * rows]) return;
-  for (int row_z = low_z; row_z <= high_z; ++row_z) {
-    for (int row_y = low_y; row_y <= high_y; ++row_y) {
-      const int base = (row_z * p->cells_y + row_y) * rows;
-      const int2 run = (int2)(cell_start[base + from], cell_start[base + to + 1]);
-      gather_run(p, g, at, run, position, value, sums);
+  const float3 edge = (float3)(g->hx, g->hy, g->hz);
+  const float3 low = (float3)(g->x, g->y, g->z) + edge * (float3)(at.x, at.y, at.z);
+  const RowBox box = rows_of_box(p, low - edge, low + 1.5f * edge);
+  const int layer = p->cells_y * p->cells_x * SLICES;
+  if (cell_start[box.low_z * layer] == cell_start[(box.high_z + 1) * layer]) {
+    return;  // nothing is this high
+  }
+  for (int z = box.low_z; z <= box.high_z; ++z) {
+    for (int y = box.low_y; y <= box.high_y; ++y) {
+      gather_run(p, g, at, run_of_row(p, cell_start, box, y, z), position, value, sums);
     }
   }
 }

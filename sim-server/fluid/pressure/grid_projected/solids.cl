@@ -9,6 +9,7 @@
 #include "sim-server/fluid/boundary/body_face.h"
 #include "sim-server/fluid/boundary/walls.h"
 #include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
@@ -18,6 +19,8 @@
 #define LEAST_SEEN 1e-4f  // cells that see less open space are full of nothing [1]
 #define OWN_WEIGHT 0.05f  // of a cell's own fill in the estimate of what its hat cannot see [1]
 #define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
+#define TOUCHES 0.75f     // bodies so near to a particle touch it, at rest half of one [spacings]
+#define CLEAR 1.0f        // bodies that are farther off do not [spacings]
 
 // Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
 static float open_tetrahedron(float a, float b, float c, float d) {
@@ -365,6 +368,62 @@ kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global cons
   }
 }
 
+// How far the nearest body is from the particles in a cell and those around it, if it is between
+// TOUCHES and CLEAR, or these [spacings].
+static float way_to_bodies(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
+                           global const int* cell_start, global const float* position) {
+  const int n = p->capacity;
+  const float3 edge = (float3)(g->hx, g->hy, g->hz);
+  const float3 lower = (float3)(g->x, g->y, g->z) + edge * (float3)(at.x - 1, at.y - 1, at.z - 1);
+  const float3 upper = lower + 3.0f * edge;
+  const RowBox box = rows_of_box(p, lower, upper);
+  float way = CLEAR;
+  for (int z = box.high_z; z >= box.low_z && way > TOUCHES; --z) {
+    for (int y = box.low_y; y <= box.high_y && way > TOUCHES; ++y) {
+      const int2 run = run_of_row(p, cell_start, box, y, z);
+      for (int j = run.x; j < run.y && way > TOUCHES; j += LANES) {
+        const lanes px = load_x(position, j, run.y);
+        const lanes py = LOAD(position + n, j), pz = LOAD(position + 2 * n, j);
+        const lane_flags near = (px > (lanes)(lower.x)) & (px < (lanes)(upper.x)) &
+                                (py > (lanes)(lower.y)) & (py < (lanes)(upper.y)) &
+                                (pz > (lanes)(lower.z)) & (pz < (lanes)(upper.z));
+        if (!any_lane(near)) continue;
+        const lanes distance =
+            nearest_face(s->shapes, s->meshes, s->bodies, s->first, s->count, px, py, pz).distance;
+        way = fmin(way, least(select((lanes)(CLEAR), distance / p->spacing, near)));
+      }
+    }
+  }
+  return fmax(way, TOUCHES);
+}
+
+// Whether no water touches a body near cells of which bodies hide something: from 0, where a
+// particle does, to 1. Where none does, what is hidden is as empty as it is in air.
+kernel void find_clear(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
+                       global const float* meshes, global const BodyStep* bodies, int first_body,
+                       int body_count, global const int* cell_start, global const float* position,
+                       global const float* seen, global const int* owner, global float* clear) {
+  const Cells at = cells_of(g, get_global_id(0));
+  const MacLevel l = g->level[0];
+  if (at.z > l.nz) return;
+  const lanes none = 0.0f, one = 1.0f;
+  const lane_flags cut = at.inside & (LOAD(owner, at.first) >= (lane_flags)(0)) &
+                         (LOAD(seen, at.first) < one);
+  STORE(none, clear, at.first);
+  if (!any_lane(cut)) return;
+  const Solids solids = {shapes, meshes, bodies, first_body, body_count, 0.0f};
+  int x[LANES], y[LANES], is_cut[LANES];
+  STORE(at.x, x, 0);
+  STORE(at.y, y, 0);
+  STORE(cut, is_cut, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    if (!is_cut[lane]) continue;
+    const float way = way_to_bodies(p, g, &solids, (int4)(x[lane], y[lane], at.z, 1), cell_start,
+                                    position);
+    clear[at.first + lane] = (way - TOUCHES) / (CLEAR - TOUCHES);
+  }
+}
+
 // How full cells are of what their hats see of open space.
 static lanes full_part(global const float* fill, global const float* seen, int c) {
   return LOAD(fill, c) / fmax(LOAD(seen, c), (lanes)(LEAST_SEEN));
@@ -376,12 +435,13 @@ static lanes seen_well(global const float* seen, int c) {
 }
 
 // How full cells are beside solids: as if what solids take of their hats were as full as the water
-// around goes on to be there, so that a solid which hangs above the water counts as air. The less
-// open space a cell has, the more it counts what is behind its open faces: in a gap where no
-// particle fits there may be water.
+// around goes on to be there, but empty where no water touches a body. The less open space a cell
+// has, the more it counts what is behind its open faces: in a gap where no particle fits there may
+// be water.
 kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
                                global const float* room, global const float* seen,
-                               global const float* fill, global float* filled) {
+                               global const float* clear, global const float* fill,
+                               global float* filled) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -417,7 +477,9 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
   const lanes whole = LOAD(fill, c) + hidden * estimates / weights, sure = own * LOAD(seen, c);
   const lanes space = sure + gaps;
   const lane_flags known = at.real & (space > (lanes)(LEAST_SEEN));
-  STORE(select(none, (sure * whole + in_gaps) / space, known), filled, c);
+  const lanes touched = (sure * whole + in_gaps) / space;
+  const lanes estimate = touched + LOAD(clear, c) * (LOAD(fill, c) - touched);
+  STORE(select(none, estimate, known), filled, c);
 }
 
 // How much of the surface solids leave open, between the middles of cell `c` at `at` and the one

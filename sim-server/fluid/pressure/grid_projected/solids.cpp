@@ -17,10 +17,12 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
       space_(device, any ? fields.room : 1),
       owner_(device, any ? fields.room : 1),
       seen_space_(device, any ? fields.room : 1),
+      clear_(device, any ? fields.room : 1),
       filled_(device, any ? fields.room : 1),
       cut_cells_(program, "cut_cells", std::min<std::size_t>(device.profile().group, 16)),
       see_room_(program, "see_room", std::min<std::size_t>(device.profile().group, 16)),
       open_faces_(program, "open_faces", device.profile().group),
+      find_clear_(program, "find_clear", std::min<std::size_t>(device.profile().group, 16)),
       fill_beside_solids_(program, "fill_beside_solids", device.profile().group),
       cover_surface_(program, "cover_surface", std::min<std::size_t>(device.profile().group, 16)) {}
 
@@ -45,6 +47,15 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                  {"room", space_},
                  {"owner", owner_},
                  {"seen", seen_space_}});
+  find_clear_.run(queue, fields_.vectors,
+                  {{"p", params},
+                   {"g", fields_.on_device},
+                   {"cell_start", fluid.grid().cell_start()},
+                   {"position", fluid.particles().position},
+                   {"seen", seen_space_},
+                   {"owner", owner_},
+                   {"clear", clear_}},
+                  boundary.outlines(), boundary.bodies_at(step));
   open_faces_.run(queue, fields_.vectors,
                   {{"p", params}, {"g", fields_.on_device}, {"upper", upper_}, {"gap", gap_}});
   fill_beside_solids_.run(queue, fields_.vectors,
@@ -52,6 +63,7 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                            {"gap", gap_},
                            {"room", space_},
                            {"seen", seen_space_},
+                           {"clear", clear_},
                            {"fill", fields_.fill},
                            {"filled", filled_}});
   cover_surface_.run(queue, fields_.vectors,

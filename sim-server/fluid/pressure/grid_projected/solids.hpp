@@ -40,10 +40,12 @@ class GridSolids {
   Buffer<float> space_;       ///< of cells [1]
   Buffer<int> owner_;         ///< whose a cell is (room.h)
   Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
+  Buffer<float> clear_;       ///< whether no water touches bodies near cells, 0 to 1
   Buffer<float> filled_;
   Kernel cut_cells_;
   Kernel see_room_;
   Kernel open_faces_;
+  Kernel find_clear_;
   Kernel fill_beside_solids_;
   Kernel cover_surface_;
 };
