@@ -121,6 +121,32 @@ LOG
   EXPECT_THAT(launch("test").output, Not(HasSubstr("of sanitizers")));
 }
 
+TEST_F(Launcher, RunsUnitsThenProgramsThenWhatIsSlow) {
+  write_program("apt-get", "exit 0");
+  write_program("cmake", "echo \"$@\" | grep -o -e '-DSPLASH_SLOW=.*' >>'" + synth_call().string() +
+                             "'; exit 0");
+  write_program(
+      "ctest",
+      "shift 6; echo \"$@\"; echo ' 1/2 Test #7: room/Some.Case ....   Passed    6.01 sec'; "
+      "echo ' 2/2 Test #8: room/Other.Case ...   Passed    5.99 sec'");
+  const std::string quick =
+      "--label-exclude ^(live|slow|long)$\n 1/2 Test #7: room/Some.Case ....   Passed    6.01 sec\n"
+      " 2/2 Test #8: room/Other.Case ...   Passed    5.99 sec\n--label-regex ^live$\n";
+  const std::string unmarked = "\ntook over 6 s, not marked SLOW: room/Some.Case\n";
+  const std::string all = launch("test").output;
+  EXPECT_THAT(all, AllOf(HasSubstr(quick), HasSubstr(unmarked), Not(HasSubstr("Other.Case\n"))));
+  EXPECT_THAT(all, Not(HasSubstr("--label-regex ^(slow")));
+  EXPECT_EQ(text_of(synth_call()), "-DSPLASH_SLOW=\n");
+  EXPECT_THAT(
+      launch("test --slow").output,
+      AllOf(HasSubstr(quick), HasSubstr("\n--label-regex ^(slow)$\n"), Not(HasSubstr(unmarked))));
+  EXPECT_THAT(launch("test --long").output, HasSubstr("\n--label-regex ^(slow|long)$\n"));
+  EXPECT_THAT(launch("test --filter Some").output,
+              AllOf(HasSubstr("--tests-regex Some\n"), Not(HasSubstr("--label"))));
+  EXPECT_EQ(text_of(synth_call()),
+            "-DSPLASH_SLOW=\n-DSPLASH_SLOW=1\n-DSPLASH_SLOW=1\n-DSPLASH_SLOW=1\n");
+}
+
 TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
   const CommandResult command = launch("dmeo");
   EXPECT_EQ(command.exit_code, 64);
