@@ -157,31 +157,53 @@ Balance balance(const Blow& blow) {
   return balance;
 }
 
-TEST(FeltForce, OfWaterOnAGridIsAllTheMomentumThatItGets) {
-  const std::string ball = "lower: [-0.1, -0.1, 0.2], upper: [0.1, 0.1, 0.4], form: sphere";
-  const std::string block = "lower: [-0.4, -0.24, 0.06], upper: [0.4, 0.24, 0.54]";
-  const auto at = [](double speed) { return [speed](double time) { return speed * time; }; };
-  const auto in_and_out = [](double time) { return 0.12 * (1.0 - std::cos(9.0 * time)); };
-  const auto twice = [](double time) { return 0.1 * (1.0 - std::cos(9.0 * time)); };
-  const auto away = [](double time) { return 0.16 * std::sin(7.0 * time) - 0.25 * time; };
-  const std::string plate = "[0.06, 0.16, 0.16]";
-  const std::string oar = "[0.08, 0.1, 0.2]";
-  const std::vector<Blow> blows = {
-      {"a ball, struck at 0.3 m/s", 0.02, ball, plate, -0.15, at(0.3), 0.5},
-      {"a ball, struck at 1 m/s", 0.02, ball, plate, -0.15, at(1.0), 0.22},
-      {"a block, struck at 1.5 m/s", 0.02, block, plate, -0.45, at(1.5), 0.2},
-      {"through a block at 1 m/s", 0.02, block, plate, -0.2, at(1.0), 0.22},
-      {"in and out", 0.02, block, oar, -0.48, in_and_out, 0.7},
-      {"in and out", 0.03, block, oar, -0.48, in_and_out, 0.7},
-      {"in and out for longer", 0.02, block, oar, -0.48, in_and_out, 1.2},
-      {"a ball, struck twice", 0.02, ball, plate, -0.15, twice, 1.2},
-      {"in and out of the other side", 0.02, block, plate, -0.3, away, 1.2}};
-  for (const Blow& blow : blows) {
-    const Balance found = balance(blow);
-    EXPECT_LT(found.off, 0.02 * found.most) << blow.says;
-    EXPECT_LT(found.left, 0.001 * found.most) << blow.says;
-  }
+class FeltForceOnAGrid : public testing::TestWithParam<Blow> {};
+
+TEST_P(FeltForceOnAGrid, IsAllTheMomentumThatTheWaterGets) {
+  const Balance found = balance(GetParam());
+  EXPECT_LT(found.off, 0.02 * found.most);
+  EXPECT_LT(found.left, 0.001 * found.most);
 }
+
+const std::string kBall = "lower: [-0.1, -0.1, 0.2], upper: [0.1, 0.1, 0.4], form: sphere";
+const std::string kBlock = "lower: [-0.4, -0.24, 0.06], upper: [0.4, 0.24, 0.54]";
+const std::string kPlate = "[0.06, 0.16, 0.16]";
+const std::string kOar = "[0.08, 0.1, 0.2]";
+
+auto at(double speed) {
+  return [speed](double time) { return speed * time; };
+}
+
+/// In and out, `far` to either side of its mean.
+auto rowed(double far) {
+  return [far](double time) { return far * (1.0 - std::cos(9.0 * time)); };
+}
+
+double away(double time) {
+  return 0.16 * std::sin(7.0 * time) - 0.25 * time;
+}
+
+std::string name_of(const testing::TestParamInfo<Blow>& blow) {
+  std::string name = blow.param.says;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Blows, FeltForceOnAGrid,
+    testing::Values(Blow{"a ball struck slowly", 0.02, kBall, kPlate, -0.15, at(0.3), 0.5},
+                    Blow{"a ball struck fast", 0.02, kBall, kPlate, -0.15, at(1.0), 0.22},
+                    Blow{"a block struck", 0.02, kBlock, kPlate, -0.45, at(1.5), 0.2},
+                    Blow{"through a block", 0.02, kBlock, kPlate, -0.2, at(1.0), 0.22},
+                    Blow{"in and out", 0.02, kBlock, kOar, -0.48, rowed(0.12), 0.7},
+                    Blow{"in and out coarse", 0.03, kBlock, kOar, -0.48, rowed(0.12), 0.7}),
+    name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Longer, FeltForceOnAGrid,
+    testing::Values(Blow{"in and out for longer", 0.02, kBlock, kOar, -0.48, rowed(0.12), 1.2},
+                    Blow{"a ball struck twice", 0.02, kBall, kPlate, -0.15, rowed(0.1), 1.2},
+                    Blow{"in and out of the other side", 0.02, kBlock, kPlate, -0.3, away, 1.2}),
+    name_of);
 
 }  // namespace
 }  // namespace splash::sim
