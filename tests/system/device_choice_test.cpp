@@ -26,9 +26,7 @@ class DeviceChoice : public testing::Test {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers want to be loaded first";
 #endif
-  }
-  ~DeviceChoice() override {
-    fs::remove_all(cache_);
+    fs::remove(remembered_);
   }
 
   /// The device "basic" of two, which goes wrong that `way`.
@@ -52,13 +50,14 @@ class DeviceChoice : public testing::Test {
     return run_program("sim-server", arguments, 300.0, environment);
   }
   [[nodiscard]] std::string remembered() const {
-    std::ifstream file(cache_ / "splash-devices");
+    std::ifstream file(remembered_);
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
   SmallScene scene_{plunging()};
   /// Kept for the next test: kernels take long to compile.
   fs::path cache_ = fs::path(SPLASH_BINARY_DIR).parent_path() / "device-choice-cache";
+  fs::path remembered_ = cache_ / "splash-devices";
 };
 
 // One run on each, and how to ask for the other.
