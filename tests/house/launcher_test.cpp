@@ -132,7 +132,8 @@ TEST_F(Launcher, RunsUnitsThenProgramsThenWhatIsSlow) {
   const std::string quick =
       "--label-exclude ^(live|slow|long)$\n 1/2 Test #7: room/Some.Case ....   Passed   20.01 sec\n"
       " 2/2 Test #8: room/Other.Case ...   Passed   19.99 sec\n--label-regex ^live$\n";
-  const std::string unmarked = "\ntook over 20 s, not marked SLOW: room/Some.Case\n";
+  const std::string unmarked =
+      "\ntook over 20 s, mark it SLOW unless kernels were compiled: room/Some.Case\n";
   const std::string all = launch("test").output;
   EXPECT_THAT(all, AllOf(HasSubstr(quick), HasSubstr(unmarked), Not(HasSubstr("Other.Case\n"))));
   EXPECT_THAT(all, Not(HasSubstr("--label-regex ^(slow")));
