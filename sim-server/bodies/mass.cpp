@@ -62,18 +62,20 @@ std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies) {
 
 double longest_contact_step(const std::vector<BodySettings>& bodies, double gravity) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  double rounding = kNever;
-  int meet = 0;
-  bool free = false;
+  double of_free = kNever;  // least rounding of free bodies with edges [m]
+  double of_others = kNever;
+  int free = 0;
   for (const BodySettings& body : bodies) {
-    ++meet;
-    free = free || is_free(body);
-    if (!has_edges(body.shape)) continue;  // as round as it can be
+    if (!has_edges(body.shape)) continue;  // nothing of it has a side and a top
     const Vector3& size = body.shape.size;
     const double least = 0.5 * std::min({size[0], size[1], size[2]});
+    double& rounding = is_free(body) ? of_free : of_others;
     rounding = std::min(rounding, static_cast<double>(SPLASH_ROUNDED) * least);
+    free += is_free(body) ? 1 : 0;
   }
-  return free && meet > 1 && gravity > 0.0 ? std::sqrt(0.5 * rounding / gravity) : kNever;
+  const bool meet = free > 1 || (free == 1 && of_others < kNever);
+  const double rounding = std::min(of_free, of_others);
+  return meet && gravity > 0.0 ? std::sqrt(0.5 * rounding / gravity) : kNever;
 }
 
 }  // namespace splash::sim

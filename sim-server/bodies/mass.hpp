@@ -27,7 +27,9 @@ namespace splash::sim {
 /// rounding r of its edges, sqrt(r / (2 g)) [s]. A corner that is deeper than r is nearer to the
 /// side of what it lies on than to its top, and is put out sideways (free_bodies/outline_gap.h):
 /// with twice the fall a stack of ten stood for most of a second, then its plates went into each
-/// other. Infinite where nothing free can lie on anything, and without `gravity` [m/s2].
+/// other. A ball has no corners, and no sides: what it lies on, or what lies on it, sets no limit.
+/// Infinite where nothing free with edges can lie on anything with edges, and without `gravity`
+/// [m/s2].
 [[nodiscard]] double longest_contact_step(const std::vector<BodySettings>& bodies, double gravity);
 
 }  // namespace splash::sim

@@ -37,6 +37,8 @@ TEST(ContactStep, IsFreeWhereNothingLiesOnAnything) {
   EXPECT_TRUE(std::isinf(longest_contact_step({plate}, 9.81))) << "walls have no sides";
   EXPECT_TRUE(std::isinf(longest_contact_step({table, table}, 9.81)));
   EXPECT_TRUE(std::isinf(longest_contact_step({ball, ball}, 9.81)));
+  EXPECT_TRUE(std::isinf(longest_contact_step({ball, table, table}, 9.81))) << "balls have none";
+  EXPECT_TRUE(std::isinf(longest_contact_step({ball, plate, ball}, 9.81)));
   EXPECT_TRUE(std::isinf(longest_contact_step({plate, table}, 0.0)));
 }
 

@@ -226,6 +226,27 @@ TEST(BodyContact, ALedBodyShovesAFreeOne) {
   EXPECT_NEAR(world.state(0).position[0], world.state(1).position[0] + 0.075, 1.0e-3);
 }
 
+// A ball has no corner that could be nearer to a plate's side than to its top: it lies in steps in
+// which it falls by five times the rounding of the plate's edges, also at an edge.
+TEST(BodyContact, ABallLiesOnAPlateInLongSteps) {
+  Device device(-1, false, SPLASH_TEST_LANES);
+  FreeFloat world = dry_world(-9.81);
+  const Shape plate = {ShapeKind::box, {0.6, 0.3, 0.02}, 0.0, 0.0};
+  world.add(kBall, 300.0, {{1.3, 1.5, 1.1}, {0, 0, 0, 1}, {}, {}});
+  world.add(kBall, 300.0, {{1.79, 1.5, 1.1}, {0, 0, 0, 1}, {}, {}});
+  world.add_led(plate, {{1.5, 1.5, 1.0}, {0, 0, 0, 1}, {}, {}});
+  set_surface(world, 0.0, 0.3);
+  ASSERT_EQ(longest_contact_step(world.scene.bodies, 9.81), HUGE_VAL);
+  world.start(device);
+  world.dt = 0.01;
+  world.run(2.0);
+  for (const std::size_t k : {0U, 1U}) {
+    EXPECT_NEAR(world.state(k).position[2], 1.06, 1.0e-4) << k;
+    EXPECT_NEAR(world.state(k).position[0], k == 0 ? 1.3 : 1.79, 1.0e-3) << k;
+    EXPECT_LT(length(world.state(k).velocity), 1.0e-3) << k;
+  }
+}
+
 TEST(BodyContact, AStackOfMeshesStands) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
