@@ -109,22 +109,29 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
 kernel void share_at_surface(constant MacGrid* g, global const float* gap, global const float* fill,
                              global const float* weight, global const float* wet,
                              global const float* change, global float* field) {
-  const int4 at = cell_of(g, get_global_id(0));
-  if (at.w == 0) return;
+  const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
-  const int c = number_of(l, at);
+  if (at.z > l.nz) return;
   const int step[3] = {1, l.row, l.layer};
+  const lanes none = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const int s = step[axis], face = axis * l.cells + c;
-    const bool here = wet[c] > 0.0f;
-    if (here == (wet[c - s] > 0.0f) || change[face] >= MAC_KNOWN) continue;
-    if (HAS_SOLIDS && gap[face] < 1.0f) continue;
-    const int where = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
-    if (where == 0 || (axis < 2 && where == (axis == 0 ? l.nx : l.ny))) continue;
-    const int water = here ? c : c - s, air = here ? c - s : c, next = here ? face + s : face - s;
-    if (wet[2 * water - air] == 0.0f || change[next] >= MAC_KNOWN) continue;
-    const float way = way_to_surface_of(fill[water], fill[air]);
-    const float mass = fmax(g->share * weight[face], way);
-    field[face] = field[next] + way / mass * (field[face] - field[next]);
+    const int s = step[axis], first = axis * l.cells + at.first;
+    lane_flags ends = at.real & ((LOAD(wet, at.first) > none) ^ (LOAD(wet, at.first - s) > none)) &
+                      (are_walls(l, &at, axis) == (lane_flags)(0)) &
+                      (LOAD(change, first) < (lanes)(MAC_KNOWN));
+    if (HAS_SOLIDS) ends &= LOAD(gap, first) >= (lanes)(1.0f);
+    if (!any_lane(ends)) continue;
+    int is_end[LANES];
+    STORE(ends, is_end, 0);
+    for (int lane = 0; lane < LANES; ++lane) {
+      if (!is_end[lane]) continue;
+      const int c = at.first + lane, face = first + lane;
+      const bool here = wet[c] > 0.0f;
+      const int water = here ? c : c - s, air = here ? c - s : c, next = here ? face + s : face - s;
+      if (wet[2 * water - air] == 0.0f || change[next] >= MAC_KNOWN) continue;
+      const float way = way_to_surface_of(fill[water], fill[air]);
+      const float mass = fmax(g->share * weight[face], way);
+      field[face] = field[next] + way / mass * (field[face] - field[next]);
+    }
   }
 }

@@ -120,6 +120,22 @@ kernel void scatter_to_faces(constant FluidParams* p, constant MacGrid* g, int i
   }
 }
 
+#define NUMBERS 8  // at each place of a grid
+
+// Turns what LANES places hold, place after place, into a vector for each number.
+static void turn_round(lanes a[NUMBERS]) {
+#if LANES > 1
+  lanes b[NUMBERS];
+  for (int turn = 0; turn < 3; ++turn) {
+    for (int k = 0; k < NUMBERS / 2; ++k) {
+      b[k] = (lanes)(a[2 * k].even, a[2 * k + 1].even);
+      b[k + NUMBERS / 2] = (lanes)(a[2 * k].odd, a[2 * k + 1].odd);
+    }
+    for (int k = 0; k < NUMBERS; ++k) a[k] = b[k];
+  }
+#endif
+}
+
 // A vector of cells with their lower faces: `mean` and `weight` of the faces, x, y and z.
 kernel void add_up_faces(constant MacGrid* g, int items, global const float* grids,
                          global const int* layers, global float* mean, global float* weight,
@@ -127,25 +143,20 @@ kernel void add_up_faces(constant MacGrid* g, int items, global const float* gri
   const MacLevel l = g->level[0];
   const Cells at = cells_of(g, get_global_id(0));
   if (at.z > l.nz) return;
-  float8 sums[LANES];
-  for (int lane = 0; lane < LANES; ++lane) sums[lane] = 0.0f;
+  lanes sums[NUMBERS];
+  for (int k = 0; k < NUMBERS; ++k) sums[k] = 0.0f;
   for (int item = 0; item < items; ++item) {
     const int2 reached = vload2(item, layers);
     if (at.z < reached.x || at.z > reached.y) continue;
-    global const float8* grid =
-        (global const float8*)grids + (size_t)item * places_of(l) + at.first;
-    for (int lane = 0; lane < LANES; ++lane) sums[lane] += grid[lane];
+    global const float* grid = grids + NUMBERS * ((size_t)item * places_of(l) + at.first);
+    for (int k = 0; k < NUMBERS; ++k) sums[k] += LOAD(grid, k * LANES);
   }
-  float flat[8 * LANES], part[7][LANES];
-  for (int lane = 0; lane < LANES; ++lane) vstore8(sums[lane], lane, flat);
-  for (int lane = 0; lane < LANES; ++lane) {
-    for (int k = 0; k < 7; ++k) part[k][lane] = flat[8 * lane + k];
-  }
+  turn_round(sums);
   const lanes none = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const lanes sum = LOAD(part[axis], 0), w = select(none, LOAD(part[3 + axis], 0), at.real);
+    const lanes w = select(none, sums[3 + axis], at.real);
     STORE(w, weight + axis * l.cells, at.first);
-    STORE(select(none, sum / w, w > (lanes)(MAC_LIGHT)), mean + axis * l.cells, at.first);
+    STORE(select(none, sums[axis] / w, w > (lanes)(MAC_LIGHT)), mean + axis * l.cells, at.first);
   }
-  STORE(select(none, g->share * LOAD(part[6], 0), at.inside), fill, at.first);
+  STORE(select(none, g->share * sums[6], at.inside), fill, at.first);
 }

@@ -31,7 +31,7 @@ PressureSystem::PressureSystem(Device& device, const cl::Program& program, const
       lay_system_(program, "lay_system", device.profile().group),
       solve_pressure_(program, "solve_pressure", fields.team),
       project_faces_(program, "project_faces", device.profile().group),
-      share_at_surface_(program, "share_at_surface") {}
+      share_at_surface_(program, "share_at_surface", device.profile().group) {}
 
 void PressureSystem::push_faces(Fluid& fluid, const Step& step) {
   push_faces_.run(fluid.device().queue(), fields_.vectors,
@@ -117,7 +117,7 @@ void PressureSystem::project(Fluid& fluid, const Step& step) {
 }
 
 void PressureSystem::share_at_surface(Device& device, const Buffer<float>& field) {
-  share_at_surface_.run(device.queue(), fields_.cells,
+  share_at_surface_.run(device.queue(), fields_.vectors,
                         {{"g", fields_.on_device},
                          {"gap", solids_.gap()},
                          {"fill", solids_.fill()},
