@@ -62,16 +62,18 @@ static void turn_body(float3 turn, BodyStep* b) {
   b->qw = r.w;
 }
 
+// Whether a body may be within the support of a box.
+static bool is_near_box(global const BodyStep* b, float3 lower, float3 upper) {
+  return upper.x > b->lower_x && lower.x < b->upper_x && upper.y > b->lower_y &&
+         lower.y < b->upper_y && upper.z > b->lower_z && lower.z < b->upper_z;
+}
+
 // Whether any body is within reach: most particles are spared the search.
 static bool bodies_near_box(global const BodyStep* bodies, int first, int count, float3 lower,
                             float3 upper) {
   if (!HAS_BODIES) return false;
   for (int b = first; b < first + count; ++b) {
-    if (upper.x > bodies[b].lower_x && lower.x < bodies[b].upper_x &&
-        upper.y > bodies[b].lower_y && lower.y < bodies[b].upper_y &&
-        upper.z > bodies[b].lower_z && lower.z < bodies[b].upper_z) {
-      return true;
-    }
+    if (is_near_box(bodies + b, lower, upper)) return true;
   }
   return false;
 }

@@ -67,21 +67,30 @@ static void corners_of(const float* d, int box, float* corner) {
   }
 }
 
-// How far the nearest solid is, and whose it is.
-static lanes solid_distance(constant FluidParams* p, constant BodyShape* shapes,
-                            global const float* meshes, global const BodyStep* bodies,
-                            int first_body, int body_count, float piston, lanes x, lanes y, lanes z,
-                            lanes* owner) {
-  const BodyFace face = nearest_face(shapes, meshes, bodies, first_body, body_count, x, y, z);
+// Where solids are, as kernels are told.
+typedef struct {
+  constant BodyShape* shapes;
+  global const float* meshes;
+  global const BodyStep* bodies;
+  int first, count;
+  float piston;
+} Solids;
+
+// How far the nearest solid is, and whose it is: of the bodies that may be within the support of the
+// box from `lower` to `upper`.
+static lanes solid_distance(constant FluidParams* p, const Solids* s, float3 lower, float3 upper,
+                            lanes x, lanes y, lanes z, lanes* owner) {
+  const BodyFace face = nearest_face_near(s->shapes, s->meshes, s->bodies, s->first, s->count,
+                                          lower, upper, x, y, z);
   lanes distance = face.distance;
-  *owner = body_count > 0 ? face.owner : (lanes)(OF_NOBODY);
+  *owner = s->count > 0 ? face.owner : (lanes)(OF_NOBODY);
   if (has_slope(p)) {
-    const lanes above = wall_distance(p, p->slope, x, y, z, piston);
+    const lanes above = wall_distance(p, p->slope, x, y, z, s->piston);
     *owner = select(*owner, (lanes)(OF_SLOPE), above < distance);
     distance = fmin(distance, above);
   }
   if (HAS_PISTON && p->piston >= 0) {
-    const lanes before = wall_distance(p, p->piston, x, y, z, piston);
+    const lanes before = wall_distance(p, p->piston, x, y, z, s->piston);
     *owner = select(*owner, (lanes)(OF_PISTON), before < distance);
     distance = fmin(distance, before);
   }
@@ -102,19 +111,10 @@ static bool solids_near(constant FluidParams* p, global const BodyStep* bodies, 
   return false;
 }
 
-// Where solids are, as kernels are told.
-typedef struct {
-  constant BodyShape* shapes;
-  global const float* meshes;
-  global const BodyStep* bodies;
-  int first, count;
-  float piston;
-} Solids;
-
-// Distances of 27 places in a box from its `lower` corner on, `apart` from each other, x first.
-// Whose the middle is.
+// Distances of 27 places in a box from its `lower` corner on, `apart` from each other, x first, from
+// what may be nearer than the support, or than that and `beyond`. Whose the middle is.
 static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, float3 apart,
-                       float* distance) {
+                       float beyond, float* distance) {
   int owner = OF_NOBODY;
   for (int first = 0; first < 27; first += LANES) {
     float place[3][LANES];
@@ -126,8 +126,8 @@ static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, f
     }
     lanes whose;
     const lanes far =
-        solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, s->count, s->piston,
-                       LOAD(place[0], 0), LOAD(place[1], 0), LOAD(place[2], 0), &whose);
+        solid_distance(p, s, lower - beyond, lower + 2.0f * apart + beyond, LOAD(place[0], 0),
+                       LOAD(place[1], 0), LOAD(place[2], 0), &whose);
     float part[LANES], owners[LANES];
     STORE(far, part, 0);
     STORE(whose, owners, 0);
@@ -146,7 +146,7 @@ static float open_eighth(constant FluidParams* p, const Solids* s, float3 lower,
   const float whole = open_box(corner);
   if (flat || !(whole > 0.0f && whole < 1.0f)) return whole;
   float d[27], sum = 0.0f;
-  measure_box(p, s, lower, 0.5f * edge, d);
+  measure_box(p, s, lower, 0.5f * edge, 0.0f, d);
   for (int k = 0; k < 8; ++k) {
     float part[8];
     corners_of(d, k, part);
@@ -178,6 +178,9 @@ typedef struct {
   global int* owner;
 } OpenParts;
 
+// Cells whose middle is nearer to a solid are its [m].
+static float owned_within(constant MacGrid* g) { return g->hx + g->hy + g->hz; }
+
 // Whether the piston may cut a box.
 static bool piston_near(constant FluidParams* p, const Solids* s, float3 lower, float3 upper) {
   if (!HAS_PISTON || p->piston < 0) return false;
@@ -192,10 +195,10 @@ static bool is_whole(constant FluidParams* p, constant MacGrid* g, const Solids*
                      float3 upper, int c, const OpenParts* parts) {
   const float3 middle = 0.5f * (lower + upper);
   lanes whose;
-  const float far = first_lane(solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, 0,
-                                              s->piston, middle.x, middle.y, middle.z, &whose));
+  const float far =
+      first_lane(solid_distance(p, s, lower, upper, middle.x, middle.y, middle.z, &whose));
   if (fabs(far) < 0.501f * length(upper - lower)) return false;
-  if (far < g->hx + g->hy + g->hz) parts->owner[c] = (int)first_lane(whose);
+  if (far < owned_within(g)) parts->owner[c] = (int)first_lane(whose);
   if (far > 0.0f) return true;
   for (int axis = 0; axis < 3; ++axis) {
     const int face = axis * g->level[0].cells + c;
@@ -219,8 +222,8 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
   const bool flat = !by_bodies && !piston_near(p, solids, low, high);  // the slope alone cuts it
   const float3 edge = 0.5f * (float3)(g->hx, g->hy, g->hz);
   float d[27];
-  const int whose = measure_box(p, solids, low, edge, d);
-  if (d[13] < g->hx + g->hy + g->hz) parts->owner[c] = whose;
+  const int whose = measure_box(p, solids, low, edge, fmax(owned_within(g) - p->support, 0.0f), d);
+  if (d[13] < owned_within(g)) parts->owner[c] = whose;
   float nearest = d[0];
   for (int k = 1; k < 27; ++k) nearest = fmin(nearest, d[k]);
   if (nearest > 0.0f) return;
@@ -496,11 +499,13 @@ static float open_surface(constant FluidParams* p, constant MacGrid* g, const So
     place[across[0]][n] = from[across[0]] + (cell[across[0]] + 0.5f * (k % 3)) * edge[across[0]];
     place[across[1]][n] = from[across[1]] + (cell[across[1]] + 0.5f * (k / 3)) * edge[across[1]];
   }
+  const float3 first = (float3)(place[0][0], place[1][0], place[2][0]);
+  const float3 last = (float3)(place[0][8], place[1][8], place[2][8]);
   for (int n = 0; n < 9; n += LANES) {
     lanes whose;
     const lanes far =
-        solid_distance(p, s->shapes, s->meshes, s->bodies, s->first, s->count, s->piston,
-                       LOAD(place[0], n), LOAD(place[1], n), LOAD(place[2], n), &whose);
+        solid_distance(p, s, first, last, LOAD(place[0], n), LOAD(place[1], n), LOAD(place[2], n),
+                       &whose);
     STORE(far, d, n);
   }
   float sum = 0.0f;
