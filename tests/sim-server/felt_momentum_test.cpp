@@ -66,7 +66,7 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
     const std::vector<float> values = buffer.read(fluid.device(), cells);
     return std::vector<double>(values.begin(), values.end());
   };
-  const auto change = read(solver.fields().change), gap = read(solver.solids().gap());
+  const auto change = read(solver.fields().gain), gap = read(solver.solids().gap());
   const auto pressure = read(solver.fields().pressure), wet = read(solver.fields().wet);
   const auto whose = read(solver.felt().given().whose());  // of faces far from the body
   const GivenMomentum& included = solver.felt().given();   // in the body's force

@@ -140,6 +140,37 @@ MacFaces MacReference::known(const ReferenceGathered& water) const {
   return known;
 }
 
+MacFaces MacReference::sharpened(const ReferenceGathered& water, const MacFaces& known,
+                                 const MacFaces& field) const {
+  MacFaces sharp = field;
+  const auto in_water = [&](std::array<int, 3> cell, std::size_t axis) {
+    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    --cell[axis];
+    const auto below = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    return water.fill[c] > kFull && water.fill[below] > kFull && known[axis][c] > 0.0;
+  };
+  each([&](const std::array<int, 3>& cell) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (is_wall(cell, axis) || !in_water(cell, axis)) continue;
+      const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+      for (std::size_t along = 0; along < 3; ++along) {
+        for (const int side : {-1, 1}) {
+          auto next = cell;
+          next[along] += side;
+          const auto n = static_cast<std::size_t>(number(next[0], next[1], next[2]));
+          const double part = std::min(1.0, water.weight[axis][n] / water.weight[axis][c]);
+          if (along == axis && is_wall(next, axis)) {
+            sharp[axis][c] += field[axis][c] / 6.0;
+          } else if (in_water(next, axis)) {
+            sharp[axis][c] += part * (field[axis][c] - field[axis][n]) / 6.0;
+          }
+        }
+      }
+    }
+  });
+  return sharp;
+}
+
 MacFaces MacReference::change(const ReferenceGathered& water, const FluidParams& params,
                               const MacField& pressure, double dt) const {
   const Vector3 gravity = {static_cast<double>(params.gravity_x),

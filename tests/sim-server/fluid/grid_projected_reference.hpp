@@ -32,6 +32,9 @@ class MacReference {
                            const Vector3& otherwise) const;
   /// Which faces a solve finds: those beside a cell with water.
   [[nodiscard]] MacFaces known(const ReferenceGathered& water) const;
+  /// A field on faces, sharpened where it is in the water and `known`.
+  [[nodiscard]] MacFaces sharpened(const ReferenceGathered& water, const MacFaces& known,
+                                   const MacFaces& field) const;
   /// What the step changes at faces: gravity, viscosity `nu`, and pressures in Pa.
   [[nodiscard]] MacFaces change(const ReferenceGathered& water, const FluidParams& params,
                                 const MacField& pressure, double dt) const;

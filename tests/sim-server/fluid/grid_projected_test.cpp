@@ -128,13 +128,15 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
       }
     }
   }
-  MacFaces still = gathered.mean, after_step = gathered.mean;
+  const MacFaces carries = reference.sharpened(gathered, everywhere, gathered.mean);
+  const MacFaces gained = reference.sharpened(gathered, known, shared);
+  MacFaces still = carries, after_step = carries;
   MacFaces pushed = reference.change(gathered, p, MacField(cells, 0.0), kStep);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t c = 0; c < cells; ++c) {
       still[axis][c] += change[axis][c];
       after_step[axis][c] += shared[axis][c];
-      pushed[axis][c] += gathered.mean[axis][c];
+      pushed[axis][c] += carries[axis][c];
     }
   }
   double left = 0.0;
@@ -162,7 +164,7 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
   int walls = 0;
   int looked = 0;  // velocities that were taken half a step ahead
   for (std::size_t i = 0; i < count; ++i) {
-    const Vector3 gain = reference.at(before.position[i], shared, known, {0.0, 0.0, -9.81 * kStep});
+    const Vector3 gain = reference.at(before.position[i], gained, known, {0.0, 0.0, -9.81 * kStep});
     const Vector3 v = before.velocity[i] + gain;
     const Vector3 ahead = before.position[i] + (0.5 * kStep) * (v - deviation[i]);
     Vector3 carried = v - deviation[i];

@@ -81,7 +81,7 @@ void FeltForces::weigh_answer(Fluid& fluid, const Step& step, int k, int part) {
                        {"first_body", step.first_body},
                        {"owner", solids_.owner()},
                        {"gap", solids_.gap()},
-                       {"mean", fields_.mean},
+                       {"mean", fields_.carries},
                        {"grip", grip_},
                        {"surface", surface_},
                        {"start", answer_}},

@@ -11,6 +11,7 @@ GivenMomentum::GivenMomentum(Device& device, const cl::Program& program, const M
       solids_(solids),
       system_(system),
       jolt_(device, 1),
+      change_(device, 1),
       given_(device, 1),
       taken_(device, 1),
       whose_(device, 1),
@@ -22,6 +23,7 @@ GivenMomentum::GivenMomentum(Device& device, const cl::Program& program, const M
 
 void GivenMomentum::make_room(Device& device) {
   jolt_ = Buffer<float>(device, fields_.carried.size());
+  change_ = Buffer<float>(device, 3 * fields_.room);
   given_ = Buffer<float>(device, 3 * fields_.room);
   taken_ = Buffer<float>(device, 3 * fields_.room);
   whose_ = Buffer<float>(device, 3 * fields_.room);
@@ -52,10 +54,11 @@ void GivenMomentum::weigh(Fluid& fluid, const Step& step, const FeltBodies& felt
                    {"wet", fields_.wet},
                    {"found", found},
                    {"change", fields_.change},
-                   {"given", given_},
+                   {"given", change_},
                    {"taken", taken_},
                    {"whose", whose_}});
-  if (only >= 0) system_.share_at_surface(fluid.device(), given_);
+  if (only >= 0) system_.share_at_surface(fluid.device(), change_);
+  system_.sharpen(fluid.device(), change_, given_);
   weigh_faces_.run_teams(queue, 1,
                          {{"g", fields_.on_device},
                           body_count,

@@ -42,8 +42,9 @@ class GivenMomentum {
   const GridSolids& solids_;
   PressureSystem& system_;
   Buffer<float> jolt_;
-  Buffer<float> given_;  ///< of faces [m/s]
-  Buffer<float> taken_;  ///< of faces [N s]
+  Buffer<float> change_;  ///< of faces [m/s]
+  Buffer<float> given_;   ///< the same, sharpened: what particles get [m/s]
+  Buffer<float> taken_;   ///< of faces [N s]
   Buffer<float> whose_;
   Buffer<float> parts_;  ///< sums of parts of the water and of the faces [N s, N m s]
   Kernel mark_faces_;

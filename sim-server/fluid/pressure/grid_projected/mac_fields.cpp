@@ -27,9 +27,11 @@ MacFields::MacFields(Device& device, const FluidParams& params)
       team(device.profile().team > 1 ? device.profile().judges : 1),
       on_device(device, std::span<const MacGrid>(&grid, 1)),
       mean(device, 3 * room),
+      carries(device, 3 * room),
       weight(device, 3 * room),
       fill(device, room),
       change(device, 3 * room),
+      gain(device, 3 * room),
       pressure(device, room),
       wet(device, room),
       carried(device, 3 * static_cast<std::size_t>(params.capacity)) {}

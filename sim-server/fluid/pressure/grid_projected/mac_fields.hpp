@@ -20,9 +20,11 @@ struct MacFields {
 
   Buffer<MacGrid> on_device;
   Buffer<float> mean;      ///< of the particles' velocities, on faces [m/s]
+  Buffer<float> carries;   ///< that mean, sharpened: what carries particles [m/s]
   Buffer<float> weight;    ///< of the particles around a face [1]
   Buffer<float> fill;      ///< of cells [1]
   Buffer<float> change;    ///< by the step, on faces [m/s]
+  Buffer<float> gain;      ///< the same, sharpened: what particles get [m/s]
   Buffer<float> pressure;  ///< of cells [Pa]
   Buffer<float> wet;       ///< 1 where a cell holds water
   Buffer<float> carried;   ///< what took particles along in the last step [m/s]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Particles take from the grid what the step changed there, and move on:
-//   v  = u + du                           u: velocity before, du: mean change of the faces around
-//   x += dt w + dt^2 a                    w: the grid's velocity half a step ahead, a: spacing
+//   v  = u + du          u: velocity before, du: mean change of the faces around, sharpened
+//   x += dt w + dt^2 a   w: the grid's velocity half a step ahead, sharpened; a: spacing
 //   u' = v - (1 - exp(-rate dt)) (d - S d) + kick dt a              d: deviation
 // They are carried by what the grid sees of their motion, v - d, as it is where that takes them in
 // half a step (midpoint rule): a step along where they are would press strained water together by
@@ -51,14 +51,14 @@ static void touch_walls(constant FluidParams* p, float dt, float piston, float p
 
 // Turns velocities `way` into the grid's half a step ahead along them, where all faces around are
 // known, there and where the particles are (`whole`).
-static void look_ahead(constant MacGrid* g, float dt, global const float* mean,
+static void look_ahead(constant MacGrid* g, float dt, global const float* carries,
                        global const float* change, const lane_flags whole[3], const lanes from[3],
                        lanes way[3]) {
   const lanes half_step = 0.5f * dt;
   const Placed at = place_on_grid(g, from[0] + half_step * way[0], from[1] + half_step * way[1],
                                   from[2] + half_step * way[2]);
   for (int axis = 0; axis < 3; ++axis) {
-    const FaceSums there = sum_of_faces(g, &at, axis, mean, change);
+    const FaceSums there = sum_of_faces(g, &at, axis, carries, change);
     const lane_flags inner = whole[axis] & at.on_grid & (there.weight > (lanes)(ALL_KNOWN));
     way[axis] = select(way[axis], there.whole + there.known, inner);
   }
@@ -71,11 +71,12 @@ static void look_ahead(constant MacGrid* g, float dt, global const float* mean,
 kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float dt, float filtered,
                            float kick, float piston, float piston_speed, constant BodyShape* shapes,
                            global const float* meshes, global const BodyStep* bodies,
-                           int first_body, int body_count, global const float* mean,
-                           global const float* change, global const float* seen,
-                           global const float* deviation, global float* acceleration,
-                           global float* position, global float* velocity, global float* carried,
-                           int feels, global float* jolt) {
+                           int first_body, int body_count, global const float* carries,
+                           global const float* change, global const float* gain,
+                           global const float* seen, global const float* deviation,
+                           global float* acceleration, global float* position,
+                           global float* velocity, global float* carried, int feels,
+                           global float* jolt) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   if (first >= p->count) return;
@@ -91,7 +92,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
   for (int axis = 0; axis < 3; ++axis) {
     const lanes a = LOAD(acceleration + axis * n, first);
     const lanes d = LOAD(deviation + axis * n, first);
-    const FaceSums here = sum_of_faces(g, &at, axis, seen, change);
+    const FaceSums here = sum_of_faces(g, &at, axis, seen, gain);
     const lanes twice = select(none, d - here.whole, at.on_grid);
     // Where no face is known particles fall.
     const lane_flags known = at.on_grid & (here.weight > (lanes)(MAC_SEEN));
@@ -103,7 +104,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
     way[axis] = v - d;
     u[axis] = v - filtered * twice + kick * spaced[axis];
   }
-  look_ahead(g, dt, mean, change, inner, from, way);
+  look_ahead(g, dt, carries, change, inner, from, way);
   for (int axis = 0; axis < 3; ++axis) way[axis] += spaced[axis];
   touch_walls(p, dt, piston, piston_speed, loose, from, way, u);
   const lanes slower = slowed(p, u), shorter = slowed(p, way);

@@ -8,6 +8,7 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"
+#include "sim-server/fluid/pressure/grid_projected/sharpen.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 // How fast f grows across the lower faces of cells, `s` from those below [edges].
@@ -65,7 +66,7 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
                           global const BodyStep* bodies, int first_body, float piston_speed,
                           global const float* gap, global const float* free,
                           global const int* owner, global const float* fill,
-                          global const float* mean, global const float* weight,
+                          global const float* carries, global const float* weight,
                           global const float* found, global const float* wet, global float* pushed,
                           global float* pressure) {
   const Cells at = cells_of(g, get_global_id(0));
@@ -82,7 +83,7 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     if (at.z < l.nz && any_lane(wall)) beside |= wall & are_washed(l, wet, &at, axis);
     lane_flags open = (open_of(gap, face) > none) & beside;
     const lanes by = inverse[axis] * growth(fill, wet, found, c, step[axis]);
-    lanes change = LOAD(pushed, face) - LOAD(mean, face) - select(by, none, wall);
+    lanes change = LOAD(pushed, face) - LOAD(carries, face) - select(by, none, wall);
     if (HAS_SOLIDS) {
       const lanes freed = LOAD(free, face);
       const lane_flags covered = at.real & (freed < (lanes)(1.0f));
@@ -91,7 +92,7 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
         const lanes goes = solids_beside(g, bodies + first_body, owner, piston_speed, &at, covered,
                                          axis, step[axis]);
         change =
-            select(change, freed * change + (1.0f - freed) * (goes - LOAD(mean, face)), covered);
+            select(change, freed * change + (1.0f - freed) * (goes - LOAD(carries, face)), covered);
       }
     }
     const lane_flags known = at.real & open & (LOAD(weight, face) > (lanes)(MAC_LIGHT));
@@ -133,5 +134,17 @@ kernel void share_at_surface(constant MacGrid* g, global const float* gap, globa
       const float mass = fmax(g->share * weight[face], way);
       field[face] = field[next] + way / mass * (field[face] - field[next]);
     }
+  }
+}
+
+// `sharp`: a `field` on faces, sharpened where it is known and in the water.
+kernel void sharpen_faces(constant MacGrid* g, global const int* owner, global const float* fill,
+                          global const float* weight, global const float* field,
+                          global float* sharp) {
+  const Cells at = cells_of(g, get_global_id(0));
+  const MacLevel l = g->level[0];
+  if (at.z > l.nz) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    STORE(sharpened(g, &at, owner, fill, weight, field, axis), sharp, axis * l.cells + at.first);
   }
 }

@@ -391,8 +391,9 @@ static float way_to_bodies(constant FluidParams* p, constant MacGrid* g, const S
                                 (py > (lanes)(lower.y)) & (py < (lanes)(upper.y)) &
                                 (pz > (lanes)(lower.z)) & (pz < (lanes)(upper.z));
         if (!any_lane(near)) continue;
-        const lanes distance =
-            nearest_face(s->shapes, s->meshes, s->bodies, s->first, s->count, px, py, pz).distance;
+        const lanes distance = nearest_face_near(s->shapes, s->meshes, s->bodies, s->first, s->count,
+                                                 lower, upper, px, py, pz)
+                                   .distance;
         way = fmin(way, least(select((lanes)(CLEAR), distance / p->spacing, near)));
       }
     }

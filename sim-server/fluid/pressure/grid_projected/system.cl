@@ -13,15 +13,17 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"
+#include "sim-server/fluid/pressure/grid_projected/sharpen.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 #define REGAINED 1.0f   // [1/s]
 #define MOST_LACK 0.2f  // of a cell's fill, that counts [1]
 
-// Velocities on the faces as gravity and viscosity leave them. `most` begins at zero, for
-// lay_system.
+// Velocities on the faces: `carries`, the mean, sharpened, by which particles are carried;
+// `pushed`, the same as gravity and viscosity leave it. `most` begins at zero, for lay_system.
 kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
-                       global const float* mean, global const float* weight, global float* pushed,
+                       global const int* owner, global const float* fill, global const float* mean,
+                       global const float* weight, global float* carries, global float* pushed,
                        global int* most) {
   if (get_global_id(0) == 0) *most = 0;
   const Cells at = cells_of(g, get_global_id(0));
@@ -43,7 +45,9 @@ kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
              (edge[other] * edge[other]);
     }
     rub = select(none, rub, LOAD(weight, face) > light);
-    const lanes v = here + dt * (field_on_faces(p, g, &at, axis) + nu * rub);
+    const lanes carry = sharpened(g, &at, owner, fill, weight, mean, axis);
+    STORE(carry, carries, face);
+    const lanes v = carry + dt * (field_on_faces(p, g, &at, axis) + nu * rub);
     STORE(select(select(none, v, at.real), none, are_walls(l, &at, axis)), pushed, face);
   }
 }

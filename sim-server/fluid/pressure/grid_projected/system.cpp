@@ -31,15 +31,19 @@ PressureSystem::PressureSystem(Device& device, const cl::Program& program, const
       lay_system_(program, "lay_system", device.profile().group),
       solve_pressure_(program, "solve_pressure", fields.team),
       project_faces_(program, "project_faces", device.profile().group),
-      share_at_surface_(program, "share_at_surface", device.profile().group) {}
+      share_at_surface_(program, "share_at_surface", device.profile().group),
+      sharpen_faces_(program, "sharpen_faces", device.profile().group) {}
 
 void PressureSystem::push_faces(Fluid& fluid, const Step& step) {
   push_faces_.run(fluid.device().queue(), fields_.vectors,
                   {{"p", fluid.params_buffer()},
                    {"g", fields_.on_device},
                    {"dt", as_float(step.dt)},
+                   {"owner", solids_.owner()},
+                   {"fill", solids_.fill()},
                    {"mean", fields_.mean},
                    {"weight", fields_.weight},
+                   {"carries", fields_.carries},
                    {"pushed", fields_.change},
                    {"most", most_}});
 }
@@ -107,13 +111,14 @@ void PressureSystem::project(Fluid& fluid, const Step& step) {
                       {"free", solids_.free()},
                       {"owner", solids_.owner()},
                       {"fill", solids_.fill()},
-                      {"mean", fields_.mean},
+                      {"carries", fields_.carries},
                       {"weight", fields_.weight},
                       {"found", found_},
                       {"wet", fields_.wet},
                       {"pushed", fields_.change},
                       {"pressure", fields_.pressure}});
   share_at_surface(fluid.device(), fields_.change);
+  sharpen(fluid.device(), fields_.change, fields_.gain);
 }
 
 void PressureSystem::share_at_surface(Device& device, const Buffer<float>& field) {
@@ -125,6 +130,17 @@ void PressureSystem::share_at_surface(Device& device, const Buffer<float>& field
                          {"wet", fields_.wet},
                          {"change", fields_.change},
                          {"field", field}});
+}
+
+void PressureSystem::sharpen(Device& device, const Buffer<float>& field,
+                             const Buffer<float>& sharp) {
+  sharpen_faces_.run(device.queue(), fields_.vectors,
+                     {{"g", fields_.on_device},
+                      {"owner", solids_.owner()},
+                      {"fill", solids_.fill()},
+                      {"weight", fields_.weight},
+                      {"field", field},
+                      {"sharp", sharp}});
 }
 
 SolveWork PressureSystem::work() const {

@@ -31,6 +31,8 @@ class PressureSystem {
   void project(Fluid& fluid, const Step& step);
   /// Turns changes of velocity on faces at the surface into those that the particles there get.
   void share_at_surface(Device& device, const Buffer<float>& field);
+  /// Undoes in `sharp` what the hats take of a field on faces in the water.
+  void sharpen(Device& device, const Buffer<float>& field, const Buffer<float>& sharp);
 
   /// The last solution: pressure times the step's length over the density [m2/s].
   [[nodiscard]] const Buffer<float>& found() const noexcept { return found_; }
@@ -71,6 +73,7 @@ class PressureSystem {
   Kernel solve_pressure_;
   Kernel project_faces_;
   Kernel share_at_surface_;
+  Kernel sharpen_faces_;
 };
 
 }  // namespace splash::sim
