@@ -67,6 +67,9 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
     return std::vector<double>(values.begin(), values.end());
   };
   const auto change = read(solver.fields().gain), gap = read(solver.solids().gap());
+  const auto dull = read(solver.fields().change), weight_of = read(solver.fields().weight);
+  const auto fill = read(solver.solids().fill());
+  const std::vector<int> owner = solver.solids().owner().read(fluid.device(), cells);
   const auto pressure = read(solver.fields().pressure), wet = read(solver.fields().wet);
   const auto whose = read(solver.felt().given().whose());  // of faces far from the body
   const GivenMomentum& included = solver.felt().given();   // in the body's force
@@ -96,11 +99,33 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
       mass[face[k]] += static_cast<double>(fluid.params().mass) * weight[k] / sum;
     }
   }
+  // What a face near the body got by sharpening from those far off (sharpen.h), which its force
+  // leaves out.
+  const auto in_water = [&](std::size_t c) {
+    return fill[c] > 0.5 && fill[c - 1] > 0.5 && dull[c] < 1.0e29 && owner[c] < 0 &&
+           owner[c - 1] < 0;
+  };
+  const auto exchanged = [&](std::size_t c) {
+    if (!in_water(c)) return 0.0;
+    double sum = 0.0;
+    for (const int step : {1, l.row, l.layer}) {
+      for (const std::size_t next :
+           {c - static_cast<std::size_t>(step), c + static_cast<std::size_t>(step)}) {
+        if (whose[next] < 0.0 || !in_water(next)) continue;
+        sum += std::min(1.0, weight_of[next] / weight_of[c]) * (dull[c] - dull[next]) / 6.0;
+      }
+    }
+    return sum;
+  };
   const double area = static_cast<double>(g.hy) * static_cast<double>(g.hz);
   double given = 0.0;
   for (std::size_t c = 1; c < cells; ++c) {
     const double rise = wet[c] * pressure[c] - wet[c - 1] * pressure[c - 1];
-    if ((mass[c] == 0.0 && rise == 0.0) || whose[c] < 0.0) continue;
+    if (mass[c] == 0.0 && rise == 0.0) continue;
+    if (whose[c] < 0.0) {
+      given += mass[c] * exchanged(c);
+      continue;
+    }
     given += mass[c] > 0.0 ? mass[c] * (change[c] - included_change[c]) : 0.0;
     given += dt * area * gap[c] * rise + included_push[c];
   }

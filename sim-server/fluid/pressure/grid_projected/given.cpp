@@ -58,7 +58,7 @@ void GivenMomentum::weigh(Fluid& fluid, const Step& step, const FeltBodies& felt
                    {"taken", taken_},
                    {"whose", whose_}});
   if (only >= 0) system_.share_at_surface(fluid.device(), change_);
-  system_.sharpen(fluid.device(), change_, given_);
+  system_.sharpen(fluid.device(), change_, given_, &whose_);
   weigh_faces_.run_teams(queue, 1,
                          {{"g", fields_.on_device},
                           body_count,

@@ -137,14 +137,14 @@ kernel void share_at_surface(constant MacGrid* g, global const float* gap, globa
   }
 }
 
-// `sharp`: a `field` on faces, sharpened where it is known and in the water.
+// `sharp`: a `field` on faces, sharpened where it is known and in the water; `parted`: by `parts`.
 kernel void sharpen_faces(constant MacGrid* g, global const int* owner, global const float* fill,
-                          global const float* weight, global const float* field,
-                          global float* sharp) {
+                          global const float* weight, int parted, global const float* parts,
+                          global const float* field, global float* sharp) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
   for (int axis = 0; axis < 3; ++axis) {
-    STORE(sharpened(g, &at, owner, fill, weight, field, axis), sharp, axis * l.cells + at.first);
+    STORE(sharpened(g, &at, owner, fill, weight, parted ? parts : 0, field, axis), sharp, axis * l.cells + at.first);
   }
 }

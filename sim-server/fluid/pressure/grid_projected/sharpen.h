@@ -26,10 +26,11 @@ static lane_flags are_cut(global const int* owner, int c, int s) {
 }
 
 // A field on the lower faces of cells along an axis, sharpened; as it is out of the water and where
-// it is unknown.
+// it is unknown. `parts`, 0 if there is none: between faces of different parts nothing is exchanged,
+// so that each part keeps its momentum.
 static lanes sharpened(constant MacGrid* g, const Cells* at, global const int* owner,
                        global const float* fill, global const float* weight,
-                       global const float* field, int axis) {
+                       global const float* parts, global const float* field, int axis) {
   const MacLevel l = g->level[0];
   const int step[3] = {1, l.row, l.layer};
   const int face = axis * l.cells + at->first;
@@ -52,8 +53,9 @@ static lanes sharpened(constant MacGrid* g, const Cells* at, global const int* o
       const lane_flags cut = are_cut(owner, at->first + s, step[axis]);
       const lane_flags links = are_in_water(fill, at->first + s, step[axis]);
       const lanes part = fmin(LOAD(weight, face + s) / own, one);
-      sum += select(none, select(part, one, wall | cut) * (here - there),
-                    wall | (links & (there < known)));
+      lane_flags counts = links & (there < known);
+      if (parts != 0) counts &= cut | (LOAD(parts, face + s) == LOAD(parts, face));
+      sum += select(none, select(part, one, wall | cut) * (here - there), wall | counts);
     }
   }
   return here + select(none, sum * (1.0f / 6.0f), inner);

@@ -45,7 +45,7 @@ kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
              (edge[other] * edge[other]);
     }
     rub = select(none, rub, LOAD(weight, face) > light);
-    const lanes carry = sharpened(g, &at, owner, fill, weight, mean, axis);
+    const lanes carry = sharpened(g, &at, owner, fill, weight, 0, mean, axis);
     STORE(carry, carries, face);
     const lanes v = carry + dt * (field_on_faces(p, g, &at, axis) + nu * rub);
     STORE(select(select(none, v, at.real), none, are_walls(l, &at, axis)), pushed, face);

@@ -118,7 +118,7 @@ void PressureSystem::project(Fluid& fluid, const Step& step) {
                       {"pushed", fields_.change},
                       {"pressure", fields_.pressure}});
   share_at_surface(fluid.device(), fields_.change);
-  sharpen(fluid.device(), fields_.change, fields_.gain);
+  sharpen(fluid.device(), fields_.change, fields_.gain, nullptr);
 }
 
 void PressureSystem::share_at_surface(Device& device, const Buffer<float>& field) {
@@ -132,13 +132,15 @@ void PressureSystem::share_at_surface(Device& device, const Buffer<float>& field
                          {"field", field}});
 }
 
-void PressureSystem::sharpen(Device& device, const Buffer<float>& field,
-                             const Buffer<float>& sharp) {
+void PressureSystem::sharpen(Device& device, const Buffer<float>& field, const Buffer<float>& sharp,
+                             const Buffer<float>* parts) {
   sharpen_faces_.run(device.queue(), fields_.vectors,
                      {{"g", fields_.on_device},
                       {"owner", solids_.owner()},
                       {"fill", solids_.fill()},
                       {"weight", fields_.weight},
+                      {"parted", static_cast<int>(parts != nullptr)},
+                      {"parts", parts != nullptr ? *parts : fields_.weight},
                       {"field", field},
                       {"sharp", sharp}});
 }

@@ -31,8 +31,10 @@ class PressureSystem {
   void project(Fluid& fluid, const Step& step);
   /// Turns changes of velocity on faces at the surface into those that the particles there get.
   void share_at_surface(Device& device, const Buffer<float>& field);
-  /// Undoes in `sharp` what the hats take of a field on faces in the water.
-  void sharpen(Device& device, const Buffer<float>& field, const Buffer<float>& sharp);
+  /// Undoes in `sharp` what the hats take of a field on faces in the water. Faces with different
+  /// numbers in `parts`, if there are any, exchange nothing.
+  void sharpen(Device& device, const Buffer<float>& field, const Buffer<float>& sharp,
+               const Buffer<float>* parts);
 
   /// The last solution: pressure times the step's length over the density [m2/s].
   [[nodiscard]] const Buffer<float>& found() const noexcept { return found_; }
