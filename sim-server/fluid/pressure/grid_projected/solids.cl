@@ -76,8 +76,8 @@ typedef struct {
   float piston;
 } Solids;
 
-// How far the nearest solid is, and whose it is: of the bodies that may be within the support of the
-// box from `lower` to `upper`.
+// How far the nearest solid is, and whose it is: of the bodies that may be within the support of
+// the box from `lower` to `upper`.
 static lanes solid_distance(constant FluidParams* p, const Solids* s, float3 lower, float3 upper,
                             lanes x, lanes y, lanes z, lanes* owner) {
   const BodyFace face = nearest_face_near(s->shapes, s->meshes, s->bodies, s->first, s->count,
@@ -111,8 +111,8 @@ static bool solids_near(constant FluidParams* p, global const BodyStep* bodies, 
   return false;
 }
 
-// Distances of 27 places in a box from its `lower` corner on, `apart` from each other, x first, from
-// what may be nearer than the support, or than that and `beyond`. Whose the middle is.
+// Distances of 27 places in a box from its `lower` corner on, `apart` from each other, x first: of
+// solids that may be nearer than the support, or than that and `beyond`. Whose the middle is.
 static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, float3 apart,
                        float beyond, float* distance) {
   int owner = OF_NOBODY;
@@ -391,10 +391,9 @@ static float way_to_bodies(constant FluidParams* p, constant MacGrid* g, const S
                                 (py > (lanes)(lower.y)) & (py < (lanes)(upper.y)) &
                                 (pz > (lanes)(lower.z)) & (pz < (lanes)(upper.z));
         if (!any_lane(near)) continue;
-        const lanes distance = nearest_face_near(s->shapes, s->meshes, s->bodies, s->first, s->count,
-                                                 lower, upper, px, py, pz)
-                                   .distance;
-        way = fmin(way, least(select((lanes)(CLEAR), distance / p->spacing, near)));
+        const BodyFace face = nearest_face_near(s->shapes, s->meshes, s->bodies, s->first,
+                                                s->count, lower, upper, px, py, pz);
+        way = fmin(way, least(select((lanes)(CLEAR), face.distance / p->spacing, near)));
       }
     }
   }
