@@ -145,6 +145,7 @@ kernel void sharpen_faces(constant MacGrid* g, global const int* owner, global c
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
   for (int axis = 0; axis < 3; ++axis) {
-    STORE(sharpened(g, &at, owner, fill, weight, parted ? parts : 0, field, axis), sharp, axis * l.cells + at.first);
+    const int face = axis * l.cells + at.first;
+    STORE(sharpened(g, &at, owner, fill, weight, parted ? parts : 0, field, axis), sharp, face);
   }
 }

@@ -26,8 +26,8 @@ static lane_flags are_cut(global const int* owner, int c, int s) {
 }
 
 // A field on the lower faces of cells along an axis, sharpened; as it is out of the water and where
-// it is unknown. `parts`, 0 if there is none: between faces of different parts nothing is exchanged,
-// so that each part keeps its momentum.
+// it is unknown. Where faces have different numbers in `parts`, if that is not 0, they exchange
+// nothing, so that each part keeps its momentum.
 static lanes sharpened(constant MacGrid* g, const Cells* at, global const int* owner,
                        global const float* fill, global const float* weight,
                        global const float* parts, global const float* field, int axis) {
