@@ -66,7 +66,7 @@ double longest_contact_step(const std::vector<BodySettings>& bodies, double grav
   double of_others = kNever;
   int free = 0;
   for (const BodySettings& body : bodies) {
-    if (!has_edges(body.shape)) continue;  // nothing of it has a side and a top
+    if (!has_edges(body.shape)) continue;  // a ball has neither side nor top
     const Vector3& size = body.shape.size;
     const double least = 0.5 * std::min({size[0], size[1], size[2]});
     double& rounding = is_free(body) ? of_free : of_others;

@@ -67,7 +67,7 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
     return std::vector<double>(values.begin(), values.end());
   };
   const auto change = read(solver.fields().gain), gap = read(solver.solids().gap());
-  const auto dull = read(solver.fields().change), weight_of = read(solver.fields().weight);
+  const auto unsharpened = read(solver.fields().change), weight_of = read(solver.fields().weight);
   const auto fill = read(solver.solids().fill());
   const std::vector<int> owner = solver.solids().owner().read(fluid.device(), cells);
   const auto pressure = read(solver.fields().pressure), wet = read(solver.fields().wet);
@@ -99,10 +99,10 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
       mass[face[k]] += static_cast<double>(fluid.params().mass) * weight[k] / sum;
     }
   }
-  // What a face near the body got by sharpening from those far off (sharpen.h), which its force
-  // leaves out.
+  // The change of velocity that a face near the body got from faces far off by sharpening
+  // (sharpen.h), which the body's force leaves out [m/s].
   const auto in_water = [&](std::size_t c) {
-    return fill[c] > 0.5 && fill[c - 1] > 0.5 && dull[c] < 1.0e29 && owner[c] < 0 &&
+    return fill[c] > 0.5 && fill[c - 1] > 0.5 && unsharpened[c] < 1.0e29 && owner[c] < 0 &&
            owner[c - 1] < 0;
   };
   const auto exchanged = [&](std::size_t c) {
@@ -112,7 +112,8 @@ double given_elsewhere(Fluid& fluid, const std::vector<Vector3>& places, double 
       for (const std::size_t next :
            {c - static_cast<std::size_t>(step), c + static_cast<std::size_t>(step)}) {
         if (whose[next] < 0.0 || !in_water(next)) continue;
-        sum += std::min(1.0, weight_of[next] / weight_of[c]) * (dull[c] - dull[next]) / 6.0;
+        sum += std::min(1.0, weight_of[next] / weight_of[c]) *
+               (unsharpened[c] - unsharpened[next]) / 6.0;
       }
     }
     return sum;

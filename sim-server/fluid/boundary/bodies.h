@@ -62,7 +62,8 @@ static void turn_body(float3 turn, BodyStep* b) {
   b->qw = r.w;
 }
 
-// Whether a body may be within the support of a box.
+// Whether the bounding box of a body's points, grown by the support radius, overlaps the box from
+// `lower` to `upper`.
 static bool is_near_box(global const BodyStep* b, float3 lower, float3 upper) {
   return upper.x > b->lower_x && lower.x < b->upper_x && upper.y > b->lower_y &&
          lower.y < b->upper_y && upper.z > b->lower_z && lower.z < b->upper_z;

@@ -15,7 +15,7 @@ static void turn_lanes(lanes* x, lanes* y, lanes* z, float qx, float qy, float q
   *z += qw * tz + qx * ty - qy * tx;
 }
 
-// `nearest` becomes the face of body number `k`, where that is nearer.
+// Replaces `nearest` by the face of body number `k` in the lanes where that is nearer.
 static void take_nearer(BodyShape shape, global const float* meshes, BodyStep b, int k, lanes x,
                         lanes y, lanes z, BodyFace* nearest) {
   lanes ax = x - b.px, ay = y - b.py, az = z - b.pz;
@@ -43,7 +43,8 @@ static BodyFace nearest_face(constant BodyShape* shapes, global const float* mes
   return nearest;
 }
 
-// Of those that may be within the support of a box.
+// The same, of those bodies only whose grown bounding boxes overlap the box from `lower` to
+// `upper`: all others are farther from any place in it than the support radius.
 static BodyFace nearest_face_near(constant BodyShape* shapes, global const float* meshes,
                                   global const BodyStep* bodies, int first_body, int body_count,
                                   float3 lower, float3 upper, lanes x, lanes y, lanes z) {

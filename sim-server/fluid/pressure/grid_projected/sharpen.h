@@ -12,17 +12,17 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"
 
-// Which lower faces of cells, `s` from those below, are between two that hold water.
+// For the faces between cells c and c - s: whether both cells hold water.
 static lane_flags are_in_water(global const float* fill, int c, int s) {
   const lanes full = MAC_FULL;
   return (LOAD(fill, c) > full) & (LOAD(fill, c - s) > full);
 }
 
-// Which of them are cut by solids.
+// For the same faces: whether a solid may cut either cell.
 static lane_flags are_cut(global const int* owner, int c, int s) {
-  const lane_flags nobody = OF_NOBODY, none = 0;
+  const lane_flags unowned = OF_NOBODY, none = 0;
   if (!HAS_SOLIDS) return none;
-  return (LOAD(owner, c) != nobody) | (LOAD(owner, c - s) != nobody);
+  return (LOAD(owner, c) != unowned) | (LOAD(owner, c - s) != unowned);
 }
 
 // A field on the lower faces of cells along an axis, sharpened; as it is out of the water and where

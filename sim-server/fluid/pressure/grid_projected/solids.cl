@@ -67,7 +67,7 @@ static void corners_of(const float* d, int box, float* corner) {
   }
 }
 
-// Where solids are, as kernels are told.
+// The kernel arguments that describe bodies and piston.
 typedef struct {
   constant BodyShape* shapes;
   global const float* meshes;
@@ -181,7 +181,7 @@ typedef struct {
 // Cells whose middle is nearer to a solid are its [m].
 static float owned_within(constant MacGrid* g) { return g->hx + g->hy + g->hz; }
 
-// Whether the piston may cut a box.
+// Whether the wave maker's piston may intersect the box from `lower` to `upper`.
 static bool piston_near(constant FluidParams* p, const Solids* s, float3 lower, float3 upper) {
   if (!HAS_PISTON || p->piston < 0) return false;
   const float3 middle = 0.5f * (lower + upper);
@@ -189,8 +189,8 @@ static bool piston_near(constant FluidParams* p, const Solids* s, float3 lower, 
          length(upper - lower);
 }
 
-// Of a cell that no body is near: whether slope and piston leave all of it open, or cover all of
-// it. Its open parts are then written without measuring its corners.
+// For a cell that no body is near: true if slope and piston leave the cell entirely open or cover
+// it entirely. In that case this writes its open parts, and its corners need not be measured.
 static bool is_whole(constant FluidParams* p, constant MacGrid* g, const Solids* s, float3 lower,
                      float3 upper, int c, const OpenParts* parts) {
   const float3 middle = 0.5f * (lower + upper);
@@ -371,8 +371,8 @@ kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global cons
   }
 }
 
-// How far the nearest body is from the particles in a cell and those around it, if it is between
-// TOUCHES and CLEAR, or these [spacings].
+// Least distance between a body and the particles in a cell and in the cells around it, clamped to
+// TOUCHES and CLEAR [spacings].
 static float way_to_bodies(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
                            global const int* cell_start, global const float* position) {
   const int n = p->capacity;
@@ -400,8 +400,8 @@ static float way_to_bodies(constant FluidParams* p, constant MacGrid* g, const S
   return fmax(way, TOUCHES);
 }
 
-// Whether no water touches a body near cells of which bodies hide something: from 0, where a
-// particle does, to 1. Where none does, what is hidden is as empty as it is in air.
+// `clear`, for cells of whose hat a body hides a part: 1 if no particle near the cell touches a
+// body, 0 if one does, in between by its distance. Where it is 1, the hidden part counts as empty.
 kernel void find_clear(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                        global const float* meshes, global const BodyStep* bodies, int first_body,
                        int body_count, global const int* cell_start, global const float* position,

@@ -40,7 +40,7 @@ class GridSolids {
   Buffer<float> space_;       ///< of cells [1]
   Buffer<int> owner_;         ///< whose a cell is (room.h)
   Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
-  Buffer<float> clear_;       ///< whether no water touches bodies near cells, 0 to 1
+  Buffer<float> clear_;       ///< 1: no water touches a body near the cell; 0: some does [1]
   Buffer<float> filled_;
   Kernel cut_cells_;
   Kernel see_room_;
