@@ -41,7 +41,7 @@ class ConfigError : public Failure {
 
 struct Row {
   std::string key;
-  std::string unit;                                       ///< "m", "1", "" for text
+  std::string unit = {};                                  ///< "m", "1", "" for text
   std::string meaning;                                    ///< one sentence
   double min = -std::numeric_limits<double>::infinity();  ///< allowed, inclusive
   double max = std::numeric_limits<double>::infinity();
@@ -49,6 +49,7 @@ struct Row {
   std::vector<std::string> choices = {};  ///< of a text; empty: any
   std::string source = {};                ///< where the default comes from
   bool live = false;                      ///< may change while the program runs
+  std::vector<std::string> kinds = {};    ///< of the mapping that use it; empty: all
 };
 
 using Vector3 = std::array<double, 3>;

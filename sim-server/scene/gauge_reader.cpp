@@ -6,7 +6,6 @@
 
 #include "sim-server/scene/mapping_readers.hpp"
 #include "sim-server/scene/scene_rules.hpp"
-#include "sim-server/scene/scene_table.hpp"
 
 namespace splash::sim {
 
@@ -14,34 +13,19 @@ namespace {
 
 using program::ConfigMap;
 
-/// The keys of a kind; any other but name and kind is a mistake.
-struct Keys {
-  std::set<std::string> needed = {};
-  std::set<std::string> optional = {};
-};
-
-const std::map<std::string, Keys>& keys_of_kinds() {
-  static const std::map<std::string, Keys> kKeys = {{"height", {{"x", "y"}}},
-                                                    {"pressure", {{"place"}, {"body", "radius"}}},
-                                                    {"velocity", {{"place"}, {"body"}}},
-                                                    {"front", {{"axis"}}},
-                                                    {"body", {{"body"}}},
-                                                    {"energy", {}},
-                                                    {"momentum", {}},
-                                                    {"spread", {}},
-                                                    {"cavity", {{"lower", "upper"}}}};
-  return kKeys;
-}
-
 void check_keys(const ConfigMap& map, const std::string& kind) {
-  const Keys& keys = keys_of_kinds().at(kind);
-  for (const char* key : {"x", "y", "place", "radius", "axis", "body", "lower", "upper"}) {
-    if (keys.needed.contains(key) && !map.has(key)) {
-      throw map.error(key, "is missing: a gauge of kind " + kind + " needs it");
+  static const std::map<std::string, std::vector<std::string>> kNeeded = {
+      {"height", {"x", "y"}}, {"pressure", {"place"}}, {"velocity", {"place"}},
+      {"front", {"axis"}},    {"body", {"body"}},      {"cavity", {"lower", "upper"}}};
+  if (const auto needed = kNeeded.find(kind); needed != kNeeded.end()) {
+    for (const std::string& key : needed->second) {
+      if (!map.has(key)) {
+        throw map.error(key, "is missing: a gauge of kind " + kind + " needs it");
+      }
     }
-    if (!keys.needed.contains(key) && !keys.optional.contains(key) && map.has(key)) {
-      throw map.error(key, "has no meaning for a gauge of kind " + kind);
-    }
+  }
+  if (const auto* row = foreign_key(map, gauge_fields(), {kind})) {
+    throw map.error(row->key, "has no meaning for a gauge of kind " + kind);
   }
 }
 
@@ -74,12 +58,12 @@ GaugeSettings read_gauge(const ConfigMap& map, const Scene& scene) {
   GaugeEntry entry;
   map.read(gauge_fields(), {}, entry);
   check_name(map, entry.name);
-  check_keys(map, entry.kind_name);
-  entry.kind = kKinds.at(entry.kind_name);
-  entry.sign = entry.axis_name.front() == '-' ? -1.0 : 1.0;
-  entry.axis = static_cast<std::size_t>(entry.axis_name.back() - 'x');
+  check_keys(map, entry.kind_spelled);
+  entry.kind = kKinds.at(entry.kind_spelled);
+  entry.sign = entry.axis_spelled.front() == '-' ? -1.0 : 1.0;
+  entry.axis = static_cast<std::size_t>(entry.axis_spelled.back() - 'x');
   if (map.has("body")) {
-    entry.body = find_body(map, scene, entry.body_name);
+    entry.body = find_body(map, scene, entry.body_spelled);
     entry.rides = entry.kind != GaugeKind::body;
   }
   check_gauge(map, entry, scene);

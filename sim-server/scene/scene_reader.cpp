@@ -56,7 +56,7 @@ std::filesystem::path find_file(const ConfigMap& map, const std::string& key,
 Shape read_mesh_shape(const ConfigMap& map, double spacing, BodySettings& body) {
   MeshEntry entry;
   map.read(mesh_fields(), {}, entry);
-  const auto path = find_file(map, "mesh", entry.file_name);
+  const auto path = find_file(map, "mesh", entry.mesh);
   if (path.empty()) throw map.error("mesh", "must not be empty");
   TriangleMesh surface = read_mesh(path, entry.scale);
   if (is_free(body)) {
@@ -72,7 +72,7 @@ Shape read_mesh_shape(const ConfigMap& map, double spacing, BodySettings& body) 
 Shape read_shape(const ConfigMap& map) {
   ShapeEntry entry;
   map.read(shape_fields(), {}, entry);
-  entry.kind = shape_kind(entry.kind_name);
+  entry.kind = shape_kind(entry.kind_spelled);
   check_shape(map, entry);
   return entry;
 }
@@ -95,45 +95,19 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
   return keyframes;
 }
 
-/// Among kinds of motion: one of kind osc whose coupling is a spring.
-const std::string kOnSpring = "osc, spring";
-
-/// A key that this kind of motion does not use is a mistake, not a no-op.
 void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
-  static const std::map<std::string, std::set<std::string>> kUsedBy = {
-      {"keyframes", {"script"}},
-      {"smooth", {"script"}},
-      {"repeat", {"script", "csv", "trc"}},
-      {"file", {"csv", "trc"}},
-      {"markers", {"trc"}},
-      {"sole", {"trc"}},
-      {"start", {"csv", "trc"}},
-      {"gap", {"osc"}},
-      {"gap_limit", {"osc"}},
-      {"delay_limit", {"osc"}},
-      {"lift", {"touch", "pressure"}},
-      {"fall", {"touch", "pressure"}},
-      {"rise", {"touch", "pressure"}},
-      {"coupling", {"osc"}},
-      {"stiffness", {kOnSpring}},
-      {"damping", {kOnSpring}},
-      {"device_damping", {kOnSpring}},
-      {"density", {"free", kOnSpring}},
-      {"mass", {"free", kOnSpring}},
-      {"velocity", {"free"}},
-      {"spin", {"free"}},
-      {"restitution", {"free", kOnSpring}},
-      {"friction", {"free", kOnSpring}},
-      {"inertia", {"free", kOnSpring}},
-      {"held", {"free"}}};
-  const bool spring = entry.kind == MotionKind::osc && entry.coupling == CouplingKind::spring;
-  for (const auto& [key, kinds] : kUsedBy) {
-    if (!map.has(key) || kinds.contains(entry.kind_name)) continue;
-    if (spring && kinds.contains(kOnSpring)) continue;
-    const bool wants_spring = entry.kind == MotionKind::osc && kinds.contains(kOnSpring);
-    throw map.error(key, "has no meaning for a motion of kind " + entry.kind_name +
-                             (wants_spring ? " without coupling: spring" : ""));
+  const std::string& kind = entry.kind_spelled;
+  const std::string meaningless = "has no meaning for a motion of kind " + kind;
+  if (map.has("keyframes") && entry.kind != MotionKind::script) {
+    throw map.error("keyframes", meaningless);
   }
+  const bool spring = entry.kind == MotionKind::osc && entry.coupling == CouplingKind::spring;
+  const auto* row = foreign_key(map, motion_fields(), {kind, spring ? "spring" : kind});
+  if (row == nullptr) return;
+  const auto& users = row->kinds;
+  const bool wants_spring = entry.kind == MotionKind::osc &&
+                            std::find(users.begin(), users.end(), "spring") != users.end();
+  throw map.error(row->key, meaningless + (wants_spring ? " without coupling: spring" : ""));
 }
 
 /// Bits of what is held.
@@ -166,26 +140,26 @@ MotionSettings read_motion(const ConfigMap& map) {
       {"touch", MotionKind::touch}, {"pressure", MotionKind::pressure}};
   MotionEntry entry;
   map.read(motion_fields(), {"keyframes"}, entry);
-  entry.kind = kKinds.at(entry.kind_name);
-  if (entry.coupling_name == "spring") entry.coupling = CouplingKind::spring;
+  entry.kind = kKinds.at(entry.kind_spelled);
+  if (entry.coupling_spelled == "spring") entry.coupling = CouplingKind::spring;
   refuse_foreign_keys(map, entry);
   entry.keyframes = read_keyframes(map);
   if (entry.kind == MotionKind::script && entry.keyframes.empty()) {
     throw map.error("keyframes", "a scripted motion needs at least one");
   }
-  if (entry.kind == MotionKind::csv && entry.file_name.empty()) {
+  if (entry.kind == MotionKind::csv && entry.file_spelled.empty()) {
     throw map.error("file", "a csv motion needs one");
   }
   if (entry.kind == MotionKind::trc) check_markers(map, entry);
-  entry.gap = entry.gap_name == "hold" ? GapKind::hold : GapKind::bridge;
+  entry.gap = entry.gap_spelled == "hold" ? GapKind::hold : GapKind::bridge;
   if (entry.gap == GapKind::hold && map.has("gap_limit")) {
     throw map.error("gap_limit", "has no meaning where a gap is held; gap: bridge needs it");
   }
   const bool spring = entry.coupling == CouplingKind::spring;
-  entry.held = read_held(map, entry.held_names);
+  entry.held = read_held(map, entry.held_spelled);
   if (entry.kind == MotionKind::free || spring) check_free(map, entry);
   if (spring) check_spring(map, entry);
-  entry.file = find_file(map, "file", entry.file_name);
+  entry.file = find_file(map, "file", entry.file_spelled);
   return entry;
 }
 
@@ -236,11 +210,11 @@ void read_frictions(const ConfigMap& map, Scene& scene) {
   for (const ConfigMap& entry : map.list("frictions")) {
     FrictionEntry pair;
     entry.read(friction_fields(), {}, pair);
-    if (pair.between.size() != 2) {
-      throw entry.error("between", "names two, not " + std::to_string(pair.between.size()));
+    if (pair.between_spelled.size() != 2) {
+      throw entry.error("between", "names two, not " + std::to_string(pair.between_spelled.size()));
     }
-    pair.one = index_of(entry, pair.between[0]);
-    pair.other = index_of(entry, pair.between[1]);
+    pair.one = index_of(entry, pair.between_spelled[0]);
+    pair.other = index_of(entry, pair.between_spelled[1]);
     if (pair.one == pair.other) throw entry.error("between", "names the same twice");
     if (!is_free_one(pair.one) && !is_free_one(pair.other)) {
       throw entry.error("between", "names no free body: what goes its way feels no friction");
@@ -325,9 +299,9 @@ FluidEntry read_fluid(const ConfigMap& map) {
                                                               {"never", SettleKind::never}};
   FluidEntry entry;
   map.read(fluid_fields(), {}, entry);
-  entry.solver = kSolvers.at(entry.solver_name);
-  entry.settle = kSettling.at(entry.settle_name);
-  entry.kernels = entry.kernels_name == "reference" ? KernelKind::reference : KernelKind::vector;
+  entry.solver = kSolvers.at(entry.solver_spelled);
+  entry.settle = kSettling.at(entry.settle_spelled);
+  entry.kernels = entry.kernels_spelled == "reference" ? KernelKind::reference : KernelKind::vector;
   return entry;
 }
 
@@ -385,7 +359,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   check_resolution(fluid, scene);
   read_bodies(map, scene);
   read_frictions(map, scene);
-  if (entry.solver_name == "auto") scene.fluid.solver = suitable_solver(scene).solver;
+  if (entry.solver_spelled == "auto") scene.fluid.solver = suitable_solver(scene).solver;
   check_time_step(fluid, scene.fluid);
   if (scene.tank_motion.present) check_turning(map.child("tank_motion"), scene);
   check_sound(fluid, scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every key of a scene file, one row each. The reader, its error texts and the reference page in
-// configs/README.md all come from these tables.
+// Every key of a scene file, one row each, of keys/*.def. The reader, its error texts and the
+// reference page in configs/README.md all come from these tables.
 #pragma once
 
 #include <map>
@@ -15,72 +15,56 @@ namespace splash::sim {
 template <class Struct>
 using Fields = std::vector<program::Field<Struct>>;
 
-/// The fluid as its mapping spells it.
-struct FluidEntry : FluidSettings {
-  std::string solver_name = "auto";
-  std::string kernels_name = "vector";
-  std::string settle_name = "auto";
-};
+#define KEY(type, name, value, ...) type name = value;
+#define SPELLED(type, name, value, ...)
 
-/// A shape as its mapping spells it: the kind is still a word.
-struct ShapeEntry : Shape {
-  std::string kind_name = "box";
-};
-
-/// A mesh as its mapping spells it: the file relative to the scene.
+/// A mesh: the file relative to the scene.
 struct MeshEntry {
-  std::string file_name;
-  double scale = 1.0;  ///< [m per unit of the file]
+#include "sim-server/scene/keys/mesh.def"
 };
 
-/// A motion as its mapping spells it: the kind is still a word, the file relative to the scene.
-struct MotionEntry : MotionSettings {
-  std::string kind_name = "fixed";
-  std::string file_name;
-  std::string gap_name = "bridge";
-  std::string coupling_name = "direct";
-  std::vector<std::string> held_names = {};
-};
-
-/// Friction between two as its mapping spells it.
-struct FrictionEntry : PairFriction {
-  std::vector<std::string> between = {};
-};
-
-/// Water as its mapping spells it: the form is still a word.
-struct WaterEntry : WaterBlock {
-  std::string form_name = "box";
-};
-
-/// A flow as its mapping spells it.
-struct FlowEntry : Flow {
-  std::string kind_name;
-};
-
-/// A gauge as its mapping spells it: kind, axis and body are still words.
-struct GaugeEntry : GaugeSettings {
-  std::string kind_name;
-  std::string axis_name = "x";
-  std::string body_name;
-};
-
-/// A tracker's messages as their mapping spells them.
+/// A tracker's messages.
 struct TrackerEntry {
-  std::string body = {};
-  std::string preset = {};
-  std::string name = {};
-  std::string address = {};
-  std::vector<std::string> match = {};
-  std::vector<double> position = {0, 1, 2};
-  std::string rotation_address = {};
-  std::vector<std::string> rotation_match = {};
-  std::vector<double> rotation = {};
-  std::string euler = "xyz";
-  std::string angles = "degrees";
-  std::vector<std::string> axes = {"x", "y", "z"};
-  double unit = 1.0;
-  std::vector<double> floor = {};
+#include "sim-server/scene/keys/tracker.def"
 };
+
+#undef KEY
+#undef SPELLED
+#define KEY(type, name, value, ...)
+#define SPELLED(type, name, value, ...) type name##_spelled = value;
+
+// Mappings as a file spells them: kinds are words, files relative to the scene, bodies names.
+
+struct FluidEntry : FluidSettings {
+#include "sim-server/scene/keys/fluid.def"
+};
+
+struct ShapeEntry : Shape {
+#include "sim-server/scene/keys/shape.def"
+};
+
+struct MotionEntry : MotionSettings {
+#include "sim-server/scene/keys/motion.def"
+};
+
+struct FrictionEntry : PairFriction {
+#include "sim-server/scene/keys/friction.def"
+};
+
+struct WaterEntry : WaterBlock {
+#include "sim-server/scene/keys/water.def"
+};
+
+struct FlowEntry : Flow {
+#include "sim-server/scene/keys/flow.def"
+};
+
+struct GaugeEntry : GaugeSettings {
+#include "sim-server/scene/keys/gauge.def"
+};
+
+#undef KEY
+#undef SPELLED
 
 [[nodiscard]] const Fields<Scene>& scene_fields();
 [[nodiscard]] const Fields<FluidEntry>& fluid_fields();

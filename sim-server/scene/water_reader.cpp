@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <map>
-#include <set>
 
 #include "sim-server/scene/mapping_readers.hpp"
 #include "sim-server/scene/scene_rules.hpp"
-#include "sim-server/scene/scene_table.hpp"
 
 namespace splash::sim {
 
@@ -17,20 +15,8 @@ WaterBlock read_block(const ConfigMap& map) {
       {"box", WaterForm::box}, {"cylinder", WaterForm::cylinder}, {"sphere", WaterForm::sphere}};
   WaterEntry entry;
   map.read(water_fields(), {}, entry);
-  entry.form = kForms.at(entry.form_name);
+  entry.form = kForms.at(entry.form_spelled);
   return entry;
-}
-
-/// A key that this kind of flow does not use is a mistake, not a no-op.
-void refuse_foreign_keys(const ConfigMap& map, const std::string& kind) {
-  static const std::map<std::string, std::string> kUsedBy = {
-      {"velocity", "uniform"},        {"centre", "strain"},      {"rate", "strain"},
-      {"amplitude", "standing_wave"}, {"mode", "standing_wave"}, {"speed", "vortex"}};
-  for (const auto& [key, user] : kUsedBy) {
-    if (map.has(key) && user != kind) {
-      throw map.error(key, "has no meaning for a flow of kind " + kind);
-    }
-  }
 }
 
 }  // namespace
@@ -58,8 +44,10 @@ void read_flow(const ConfigMap& map, Scene& scene) {
   if (!flow) return;
   FlowEntry entry;
   flow->read(flow_fields(), {}, entry);
-  refuse_foreign_keys(*flow, entry.kind_name);
-  entry.kind = kKinds.at(entry.kind_name);
+  if (const auto* row = foreign_key(*flow, flow_fields(), {entry.kind_spelled})) {
+    throw flow->error(row->key, "has no meaning for a flow of kind " + entry.kind_spelled);
+  }
+  entry.kind = kKinds.at(entry.kind_spelled);
   scene.flow = entry;
 }
 

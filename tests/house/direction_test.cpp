@@ -37,7 +37,7 @@ std::vector<std::string> link_complaints(const std::vector<SourceFile>& cmake_fi
 }
 
 TEST(Direction, IncludesOfTheTreeFollowThePlan) {
-  const auto files = read_files(SPLASH_SOURCE_DIR, {".hpp", ".cpp", ".h", ".cl"});
+  const auto files = read_files(SPLASH_SOURCE_DIR, {".hpp", ".cpp", ".def", ".h", ".cl"});
   ASSERT_GT(files.size(), 20U);
   EXPECT_THAT(include_complaints(files), IsEmpty());
 }

@@ -46,7 +46,10 @@ const std::vector<Room>& rooms() {
       {"program", {}, {"CLI/", "yaml-cpp/"}},
       {"protocol", {"program"}, {}},
 
-      {"sim-server/scene", {"program", "protocol", "sim-server/scene/mesh"}, {}},
+      {"sim-server/scene",
+       {"program", "protocol", "sim-server/scene/keys", "sim-server/scene/mesh"},
+       {}},
+      {"sim-server/scene/keys", {}, {}},
       {"sim-server/scene/mesh", {"program", "sim-server/scene"}, {}},
       {"sim-server/device", {"program"}, {"CL/"}},
       // Trackers tell their poses in messages: as plain values, whatever brought them.

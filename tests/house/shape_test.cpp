@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 constexpr std::size_t kMaxColumns = 100;
 
-const std::vector<std::string> kSources = {".hpp", ".cpp", ".h", ".cl"};
+const std::vector<std::string> kSources = {".hpp", ".cpp", ".def", ".h", ".cl"};
 
 /// UTF-8 text counted in characters: bytes that only continue a character are left out.
 std::size_t columns(const std::string& line) {

@@ -25,7 +25,8 @@ fi
 rules=$(clang-tidy --version
   echo "$extra"
   cat .clang-tidy tests/.clang-tidy
-  find program protocol sim-server synth-server pd-patches tests \( -name '*.hpp' -o -name '*.h' \) \
+  find program protocol sim-server synth-server pd-patches tests \
+    \( -name '*.hpp' -o -name '*.def' -o -name '*.h' \) \
     -exec cat {} +)
 rules=$(sha256sum <<<"$rules")
 
