@@ -241,12 +241,6 @@ void read_bodies(const ConfigMap& map, Scene& scene) {
     if (is_free(scene.bodies.back()) && scene.bodies.back().shape.kind != ShapeKind::mesh) {
       check_place(entry, scene.bodies.back().rest.position, scene.tank);
     }
-    const int held = scene.bodies.back().motion.held;
-    if (held != 0 && scene.fluid.solver == PressureKind::grid_projected) {
-      throw entry.child("motion").error("held",
-                                        "the solver grid_projected holds no body yet; "
-                                        "weakly_compressible does");
-    }
     const std::string& name = scene.bodies.back().name;
     if (!names.insert(name).second) {
       throw entry.error("name", "there is another body named '" + name + "'");

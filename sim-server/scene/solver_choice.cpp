@@ -119,7 +119,6 @@ std::string reason_of(const Scene& scene, const BodySettings& body) {
     case MotionKind::free:
       break;
   }
-  if (body.motion.held != 0) return name + "is held, which grid_projected cannot do";
   const double most = slap_speed(0.5 * smaller_width(body), length(scene.fluid.gravity));
   const double entry = entry_speed(scene, body);
   if (body.motion.kind == MotionKind::script && entry > 0.0) {

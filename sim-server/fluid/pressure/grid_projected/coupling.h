@@ -84,14 +84,15 @@ static void find_push(constant MacGrid* g, const Coupling* all, int k, global co
   for (int e = 0; e < 6; ++e) push[e] = of_all(push[e], parts);
 }
 
-// What it changes of the body's speeds: rho0 V M^-1 push.
+// What it changes of the body's speeds: rho0 V M^-1 push, but nothing where the body is held.
 static void answer_push(const Coupling* all, int k, const float* push, float* answer) {
   const FreeBody f = all->frees[k];
   float m[SIX_ENTRIES];
   for (int e = 0; e < SIX_ENTRIES; ++e) m[e] = 0.0f;
   add_inertia(f, all->bodies[f.body], m);
-  factor_six(m);
   for (int e = 0; e < 6; ++e) answer[e] = all->heavy * push[e];
+  if (f.held) hold_six(f.held, answer, m);
+  factor_six(m);
   solve_six(m, answer);
 }
 

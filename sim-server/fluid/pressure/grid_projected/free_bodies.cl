@@ -26,7 +26,8 @@ kernel void let_fall(constant FluidParams* p, float dt, int free_count, constant
   const FreeBody f = frees[k];
   global float* own = kept + k * SPLASH_KEPT_FLOATS;
   BodyStep b = bodies[first_body + f.body];
-  const float3 fall = dt * (float3)(p->gravity_x, p->gravity_y, p->gravity_z);
+  float3 fall = dt * (float3)(p->gravity_x, p->gravity_y, p->gravity_z);
+  if (f.held) fall *= free_ways(f);
   float3 held = (float3)(0.0f), turned = (float3)(0.0f);
   if (own[KEPT_ANY] > 0.0f) {
     const float most = length(fall);
@@ -95,8 +96,10 @@ kernel void push_bodies(constant FluidParams* p, constant MacGrid* g, int free_c
     const float3 dv = -(float3)(answer[0], answer[1], answer[2]);
     const float3 dw = -(float3)(answer[3], answer[4], answer[5]) / f.size;
     global float* own = kept + k * SPLASH_KEPT_FLOATS;
-    vstore3(vload3(2 * k, felt) + f.mass * dv, 2 * k, felt);
-    vstore3(vload3(2 * k + 1, felt) + inertia_times(f, b, dw), 2 * k + 1, felt);
+    const float3 force = heavy * (float3)(push[0], push[1], push[2]);
+    const float3 torque = heavy * f.size * (float3)(push[3], push[4], push[5]);
+    vstore3(vload3(2 * k, felt) - force, 2 * k, felt);
+    vstore3(vload3(2 * k + 1, felt) - torque, 2 * k + 1, felt);
     const float3 v = (float3)(b.vx, b.vy, b.vz) + dv - vload3(0, own + KEPT_HELD);
     const float3 w = (float3)(b.wx, b.wy, b.wz) + dw - vload3(0, own + KEPT_TURNED);
     set_speeds(v, w, &b);
