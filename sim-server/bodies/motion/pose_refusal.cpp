@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/bodies/motion/pose_refusal.hpp"
 
+#include <array>
+
 namespace splash::sim {
 
 namespace {

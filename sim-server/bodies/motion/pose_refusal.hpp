@@ -2,7 +2,6 @@
 // Why a pose of a tracker was not taken.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -30,8 +29,5 @@ inline constexpr std::size_t kPoseRefusals = static_cast<std::size_t>(PoseRefusa
 [[nodiscard]] std::string_view describe(PoseRefusal refusal) noexcept;
 /// The report's key.
 [[nodiscard]] std::string_view key_of(PoseRefusal refusal) noexcept;
-
-/// How many of each; `none` counts nothing.
-using PoseRefusals = std::array<std::uint64_t, kPoseRefusals>;
 
 }  // namespace splash::sim
