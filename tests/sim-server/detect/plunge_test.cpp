@@ -166,8 +166,12 @@ Told told(const Detections& found) {
 
 TEST(Repetition, IsTheSameToTheBit) {
   const std::string text = scene_text("plunge.yaml");
-  const Told first = told(run_scene(text, 2.0).found);
-  const Told second = told(run_scene(text, 2.0).found);
+  const SceneRun one = run_scene(text, 2.0);
+  const SceneRun other = run_scene(text, 2.0);
+  const Told first = told(one.found);
+  const Told second = told(other.found);
+  EXPECT_GT(one.totals.air.entrapped, 0.0);
+  EXPECT_EQ(one.totals.air.entrapped, other.totals.air.entrapped);
   EXPECT_GT(first.sizes.size(), 100U);
   EXPECT_EQ(first.impacts, second.impacts);
   EXPECT_EQ(first.places, second.places);
