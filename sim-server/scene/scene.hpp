@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a scene file says, as plain validated structs. SI units throughout. Read by
-// scene/scene_reader; nothing here knows YAML, OpenCL or OSC. A number or switch that the file
-// gives as it is stands in keys/*.def, once for member, default, unit, range and meaning:
-// KEY(type, name, default, the rest of its program::Row). What the file spells otherwise,
-// SPELLED(...), becomes a member here by scene_reader.
+// scene/scene_reader; nothing here knows YAML, OpenCL or OSC.
+// Each key of the file is declared once, in keys/*.def: KEY(type, name, default, the rest of its
+// program::Row) is a member as well. SPELLED(...) is a key whose text the reader has to look up,
+// such as an enumeration's word, a file or a body's name; the member that it sets stands here.
 #pragma once
 
 #include <array>

@@ -95,6 +95,7 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
   return keyframes;
 }
 
+/// A key that this kind of motion does not use is a mistake, not a no-op.
 void refuse_foreign_keys(const ConfigMap& map, const MotionEntry& entry) {
   const std::string& kind = entry.kind_spelled;
   const std::string meaningless = "has no meaning for a motion of kind " + kind;

@@ -134,14 +134,14 @@ INSTANTIATE_TEST_SUITE_P(Speeds, Plunge, ::testing::Values(0.5, 1.0, 2.0), [](co
 });
 
 /// All numbers of all events, in the order in which they were found.
-struct Told {
+struct EventNumbers {
   std::vector<double> impacts;
   std::vector<double> places;  ///< and times, of bubbles and cavities
   std::vector<double> sizes;   ///< of bubbles
 };
 
-Told told(const Detections& found) {
-  Told all;
+EventNumbers numbers_of(const Detections& found) {
+  EventNumbers all;
   for (const DetectedImpact& e : found.impacts) {
     for (const double x : {e.time, static_cast<double>(e.body), e.speed, e.approach, e.position[0],
                            e.position[1], e.position[2]}) {
@@ -168,8 +168,8 @@ TEST(Repetition, IsTheSameToTheBit) {
   const std::string text = scene_text("plunge.yaml");
   const SceneRun one = run_scene(text, 2.0);
   const SceneRun other = run_scene(text, 2.0);
-  const Told first = told(one.found);
-  const Told second = told(other.found);
+  const EventNumbers first = numbers_of(one.found);
+  const EventNumbers second = numbers_of(other.found);
   EXPECT_GT(one.totals.air.entrapped, 0.0);
   EXPECT_EQ(one.totals.air.entrapped, other.totals.air.entrapped);
   EXPECT_GT(first.sizes.size(), 100U);
@@ -182,8 +182,8 @@ TEST(Repetition, IsTheSameToTheBit) {
 TEST(Repetition, WithAnotherSeedHasOtherBubbleSizes) {
   const std::string text =
       scene_text("plunge.yaml") + "\ndetect: {bubble_per_particle: true, cavity_by_count: true}\n";
-  const Told first = told(run_scene(text, 1.8).found);
-  const Told second = told(run_scene("seed: 77\n" + text, 1.8).found);
+  const EventNumbers first = numbers_of(run_scene(text, 1.8).found);
+  const EventNumbers second = numbers_of(run_scene("seed: 77\n" + text, 1.8).found);
   EXPECT_FALSE(first.impacts.empty());
   EXPECT_EQ(first.impacts, second.impacts);
   EXPECT_EQ(first.places, second.places);
