@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
     Longer, FeltForceOnAGrid,
     testing::Values(Blow{"in and out for longer", 0.02, kBlock, kOar, -0.48, rowed(0.12), 1.2},
                     Blow{"a ball struck twice", 0.02, kBall, kPlate, -0.15, rowed(0.1), 1.2},
-                    Blow{"in and out of the other side", 0.02, kBlock, kPlate, -0.3, away, 1.2}),
+                    Blow{"in and out of the other side", 0.02, kBlock, kPlate, -0.3, away, 1.0}),
     name_of);
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -195,6 +196,75 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
 
 INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedReference, ::testing::Values(Build{1}, Build{16}),
                          build_name);
+
+/// How far cells are from holding their volume, beyond the twentieth that moves nothing.
+double asked_of(double fill) {
+  const double excess = fill - 1.0;
+  return std::copysign(std::max(std::abs(excess) - 0.05, 0.0), excess);
+}
+
+/// Water in a tank without gravity, by `part` of its height.
+Water pressed_together(double part) {
+  Scene scene = tank_scene(0.02, {0.4, 0.2, 0.6}, 0.3);
+  scene.fluid.gravity = {0.0, 0.0, 0.0};
+  Water water = fill(scene, PressureKind::grid_projected);
+  for (Vector3& place : water.particles) place[2] *= part;
+  return water;
+}
+
+TEST_P(GridProjectedReference, CellsAskForTheRoomThatTheyLack) {
+  Device device(-1, false, GetParam().lanes);
+  for (const double part : {0.85, 1.15}) {
+    Water water = pressed_together(part);
+    water.start(device);
+    water.step(1.0e-2);
+    const GridProjected& solver = solver_of(water);
+    const MacGrid& g = solver.fields().grid;
+    const MacLevel& l = g.level[0];
+    const auto cells = static_cast<std::size_t>(l.cells);
+    const std::vector<double> fill = read(device, solver.solids().fill(), 0, cells);
+    const MacFaces shift = read_faces(device, solver, solver.crowding().shift());
+    const std::array<double, 3> inverse = {static_cast<double>(g.ix), static_cast<double>(g.iy),
+                                           static_cast<double>(g.iz)};
+    const std::array<std::size_t, 3> step = {1, static_cast<std::size_t>(l.row),
+                                             static_cast<std::size_t>(l.layer)};
+    int looked_at = 0;
+    for (int z = 0; z < 5; ++z) {  // the surface is in the seventh layer or higher
+      for (int y = 0; y < l.ny; ++y) {
+        for (int x = 0; x < l.nx; ++x) {
+          const int number = (z + 1) * l.layer + (y + 1) * l.row + x + 1;
+          const auto c = static_cast<std::size_t>(number);
+          double growth = 0.0;
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            growth += inverse[axis] * (shift[axis][c + step[axis]] - shift[axis][c]);
+          }
+          const double asked = asked_of(fill[c]);
+          EXPECT_GT(std::abs(asked), 0.05) << part;
+          ASSERT_NEAR(1.0e-2 * growth, asked, 0.1 * std::abs(asked)) << x << ' ' << y << ' ' << z;
+          ++looked_at;
+        }
+      }
+    }
+    EXPECT_EQ(looked_at, 5 * l.nx * l.ny);
+  }
+}
+
+TEST(GridProjected, CrowdedWaterTakesItsVolumeAgainAndNoSpeed) {
+  Device device;
+  Water water = pressed_together(0.85);
+  water.start(device);
+  for (int k = 0; k < 5; ++k) water.step(1.0e-2);
+  const FluidState state = read_state(*water.fluid);
+  double highest = 0.0;
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    highest = std::max(highest, state.position[i][2]);
+    fastest = std::max(fastest, length(state.velocity[i]));
+  }
+  std::printf("highest %.4f m, fastest %.4f m/s\n", highest, fastest);
+  EXPECT_GT(highest, 0.95 * 0.29);
+  EXPECT_LT(fastest, 0.01);
+}
 
 TEST(GridProjected, GivesTheSameBitsTwice) {
   Device device;

@@ -74,13 +74,13 @@ const Kernels kStep = {"place_bodies", "gather_body_volumes", "compute_density",
 const Kernels kTurn = {"turn_water"};
 /// Where pressure pushes pairs of particles.
 const Kernels kPairs = {"compute_acceleration", "integrate"};
-const Kernels kGrid = {"cut_cells",      "open_faces",     "fill_beside_solids", "find_deviation",
-                       "move_particles", "project_faces",  "find_spacing",       "sample_pressure",
-                       "solve_pressure", "push_faces",     "lay_system",         "let_fall",
-                       "grip_water",     "push_bodies",    "tie_bodies",         "tell_tugs",
-                       "weigh_pressure", "mark_faces",     "weigh_faces",        "weigh_given",
-                       "sum_given",      "cover_surface",  "see_room",           "share_at_surface",
-                       "sharpen_faces",  "ask_for_answer", "find_clear"};
+const Kernels kGrid = {
+    "cut_cells",      "open_faces",     "fill_beside_solids", "find_deviation",   "move_particles",
+    "project_faces",  "find_spacing",   "sample_pressure",    "solve_pressure",   "push_faces",
+    "lay_system",     "let_fall",       "grip_water",         "push_bodies",      "tie_bodies",
+    "tell_tugs",      "weigh_pressure", "mark_faces",         "weigh_faces",      "weigh_given",
+    "sum_given",      "cover_surface",  "see_room",           "share_at_surface", "sharpen_faces",
+    "ask_for_answer", "find_clear",     "ask_for_room",       "find_shift"};
 /// How pushes on felt bodies depend on speeds.
 const Kernels kAnswers = {"weigh_answer"};
 /// From particles to its faces, on CPUs and on GPUs.

@@ -45,13 +45,13 @@ static float flow_through(constant MacGrid* g, global const BodyStep* bodies, in
 
 // The system's right side becomes K of one `part` of the speeds of felt body `k`, or, if that is
 // SPLASH_BY_FLOW, what of -div u the cells have that it cuts, relative to it and without gravity.
-// The solution begins at zero, and `open` is what it was before the last solve.
+// The solution begins at zero.
 kernel void ask_for_answer(constant MacGrid* g, int k, int part, constant FreeBody* felt,
                            global const BodyStep* bodies, int first_body, global const int* owner,
                            global const float* gap, global const float* mean,
-                           global const float* grip, global const float* surface,
-                           global float* open, global float* x, global float* right,
-                           global float* rest, global float* start, global float* way) {
+                           global const float* grip, global const float* open, global float* x,
+                           global float* right, global float* rest, global float* start,
+                           global float* way) {
   const int4 at = cell_of(g, get_global_id(0));
   if (at.w == 0) return;
   const MacLevel l = g->level[0];
@@ -65,7 +65,6 @@ kernel void ask_for_answer(constant MacGrid* g, int k, int part, constant FreeBo
                     flow_through(g, bodies + first_body, owner[c], gap, mean, next, axis));
   }
   right[c] = b;
-  open[c] = surface[c];
   x[c] = rest[c] = start[c] = way[c] = 0.0f;
 }
 

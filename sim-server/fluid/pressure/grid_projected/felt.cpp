@@ -20,7 +20,6 @@ FeltForces::FeltForces(Device& device, const cl::Program& program, const MacFiel
       system_(system),
       given_(device, program, fields, solids, system),
       grip_(device, 1),
-      surface_(device, 1),
       answer_(device, 1),
       answer_state_(device, 1),
       weigh_pressure_(program, "weigh_pressure", fields.team),
@@ -29,17 +28,10 @@ FeltForces::FeltForces(Device& device, const cl::Program& program, const MacFiel
 
 void FeltForces::feel(Device& device, bool on) {
   feels_ = on && solids_.any();
-  if (!feels_ || surface_.size() == fields_.room) return;
+  if (!feels_ || answer_.size() == fields_.room) return;
   grip_ = Buffer<float>(device, 6 * fields_.room);
-  surface_ = Buffer<float>(device, fields_.room);
   answer_ = Buffer<float>(device, fields_.room);
   given_.make_room(device);
-}
-
-void FeltForces::keep_system(Fluid& fluid) {
-  if (!feels_) return;
-  fluid.device().queue().enqueueCopyBuffer(system_.open().memory(), surface_.memory(), 0, 0,
-                                           fields_.room * sizeof(float));
 }
 
 void FeltForces::add(const FeltBodies& felt) {
@@ -83,10 +75,9 @@ void FeltForces::weigh_answer(Fluid& fluid, const Step& step, int k, int part) {
                        {"gap", solids_.gap()},
                        {"mean", fields_.carries},
                        {"grip", grip_},
-                       {"surface", surface_},
                        {"start", answer_}},
                       system_.unknowns());
-  system_.solve(fluid, step, kAnswerIterations, answer_, answer_state_);
+  system_.solve_again(fluid, step, kAnswerIterations, true, answer_, answer_state_);
   if (part != SPLASH_BY_FLOW) {
     weigh_answer_.run_teams(queue, 1,
                             {{"p", fluid.params_buffer()},

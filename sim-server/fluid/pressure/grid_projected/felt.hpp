@@ -24,8 +24,6 @@ class FeltForces {
   /// Turns the computation of felt forces on or off, from the next step on.
   void feel(Device& device, bool on);
   [[nodiscard]] bool feels() const noexcept { return feels_; }
-  /// Copies the part of the laid system that its solve overwrites. Called before that solve.
-  void keep_system(Fluid& fluid);
   /// Sets the bodies whose forces weigh() finds in this step.
   void add(const FeltBodies& felt);
   /// Adds this step's forces to the bodies' sums. The particles have moved.
@@ -49,7 +47,6 @@ class FeltForces {
   bool feels_ = false;
   std::optional<FeltBodies> now_;  ///< of this step, until it has moved the particles
   Buffer<float> grip_;             ///< K of each cell
-  Buffer<float> surface_;          ///< the system's open() before the solve
   Buffer<float> answer_;
   Buffer<SolveState> answer_state_;
   Kernel weigh_pressure_;

@@ -29,6 +29,7 @@ GridProjected::GridProjected(Device& device, const FluidParams& params, const cl
       bodies_(device, program, fields_, solids_),
       system_(device, program, fields_, solids_, bodies_),
       felt_(device, program, fields_, solids_, bodies_, system_),
+      crowding_(device, program, fields_, solids_, system_),
       to_faces_(device, program, fields_),
       deviation_(device, fields_.carried.size()),
       seen_(device, 3 * fields_.room),
@@ -68,10 +69,10 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   bodies_.let_fall(fluid, step);
   system_.lay(fluid, step);
   bodies_.find_grip(fluid, step);
-  felt_.keep_system(fluid);
   system_.solve(fluid, step);
   bodies_.push(fluid, step, system_.found());
   system_.project(fluid, step);
+  crowding_.find(fluid, step);
   const double sound = kSpacingWay * static_cast<double>(fluid.params().support) / step.dt;
   const double slower = sound / static_cast<double>(fluid.params().sound_speed);
   find_spacing_.run(queue, fluid.groups(),
@@ -114,6 +115,7 @@ void GridProjected::move(Fluid& fluid, const Step& step) {
                        {"change", fields_.change},
                        {"gain", fields_.gain},
                        {"seen", seen_},
+                       {"shift", crowding_.shift()},
                        {"deviation", deviation_},
                        {"acceleration", fluid.acceleration()},
                        {"position", fluid.particles().position},

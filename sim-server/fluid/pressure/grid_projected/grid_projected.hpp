@@ -11,6 +11,7 @@
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/pressure/grid_projected/coupling.hpp"
+#include "sim-server/fluid/pressure/grid_projected/crowding.hpp"
 #include "sim-server/fluid/pressure/grid_projected/felt.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
@@ -68,6 +69,7 @@ class GridProjected : public PressureSolver {
   [[nodiscard]] const MacFields& fields() const noexcept { return fields_; }
   [[nodiscard]] const GridSolids& solids() const noexcept { return solids_; }
   [[nodiscard]] const FeltForces& felt() const noexcept { return felt_; }
+  [[nodiscard]] const Crowding& crowding() const noexcept { return crowding_; }
   [[nodiscard]] const Buffer<float>& deviation() const noexcept { return deviation_; }
   [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_; }
 
@@ -80,6 +82,7 @@ class GridProjected : public PressureSolver {
   CoupledBodies bodies_;
   PressureSystem system_;
   FeltForces felt_;
+  Crowding crowding_;
   ToFaces to_faces_;
   Buffer<float> deviation_;  ///< of particles [m/s]
   Buffer<float> seen_;       ///< its mean on faces [m/s]

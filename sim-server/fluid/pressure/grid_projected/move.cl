@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Particles take from the grid what the step changed there, and move on:
 //   v  = u + du          u: velocity before, du: mean change of the faces around, sharpened
-//   x += dt w + dt^2 a   w: the grid's velocity half a step ahead, sharpened; a: spacing
+//   x += dt (w + c) + dt^2 a   w: the grid's velocity half a step ahead, sharpened; c: what keeps
+//                              the cells' volumes (crowding.cl); a: spacing
 //   u' = v - (1 - exp(-rate dt)) (d - S d) + kick dt a              d: deviation
 // They are carried by what the grid sees of their motion, v - d, as it is where that takes them in
 // half a step (midpoint rule): a step along where they are would press strained water together by
 // dt^2 tr(grad w grad w) / 2. They lose of the rest what the grid sees least of: the second-order
 // filter (1 - S)^2, which only takes energy and keeps momentum. Spacing is a displacement, of which
-// little becomes speed.
+// little becomes speed, and c one of which nothing does.
 
 #include "sim-server/fluid/boundary/keep_out.h"
 #include "sim-server/fluid/boundary/walls.h"
@@ -73,10 +74,10 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
                            global const float* meshes, global const BodyStep* bodies,
                            int first_body, int body_count, global const float* carries,
                            global const float* change, global const float* gain,
-                           global const float* seen, global const float* deviation,
-                           global float* acceleration, global float* position,
-                           global float* velocity, global float* carried, int feels,
-                           global float* jolt) {
+                           global const float* seen, global const float* shift,
+                           global const float* deviation, global float* acceleration,
+                           global float* position, global float* velocity, global float* carried,
+                           int feels, global float* jolt) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   if (first >= p->count) return;
@@ -105,7 +106,10 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
     u[axis] = v - filtered * twice + kick * spaced[axis];
   }
   look_ahead(g, dt, carries, change, inner, from, way);
-  for (int axis = 0; axis < 3; ++axis) way[axis] += spaced[axis];
+  for (int axis = 0; axis < 3; ++axis) {
+    const lanes shifted = sum_of_faces(g, &at, axis, shift, 0).whole;
+    way[axis] += spaced[axis] + select(none, shifted, at.on_grid);
+  }
   touch_walls(p, dt, piston, piston_speed, loose, from, way, u);
   const lanes slower = slowed(p, u), shorter = slowed(p, way);
   for (int axis = 0; axis < 3; ++axis) {

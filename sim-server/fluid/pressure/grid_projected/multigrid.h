@@ -95,9 +95,9 @@ static int rows_below(constant MacGrid* g, int level, int most) {
   return min(top + 1, g->level[level].nz) * g->level[level].ny;
 }
 
-// Links and openings of all coarse levels, which begin at zero, then all diagonals.
-static void coarsen(constant MacGrid* g, const Levels* s) {
-  for (int level = 1; level < g->levels; ++level) {
+// Links and openings of the coarse ones of so many levels, which begin at zero, then all diagonals.
+static void coarsen(constant MacGrid* g, const Levels* s, int levels) {
+  for (int level = 1; level < levels; ++level) {
     const MacLevel c = g->level[level], f = g->level[level - 1];
     for (int row = FIRST_ITEM; row < c.ny * c.nz; row += ITEMS) {
       const Row r = row_of(c, f, row);
@@ -112,7 +112,7 @@ static void coarsen(constant MacGrid* g, const Levels* s) {
     }
     TOGETHER();
   }
-  for (int level = 0; level < g->levels; ++level) {
+  for (int level = 0; level < levels; ++level) {
     close_rows(s, g->level[level],
                g->level[level].first + g->level[level].cells - g->level[level].layer);
   }

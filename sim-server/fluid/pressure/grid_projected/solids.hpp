@@ -26,6 +26,8 @@ class GridSolids {
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// How full cells are, of their open part [1].
   [[nodiscard]] const Buffer<float>& fill() const noexcept { return any_ ? filled_ : fields_.fill; }
+  /// Open part of what a cell's hat sees [1].
+  [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_space_; }
   [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
   /// Part of a face's open volume that does not go with a solid which covers the surface [1].
   [[nodiscard]] const Buffer<float>& free() const noexcept { return upper_; }

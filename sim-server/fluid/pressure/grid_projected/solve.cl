@@ -15,28 +15,31 @@
 static float product(const MacLevel l, int end, global const float* a, global const float* b,
                      local float* parts) {
   lanes sum = 0.0f;
-  EACH_VECTOR(c, l, end) { sum += LOAD(a, c) * LOAD(b, c); }
+  EACH_VECTOR(c, l, end) {
+    sum += LOAD(a, c) * LOAD(b, c);
+  }
   return of_all(total(sum), parts);
 }
 
+// `anew`: the system was laid since the last solve; if 0, only its right side was.
 // `found`: where f begins and where it is left. `way`, `along`: the direction and A of it. What is
 // left of the demand is the finest level's b. `most`: as lay_system left it. `bodies`: those of
 // this step, of which `frees` are free.
-kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int iterations, int room,
-                           int free_count, constant FreeBody* frees, global BodyStep* bodies,
-                           int first_body, global const int* owner, global const float* grip,
-                           global const int* most, global float* link, global float* open,
-                           global float* damped, global float* x, global float* b,
-                           global float* r, global float* found, global float* way,
+kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int anew, int iterations,
+                           int room, int free_count, constant FreeBody* frees,
+                           global BodyStep* bodies, int first_body, global const int* owner,
+                           global const float* grip, global const int* most, global float* link,
+                           global float* open, global float* damped, global float* x,
+                           global float* b, global float* r, global float* found, global float* way,
                            global float* along, global SolveState* state) {
   local float parts[JUDGES];
   const Levels s = {{link, link + room, link + 2 * room}, open, damped, x, b, r};
   const MacLevel l = g->level[0];
-  const Coupling all = {free_count, frees, bodies + first_body, owner, grip,
-                        p->rest_density * g->hx * g->hy * g->hz};
+  const Coupling all = {free_count, frees, bodies + first_body,
+                        owner,      grip,  p->rest_density * g->hx * g->hy * g->hz};
   const int last = *most;
   const int end = end_of(g, 0, last);
-  coarsen(g, &s);
+  coarsen(g, &s, anew ? g->levels : 0);
   const float whole = product(l, end, b, b, parts);
   EACH_VECTOR(c, l, end) {
     STORE(LOAD(b, c) - times(&s, l, found, c), b, c);

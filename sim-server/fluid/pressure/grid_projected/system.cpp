@@ -70,17 +70,23 @@ void PressureSystem::lay(Fluid& fluid, const Step& step) {
 }
 
 void PressureSystem::solve(Fluid& fluid, const Step& step) {
-  solve(fluid, step, kIterations, found_, state_);
+  solve(fluid, step, true, kIterations, true, found_, state_);
 }
 
-void PressureSystem::solve(Fluid& fluid, const Step& step, int iterations,
+void PressureSystem::solve_again(Fluid& fluid, const Step& step, int iterations, bool yielding,
+                                 const Buffer<float>& found, const Buffer<SolveState>& state) {
+  solve(fluid, step, false, iterations, yielding, found, state);
+}
+
+void PressureSystem::solve(Fluid& fluid, const Step& step, bool anew, int iterations, bool yielding,
                            const Buffer<float>& found, const Buffer<SolveState>& state) {
   solve_pressure_.run_teams(fluid.device().queue(), 1,
                             {{"p", fluid.params_buffer()},
                              {"g", fields_.on_device},
+                             {"anew", static_cast<int>(anew)},
                              {"iterations", iterations},
                              {"room", static_cast<int>(fields_.room)},
-                             {"free_count", bodies_.count(fluid)},
+                             {"free_count", yielding ? bodies_.count(fluid) : 0},
                              {"frees", bodies_.solved(fluid)},
                              {"bodies", fluid.boundary().steps()},
                              {"first_body", step.first_body},

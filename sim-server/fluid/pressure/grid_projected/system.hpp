@@ -24,10 +24,11 @@ class PressureSystem {
   void push_faces(Fluid& fluid, const Step& step);
   void lay(Fluid& fluid, const Step& step);
   void solve(Fluid& fluid, const Step& step);
-  /// Solves the system as it is laid, or with another right side in unknowns(), in at most so many
-  /// `iterations`. `found` holds the first guess and then the solution.
-  void solve(Fluid& fluid, const Step& step, int iterations, const Buffer<float>& found,
-             const Buffer<SolveState>& state);
+  /// Solves the system of the last solve with another right side in unknowns(), in at most so many
+  /// `iterations`. `found` holds the first guess and then the solution. `yielding`: free bodies
+  /// give way to the pressures.
+  void solve_again(Fluid& fluid, const Step& step, int iterations, bool yielding,
+                   const Buffer<float>& found, const Buffer<SolveState>& state);
   void project(Fluid& fluid, const Step& step);
   /// Turns changes of velocity on faces at the surface into those that the particles there get.
   void share_at_surface(Device& device, const Buffer<float>& field);
@@ -38,9 +39,8 @@ class PressureSystem {
 
   /// The last solution: pressure times the step's length over the density [m2/s].
   [[nodiscard]] const Buffer<float>& found() const noexcept { return found_; }
-  /// What the surface adds to a cell's equation; a solve changes it.
-  [[nodiscard]] const Buffer<float>& open() const noexcept { return open_; }
-  /// The arrays that a solve begins from, as kernel arguments.
+  /// The arrays that a solve begins from, as kernel arguments; `open`: what the surface adds to the
+  /// equations of cells, and after a solve their diagonals.
   [[nodiscard]] std::array<KernelArg, 5> unknowns() const {
     return {{{"open", open_}, {"x", x_}, {"right", b_}, {"rest", r_}, {"way", way_}}};
   }
@@ -52,6 +52,9 @@ class PressureSystem {
   void forget(Device& device);
 
  private:
+  void solve(Fluid& fluid, const Step& step, bool anew, int iterations, bool yielding,
+             const Buffer<float>& found, const Buffer<SolveState>& state);
+
   const MacFields& fields_;
   const GridSolids& solids_;
   const CoupledBodies& bodies_;
