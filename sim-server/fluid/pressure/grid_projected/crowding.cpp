@@ -19,12 +19,12 @@ Crowding::Crowding(Device& device, const cl::Program& program, const MacFields& 
       found_(device, fields.room),
       shift_(device, 3 * fields.room),
       state_(device, 1),
-      ask_for_room_(program, "ask_for_room"),
-      find_shift_(program, "find_shift") {}
+      ask_for_room_(program, "ask_for_room", device.profile().group),
+      find_shift_(program, "find_shift", device.profile().group) {}
 
 void Crowding::find(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
-  ask_for_room_.run(queue, fields_.cells,
+  ask_for_room_.run(queue, fields_.vectors,
                     {{"g", fields_.on_device},
                      {"dt", as_float(step.dt)},
                      {"seen", solids_.seen()},
@@ -33,7 +33,7 @@ void Crowding::find(Fluid& fluid, const Step& step) {
                      {"start", found_}},
                     system_.unknowns());
   system_.solve_again(fluid, step, kIterations, false, found_, state_);
-  find_shift_.run(queue, fields_.cells,
+  find_shift_.run(queue, fields_.vectors,
                   {{"g", fields_.on_device},
                    {"gap", solids_.gap()},
                    {"fill", solids_.fill()},

@@ -11,18 +11,6 @@
 #include "sim-server/fluid/pressure/grid_projected/sharpen.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
-// How fast f grows across the lower faces of cells, `s` from those below [edges].
-static lanes growth(global const float* fill, global const float* wet, global const float* found,
-                    int c, int s) {
-  const lanes none = 0.0f;
-  const lane_flags here = LOAD(wet, c) > none, there = LOAD(wet, c - s) > none;
-  const lanes f = LOAD(found, c), below = LOAD(found, c - s);
-  const lanes full = LOAD(fill, c), full_below = LOAD(fill, c - s);
-  const lanes rise = f / way_to_surface(full, full_below);
-  const lanes fall = -below / way_to_surface(full_below, full);
-  return select(select(fall, rise, here), f - below, here & there);
-}
-
 // Whether water is next to the cells beside a wall, along the wall; `axis`: across it. Such a wall
 // stops what has risen above the surface there, as it stops the water below.
 static lane_flags are_washed(const MacLevel l, global const float* wet, const Cells* at, int axis) {

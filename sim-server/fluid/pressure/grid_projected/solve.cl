@@ -15,13 +15,11 @@
 static float product(const MacLevel l, int end, global const float* a, global const float* b,
                      local float* parts) {
   lanes sum = 0.0f;
-  EACH_VECTOR(c, l, end) {
-    sum += LOAD(a, c) * LOAD(b, c);
-  }
+  EACH_VECTOR(c, l, end) { sum += LOAD(a, c) * LOAD(b, c); }
   return of_all(total(sum), parts);
 }
 
-// `anew`: the system was laid since the last solve; if 0, only its right side was.
+// `anew`: 0 if only the right side has changed since the last solve.
 // `found`: where f begins and where it is left. `way`, `along`: the direction and A of it. What is
 // left of the demand is the finest level's b. `most`: as lay_system left it. `bodies`: those of
 // this step, of which `frees` are free.
@@ -35,8 +33,8 @@ kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int ane
   local float parts[JUDGES];
   const Levels s = {{link, link + room, link + 2 * room}, open, damped, x, b, r};
   const MacLevel l = g->level[0];
-  const Coupling all = {free_count, frees, bodies + first_body,
-                        owner,      grip,  p->rest_density * g->hx * g->hy * g->hz};
+  const Coupling all = {free_count, frees, bodies + first_body, owner, grip,
+                        p->rest_density * g->hx * g->hy * g->hz};
   const int last = *most;
   const int end = end_of(g, 0, last);
   coarsen(g, &s, anew ? g->levels : 0);

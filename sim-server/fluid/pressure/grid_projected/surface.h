@@ -44,3 +44,38 @@ static lanes way_to_surface(lanes water, lanes air) {
 static float way_to_surface_of(float water, float air) {
   return most(way_to_surface((lanes)(water), (lanes)(air)));
 }
+
+// How fast f grows across the lower faces of cells, `s` from those below [edges].
+static lanes growth(global const float* fill, global const float* wet, global const float* found,
+                    int c, int s) {
+  const lanes none = 0.0f;
+  const lane_flags here = LOAD(wet, c) > none, there = LOAD(wet, c - s) > none;
+  const lanes f = LOAD(found, c), below = LOAD(found, c - s);
+  const lanes full = LOAD(fill, c), full_below = LOAD(fill, c - s);
+  const lanes rise = f / way_to_surface(full, full_below);
+  const lanes fall = -below / way_to_surface(full_below, full);
+  return select(select(fall, rise, here), f - below, here & there);
+}
+
+// Which cells from `c` on hold water.
+static lane_flags hold_water(global const float* fill, int c) {
+  return LOAD(fill, c) > (lanes)(MAC_FULL);
+}
+
+// Whether every cell around each that is in the tank holds water.
+static lane_flags are_inner(const MacLevel l, global const float* fill, const Cells* at) {
+  const lane_flags none = 0;
+  lanes least_full = 1.0f;
+  for (int z = max(-1, -at->z); z <= 1; ++z) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) {
+        const lane_flags i = at->x + x, j = at->y + y;
+        const lane_flags behind =
+            (i < none) | (i >= (lane_flags)(l.nx)) | (j < none) | (j >= (lane_flags)(l.ny));
+        const lanes there = LOAD(fill, at->first + z * l.layer + y * l.row + x);
+        least_full = fmin(least_full, select(there, (lanes)(1.0f), behind));
+      }
+    }
+  }
+  return least_full > (lanes)(MAC_FULL);
+}

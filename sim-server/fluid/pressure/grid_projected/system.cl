@@ -52,31 +52,9 @@ kernel void push_faces(constant FluidParams* p, constant MacGrid* g, float dt,
   }
 }
 
-static lane_flags hold_water(global const float* fill, int c) {
-  return LOAD(fill, c) > (lanes)(MAC_FULL);
-}
-
 // The last lane that is marked, if any is.
 static int last_of(lane_flags marked) {
   return (int)most(select((lanes)(-1.0f), CONVERT(LANE_NUMBERS), marked));
-}
-
-// Whether all cells around, but for those behind walls, hold water.
-static lane_flags are_inner(const MacLevel l, global const float* fill, const Cells* at) {
-  const lane_flags none = 0;
-  lanes least_full = 1.0f;
-  for (int z = max(-1, -at->z); z <= 1; ++z) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int x = -1; x <= 1; ++x) {
-        const lane_flags i = at->x + x, j = at->y + y;
-        const lane_flags behind =
-            (i < none) | (i >= (lane_flags)(l.nx)) | (j < none) | (j >= (lane_flags)(l.ny));
-        const lanes there = LOAD(fill, at->first + z * l.layer + y * l.row + x);
-        least_full = fmin(least_full, select(there, (lanes)(1.0f), behind));
-      }
-    }
-  }
-  return least_full > (lanes)(MAC_FULL);
 }
 
 // How fast solids go at the faces of cells that they cut, below and above along an axis [m/s].
