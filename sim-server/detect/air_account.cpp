@@ -9,12 +9,20 @@ namespace splash::sim {
 namespace {
 
 constexpr double kRecent = 0.1;             ///< [s]
+constexpr double kEddiesLast = 1.0;         ///< [s]
 constexpr double kLargestOfLittle = 0.008;  ///< [m]
 
 }  // namespace
 
 double bubble_volume(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
+double AirAccount::own_loss(double lost, double work, double frame) {
+  given_ = given_ * std::exp(-frame / kEddiesLast) + work;
+  const double of_bodies = std::min(lost, given_);
+  given_ -= of_bodies;
+  return lost - of_bodies;
 }
 
 void AirAccount::begin(double air, double frame) {

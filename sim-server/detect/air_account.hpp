@@ -12,6 +12,11 @@ namespace splash::sim {
 
 class AirAccount {
  public:
+  /// Of the energy `lost` that water loses at its surface in a frame [J], what no body has given
+  /// it: the `work` of bodies in this frame [J] and what is left of earlier work, which eddies use
+  /// up in about a second, go off first [J].
+  [[nodiscard]] double own_loss(double lost, double work, double frame);
+
   /// Begins a frame of `frame` seconds, in which `air` is entrained [m3].
   void begin(double air, double frame);
   /// Largest radius of a bubble now: that of a sphere of the air of the last 0.1 s, 8 mm at least,
@@ -32,6 +37,7 @@ class AirAccount {
  private:
   double owed_ = 0.0;    ///< [m3]
   double recent_ = 0.0;  ///< of about the last 0.1 s [m3]
+  double given_ = 0.0;   ///< work of bodies that water has not lost yet [J]
 };
 
 }  // namespace splash::sim

@@ -7,7 +7,8 @@
 //   rate = factor 4 a (1 - a) (k - least)^(3/2).
 // Twice the product of both shares is the chance that of two places near by one holds air and the
 // other does not: a half at a flat surface, none deep in water, little around drops in the air. A
-// sum over the particles is an integral over the water that does not ask how many they are.
+// sum over the particles is an integral over the water that does not ask how many they are, so one
+// in SPLASH_FOLDS_APART of those in grid order stands for its neighbours; `phase`: which.
 
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/fluid/boundary/walls.h"
@@ -99,8 +100,9 @@ kernel void fold_air(constant FluidParams* p, global const int* cell_start,
                      global const int* id, global const int* body_start,
                      global const float* body_position, global const float* body_volume,
                      int body_stride, int body_count, float piston, float reach, float least,
-                     float factor, int room, global int* counts, global AirFold* out) {
-  const int i = get_global_id(0);
+                     float factor, int phase, int room, global int* counts,
+                     global AirFold* out) {
+  const int i = get_global_id(0) * SPLASH_FOLDS_APART + phase;
   if (i >= p->count) return;
   const int n = p->capacity;
   const float x = position[i], y = position[n + i], z = position[2 * n + i];

@@ -8,21 +8,31 @@
 namespace splash::sim {
 namespace {
 
+/// Folds read without asking how many there are.
+constexpr std::size_t kFoldsAtOnce = 128;
+
 /// Particles within an eddy's width tell its energy from their mean motion [spacings].
 constexpr double kLeastWidth = 2.0;
 
 /// Air that a particle entrains each second, over 4 a (1 - a) (k - k0)^(3/2) [s2]; 0 without
 /// gravity, against which the work would be done.
 double factor_of(const DetectSettings& settings, const FluidParams& p, double width) {
-  const double gravity =
-      std::hypot(static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
-                 static_cast<double>(p.gravity_z));
-  if (gravity <= 0.0) return 0.0;
-  const double water = static_cast<double>(p.mass / p.rest_density);
-  return settings.bubble_energy * water / (gravity * width * settings.bubble_eddy);
+  const double lift = lift_of(settings, p);
+  if (lift <= 0.0) return 0.0;
+  const double water = SPLASH_FOLDS_APART * static_cast<double>(p.mass);  // that it stands for [kg]
+  return settings.bubble_energy * water / (width * lift);
 }
 
 }  // namespace
+
+double gravity_of(const FluidParams& params) {
+  return std::hypot(static_cast<double>(params.gravity_x), static_cast<double>(params.gravity_y),
+                    static_cast<double>(params.gravity_z));
+}
+
+double lift_of(const DetectSettings& settings, const FluidParams& params) {
+  return static_cast<double>(params.rest_density) * gravity_of(params) * settings.bubble_eddy;
+}
 
 double eddy_width(const DetectSettings& settings, double spacing) {
   return std::max(settings.bubble_eddy, kLeastWidth * spacing);
@@ -31,16 +41,20 @@ double eddy_width(const DetectSettings& settings, double spacing) {
 AirFolds::AirFolds(Fluid& fluid, const cl::Program& program)
     : fluid_(fluid),
       count_(fluid.device(), 1),
-      folds_(fluid.device(), static_cast<std::size_t>(fluid.params().count)),
-      read_(static_cast<std::size_t>(fluid.params().count)),
+      folds_(fluid.device(),
+             static_cast<std::size_t>(fluid.params().count / SPLASH_FOLDS_APART + 1)),
+      read_(static_cast<std::size_t>(fluid.params().count / SPLASH_FOLDS_APART + 1)),
       fold_air_(program, "fold_air") {}
 
-void AirFolds::enqueue(const Step& step, const DetectSettings& settings) {
+void AirFolds::enqueue(const Step& step, const DetectSettings& settings, int phase) {
+  skip();
+  looks_ = settings.bubble_energy > 0.0;
+  if (!looks_) return;
   const FluidParams& p = fluid_.params();
   const Boundary& boundary = fluid_.boundary();
   const double width = eddy_width(settings, static_cast<double>(p.spacing));
   count_.enqueue_clear(fluid_.device());
-  fold_air_.run(fluid_.device().queue(), static_cast<std::size_t>(p.count),
+  fold_air_.run(fluid_.device().queue(), read_.size(),
                 {{"p", fluid_.params_buffer()},
                  {"cell_start", fluid_.grid().cell_start()},
                  {"position", fluid_.particles().position},
@@ -51,20 +65,26 @@ void AirFolds::enqueue(const Step& step, const DetectSettings& settings) {
                  {"reach", as_float(width)},
                  {"least", as_float(1.5 * settings.bubble_onset * settings.bubble_onset)},
                  {"factor", as_float(factor_of(settings, p, width))},
-                 {"room", p.count},
+                 {"phase", phase},
+                 {"room", static_cast<int>(read_.size())},
                  {"counts", count_},
                  {"out", folds_}},
                 boundary.matter());
 }
 
 void AirFolds::enqueue_read() {
+  if (!looks_) return;
   count_.enqueue_read(fluid_.device(), found_);
+  folds_.enqueue_read(fluid_.device(),
+                      std::span(read_).first(std::min(kFoldsAtOnce, read_.size())));
 }
 
 std::vector<AirFold> AirFolds::read() {
   const auto found = static_cast<std::size_t>(found_.front());
-  if (found == 0) return {};
-  folds_.read(fluid_.device(), std::span(read_).first(found));
+  if (found > kFoldsAtOnce) {
+    folds_.read(fluid_.device(), std::span(read_).subspan(kFoldsAtOnce, found - kFoldsAtOnce),
+                kFoldsAtOnce);
+  }
   std::vector<AirFold> folds(read_.begin(), read_.begin() + static_cast<std::ptrdiff_t>(found));
   // Atomics give no order: particles do.
   std::sort(folds.begin(), folds.end(),

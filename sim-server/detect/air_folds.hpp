@@ -18,12 +18,16 @@ class AirFolds {
  public:
   AirFolds(Fluid& fluid, const cl::Program& program);
 
-  /// Between prepare and advance of a frame's last step.
-  void enqueue(const Step& step, const DetectSettings& settings);
+  /// Between prepare and advance of a frame's last step. `phase`: which of SPLASH_FOLDS_APART
+  /// particles are looked at, from 0 on.
+  void enqueue(const Step& step, const DetectSettings& settings, int phase);
   /// After a frame's last kernel.
   void enqueue_read();
   /// Instead of both, where nothing is fast.
-  void skip() noexcept { found_.front() = 0; }
+  void skip() noexcept {
+    looks_ = false;
+    found_.front() = 0;
+  }
   /// What was found, once the queue is finished, in the order of the particles' ids.
   [[nodiscard]] std::vector<AirFold> read();
 
@@ -31,6 +35,7 @@ class AirFolds {
   Fluid& fluid_;
   Buffer<int> count_;
   Buffer<AirFold> folds_;
+  bool looks_ = false;
   std::vector<int> found_ = {0};
   std::vector<AirFold> read_;
   Kernel fold_air_;
@@ -39,5 +44,10 @@ class AirFolds {
 /// The eddies' width in water of that spacing: bubble_eddy, or as wide as two particles can show
 /// [m].
 [[nodiscard]] double eddy_width(const DetectSettings& settings, double spacing);
+
+/// Against which air is lifted [m/s2].
+[[nodiscard]] double gravity_of(const FluidParams& params);
+/// Work that lifts a volume of air from where eddies take it [J/m3].
+[[nodiscard]] double lift_of(const DetectSettings& settings, const FluidParams& params);
 
 }  // namespace splash::sim

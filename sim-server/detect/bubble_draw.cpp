@@ -48,6 +48,17 @@ double least_radius(const DetectSettings& settings, double volume) {
   return low;
 }
 
+double even_share(std::uint32_t seed, std::uint32_t k) {
+  // Laine & Karras' permutation: a bit depends on those below it alone. Burley 2020, listing 2.
+  std::uint32_t x = k + seed;
+  for (const std::uint32_t factor : {0x6c50b47cU, 0xb82f1e52U, 0xc7afe638U, 0x8d22f6e6U}) {
+    x ^= x * factor;
+  }
+  std::uint32_t reversed = 0;
+  for (int bit = 0; bit < 32; ++bit) reversed |= (x >> bit & 1U) << (31 - bit);
+  return reversed / 4294967296.0;
+}
+
 Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle, int bubble) {
   const auto shares = random_draw({step, particle, static_cast<std::uint32_t>(bubble), 0U},
                                   {seed, 0x62756262U});  // "bubb"

@@ -27,6 +27,11 @@ struct Draws {
 [[nodiscard]] Draws draw(std::uint32_t seed, std::uint32_t step, std::uint32_t particle,
                          int bubble = 0);
 
+/// Term `k` of a random sequence in [0, 1) that fills it evenly: of 2^m terms from a multiple of
+/// 2^m on each lies in another 2^-m of it (van der Corput's, scrambled after Owen 1995 by Burley
+/// 2020). So what is drawn by it adds up with far less scatter than by independent numbers.
+[[nodiscard]] double even_share(std::uint32_t seed, std::uint32_t k);
+
 /// Mean of x^power where x follows x^-exponent on [low, high].
 [[nodiscard]] double power_law_moment(double low, double high, double exponent, double power);
 

@@ -9,8 +9,7 @@
 // `memory`: of each particle by id, its last upward gradient, or what it is instead.
 kernel void spawn_bubbles(constant FluidParams* p, global const int* cell_start,
                           global const float* position, global const float* velocity,
-                          global const float* density, global const int* id,
-                          global const int* body_start,
+                          global const int* id, global const int* body_start,
                           global const float* body_position, global const float* body_volume,
                           int body_stride, global const BodyStep* bodies, int first_body,
                           int body_count, global const int* bubble_start,
@@ -43,13 +42,11 @@ kernel void spawn_bubbles(constant FluidParams* p, global const int* cell_start,
     return;
   }
   memory[id[i]] = SPLASH_PARTICLE_SPENT;
-  const int fresh = last != SPLASH_PARTICLE_SPENT;
-  const int dense = density[i] >= p->least_density;
-  if (!fresh && !dense) return;
+  if (last == SPLASH_PARTICLE_SPENT) return;
   const int place = atomic_inc(counts);
   if (place >= room) return;
-  const bool known = last != SPLASH_PARTICLE_SLOW && fresh;
+  const bool known = last != SPLASH_PARTICLE_SLOW;
   const float before = known ? (least_gradient - last) / (now - last) : -1.0f;
-  const Spawn spawn = {id[i], x, y, z, u, v, w, before, fresh, dense};
+  const Spawn spawn = {id[i], x, y, z, before};
   out[place] = spawn;
 }

@@ -11,6 +11,9 @@
 #define SPLASH_PARTICLE_SLOW -8.0f
 #define SPLASH_PARTICLE_SPENT 8.0f
 
+// Of so many particles one is looked at for the air that is folded in (air_fold.cl).
+#define SPLASH_FOLDS_APART 4
+
 // A bubble that is in no group (cavity_grow.cl).
 #define SPLASH_UNLABELLED 0x7FFFFFFF
 
@@ -29,13 +32,10 @@ SPLASH_SHARED_STRUCT(BubbleState, 24)
 typedef struct {
   int id;         // of the particle
   float x, y, z;  // [m]
-  float u, v, w;  // [m/s]
   float before;   // part of the frame that had passed when the threshold was crossed; below zero:
                   // not known
-  int fresh;      // it has just begun to entrap air: a bubble particle is spawned
-  int dense;      // it belongs to a body of water, and is not spray
 } Spawn;
-SPLASH_SHARED_STRUCT(Spawn, 40)
+SPLASH_SHARED_STRUCT(Spawn, 20)
 
 typedef struct {
   int id;         // of the particle

@@ -21,27 +21,12 @@ Vector3 place_of(const Found& found) {
   return {static_cast<double>(found.x), static_cast<double>(found.y), static_cast<double>(found.z)};
 }
 
-/// `many` bubbles among all air, to each part of it in proportion: where the sum over the parts
-/// passes a whole number of even shares, `offset` (in [0, 1)) of a share away.
-std::vector<int> share_out(const std::vector<double>& air, int many, double offset) {
-  std::vector<int> bubbles;
-  const double share = std::accumulate(air.begin(), air.end(), 0.0) / std::max(many, 1);
-  double filled = offset;  // [shares]
-  for (const double part : air) {
-    filled += many > 0 ? part / share : 0.0;
-    bubbles.push_back(static_cast<int>(filled));
-    filled -= bubbles.back();
-  }
-  return bubbles;
-}
-
 }  // namespace
 
 Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings& settings, int seed,
                  std::size_t room)
     : fluid_(fluid),
       settings_(settings),
-      mean_volume_(mean_volume(settings)),
       seed_(static_cast<std::uint32_t>(seed)),
       room_(room),
       budget_(settings.bubbles_per_second),
@@ -61,12 +46,11 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
   std::vector<int> slots(room);
   std::iota(slots.begin(), slots.end(), 0);
   points_.id.write(fluid.device(), slots);
-  if (settings.bubble_energy > 0.0 && !settings.bubble_per_particle) folds_.emplace(fluid, program);
+  if (!settings.bubble_per_particle) folds_.emplace(fluid, program);
 }
 
 void Bubbles::set(const DetectSettings& settings) {
   settings_ = settings;
-  mean_volume_ = mean_volume(settings);
   budget_.set_rate(settings.bubbles_per_second);
 }
 
@@ -92,7 +76,7 @@ void Bubbles::enqueue(const Step& step, double frame) {
     carry(step, frame);
   }
   look_for_spawns(step);
-  if (folds_) folds_->enqueue(step, settings_);
+  if (folds_) folds_->enqueue(step, settings_, frames_++ % SPLASH_FOLDS_APART);
 }
 
 void Bubbles::enqueue_read() {
@@ -108,6 +92,7 @@ void Bubbles::enqueue_read() {
 }
 
 void Bubbles::skip() {
+  ++frames_;
   looked_ = false;
   carried_ = 0;
   states_.clear();
@@ -128,7 +113,6 @@ void Bubbles::look_for_spawns(const Step& step) {
                       {"cell_start", fluid_.grid().cell_start()},
                       {"position", fluid_.particles().position},
                       {"velocity", fluid_.particles().velocity},
-                      {"density", fluid_.water_density()},
                       {"id", fluid_.particles().id},
                       {"bubble_start", grid_.cell_start()},
                       {"bubble_position", sorted_.position},
@@ -176,15 +160,6 @@ std::vector<Spawn> Bubbles::read_spawns() {
   return spawns;
 }
 
-double Bubbles::air_of(const Spawn& spawn, double frame) const {
-  if (settings_.bubble_per_particle) return spawn.fresh * mean_volume_;
-  if (spawn.dense == 0) return 0.0;
-  const FluidParams& p = fluid_.params();
-  const double water = static_cast<double>(p.mass / p.rest_density);
-  const auto speed = static_cast<double>(std::hypot(spawn.u, spawn.v, spawn.w));
-  return settings_.bubble_air * speed * frame * water;
-}
-
 DetectedBubble Bubbles::draw_bubble(int particle, const Vector3& place, const Draws& draws,
                                     double least, double most) const {
   DetectedBubble bubble;
@@ -196,14 +171,30 @@ DetectedBubble Bubbles::draw_bubble(int particle, const Vector3& place, const Dr
   return bubble;
 }
 
-std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step) {
+std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step,
+                                             const WakeAir& wakes) {
   const std::vector<Spawn> spawns = read_spawns();
   spawned_.clear();
-  for (const Spawn& spawn : spawns) {
-    if (spawn.fresh != 0) spawned_.push_back(place_of(spawn));
+  for (const Spawn& spawn : spawns) spawned_.push_back(place_of(spawn));
+  if (!folds_) return tell_spawns(spawns, time, frame, step);
+  std::vector<AirFold> folds = folds_->read();
+  leave_own_loss(folds, wakes.work, frame);
+  for (const AirFold& wake : wakes.folds) {
+    folds.push_back(wake);
+    air_.by_bodies += frame * static_cast<double>(wake.rate);
   }
-  return folds_ ? tell_folds(folds_->read(), time, frame, step)
-                : tell_spawns(spawns, time, frame, step);
+  // Where the budget ends is not always at the same places.
+  const double first = draw(seed_, step, kNoParticle).chance * static_cast<double>(folds.size());
+  std::rotate(folds.begin(), folds.begin() + static_cast<std::ptrdiff_t>(first), folds.end());
+  return tell_folds(folds, time, frame, step);
+}
+
+void Bubbles::leave_own_loss(std::vector<AirFold>& folds, double work, double frame) {
+  double lost = 0.0;  // [J]
+  for (const AirFold& fold : folds) lost += frame * static_cast<double>(fold.rate);
+  lost *= lift_of(settings_, fluid_.params()) / settings_.bubble_energy;
+  const double own = account_.own_loss(lost, work, frame);
+  for (AirFold& fold : folds) fold.rate *= lost > 0.0 ? static_cast<float>(own / lost) : 0.0F;
 }
 
 std::vector<DetectedBubble> Bubbles::tell_folds(const std::vector<AirFold>& folds, double time,
@@ -218,12 +209,15 @@ std::vector<DetectedBubble> Bubbles::tell_folds(const std::vector<AirFold>& fold
   const int open = budget_.open(time);
   const bool crowded = wanted > open;
   const double least = crowded && open > 0 ? least_radius(sizes, due / open) : settings_.radius_min;
+  // Of more than the largest hold each place's air loses the same part.
+  const double held = crowded ? std::min(1.0, open * mean_volume(sizes, least) / due) : 1.0;
   std::vector<DetectedBubble> heard;
   int told = 0;
   for (const AirFold& fold : folds) {
-    account_.add(frame * static_cast<double>(fold.rate));
+    account_.add(held * frame * static_cast<double>(fold.rate));
     for (int k = 0; account_.has_air() && told < open; ++k, ++told) {
-      const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(fold.id), k);
+      Draws draws = draw(seed_, step, static_cast<std::uint32_t>(fold.id), k);
+      draws.radius = even_share(seed_, told_++);
       heard.push_back(draw_bubble(fold.id, place_of(fold), draws, least, sizes.radius_max));
       heard.back().time = time - frame * (1.0 - draws.moment);
       account_.take(heard.back().radius);
@@ -239,34 +233,23 @@ std::vector<DetectedBubble> Bubbles::tell_folds(const std::vector<AirFold>& fold
 
 std::vector<DetectedBubble> Bubbles::tell_spawns(const std::vector<Spawn>& spawns, double time,
                                                  double frame, std::uint32_t step) {
-  std::vector<double> air;   // of each spawn [m3]
-  std::vector<int> bubbles;  // same
-  for (const Spawn& spawn : spawns) {
-    const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
-    air.push_back(air_of(spawn, frame));
-    bubbles.push_back(static_cast<int>(std::floor(air.back() / mean_volume_ + draws.chance)));
-  }
-  const double entrapped = std::accumulate(air.begin(), air.end(), 0.0);
-  const int wanted = std::accumulate(bubbles.begin(), bubbles.end(), 0);
+  const auto wanted = static_cast<int>(spawns.size());
+  const double entrapped = wanted * mean_volume(settings_);
   const int open = budget_.open(time);
-  double least = settings_.radius_min;
-  if (wanted > open) {
-    bubbles = share_out(air, open, draw(seed_, step, kNoParticle).chance);
-    if (open > 0) least = least_radius(settings_, entrapped / open);
-  }
+  const int told = std::min(wanted, open);
+  const double least =
+      told < wanted && told > 0 ? least_radius(settings_, entrapped / told) : settings_.radius_min;
+  const double offset = draw(seed_, step, kNoParticle).chance;
   std::vector<DetectedBubble> heard;
-  for (std::size_t i = 0; i < spawns.size(); ++i) {
-    for (int k = 0; k < bubbles[i]; ++k) {
-      const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawns[i].id), k);
-      const bool crossed = settings_.bubble_per_particle && spawns[i].before >= 0.0F;
-      const double part = crossed ? static_cast<double>(spawns[i].before) : draws.moment;
-      heard.push_back(
-          draw_bubble(spawns[i].id, place_of(spawns[i]), draws, least, settings_.radius_max));
-      heard.back().time = time - frame * (1.0 - std::min(part, 1.0));
-      air_.told += bubble_volume(heard.back().radius);
-    }
+  for (int k = 0; k < told; ++k) {
+    const auto which = static_cast<std::size_t>((k + offset) * wanted / told);
+    const Spawn& spawn = spawns[which];
+    const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
+    const double part = spawn.before >= 0.0F ? static_cast<double>(spawn.before) : draws.moment;
+    heard.push_back(draw_bubble(spawn.id, place_of(spawn), draws, least, settings_.radius_max));
+    heard.back().time = time - frame * (1.0 - std::min(part, 1.0));
+    air_.told += bubble_volume(heard.back().radius);
   }
-  const auto told = static_cast<int>(heard.size());
   budget_.spend(told);
   air_.entrapped += entrapped;
   air_.thinned += static_cast<std::uint64_t>(wanted - told);

@@ -13,6 +13,7 @@
 #include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/detect/detection.hpp"
+#include "sim-server/detect/wake_air.hpp"
 #include "sim-server/fluid/fluid.hpp"
 
 namespace splash::sim {
@@ -27,6 +28,7 @@ struct PoolBubble {
 /// Sums over a run.
 struct AirTotals {
   double entrapped = 0.0;     ///< [m3]
+  double by_bodies = 0.0;     ///< of it (wake_air.hpp) [m3]
   double told = 0.0;          ///< in bubbles; differs by the scatter of their radii, too [m3]
   std::uint64_t thinned = 0;  ///< bubbles over the budget: their air went into larger ones, up to
                               ///< the limit of those
@@ -46,11 +48,12 @@ class Bubbles {
   /// read wait for all that was enqueued before it, and what follows for the read.
   void enqueue_read();
   /// What was found, once the queue is finished: bubbles to be heard, in the order of their
-  /// particles' ids: one for each bubble particle that is spawned, or as many as the entrapped air
-  /// fills (with bubble_energy: until none of it is left); where that is more than the budget, as
-  /// many as it has, and larger ones. `frame`: seconds since the last call; `step`: counts the
-  /// steps.
-  [[nodiscard]] std::vector<DetectedBubble> collect(double time, double frame, std::uint32_t step);
+  /// particles' ids: until none of the entrapped air is left, or with bubble_per_particle one for
+  /// each bubble particle that is spawned; where that is more than the budget, as many as it has,
+  /// and larger ones. `frame`: seconds since the last call; `step`: counts the
+  /// steps; `wakes`: what bodies take down in the frame.
+  [[nodiscard]] std::vector<DetectedBubble> collect(double time, double frame, std::uint32_t step,
+                                                    const WakeAir& wakes = {});
 
   [[nodiscard]] std::vector<PoolBubble>& pool() noexcept { return pool_; }
   [[nodiscard]] const std::vector<PoolBubble>& pool() const noexcept { return pool_; }
@@ -79,15 +82,15 @@ class Bubbles {
   void look_for_spawns(const Step& step);
   void carry(const Step& step, double frame);
   [[nodiscard]] std::vector<Spawn> read_spawns();
-  /// That one particle entraps in a frame [m3].
-  [[nodiscard]] double air_of(const Spawn& spawn, double frame) const;
   /// Of a radius from `least` to `most` [m].
   [[nodiscard]] DetectedBubble draw_bubble(int particle, const Vector3& place, const Draws& draws,
                                            double least, double most) const;
-  /// By the rules that count folding particles.
+  /// By the paper's rule: one for each.
   [[nodiscard]] std::vector<DetectedBubble> tell_spawns(const std::vector<Spawn>& spawns,
                                                         double time, double frame,
                                                         std::uint32_t step);
+  /// Leaves of the air of folds what is not of bodies' work.
+  void leave_own_loss(std::vector<AirFold>& folds, double work, double frame);
   /// From the air of all folds, until it is used up.
   [[nodiscard]] std::vector<DetectedBubble> tell_folds(const std::vector<AirFold>& folds,
                                                        double time, double frame,
@@ -95,20 +98,21 @@ class Bubbles {
 
   Fluid& fluid_;
   DetectSettings settings_;
-  double mean_volume_;  ///< of the bubbles drawn [m3]
   std::uint32_t seed_;
   std::size_t room_;
   std::vector<PoolBubble> pool_;
   std::vector<Vector3> spawned_;  ///< places of the bubble particles that are to be added
   std::vector<BubbleState> states_;
   int carried_ = 0;
+  int frames_ = 0;
   bool looked_ = false;  ///< for spawns, in this frame
   int serial_ = 0;
   std::uint64_t dropped_ = 0;
   BubbleBudget budget_;
   AirTotals air_;
-  std::optional<AirFolds> folds_;  ///< with bubble_energy
+  std::optional<AirFolds> folds_;  ///< without bubble_per_particle
   AirAccount account_;
+  std::uint32_t told_ = 0;  ///< bubbles from it
 
   Buffer<float> memory_;
   Buffer<int> spawn_count_;

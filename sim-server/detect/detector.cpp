@@ -65,6 +65,7 @@ SurfaceDistance distance_of(const FluidParams& p) {
 Detector::Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const DetectSettings& settings,
                    int seed, bool search_always)
     : fluid_(fluid),
+      settings_(settings),
       points_(skin),
       faces_(faces_of(skin, static_cast<std::size_t>(fluid.boundary().body_count()))),
       skin_(fluid.device(), places(points_)),
@@ -76,7 +77,9 @@ Detector::Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const Detec
       program_(build(fluid.device())),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
-      impacts_(faces_, settings, distance_of(fluid.params())) {
+      impacts_(faces_, settings, distance_of(fluid.params())),
+      wakes_(gravity_of(fluid.params()), static_cast<double>(fluid.params().rest_density),
+             fluid.params().count) {
   if (!settings.cavity_by_count) return;
   cavities_.emplace(fluid, program_, settings, bubble_room(fluid.params().count), search_always);
 }
@@ -128,9 +131,11 @@ void Detector::enqueue_contacts(const Step& step) {
 void Detector::forget() {
   bubbles_.forget();
   impacts_.forget();
+  wakes_.forget();
 }
 
 void Detector::set(const DetectSettings& settings) {
+  settings_ = settings;
   bubbles_.set(settings);
   if (cavities_) cavities_->set(settings);
   impacts_.set(settings);
@@ -153,8 +158,10 @@ std::vector<SurfacePoint> Detector::surface() const {
 
 Detections Detector::collect(double time, double frame, std::uint32_t step) {
   Detections found;
-  found.impacts = impacts_.observe(time, frame, surface());
-  found.bubbles = bubbles_.collect(time, frame, step);
+  const std::vector<SurfacePoint> skin = surface();
+  found.impacts = impacts_.observe(time, frame, skin);
+  found.bubbles =
+      bubbles_.collect(time, frame, step, wakes_.observe(time, frame, skin, impacts_, settings_));
   if (cavities_) found.cavities = cavities_->search(time, bubbles_);
   bubbles_.renew(time);
   return found;

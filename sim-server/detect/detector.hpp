@@ -11,6 +11,7 @@
 #include "sim-server/detect/bubbles.hpp"
 #include "sim-server/detect/cavities.hpp"
 #include "sim-server/detect/impacts.hpp"
+#include "sim-server/detect/wake_air.hpp"
 
 namespace splash::sim {
 
@@ -62,6 +63,7 @@ class Detector {
   void enqueue_contacts(const Step& step);
 
   Fluid& fluid_;
+  DetectSettings settings_;
   std::vector<SkinPoint> points_;
   std::vector<double> faces_;  ///< the largest area that each body shows [m2]
   Buffer<float> skin_;         ///< x y z of each point after the other [m]
@@ -75,6 +77,7 @@ class Detector {
   Bubbles bubbles_;
   std::optional<Cavities> cavities_;  ///< where they are groups of bubbles
   ImpactWatch impacts_;
+  Wakes wakes_;
 };
 
 }  // namespace splash::sim

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim-server/detect/added_mass.hpp"
+#include "sim-server/detect/cavity_laws.hpp"
 #include "sim-server/detect/touch_vectors.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/surface_roughness.hpp"
@@ -97,6 +98,9 @@ struct ImpactWatch::Meeting {
 ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
                          const SurfaceDistance& distance)
     : faces_(std::move(faces)), distance_(distance), blows_(faces_.size()) {
+  for (const double face : faces_) {
+    closing_.push_back(closing_time(std::sqrt(face / std::numbers::pi), kGravity));
+  }
   set(settings);
 }
 
@@ -300,9 +304,12 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
     skin.deepest = std::max(skin.deepest, skin.way);
     // What passes the water's surface while a blow goes on is part of it, even where the water is
     // pushed away.
-    const Blow& blow = blows_[static_cast<std::size_t>(points[i].body)];
-    const bool goes_in = time >= blow.touched && time <= blow.lasts_until + blow.pause &&
-                         dot(position_of(touch), blow.inward) >= blow.surface;
+    const auto body = static_cast<std::size_t>(points[i].body);
+    const Blow& blow = blows_[body];
+    const bool below = time >= blow.touched && dot(position_of(touch), blow.inward) >= blow.surface;
+    const bool goes_in = below && time <= blow.lasts_until + blow.pause;
+    const bool in_hollow = below && time <= blow.touched + closing_[body];
+    const bool could_enter = skin.withdrawn;
     if (!goes_in && gaps[i] > settings_.impact_release) {
       skin.dry_for += frame;
       skin.withdrawn = skin.withdrawn || (skin.wet && !skin.in_water);
@@ -311,9 +318,11 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
       // or the water must be long gone.
       skin.withdrawn = skin.withdrawn || skin.dry_for > kClearFor ||
                        skin.deepest - skin.way >= settings_.impact_release;
+      skin.water = water_velocity_of(touch);
+      if (skin.withdrawn && !in_hollow) skin.entry.reset();
     } else if (goes_in || gaps[i] <= touching_) {
       if (!skin.wet && skin.withdrawn && speed >= settings_.impact_speed) {
-        wetted[static_cast<std::size_t>(points[i].body)] = true;
+        wetted[body] = true;
       }
       if (!skin.wet) skin.way = skin.deepest = 0.0;
       skin.wet = true;
@@ -321,6 +330,12 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
       skin.withdrawn = false;
       skin.dry_for = 0.0;
     }
+    if (!skin.entry && could_enter && (in_hollow || skin.wet)) {
+      const bool just_now = blow.touched > time - frame && blow.touched <= time;
+      skin.entry = Entry{just_now ? blow.touched : time - 0.5 * frame, skin.water};
+    }
+    if (skin.entry) skin.entry->way = 0.5 * (skin.velocity + velocity_of(touch));
+    skin.velocity = velocity_of(touch);
   }
   for (std::size_t b = 0; b < blows_.size(); ++b) {
     const bool goes_on = time <= blows_[b].lasts_until + blows_[b].pause;

@@ -45,6 +45,18 @@ class ImpactWatch {
   [[nodiscard]] std::vector<DetectedImpact> observe(double time, double frame,
                                                     const std::vector<SurfacePoint>& points);
 
+  /// How a point of the skin came out of the air into the water, or into the hollow that its body
+  /// leaves there.
+  struct Entry {
+    double time = 0.0;                ///< [s]
+    Vector3 water = {0.0, 0.0, 0.0};  ///< velocity of the water before [m/s]
+    Vector3 way = {0.0, 0.0, 0.0};    ///< mean velocity of the skin in the last frame [m/s]
+  };
+  /// That of a point which has not left the water since.
+  [[nodiscard]] const std::optional<Entry>& entry(std::size_t point) const {
+    return skin_[point].entry;
+  }
+
   /// The next call is as the first.
   void forget();
   /// Other thresholds, from the next call on.
@@ -59,6 +71,9 @@ class ImpactWatch {
     double way = 0.0;       ///< along its normal since it got wet [m]
     double deepest = 0.0;   ///< the largest of it [m]
     double dry_for = 0.0;   ///< [s]
+    Vector3 water = {0.0, 0.0, 0.0};     ///< its velocity when the skin was last dry [m/s]
+    Vector3 velocity = {0.0, 0.0, 0.0};  ///< of the skin in the last frame [m/s]
+    std::optional<Entry> entry = {};
   };
   /// Of a body: the blow that was told last.
   struct Blow {
@@ -88,6 +103,7 @@ class ImpactWatch {
                     const std::vector<double>& gaps);
 
   std::vector<double> faces_;
+  std::vector<double> closing_;  ///< of a hollow as wide as those, after which it closes [s]
   DetectSettings settings_;
   SurfaceDistance distance_;
   double touching_ = 0.0;  ///< nearer, skin and water touch [m]

@@ -124,6 +124,7 @@ std::string to_json(const RunReport& report) {
   report.events.each([&](const char* kind, std::uint64_t count) { json["events"][kind] = count; });
   json["no_cavity"] = by_name(report.no_cavity);
   json["air"] = {{"entrapped_litres", finite_or_null(kLitres * report.air.entrapped)},
+                 {"by_bodies_litres", finite_or_null(kLitres * report.air.by_bodies)},
                  {"told_litres", finite_or_null(kLitres * report.air.told)},
                  {"thinned_bubbles", report.air.thinned}};
   json["bubble_particles"] = {{"mean_share", finite_or_null(report.air.mean_particles)},
@@ -199,11 +200,11 @@ std::string summary(const RunReport& report) {
   });
   put_counts("; impacts without one:", report.no_cavity, text);
   text << '\n';
-  text << "air       " << kLitres * report.air.entrapped << " l entrapped, "
-       << kLitres * report.air.told << " l told, " << report.air.thinned
-       << " bubbles over the budget; bubble particles " << 100.0 * report.air.mean_particles
-       << " % of the water's on average, " << 100.0 * report.air.largest_particles
-       << " % at most\n";
+  text << "air       " << kLitres * report.air.entrapped << " l entrapped ("
+       << kLitres * report.air.by_bodies << " by bodies), " << kLitres * report.air.told
+       << " l told, " << report.air.thinned << " bubbles over the budget; bubble particles "
+       << 100.0 * report.air.mean_particles << " % of the water's on average, "
+       << 100.0 * report.air.largest_particles << " % at most\n";
   text << "receivers late " << known_or_dash(report.late) << ", lost " << known_or_dash(report.lost)
        << ", refused by the network " << report.send_failures << '\n';
   text << "skipped   " << 100.0 * report.asleep << " % of the water asleep, of " << report.frames

@@ -28,6 +28,7 @@ struct SolveTotals {
 /// The air that the water entrapped, and the bubble particles that mark its places.
 struct AirReport {
   double entrapped = 0.0;          ///< [m3]
+  double by_bodies = 0.0;          ///< of it [m3]
   double told = 0.0;               ///< in bubbles [m3]
   std::uint64_t thinned = 0;       ///< bubbles over the scene's budget, told in larger ones
   double mean_particles = 0.0;     ///< bubble particles alive, in particles of water, mean [1]

@@ -40,6 +40,7 @@ void put_air(const RunTotals& totals, std::int64_t particles, RunReport& report)
   const double mean = share(totals.bubbles_alive_sum, totals.frames);
   report.air = {
       .entrapped = totals.air.entrapped,
+      .by_bodies = totals.air.by_bodies,
       .told = totals.air.told,
       .thinned = totals.air.thinned,
       .mean_particles = share(mean, particles),

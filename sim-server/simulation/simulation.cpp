@@ -57,7 +57,7 @@ WholeSleep all_sleep(const Scene& scene) {
 /// Slower water makes no bubbles: if none is faster than v, its eddies have v^2 / 2 at most, and
 /// those that fold air in have 3/2 of the square of bubble_onset, or more [m/s].
 double bubbling_speed(const DetectSettings& detect) {
-  if (detect.bubble_energy <= 0.0 || detect.bubble_per_particle) return detect.bubble_speed;
+  if (detect.bubble_per_particle) return detect.bubble_speed;
   return std::min(detect.bubble_speed, std::sqrt(3.0) * detect.bubble_onset);
 }
 

@@ -6,18 +6,22 @@
 #include <vector>
 
 #include "sim-server/bodies/skin.hpp"
+#include "sim-server/detect/bubble_state.h"
 
 namespace splash::bench {
 namespace {
 
 using namespace splash::sim;
 
+constexpr double kEddy = 0.06;  ///< its width, bubble_eddy [m]
+
 /// Per particle: places, speeds, id, peak, and what spawning remembers [B].
 constexpr double kState = 36.0;
 
 // Operations of a pair that a detector looks at: where it is and the kernel (colour.h), what else
 // it sums (body_touch.cl, bubble_state.cl). Of a particle in the statistics.
-constexpr double kOfPair = 18.0, kOfTouch = 22.0, kOfCarried = 8.0, kOfSurvey = 60.0;
+constexpr double kOfPair = 18.0, kOfTouch = 22.0, kOfCarried = 8.0, kOfEddy = 14.0,
+                 kOfSurvey = 60.0;
 // Scalar instructions of the nine runs around a place, of a particle that is slow, of a cell that
 // wakes others.
 constexpr double kOfRuns = 9.0 * 25.0, kOfSlow = 10.0, kOfAwake = 30.0;
@@ -109,6 +113,13 @@ std::map<std::string, Work> frame_work(const FrameSeen& seen, const Profile& pro
     spawns.bytes = 20.0 * n;
     (profile.lanes > 1 ? spawns.scalar : spawns.operations) += kOfSlow * n;
     all["spawn_bubbles"] = spawns;
+    // One particle in so many looks within an eddy's width, as a search does within the support.
+    const double wide = std::pow(kEddy / static_cast<double>(p.params.support), 3.0);
+    const double few = std::ceil(n / SPLASH_FOLDS_APART);
+    Work folds = pairs_of(few, std::max(1.0, wide) * lanes, kOfPair + kOfEddy, profile);
+    folds.groups = std::ceil(few / 64.0);
+    folds.bytes = 24.0 * few;
+    all["fold_air"] = folds;
   }
   if (seen.bubbles == 0.0) return all;
   all["carry_bubbles"] = pairs_of(2.0 * seen.bubbles, lanes, kOfPair + kOfCarried, profile);
@@ -126,10 +137,10 @@ std::map<std::string, Work> frame_work(const FrameSeen& seen, const Profile& pro
 Commands frame_commands(const FrameSeen& seen) {
   Commands commands;
   commands.writes = 1 + (seen.bubbles > 0.0 ? 3 : 0);  // the bodies' steps; the bubbles
-  commands.fills = 1 + (seen.looks ? 1 : 0);           // records of health; the count of spawns
-  commands.copies = 5;                                 // of the state (kState)
-  commands.reads = 2 + (seen.skin > 0.0 ? 1 : 0) +     // stats and health; contacts
-                   (seen.looks ? 2 : 0) + (seen.bubbles > 0.0 ? 1 : 0);
+  commands.fills = 1 + (seen.looks ? 2 : 0);  // records of health; the counts of spawns and folds
+  commands.copies = 5;                        // of the state (kState)
+  commands.reads = 2 + (seen.skin > 0.0 ? 1 : 0) +  // stats and health; contacts
+                   (seen.looks ? 4 : 0) + (seen.bubbles > 0.0 ? 1 : 0);
   return commands;
 }
 

@@ -3,7 +3,7 @@
 """Counts bubbles and air of bodies that go straight into still water, for the tables of
 sim-server/detect/README.md.
 
-    python3 tests/detection/straight_entries.py --detect 'bubble_energy: 0.38' > entries.csv
+    python3 tests/detection/straight_entries.py --factors 1 > entries.csv
 
 A body goes in at constant speed until its lowest point is 1.2 of its width deep, 15 cm at least, and
 stays there for half a second. The tank is three widths wide and its water two widths deep, 30 and
@@ -64,7 +64,7 @@ def main():
     parse.add_argument("--detect", default="", help="settings of the scenes' detect section")
     parse.add_argument("--fluid", default="", help="further settings of their fluid section")
     parse.add_argument("--shapes", nargs="+", default=["disc", "sphere"])
-    parse.add_argument("--widths", nargs="+", type=float, default=[0.1, 0.2, 0.3], help="[m]")
+    parse.add_argument("--widths", nargs="+", type=float, default=[0.05, 0.1, 0.2, 0.3], help="[m]")
     parse.add_argument("--speeds", nargs="+", type=float, default=[0.5, 1, 2, 3, 5], help="[m/s]")
     parse.add_argument("--finer", nargs="+", type=float, default=[1, 2], help="divisors of the usual spacing")
     parse.add_argument("--factors", nargs="+", type=float, default=[1, 0.999, 0.998],

@@ -233,7 +233,8 @@ void add_bubbles(std::vector<Trial>& all) {
                  .speed = kFall,
                  .scene = [](double s) {
                    Scene scene = foaming(s);
-                   scene.detect.bubble_air = 1000.0;
+                   scene.detect.bubble_energy = scene.detect.bubble_drag = 1.0;
+                   scene.detect.bubble_onset = 0.0;
                    return scene;
                  }});
 }

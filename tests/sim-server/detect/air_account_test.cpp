@@ -64,6 +64,18 @@ TEST(AirAccount, StaysWithinTheSettingsRadii) {
   EXPECT_EQ(AirAccount().largest(settings), 0.04);
 }
 
+// What bodies gave the water it may lose without further air, for about a second.
+TEST(AirAccount, LeavesOutTheLossOfWhatBodiesGave) {
+  AirAccount account;
+  EXPECT_EQ(account.own_loss(2.0, 0.0, kFrame), 2.0) << "nobody gave anything";
+  EXPECT_EQ(account.own_loss(2.0, 1.5, kFrame), 0.5) << "part of it";
+  EXPECT_EQ(account.own_loss(2.0, 0.0, kFrame), 2.0) << "that is used up";
+  EXPECT_EQ(account.own_loss(0.0, 10.0, kFrame), 0.0);
+  EXPECT_EQ(account.own_loss(1.0, 0.0, 0.5), 0.0);
+  const double left = 10.0 * std::exp(-0.5) - 1.0;
+  EXPECT_NEAR(account.own_loss(9.0, 0.0, 1.0), 9.0 - left * std::exp(-1.0), 1e-12);
+}
+
 TEST(AirAccount, KeepsNoMoreThanItIsToldTo) {
   AirAccount account;
   account.add(5.0e-6);

@@ -28,12 +28,21 @@ DetectSettings settings() {
   return settings;
 }
 
+/// Those of all particles, each with the rate of its own water.
 std::vector<AirFold> folds_of(Water& water, const DetectSettings& settings) {
   AirFolds folds(*water.fluid, detect_program(water.fluid->device()));
-  folds.enqueue(prepare(water), settings);
-  folds.enqueue_read();
-  water.fluid->device().queue().finish();
-  return folds.read();
+  const Step step = prepare(water);
+  std::vector<AirFold> all;
+  for (int phase = 0; phase < SPLASH_FOLDS_APART; ++phase) {
+    folds.enqueue(step, settings, phase);
+    folds.enqueue_read();
+    water.fluid->device().queue().finish();
+    for (AirFold fold : folds.read()) {
+      fold.rate /= SPLASH_FOLDS_APART;
+      all.push_back(fold);
+    }
+  }
+  return all;
 }
 
 double sum_of(const std::vector<AirFold>& folds) {

@@ -206,5 +206,19 @@ TEST(LeastRadius, IsTheOnlyRadiusThereIs) {
   EXPECT_EQ(least_radius(settings, 0.0), 0.004);
 }
 
+// Of any 64 in a row one is in each 64th; other seeds give others.
+TEST(EvenShares, FillTheirRangeEvenly) {
+  for (const std::uint32_t seed : {0U, 1U, 77U}) {
+    for (const std::uint32_t from : {0U, 17U, 6400U}) {
+      std::vector<int> in(64, 0);
+      for (std::uint32_t k = from; k < from + 64U; ++k) {
+        ++in[static_cast<std::size_t>(64.0 * even_share(seed, k))];
+      }
+      EXPECT_EQ(in, std::vector<int>(64, 1)) << "seed " << seed << ", from " << from;
+    }
+  }
+  EXPECT_NE(even_share(1, 5), even_share(2, 5));
+}
+
 }  // namespace
 }  // namespace splash::sim

@@ -208,75 +208,43 @@ TEST_F(Spawns, BeyondThePoolsRoomAreCounted) {
   EXPECT_EQ(bubbles.pool()[1].serial, 1);
 }
 
-// By the entrapped air: from particles of the body of water, in proportion to speed and volume, as
-// often as their air fills bubbles.
-TEST_F(Spawns, AreHeardAsOftenAsTheirAirFillsBubbles) {
-  DetectSettings settings = eager();
-  settings.bubble_per_particle = false;
-  settings.bubble_air = 50.0;
-  Bubbles& bubbles = make(800, settings);
-  drop();
-  std::size_t heard = 0;
-  constexpr int kFrames = 40;
-  for (int k = 0; k < kFrames; ++k) {
-    detect(water_, bubbles, kFrame);
-    for (const DetectedBubble& bubble : bubbles.collect(0.1, kFrame, static_cast<unsigned>(k))) {
-      ++heard;
-      EXPECT_LT(bubble.particle, 400);
-      EXPECT_GE(bubble.time, 0.1 - kFrame);
-      EXPECT_LE(bubble.time, 0.1);
-    }
-  }
-  // Those whose density is that of a body of water, at 1 m/s.
-  const auto count = static_cast<std::size_t>(water_.params.count);
-  const std::vector<float> density = water_.fluid->water_density().read(device_, count);
-  const std::vector<int> id = water_.fluid->particles().id.read(device_, count);
-  int dense = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    dense += id[i] < 400 && density[i] >= 0.82F * water_.params.rest_density;
-  }
-  ASSERT_GT(dense, 100);
-  const double volume = static_cast<double>(water_.params.mass / water_.params.rest_density);
-  const double expected =
-      kFrames * dense * settings.bubble_air * 1.0 * kFrame * volume / mean_volume(settings);
-  std::printf("%zu bubbles of %d particles, %.0f expected\n", heard, dense, expected);
-  ASSERT_GT(expected, 200.0);
-  EXPECT_NEAR(static_cast<double>(heard), expected, 5.0 * std::sqrt(expected));
-}
-
-/// Half a second of a flood: `times` the air that the budget's bubbles of mean size hold.
+/// Half a second of a flood.
 class Flood : public Spawns {
  protected:
   static constexpr int kFrames = 125;
-  static constexpr double kBudget = 1000.0;
+  static constexpr double kBudget = 1000.0;  ///< bubbles a second
 
-  void flood(double times, bool per_particle = false) {
-    DetectSettings settings = eager();
-    settings.bubble_per_particle = per_particle;
+  /// From 400 places alike, `times` the air that the budget's bubbles of mean size hold.
+  void flood(double times) {
+    told_.clear();
+    DetectSettings settings;
     settings.bubbles_per_second = kBudget;
-    settings.bubble_air = 1.0;
-    const double one = air_in_a_second(settings);
-    settings.bubble_air = times * kBudget * mean_volume(settings) / one;
-    Bubbles& bubbles = make(800, settings);
-    drop();
-    for (unsigned k = 1; k <= kFrames; ++k) {
-      detect(water_, bubbles, kFrame);
-      const auto told = bubbles.collect(k * kFrame, kFrame, k);
-      most_ = std::max(most_, told.size());
-      told_.insert(told_.end(), told.begin(), told.end());
+    WakeAir wakes;
+    for (int place = 0; place < 400; ++place) {
+      const double rate = times * kBudget * mean_volume(settings) / 400.0;
+      wakes.folds.push_back({place, 0.5F, 0.5F, 0.1F, static_cast<float>(rate)});
     }
-    air_ = bubbles.air();
-    printf("%zu told, at most %zu in a frame, %.3f of %.3f l, %llu thinned\n", told_.size(), most_,
-           1e3 * air_.told, 1e3 * air_.entrapped, static_cast<unsigned long long>(air_.thinned));
+    listen(settings, wakes);
   }
 
-  /// Radius of any, once what was left at the beginning is used up.
-  [[nodiscard]] double smallest() const {
-    double radius = 1.0;
+  /// From 400 particles in the first frame, by the paper's rule.
+  void spawn_at_once() {
+    DetectSettings settings = eager();
+    settings.bubbles_per_second = kBudget;
+    drop();
+    listen(settings, {});
+  }
+
+  /// Of the radii, once what was left at the beginning is used up.
+  [[nodiscard]] double median() const { return radius(0.5); }
+  [[nodiscard]] double smallest() const { return radius(0.0); }
+  [[nodiscard]] double radius(double share) const {
+    std::vector<double> radii;
     for (const DetectedBubble& bubble : told_) {
-      if (bubble.time > 0.05) radius = std::min(radius, bubble.radius);
+      if (bubble.time > 0.05) radii.push_back(bubble.radius);
     }
-    return radius;
+    std::sort(radii.begin(), radii.end());
+    return radii.at(static_cast<std::size_t>(share * static_cast<double>(radii.size())));
   }
 
   std::vector<DetectedBubble> told_;
@@ -284,12 +252,17 @@ class Flood : public Spawns {
   AirTotals air_;
 
  private:
-  double air_in_a_second(const DetectSettings& settings) {
+  void listen(const DetectSettings& settings, const WakeAir& wakes) {
     Bubbles& bubbles = make(800, settings);
-    drop();
-    detect(water_, bubbles, kFrame);
-    static_cast<void>(bubbles.collect(kFrame, kFrame, 1));
-    return bubbles.air().entrapped / kFrame;
+    for (unsigned k = 1; k <= kFrames; ++k) {
+      detect(water_, bubbles, kFrame);
+      const auto told = bubbles.collect(k * kFrame, kFrame, k, wakes);
+      most_ = std::max(most_, told.size());
+      told_.insert(told_.end(), told.begin(), told.end());
+    }
+    air_ = bubbles.air();
+    printf("%zu told, at most %zu in a frame, %.3f of %.3f l, %llu thinned\n", told_.size(), most_,
+           1e3 * air_.told, 1e3 * air_.entrapped, static_cast<unsigned long long>(air_.thinned));
   }
 };
 
@@ -300,20 +273,23 @@ TEST_F(Flood, IsToldInNoMoreBubblesThanTheBudgetHas) {
   EXPECT_GE(static_cast<double>(told_.size()), kFrames * kFrame * kBudget);
   EXPECT_LE(most_, static_cast<std::size_t>(kBurst));
   const double wanted = air_.entrapped / mean_volume(DetectSettings{});
-  EXPECT_NEAR(static_cast<double>(air_.thinned + told_.size()), wanted, 0.05 * wanted);
+  // In the first tenth of a second bubbles are smaller, and there would be more of them.
+  EXPECT_NEAR(static_cast<double>(air_.thinned + told_.size()), wanted, 0.15 * wanted);
 }
 
-// Larger ones: the air is the same within the scatter of some hundred radii.
+// Larger ones: but for the last bubble the air is the same.
 TEST_F(Flood, LosesNoAir) {
   flood(10.0);
-  EXPECT_NEAR(air_.told, air_.entrapped, 0.1 * air_.entrapped);
-  EXPECT_GT(smallest(), 0.006);
+  EXPECT_NEAR(air_.told, air_.entrapped, bubble_volume(DetectSettings{}.radius_max));
+  EXPECT_GT(median(), 0.010);
+  flood(0.5);
+  EXPECT_LT(median(), 0.005);
 }
 
 // Where the largest do not hold it, an octave of pitches is left, and what is lost is counted.
 TEST_F(Flood, ThatNoBubblesHoldIsCounted) {
   flood(200.0);
-  EXPECT_GE(smallest(), 0.015);
+  EXPECT_GE(median(), 0.018);
   EXPECT_LT(air_.told, 0.2 * air_.entrapped);
   EXPECT_GT(air_.told, 0.08 * air_.entrapped);
 }
@@ -333,7 +309,7 @@ TEST_F(Flood, WithinTheBudgetChangesNothing) {
 }
 
 TEST_F(Flood, OfThePapersRuleIsThinnedAlike) {
-  flood(1.0, true);
+  spawn_at_once();
   EXPECT_EQ(most_, 50U);
   EXPECT_EQ(air_.thinned + told_.size(), 400U);
 }

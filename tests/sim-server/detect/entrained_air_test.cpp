@@ -1,35 +1,39 @@
 // SPDX-License-Identifier: MIT
-// Air that a disc of 10 cm takes down, by the energy that the water loses at its surface: it grows
-// with the disc's speed and is not lost where slow water is skipped.
+// Air that a disc of 10 cm takes down, and water that falls into water: how it grows with speed,
+// that half the spacing gives as much, and that it is not lost where slow water is skipped.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
-#include <vector>
 
+#include "sim-server/detect/cavity_laws.hpp"
 #include "tests/sim-server/detect/scene_run.hpp"
 
 namespace splash::sim {
 namespace {
 
+constexpr double kGravity = 9.81;  ///< [m/s2]
+constexpr double kDeep = 0.15;     ///< that the disc goes [m]
+
 /// The disc goes 15 cm deep and stays there.
-std::string entry_at(double speed) {
+std::string entry_at(double speed, double spacing = 0.02) {
   const double begins = 0.28 + 0.1 * speed;  // height of its centre, its thickness being 2 cm [m]
   const double stops = (begins - 0.1) / speed;
   char text[700];
   std::snprintf(text, sizeof text,
-                "fluid: {spacing: 0.02}\n"
+                "fluid: {spacing: %g}\n"
                 "tank: {lower: [-0.15, -0.15, 0], upper: [0.15, 0.15, 1]}\n"
                 "water: [{lower: [-0.15, -0.15, 0], upper: [0.15, 0.15, 0.24]}]\n"
-                "detect: {bubble_energy: 0.38}\n"
+                "detect: {bubble_speed: 0.5}\n"
                 "bodies:\n"
                 "  - name: disc\n"
                 "    shape: {kind: cylinder, size: [0.1, 0.1, 0.02]}\n"
                 "    motion: {kind: script, smooth: false, keyframes: [\n"
                 "      {time: 0, position: [0, 0, %g]}, {time: %g, position: [0, 0, 0.1]},\n"
                 "      {time: 9, position: [0, 0, 0.1]}]}\n",
-                begins, stops);
+                spacing, begins, stops);
   return text;
 }
 
@@ -38,33 +42,64 @@ double lasts(double speed) {
   return 0.1 + 0.18 / speed + 0.4;
 }
 
-SceneRun entry(double speed) {
-  return run_scene(entry_at(speed), lasts(speed));
+SceneRun entry(double speed, double spacing = 0.02) {
+  return run_scene(entry_at(speed, spacing), lasts(speed));
 }
 
-// Eddies lose k^(3/2) of their energy k a second: the cube of the disc's speed, for a time that is
-// as the inverse of it. What `bubble_energy` leaves out makes the air grow faster than with the
-// square.
-TEST(EntrainedAir, GrowsFasterThanTheSquareOfSpeed) {
-  const double slowest = 0.3, fastest = 3.0;  // [m/s]
-  std::vector<double> air;                    // [m3]
-  for (const double speed : {slowest, 0.5, 1.0, 2.0, fastest}) {
-    const SceneRun run = entry(speed);
-    const AirTotals& now = run.totals.air;
-    std::printf("%.1f m/s: %zu bubbles, %.1f ml folded in, %.1f ml told\n", speed,
-                run.found.bubbles.size(), 1e6 * now.entrapped, 1e6 * now.told);
-    EXPECT_GT(now.entrapped, air.empty() ? 0.0 : air.back());
-    air.push_back(now.entrapped);
-  }
-  EXPECT_GT(air.back(), std::pow(fastest / slowest, 2.0) * air.front());
+/// What wake_air.hpp's law gives the disc on its way [m3].
+double law(double speed) {
+  constexpr double kRadius = 0.05;  // [m]
+  const double open = closing_time(kRadius, kGravity);
+  const double all =
+      0.06 * 1.1 * std::numbers::pi * kRadius * kRadius * (speed * speed - 0.3 * 0.3) / kGravity;
+  return std::min(kDeep / (speed * open), 1.0) * all;
+}
+
+class Entry : public ::testing::TestWithParam<double> {};
+
+TEST_P(Entry, HoldsTheAirOfTheLawAndAsManyBubblesWithHalfTheSpacing) {
+  const SceneRun run = entry(GetParam());
+  const SceneRun finer = entry(GetParam(), 0.01);
+  const AirTotals& now = run.totals.air;
+  const AirTotals& then = finer.totals.air;
+  std::printf("%.1f m/s: %zu bubbles, %.1f ml of %.1f by the disc; finer %zu, %.1f of %.1f\n",
+              GetParam(), run.found.bubbles.size(), 1e6 * now.by_bodies, 1e6 * now.entrapped,
+              finer.found.bubbles.size(), 1e6 * then.by_bodies, 1e6 * then.entrapped);
+  EXPECT_NEAR(now.by_bodies, law(GetParam()), 0.1 * law(GetParam()));
+  EXPECT_NEAR(then.entrapped, now.entrapped, 0.15 * now.entrapped);
+  const auto bubbles = static_cast<double>(run.found.bubbles.size());
+  EXPECT_NEAR(static_cast<double>(finer.found.bubbles.size()), bubbles, 0.2 * bubbles);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, Entry, ::testing::Values(0.5, 1.0, 3.0));
+
+// A lump of 10 cm falls into still water, which no body touches.
+TEST(FallingWater, FoldsAirInWhereItIsFast) {
+  const auto fall_from = [](double height) {
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "fluid: {spacing: 0.015}\n"
+                  "tank: {lower: [-0.2, -0.2, 0], upper: [0.2, 0.2, 0.8]}\n"
+                  "water:\n"
+                  "  - {lower: [-0.2, -0.2, 0], upper: [0.2, 0.2, 0.15]}\n"
+                  "  - {lower: [-0.05, -0.05, %g], upper: [0.05, 0.05, %g]}\n",
+                  0.15 + height, 0.25 + height);
+    const SceneRun run = run_scene(text, 0.2 + std::sqrt(2.0 * height / kGravity) + 0.3);
+    std::printf("from %.2f m: %zu bubbles, %.2f ml\n", height, run.found.bubbles.size(),
+                1e6 * run.totals.air.entrapped);
+    EXPECT_EQ(run.totals.air.by_bodies, 0.0);
+    return run.totals.air.entrapped;
+  };
+  const double low = fall_from(0.02);
+  EXPECT_GT(fall_from(0.2), 5.0 * low);
 }
 
 // Water slower than bubble_speed has eddies that fold air in, too: frames with them are not
 // skipped.
 TEST(EntrainedAir, IsNotLeftOutInWaterSlowerThanBubbleSpeed) {
-  const std::string skips = changed(entry_at(0.3), "energy: 0.38", "energy: 0.38, bubble_speed: 5");
-  const SceneRun some = run_scene(skips, lasts(0.3));
-  const SceneRun all = run_scene(skips + "skip: {bubbles: false}\n", lasts(0.3));
+  const std::string skips = changed(entry_at(0.29), "bubble_speed: 0.5", "bubble_speed: 5");
+  const SceneRun some = run_scene(skips, lasts(0.29));
+  const SceneRun all = run_scene(skips + "skip: {bubbles: false}\n", lasts(0.29));
   std::printf("%.3f and %.3f ml\n", 1e6 * some.totals.air.entrapped,
               1e6 * all.totals.air.entrapped);
   EXPECT_GT(some.totals.skipped.bubbles, 0U);

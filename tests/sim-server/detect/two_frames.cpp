@@ -19,7 +19,7 @@ std::size_t folds_in(splash::sim::Water& water, splash::sim::DetectSettings sett
   settings.bubble_energy = 0.4;
   settings.bubble_onset = 0.01;
   splash::sim::AirFolds folds(*water.fluid, splash::sim::detect_program(water.fluid->device()));
-  folds.enqueue(water.step_at(0.0), settings);
+  folds.enqueue(water.step_at(0.0), settings, 0);
   folds.enqueue_read();
   water.fluid->device().queue().finish();
   return folds.read().size();

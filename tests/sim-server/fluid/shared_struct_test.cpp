@@ -118,8 +118,7 @@ const std::vector<Member> kMembers = {
     MEMBERS_2(BubbleState, colour, upward),
     MEMBERS_4(BubbleState, x, y, z, id),
     MEMBERS_4(Spawn, id, x, y, z),
-    MEMBERS_3(Spawn, u, v, w),
-    MEMBERS_3(Spawn, before, fresh, dense),
+    MEMBER(Spawn, before),
 
     MEMBERS_4(AirFold, id, x, y, z),
     MEMBER(AirFold, rate),

@@ -39,6 +39,7 @@ RunReport example() {
   report.events = {{3, 120, 2}};
   report.no_cavity = {{"stopped", 1}, {"filled", 0}};
   report.air = {.entrapped = 0.0125,
+                .by_bodies = 0.004,
                 .told = 0.012,
                 .thinned = 17,
                 .mean_particles = 0.01,
@@ -77,6 +78,7 @@ TEST(Report, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(read.at("no_cavity"), (json{{"stopped", 1}, {"filled", 0}}));
   const auto& air = read.at("air");
   EXPECT_DOUBLE_EQ(air.at("entrapped_litres"), 12.5);
+  EXPECT_DOUBLE_EQ(air.at("by_bodies_litres"), 4.0);
   EXPECT_DOUBLE_EQ(air.at("told_litres"), 12.0);
   EXPECT_EQ(air.at("thinned_bubbles"), 17);
   EXPECT_EQ(read.at("bubble_particles"), (json{{"mean_share", 0.01}, {"largest_share", 0.06}}));
@@ -158,8 +160,8 @@ TEST(Report, SummaryTellsThePersonTheSame) {
   for (const auto* part :
        {"basin", "7000 particles", "cpu-haswell", "real-time factor 1.25", "300 steps/s",
         "3 impacts, 120 bubbles, 2 cavities; impacts without one: stopped 1\n", "lost 7",
-        "12.50 l entrapped, 12.00 l told, 17 bubbles over the budget", "6.00 % at most",
-        "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried",
+        "12.50 l entrapped (4.00 by bodies), 12.00 l told, 17 bubbles over the budget",
+        "6.00 % at most", "4 of 7500 frames behind", "1 resets, 2 frames given up, 5 retried",
         "9 refused: too_fast 2 outlier 7\n"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
