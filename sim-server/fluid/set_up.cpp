@@ -158,6 +158,7 @@ FluidParams make_params(const Scene& scene, const std::vector<Vector3>& particle
   p.advective_cfl = static_cast<float>(kGridAdvectiveCfl *
                                        std::min(StepPolicy(scene.fluid).factor(), kLargestGridCfl));
   const auto walls = tank_walls(scene);
+  p.pockets = scene.fluid.air_pockets ? 1 : 0;
   p.wall_count = static_cast<int>(walls.size());
   std::copy(walls.begin(), walls.end(), p.walls);
   p.piston = scene.wave_maker.present ? 1 : -1;

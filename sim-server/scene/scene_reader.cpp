@@ -355,6 +355,7 @@ Scene build(const ConfigMap& map, const std::string& file_stem) {
   read_bodies(map, scene);
   read_frictions(map, scene);
   if (entry.solver_spelled == "auto") scene.fluid.solver = suitable_solver(scene).solver;
+  check_solver(fluid, scene.fluid);
   check_time_step(fluid, scene.fluid);
   if (scene.tank_motion.present) check_turning(map.child("tank_motion"), scene);
   check_sound(fluid, scene);

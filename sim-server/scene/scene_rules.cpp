@@ -318,6 +318,14 @@ void check_time_step(const ConfigMap& map, const FluidSettings& fluid) {
                       "it becomes as slow as such steps need");
 }
 
+void check_solver(const ConfigMap& map, const FluidSettings& fluid) {
+  if (!fluid.air_pockets || fluid.solver == PressureKind::grid_projected) return;
+  throw map.error(
+      "air_pockets",
+      "needs 'solver: grid_projected', got weakly_compressible, in which all air has the "
+      "atmosphere's pressure. Leave out one of the two keys");
+}
+
 void check_sound(const ConfigMap& fluid, const Scene& scene) {
   constexpr double kOfWater = 1500.0;  // [m/s]
   const double wanted = suitable_sound_speed(scene, 0.0, StepPolicy::sound_factor(scene.fluid));

@@ -40,6 +40,8 @@ void check_detect(const program::ConfigMap& map, const DetectSettings& detect);
 [[nodiscard]] std::string wrong_order(const DetectSettings& detect);
 /// Steps no longer than the solver's water stands, at a speed of sound that is given or on a grid.
 void check_time_step(const program::ConfigMap& map, const FluidSettings& fluid);
+/// What only one of the solvers knows.
+void check_solver(const program::ConfigMap& map, const FluidSettings& fluid);
 /// Sound that is given is fast enough for the scene's depth and for what falls and flows in it.
 /// `scene` has its bodies.
 void check_sound(const program::ConfigMap& fluid, const Scene& scene);

@@ -190,6 +190,9 @@ double entry_speed(const Scene& scene, const BodySettings& body) {
 }
 
 SolverChoice suitable_solver(const Scene& scene) {
+  if (scene.fluid.air_pockets) {
+    return {PressureKind::grid_projected, "the scene has air_pockets"};
+  }
   std::string reason = unsuited(scene);
   if (reason.empty()) reason = strike(scene);
   if (reason.empty()) return {PressureKind::grid_projected, "nothing strikes the water"};

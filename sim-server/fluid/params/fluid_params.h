@@ -64,9 +64,10 @@ typedef struct {
   int solver;        // SPLASH_WEAKLY_COMPRESSIBLE or SPLASH_GRID_PROJECTED
   float wave_speed;  // of the longest wave, sqrt(g H) of the deepest water [m/s]
   float advective_cfl;  // largest displacement in a step, unused with the state equation [spacings]
+  int pockets;          // 1: air that is shut in resists, with SPLASH_GRID_PROJECTED
   WallPlane walls[SPLASH_MAX_WALLS];
 } FluidParams;
-SPLASH_SHARED_STRUCT(FluidParams, 38 * 4 + 16 * SPLASH_MAX_WALLS)
+SPLASH_SHARED_STRUCT(FluidParams, 39 * 4 + 16 * SPLASH_MAX_WALLS)
 
 // Water that is stretched (pressure/state_equation.h): its stiffness over that of compressed water
 // [1], and how fast it forgets that it is [1/s]. A slap's relief takes R / c0, some 10 ms, a hollow

@@ -9,14 +9,17 @@
 namespace splash::sim {
 
 int KernelParts::left_out() const noexcept {
-  return 5 - (int{bodies} + int{slope} + int{piston} + int{friction} + int{mesh});
+  return 6 - (int{bodies} + int{slope} + int{piston} + int{friction} + int{mesh} + int{pockets});
 }
 
 KernelParts parts_needed(const FluidParams& params, const std::vector<BodyShape>& shapes) {
-  return {!shapes.empty(), params.slope >= 0, params.piston >= 0,
+  return {!shapes.empty(),
+          params.slope >= 0,
+          params.piston >= 0,
           params.viscous != 0.0F || params.artificial != 0.0F,
           std::any_of(shapes.begin(), shapes.end(),
-                      [](const BodyShape& shape) { return shape.kind == SPLASH_MESH; })};
+                      [](const BodyShape& shape) { return shape.kind == SPLASH_MESH; }),
+          params.pockets != 0};
 }
 
 bool whole_asked() {
@@ -30,6 +33,7 @@ std::vector<std::string> kernel_defines(const KernelParts& parts) {
   if (!parts.slope) defines.emplace_back("HAS_SLOPE=0");
   if (!parts.piston) defines.emplace_back("HAS_PISTON=0");
   if (!parts.friction) defines.emplace_back("HAS_FRICTION=0");
+  if (!parts.pockets) defines.emplace_back("HAS_POCKETS=0");
   if (!parts.mesh) defines.emplace_back("HAS_MESH=0");
   return defines;
 }

@@ -14,6 +14,9 @@
 #ifndef HAS_MESH
 #define HAS_MESH 1
 #endif
+#ifndef HAS_POCKETS
+#define HAS_POCKETS 1
+#endif
 #ifndef HAS_FRICTION
 #define HAS_FRICTION 1
 #endif

@@ -19,6 +19,7 @@ struct KernelParts {
   bool piston = true;
   bool friction = true;  ///< either viscosity
   bool mesh = true;      ///< a body that is one
+  bool pockets = true;   ///< air that is shut in
 
   /// How many a program is built without.
   [[nodiscard]] int left_out() const noexcept;

@@ -106,7 +106,7 @@ TEST(KernelParts, AreWhatTheSceneHas) {
   params.slope = params.piston = -1;
   const std::vector<BodyShape> none;
   std::vector<BodyShape> one(1);
-  EXPECT_EQ(parts_needed(params, none).left_out(), 5);
+  EXPECT_EQ(parts_needed(params, none).left_out(), 6);
   EXPECT_TRUE(parts_needed(params, one).bodies);
   params.slope = 5;
   EXPECT_TRUE(parts_needed(params, none).slope);
@@ -117,6 +117,8 @@ TEST(KernelParts, AreWhatTheSceneHas) {
   params.artificial = 0.0F;
   params.viscous = 0.01F;
   EXPECT_TRUE(parts_needed(params, none).friction);
+  params.pockets = 1;
+  EXPECT_TRUE(parts_needed(params, none).pockets);
   EXPECT_EQ(parts_needed(params, one).left_out(), 1);
   one[0].kind = SPLASH_MESH;
   EXPECT_EQ(parts_needed(params, one).left_out(), 0);

@@ -19,6 +19,7 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/pocket.h"
 #include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/tank_turn.h"
 
@@ -60,7 +61,7 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(FluidParams, centre_x, centre_y, centre_z),
     MEMBERS_4(FluidParams, spacing, layer_weight, least_density, torn_density),
     MEMBERS_4(FluidParams, speed_limit, wall_count, piston, slope),
-    MEMBERS_3(FluidParams, solver, wave_speed, advective_cfl),
+    MEMBERS_4(FluidParams, solver, wave_speed, advective_cfl, pockets),
     MEMBER(FluidParams, walls),
 
     MEMBERS_3(BodyStep, px, py, pz),
@@ -111,6 +112,10 @@ const std::vector<Member> kMembers = {
 
     MEMBERS_2(HealthLimits, lower, upper),
     MEMBERS_3(HealthLimits, speed, thinnest, densest),
+    MEMBERS_4(AirPocket, first, cells, volume, amount),
+    MEMBER(AirPocket, pressure),
+    MEMBERS_2(AirPockets, count, pocket),
+
     MEMBERS_2(HealthRecord, count, first),
     MEMBERS_4(HealthRecord, before, after, ids_before, ids_after),
     MEMBERS_2(Rested, state, ids),

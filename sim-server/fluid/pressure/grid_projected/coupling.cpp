@@ -91,6 +91,7 @@ void CoupledBodies::find_grip(Fluid& fluid, const Step& step, int count,
                    {"gap", solids_.gap()},
                    {"owner", solids_.owner()},
                    {"wet", fields_.wet},
+                   {"air", fields_.air},
                    {"grip", grip}});
 }
 

@@ -45,7 +45,8 @@ kernel void ask_for_room(constant MacGrid* g, float dt, global const float* seen
 
 // The velocity of that displacement on faces: - grad f, 0 where solids and walls close them.
 kernel void find_shift(constant MacGrid* g, global const float* gap, global const float* fill,
-                       global const float* wet, global const float* found, global float* shift) {
+                       global const float* wet, global const float* air,
+                       global const float* found, global float* shift) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -55,7 +56,7 @@ kernel void find_shift(constant MacGrid* g, global const float* gap, global cons
   for (int axis = 0; axis < 3; ++axis) {
     const int face = axis * l.cells + at.first;
     const lane_flags closed = are_walls(l, &at, axis) | (open_of(gap, face) <= none);
-    const lanes rise = growth(fill, wet, found, at.first, step[axis]);
+    const lanes rise = growth(fill, wet, air, found, at.first, step[axis]);
     STORE(select(-inverse[axis] * rise, none, closed | !at.real), shift, face);
   }
 }

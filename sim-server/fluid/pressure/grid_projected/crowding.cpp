@@ -38,6 +38,7 @@ void Crowding::find(Fluid& fluid, const Step& step) {
                    {"gap", solids_.gap()},
                    {"fill", solids_.fill()},
                    {"wet", fields_.wet},
+                   {"air", fields_.air},
                    {"found", found_},
                    {"shift", shift_}});
 }

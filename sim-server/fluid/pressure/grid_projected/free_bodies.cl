@@ -48,7 +48,8 @@ kernel void let_fall(constant FluidParams* p, float dt, int free_count, constant
 // K of each cell that is a free body's, by the body's lever.
 kernel void grip_water(constant MacGrid* g, int free_count, constant FreeBody* frees,
                        global const BodyStep* bodies, int first_body, global const float* gap,
-                       global const int* owner, global const float* wet, global float* grip) {
+                       global const int* owner, global const float* wet, global const float* air,
+                       global float* grip) {
   const int4 at = cell_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.w == 0 || at.x == l.nx || at.y == l.ny || at.z == l.nz) return;
@@ -60,7 +61,8 @@ kernel void grip_water(constant MacGrid* g, int free_count, constant FreeBody* f
     float3 push = (float3)(0.0f), turn = (float3)(0.0f);
     const int step[3] = {1, l.row, l.layer};
     const float inverse[3] = {g->ix, g->iy, g->iz};
-    for (int axis = 0; axis < 3 && wet[c] > 0.0f; ++axis) {
+    const bool pushes = wet[c] > 0.0f || (HAS_POCKETS && air[c] > 0.0f);
+    for (int axis = 0; axis < 3 && pushes; ++axis) {
       const int face = axis * l.cells + c;
       const float3 e = (float3)(axis == 0, axis == 1, axis == 2);
       const float3 arm = face_middle(g, at, axis) - (float3)(b.px, b.py, b.pz);

@@ -26,8 +26,9 @@ GridProjected::GridProjected(Device& device, const FluidParams& params, const cl
     : part_(static_cast<double>(params.advective_cfl) / kGridAdvectiveCfl),
       fields_(device, params),
       solids_(device, program, fields_, solids),
+      air_(device, program, fields_, solids_, params.pockets != 0),
       bodies_(device, program, fields_, solids_),
-      system_(device, program, fields_, solids_, bodies_),
+      system_(device, program, fields_, solids_, bodies_, air_),
       felt_(device, program, fields_, solids_, bodies_, system_),
       crowding_(device, program, fields_, solids_, system_),
       to_faces_(device, program, fields_),
@@ -65,6 +66,7 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
                        {"deviation", deviation_}});
   to_faces_.find(fluid, deviation_, seen_);
   solids_.place(fluid, step);
+  air_.find(fluid, step);
   system_.push_faces(fluid, step);
   bodies_.let_fall(fluid, step);
   system_.lay(fluid, step);
@@ -134,6 +136,7 @@ void GridProjected::forget_pressure(Device& device) {
   fields_.pressure.enqueue_clear(device);
   fields_.wet.enqueue_clear(device);
   bodies_.forget(device);
+  air_.forget(device);
   note_recalled(device);
 }
 

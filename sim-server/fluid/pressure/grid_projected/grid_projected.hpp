@@ -10,6 +10,7 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/pressure/grid_projected/air_pockets.hpp"
 #include "sim-server/fluid/pressure/grid_projected/coupling.hpp"
 #include "sim-server/fluid/pressure/grid_projected/crowding.hpp"
 #include "sim-server/fluid/pressure/grid_projected/felt.hpp"
@@ -60,7 +61,9 @@ class GridProjected : public PressureSolver {
   [[nodiscard]] SolveWork work() const override { return system_.work(); }
   void forget_work(Device& device) override { system_.forget_work(device); }
   [[nodiscard]] std::vector<cl::Buffer> kept() const override {
-    return {fields_.pressure.memory(), fields_.wet.memory(), bodies_.kept()};
+    std::vector<cl::Buffer> all = air_.kept();
+    all.insert(all.end(), {fields_.pressure.memory(), fields_.wet.memory(), bodies_.kept()});
+    return all;
   }
   void forget_pressure(Device& device) override;
   void note_recalled(Device& device) override;
@@ -68,6 +71,7 @@ class GridProjected : public PressureSolver {
   // For tests, between steps.
   [[nodiscard]] const MacFields& fields() const noexcept { return fields_; }
   [[nodiscard]] const GridSolids& solids() const noexcept { return solids_; }
+  [[nodiscard]] const ShutInAir& air() const noexcept { return air_; }
   [[nodiscard]] const FeltForces& felt() const noexcept { return felt_; }
   [[nodiscard]] const Crowding& crowding() const noexcept { return crowding_; }
   [[nodiscard]] const Buffer<float>& deviation() const noexcept { return deviation_; }
@@ -79,6 +83,7 @@ class GridProjected : public PressureSolver {
   double part_;  ///< of the default step's length, by the scene's factor [1]
   MacFields fields_;
   GridSolids solids_;
+  ShutInAir air_;
   CoupledBodies bodies_;
   PressureSystem system_;
   FeltForces felt_;

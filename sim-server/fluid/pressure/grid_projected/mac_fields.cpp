@@ -34,6 +34,7 @@ MacFields::MacFields(Device& device, const FluidParams& params)
       gain(device, 3 * room),
       pressure(device, room),
       wet(device, room),
+      air(device, room),
       carried(device, 3 * static_cast<std::size_t>(params.capacity)) {}
 
 }  // namespace splash::sim

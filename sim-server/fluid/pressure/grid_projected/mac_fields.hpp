@@ -27,6 +27,7 @@ struct MacFields {
   Buffer<float> gain;      ///< the same, sharpened: what particles get [m/s]
   Buffer<float> pressure;  ///< of cells [Pa]
   Buffer<float> wet;       ///< 1 where a cell holds water
+  Buffer<float> air;       ///< 1 where it holds air that is shut in
   Buffer<float> carried;   ///< what took particles along in the last step [m/s]
 };
 

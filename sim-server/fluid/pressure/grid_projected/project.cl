@@ -2,7 +2,7 @@
 // Faces beside water get what the pressures do to them, and walls beside it stop it, as far as a
 // cell along the wall: what the step changed at each face is left in `pushed`, or MAC_UNKNOWN where
 // there is no water, or a solid closes the face.
-// Then the pressures of cells with water are kept, in Pa.
+// Then the pressures of cells with water, or with air that is shut in, are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
@@ -55,8 +55,8 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
                           global const float* gap, global const float* free,
                           global const int* owner, global const float* fill,
                           global const float* carries, global const float* weight,
-                          global const float* found, global const float* wet, global float* pushed,
-                          global float* pressure) {
+                          global const float* found, global const float* wet,
+                          global const float* air, global float* pushed, global float* pressure) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -70,7 +70,7 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     lane_flags beside = LOAD(wet, c) + LOAD(wet, c - step[axis]) > none;
     if (at.z < l.nz && any_lane(wall)) beside |= wall & are_washed(l, wet, &at, axis);
     lane_flags open = (open_of(gap, face) > none) & beside;
-    const lanes by = inverse[axis] * growth(fill, wet, found, c, step[axis]);
+    const lanes by = inverse[axis] * growth(fill, wet, air, found, c, step[axis]);
     lanes change = LOAD(pushed, face) - LOAD(carries, face) - select(by, none, wall);
     if (HAS_SOLIDS) {
       const lanes freed = LOAD(free, face);
@@ -87,7 +87,8 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     STORE(select((lanes)(MAC_UNKNOWN), change, known), pushed, face);
   }
   const float density = p->rest_density / dt;
-  STORE(select(none, LOAD(wet, c) * LOAD(found, c) * density, at.real), pressure, c);
+  const lane_flags presses = (LOAD(wet, c) > none) | are_shut_in(air, c);
+  STORE(select(none, LOAD(found, c) * density, at.real & presses), pressure, c);
 }
 
 // The pressure at a face at the surface moves water of t rho0 V (system.cl), but the particles

@@ -8,6 +8,7 @@
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/multigrid.h"
+#include "sim-server/fluid/pressure/grid_projected/pool.h"
 #include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 
 #define SOLVED 1e-4f  // what may be left of the demand [1]
@@ -29,7 +30,8 @@ kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int ane
                            global const float* grip, global const int* most, global float* link,
                            global float* open, global float* damped, global float* x,
                            global float* b, global float* r, global float* found, global float* way,
-                           global float* along, global SolveState* state) {
+                           global float* along, global const AirPockets* pockets,
+                           global const int* list, global SolveState* state) {
   local float parts[JUDGES];
   const Levels s = {{link, link + room, link + 2 * room}, open, damped, x, b, r};
   const MacLevel l = g->level[0];
@@ -38,18 +40,21 @@ kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int ane
   const int last = *most;
   const int end = end_of(g, 0, last);
   coarsen(g, &s, anew ? g->levels : 0);
+  pool(pockets, list, b);
   const float whole = product(l, end, b, b, parts);
   EACH_VECTOR(c, l, end) {
     STORE(LOAD(b, c) - times(&s, l, found, c), b, c);
   }
   if (HAS_BODIES) add_bodies(g, &all, -1.0f, found, parts, b);
   TOGETHER();
+  pool(pockets, list, b);
   const float goal = SOLVED * SOLVED * whole;
   float rest = product(l, end, b, b, parts);
   float before = 1.0f;
   int done = 0;
   for (; done < iterations && rest > goal; ++done) {
     round_trip(g, &s, last);
+    pool(pockets, list, x);
     const float now = product(l, end, x, b, parts);
     const float keep = done > 0 ? now / before : 0.0f;
     before = now;
@@ -66,6 +71,7 @@ kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int ane
     }
     float bend = of_all(total(bends), parts);
     if (HAS_BODIES) bend += add_bodies(g, &all, 1.0f, way, parts, along);
+    pool(pockets, list, along);
     if (!(bend > 0.0f)) break;
     const float far = now / bend;
     lanes left = 0.0f;

@@ -2,6 +2,7 @@
 // Where the surface is between the middles of two cells, by how full they are: a hat over a
 // half-space whose surface is s cells above its middle is filled by 1/2 + s - s |s| / 2.
 
+#include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 
 #define LEAST_WAY 0.1f    // to the surface, between two middles [1]
@@ -45,15 +46,23 @@ static float way_to_surface_of(float water, float air) {
   return most(way_to_surface((lanes)(water), (lanes)(air)));
 }
 
-// How fast f grows across the lower faces of cells, `s` from those below [edges].
-static lanes growth(global const float* fill, global const float* wet, global const float* found,
-                    int c, int s) {
+// Which cells from `c` on are shut-in air's.
+static lane_flags are_shut_in(global const float* air, int c) {
+  const lane_flags nowhere = 0;
+  return HAS_POCKETS ? LOAD(air, c) > (lanes)(0.0f) : nowhere;
+}
+
+// How fast f grows across the lower faces of cells, `s` from those below [edges]. f of open air is
+// 0, whatever the solve left there.
+static lanes growth(global const float* fill, global const float* wet, global const float* air,
+                    global const float* found, int c, int s) {
   const lanes none = 0.0f;
   const lane_flags here = LOAD(wet, c) > none, there = LOAD(wet, c - s) > none;
-  const lanes f = LOAD(found, c), below = LOAD(found, c - s);
+  const lanes f = select(none, LOAD(found, c), here | are_shut_in(air, c));
+  const lanes below = select(none, LOAD(found, c - s), there | are_shut_in(air, c - s));
   const lanes full = LOAD(fill, c), full_below = LOAD(fill, c - s);
-  const lanes rise = f / way_to_surface(full, full_below);
-  const lanes fall = -below / way_to_surface(full_below, full);
+  const lanes rise = (f - below) / way_to_surface(full, full_below);
+  const lanes fall = (f - below) / way_to_surface(full_below, full);
   return select(select(fall, rise, here), f - below, here & there);
 }
 

@@ -6,7 +6,8 @@
 // surface is s cells above its middle is filled by 1/2 + s - s |s| / 2, so the cells' fills say
 // where between their middles the surface is, a part t of the way, and the face's term is f / (t
 // h^2) (ghost fluid: Gibou et al. 2002). Water that has come apart within is pressed together
-// again: its cells contract at the rate REGAINED of what they lack.
+// again: its cells contract at the rate REGAINED of what they lack. Air that is shut in has rows of
+// its own, with the same terms at its surface (pocket.h).
 
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
@@ -81,14 +82,16 @@ static void solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
 
 // Row by row the system A f = b: `link`, 1 / h^2 between a cell and the one below it along an axis
 // where both hold water, by the open part of the face; `open`, what its surface adds to the
-// diagonal; `start`: f of the pressures that were. `wet`: 1 where a cell holds water. `most`: the
-// largest number of a cell with water. Of a cell beside a solid, what flows out of its open faces
-// and what the solid takes of it is its flow relative to the solid, out of the same faces. What the
-// solve works with begins at zero.
+// diagonal; `start`: f of the pressures that were. `wet`: 1 where a cell holds water, `air`: where
+// it is shut-in air's, which q = `squeeze` makes give way. `most`: the largest number of a cell
+// with water. Of a cell beside a solid, what flows out of its open faces and what the solid takes
+// of it is its flow relative to the solid, out of the same faces. What the solve works with begins
+// at zero.
 kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
                        global const BodyStep* bodies, int first_body, float piston_speed,
                        global const float* gap, global const int* owner, global const float* fill,
-                       global const float* pushed, global const float* pressure, int room,
+                       global const float* pushed, global const float* pressure,
+                       global const float* air, global const float* squeeze, int room,
                        global float* link, global float* open, global float* x, global float* right,
                        global float* rest, global float* start, global float* way,
                        global float* wet, global int* most) {
@@ -97,7 +100,8 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
   if (at.z > l.nz) return;
   const int c = at.first;
   const lanes none = 0.0f, one = 1.0f;
-  const lane_flags fluid = at.inside & hold_water(fill, c) & are_open(l, gap, c);
+  const lane_flags water = at.inside & hold_water(fill, c) & are_open(l, gap, c);
+  const lane_flags shut_in = are_shut_in(air, c), fluid = water | shut_in;
   const bool any = any_lane(fluid);
   const lane_flags cut = HAS_SOLIDS ? fluid & (LOAD(owner, c) != (lane_flags)(OF_NOBODY)) : fluid;
   const bool any_cut = HAS_SOLIDS && any && any_lane(cut);
@@ -117,11 +121,24 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
       const lane_flags reaches_up = here[axis] < (lane_flags)(last[axis]);
       const lanes down = select(none, each * low, reaches_down);
       const lanes up = select(none, each * high, reaches_up);
+      const lanes full_below = LOAD(fill, c - s), full_above = LOAD(fill, c + s);
       const lane_flags wet_below = hold_water(fill, c - s), wet_above = hold_water(fill, c + s);
+      const lanes to_below = down / way_to_surface(full, full_below);
+      const lanes to_above = up / way_to_surface(full, full_above);
       between = select(none, down, fluid & wet_below);
-      links += between + select(none, up, wet_above);
-      surface += select(down / way_to_surface(full, LOAD(fill, c - s)), none, wet_below) +
-                 select(up / way_to_surface(full, LOAD(fill, c + s)), none, wet_above);
+      lanes beyond = select(none, up, wet_above);
+      surface += select(to_below, none, wet_below) + select(to_above, none, wet_above);
+      if (HAS_POCKETS) {
+        const lane_flags air_below = are_shut_in(air, c - s), air_above = are_shut_in(air, c + s);
+        between = select(between, to_below, water & air_below);
+        beyond = select(beyond, to_above, water & air_above);
+        surface -= select(none, to_below, air_below) + select(none, to_above, air_above);
+        between = select(between, select(down / way_to_surface(full_below, full), down, air_below),
+                         shut_in & (wet_below | air_below));
+        beyond = select(beyond, select(up / way_to_surface(full_above, full), up, air_above),
+                        shut_in & (wet_above | air_above));
+      }
+      links += between + beyond;
       lanes in = LOAD(pushed, face), out = LOAD(pushed, face + s);
       if (any_cut) {
         lanes below, above;
@@ -136,16 +153,21 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
   }
   if (any) {
     const lanes lack = REGAINED * within(1.0f - full, 0.0f, MOST_LACK);
-    if (any_lane(fluid & (lack > none))) {
-      b -= select(none, lack, are_inner(l, fill, &at));
+    if (any_lane(water & (lack > none))) {
+      b -= select(none, lack, water & are_inner(l, fill, &at));
     }
     atomic_max(most, c + last_of(fluid));
+  }
+  const lanes before = select(none, LOAD(pressure, c) * (dt / p->rest_density), fluid);
+  if (HAS_POCKETS && any_lane(shut_in)) {
+    surface = select(surface, LOAD(squeeze, c), shut_in);
+    b += select(none, LOAD(squeeze, c) * before, shut_in);
   }
   STORE(select(none, surface, fluid), open, c);
   STORE(select(none, b, fluid & (links + surface > none)), right, c);
   STORE(none, x, c);
   STORE(none, rest, c);
   STORE(none, way, c);
-  STORE(select(none, LOAD(pressure, c) * (dt / p->rest_density), fluid), start, c);
-  STORE(select(none, one, fluid), wet, c);
+  STORE(before, start, c);
+  STORE(select(none, one, water), wet, c);
 }

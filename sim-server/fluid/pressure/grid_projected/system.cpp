@@ -12,10 +12,12 @@ constexpr int kIterations = 40;
 }  // namespace
 
 PressureSystem::PressureSystem(Device& device, const cl::Program& program, const MacFields& fields,
-                               const GridSolids& solids, const CoupledBodies& bodies)
+                               const GridSolids& solids, const CoupledBodies& bodies,
+                               const ShutInAir& air)
     : fields_(fields),
       solids_(solids),
       bodies_(bodies),
+      air_(air),
       most_(device, 1),
       link_(device, 3 * fields.room),
       open_(device, fields.room),
@@ -61,6 +63,8 @@ void PressureSystem::lay(Fluid& fluid, const Step& step) {
                    {"fill", solids_.fill()},
                    {"pushed", fields_.change},
                    {"pressure", fields_.pressure},
+                   {"air", fields_.air},
+                   {"squeeze", air_.squeeze()},
                    {"room", static_cast<int>(fields_.room)},
                    {"link", link_},
                    {"start", found_},
@@ -102,6 +106,8 @@ void PressureSystem::solve(Fluid& fluid, const Step& step, bool anew, int iterat
                              {"found", found},
                              {"way", way_},
                              {"along", along_},
+                             {"pockets", air_.pockets()},
+                             {"list", air_.list()},
                              {"state", state}});
 }
 
@@ -121,6 +127,7 @@ void PressureSystem::project(Fluid& fluid, const Step& step) {
                       {"weight", fields_.weight},
                       {"found", found_},
                       {"wet", fields_.wet},
+                      {"air", fields_.air},
                       {"pushed", fields_.change},
                       {"pressure", fields_.pressure}});
   share_at_surface(fluid.device(), fields_.change);

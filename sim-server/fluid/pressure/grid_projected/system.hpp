@@ -7,6 +7,7 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/pressure/grid_projected/air_pockets.hpp"
 #include "sim-server/fluid/pressure/grid_projected/coupling.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
@@ -18,7 +19,7 @@ namespace splash::sim {
 class PressureSystem {
  public:
   PressureSystem(Device& device, const cl::Program& program, const MacFields& fields,
-                 const GridSolids& solids, const CoupledBodies& bodies);
+                 const GridSolids& solids, const CoupledBodies& bodies, const ShutInAir& air);
 
   /// Adds gravity and viscosity to the velocities on faces.
   void push_faces(Fluid& fluid, const Step& step);
@@ -58,6 +59,7 @@ class PressureSystem {
   const MacFields& fields_;
   const GridSolids& solids_;
   const CoupledBodies& bodies_;
+  const ShutInAir& air_;
   Buffer<int> most_;
 
   // Over all levels; the last three over the finest.
