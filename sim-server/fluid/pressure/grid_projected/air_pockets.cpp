@@ -13,7 +13,7 @@ ShutInAir::ShutInAir(Device& device, const cl::Program& program, const MacFields
     : fields_(fields),
       solids_(solids),
       looks_(looks),
-      squeeze_(device, fields.room),
+      compliance_(device, fields.room),
       pockets_(device, 1),
       list_(device, looks ? fields.room : 1),
       label_(device, looks ? fields.room : 1),
@@ -41,7 +41,7 @@ void ShutInAir::find(Fluid& fluid, const Step& step) {
                      {"list", list_},
                      {"pockets", pockets_},
                      {"air", fields_.air},
-                     {"squeeze", squeeze_},
+                     {"compliance", compliance_},
                      {"pressure", fields_.pressure}});
 }
 

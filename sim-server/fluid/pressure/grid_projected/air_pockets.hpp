@@ -31,7 +31,7 @@ class ShutInAir {
   void forget(Device& device);
 
   /// q of pockets' cells [1/m2].
-  [[nodiscard]] const Buffer<float>& squeeze() const noexcept { return squeeze_; }
+  [[nodiscard]] const Buffer<float>& compliance() const noexcept { return compliance_; }
   [[nodiscard]] const Buffer<AirPockets>& pockets() const noexcept { return pockets_; }
   /// Numbers of their cells.
   [[nodiscard]] const Buffer<int>& list() const noexcept { return list_; }
@@ -40,7 +40,7 @@ class ShutInAir {
   const MacFields& fields_;
   const GridSolids& solids_;
   bool looks_;
-  Buffer<float> squeeze_;
+  Buffer<float> compliance_;
   Buffer<AirPockets> pockets_;
   Buffer<int> list_;
   Buffer<int> label_;

@@ -3,7 +3,7 @@
 // share one pressure, that of gas whose amount stays,
 //   dP = - gamma (p0 + P) dV / V,
 // P over the atmosphere's p0, V its volume. That follows what flows in, step by step; and at the
-// rate SPLASH_POCKET_HEEDS it comes back to p0 ((V0 / V)^gamma - 1), V0 being the amount of its
+// rate SPLASH_POCKET_RETURN it comes back to p0 ((V0 / V)^gamma - 1), V0 being the amount of its
 // air, as V is known by the particles only roughly, but without drift. With f = dt P / rho0 and
 // what flows into it in a step that is
 //   q f + sum_faces open (f - f') / (t h^2) = q f_before - div u,
@@ -18,7 +18,7 @@
 
 #define SPLASH_MOST_POCKETS 16
 #define SPLASH_LEAST_POCKET 8      // cells: as wide as two
-#define SPLASH_POCKET_HEEDS 1.0f   // its volume [1/s]
+#define SPLASH_POCKET_RETURN 1.0f  // rate at which its pressure returns to that of its volume [1/s]
 
 #ifdef __cplusplus
 namespace splash::sim {

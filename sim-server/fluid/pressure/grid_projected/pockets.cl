@@ -103,18 +103,18 @@ static void find_regions(const MacLevel l, global const float* gap, global const
 
 // `pressure`: of the last step [Pa]; cells of pockets get their pocket's. `counted`: to work with,
 // negative but for cells inside. `was`, `pockets`: of the last step, then of this one. `air`: 1 in
-// pockets. `squeeze`: q of their cells [1/m2]. One work-item.
+// pockets. `compliance`: q of their cells [1/m2]. One work-item.
 kernel void find_pockets(constant FluidParams* p, constant MacGrid* g, float dt,
                          global const float* gap, global const float* space,
                          global const float* fill, global int* label, global float* counted,
                          global int* was,
                          global int* list, global AirPockets* pockets, global float* air,
-                         global float* squeeze, global float* pressure) {
+                         global float* compliance, global float* pressure) {
   const MacLevel l = g->level[0];
   const int inside = l.nx * l.ny * l.nz;
   for (int item = 0; item < inside; ++item) {
     const int c = cell_inside(l, item);
-    air[c] = squeeze[c] = counted[c] = 0.0f;
+    air[c] = compliance[c] = counted[c] = 0.0f;
   }
   find_regions(l, gap, fill, label);
   float amounts[SPLASH_MOST_POCKETS];  // of the pockets before [cells]
@@ -158,13 +158,13 @@ kernel void find_pockets(constant FluidParams* p, constant MacGrid* g, float dt,
     float amount = amount_in(space, fill, was, list, pocket, amounts, left);
     if (amount < 0.0f) amount = volume * pow(1.0f + flowed / ATMOSPHERE, 1.0f / HEAT_RATIO);
     const float by_volume = ATMOSPHERE * (pow(amount / volume, HEAT_RATIO) - 1.0f);
-    pocket.pressure = flowed + fmin(SPLASH_POCKET_HEEDS * dt, 1.0f) * (by_volume - flowed);
+    pocket.pressure = flowed + fmin(SPLASH_POCKET_RETURN * dt, 1.0f) * (by_volume - flowed);
     pocket.volume = volume * cell;
     pocket.amount = amount * cell;
     const float q = p->rest_density * volume /
                     (pocket.cells * HEAT_RATIO * (ATMOSPHERE + pocket.pressure) * dt * dt);
     for (int i = pocket.first; i < pocket.first + pocket.cells; ++i) {
-      squeeze[list[i]] = q;
+      compliance[list[i]] = q;
       pressure[list[i]] = pocket.pressure;
     }
     pockets->pocket[k] = pocket;

@@ -83,7 +83,7 @@ static void solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
 // Row by row the system A f = b: `link`, 1 / h^2 between a cell and the one below it along an axis
 // where both hold water, by the open part of the face; `open`, what its surface adds to the
 // diagonal; `start`: f of the pressures that were. `wet`: 1 where a cell holds water, `air`: where
-// it is shut-in air's, which q = `squeeze` makes give way. `most`: the largest number of a cell
+// it is shut-in air's, which q = `compliance` makes give way. `most`: the largest number of a cell
 // with water. Of a cell beside a solid, what flows out of its open faces and what the solid takes
 // of it is its flow relative to the solid, out of the same faces. What the solve works with begins
 // at zero.
@@ -91,7 +91,7 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
                        global const BodyStep* bodies, int first_body, float piston_speed,
                        global const float* gap, global const int* owner, global const float* fill,
                        global const float* pushed, global const float* pressure,
-                       global const float* air, global const float* squeeze, int room,
+                       global const float* air, global const float* compliance, int room,
                        global float* link, global float* open, global float* x, global float* right,
                        global float* rest, global float* start, global float* way,
                        global float* wet, global int* most) {
@@ -160,8 +160,8 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
   }
   const lanes before = select(none, LOAD(pressure, c) * (dt / p->rest_density), fluid);
   if (HAS_POCKETS && any_lane(shut_in)) {
-    surface = select(surface, LOAD(squeeze, c), shut_in);
-    b += select(none, LOAD(squeeze, c) * before, shut_in);
+    surface = select(surface, LOAD(compliance, c), shut_in);
+    b += select(none, LOAD(compliance, c) * before, shut_in);
   }
   STORE(select(none, surface, fluid), open, c);
   STORE(select(none, b, fluid & (links + surface > none)), right, c);

@@ -64,7 +64,7 @@ void PressureSystem::lay(Fluid& fluid, const Step& step) {
                    {"pushed", fields_.change},
                    {"pressure", fields_.pressure},
                    {"air", fields_.air},
-                   {"squeeze", air_.squeeze()},
+                   {"compliance", air_.compliance()},
                    {"room", static_cast<int>(fields_.room)},
                    {"link", link_},
                    {"start", found_},
