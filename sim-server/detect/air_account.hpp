@@ -12,9 +12,9 @@ namespace splash::sim {
 
 class AirAccount {
  public:
-  /// Of the energy `lost` that water loses at its surface in a frame [J], what no body has given
-  /// it: the `work` of bodies in this frame [J] and what is left of earlier work, which eddies use
-  /// up in about a second, go off first [J].
+  /// The part of the energy `lost` at the water's surface in a frame [J] that no body has given to
+  /// the water: bodies' `work` in this frame [J], and what is left of their earlier work, which
+  /// decays within about a second, are subtracted first [J].
   [[nodiscard]] double own_loss(double lost, double work, double frame);
 
   /// Begins a frame of `frame` seconds, in which `air` is entrained [m3].

@@ -11,7 +11,8 @@
 #define SPLASH_PARTICLE_SLOW -8.0f
 #define SPLASH_PARTICLE_SPENT 8.0f
 
-// Of so many particles one is looked at for the air that is folded in (air_fold.cl).
+// One particle in this many is examined for air that is folded in, other ones in each frame
+// (air_fold.cl).
 #define SPLASH_FOLDS_APART 4
 
 // A bubble that is in no group (cavity_grow.cl).

@@ -76,7 +76,7 @@ void Bubbles::enqueue(const Step& step, double frame) {
     carry(step, frame);
   }
   look_for_spawns(step);
-  if (folds_) folds_->enqueue(step, settings_, frames_++ % SPLASH_FOLDS_APART);
+  if (folds_) folds_->enqueue(step, settings_, static_cast<int>(frames_++ % SPLASH_FOLDS_APART));
 }
 
 void Bubbles::enqueue_read() {
@@ -183,7 +183,7 @@ std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uin
     folds.push_back(wake);
     air_.by_bodies += frame * static_cast<double>(wake.rate);
   }
-  // Where the budget ends is not always at the same places.
+  // When the budget runs out within a frame, it does so at other places each time.
   const double first = draw(seed_, step, kNoParticle).chance * static_cast<double>(folds.size());
   std::rotate(folds.begin(), folds.begin() + static_cast<std::ptrdiff_t>(first), folds.end());
   return tell_folds(folds, time, frame, step);
@@ -192,7 +192,8 @@ std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uin
 void Bubbles::leave_own_loss(std::vector<AirFold>& folds, double work, double frame) {
   double lost = 0.0;  // [J]
   for (const AirFold& fold : folds) lost += frame * static_cast<double>(fold.rate);
-  lost *= lift_of(settings_, fluid_.params()) / settings_.bubble_energy;
+  const double share = settings_.bubble_energy;
+  lost *= share > 0.0 ? lift_of(settings_, fluid_.params()) / share : 0.0;
   const double own = account_.own_loss(lost, work, frame);
   for (AirFold& fold : folds) fold.rate *= lost > 0.0 ? static_cast<float>(own / lost) : 0.0F;
 }
@@ -209,15 +210,15 @@ std::vector<DetectedBubble> Bubbles::tell_folds(const std::vector<AirFold>& fold
   const int open = budget_.open(time);
   const bool crowded = wanted > open;
   const double least = crowded && open > 0 ? least_radius(sizes, due / open) : settings_.radius_min;
-  // Of more than the largest hold each place's air loses the same part.
+  // Air beyond what the largest bubbles hold is dropped, from all places in proportion.
   const double held = crowded ? std::min(1.0, open * mean_volume(sizes, least) / due) : 1.0;
   std::vector<DetectedBubble> heard;
-  int told = 0;
+  int sent = 0;
   for (const AirFold& fold : folds) {
     account_.add(held * frame * static_cast<double>(fold.rate));
-    for (int k = 0; account_.has_air() && told < open; ++k, ++told) {
+    for (int k = 0; account_.has_air() && sent < open; ++k, ++sent) {
       Draws draws = draw(seed_, step, static_cast<std::uint32_t>(fold.id), k);
-      draws.radius = even_share(seed_, told_++);
+      draws.radius = even_share(seed_, drawn_++);
       heard.push_back(draw_bubble(fold.id, place_of(fold), draws, least, sizes.radius_max));
       heard.back().time = time - frame * (1.0 - draws.moment);
       account_.take(heard.back().radius);
@@ -225,9 +226,9 @@ std::vector<DetectedBubble> Bubbles::tell_folds(const std::vector<AirFold>& fold
     }
   }
   account_.keep(bubble_volume(sizes.radius_max));
-  budget_.spend(told);
+  budget_.spend(sent);
   air_.entrapped += air;
-  if (crowded) air_.thinned += static_cast<std::uint64_t>(std::max(0.0, wanted - told));
+  if (crowded) air_.thinned += static_cast<std::uint64_t>(std::max(0.0, wanted - sent));
   return heard;
 }
 
@@ -236,13 +237,13 @@ std::vector<DetectedBubble> Bubbles::tell_spawns(const std::vector<Spawn>& spawn
   const auto wanted = static_cast<int>(spawns.size());
   const double entrapped = wanted * mean_volume(settings_);
   const int open = budget_.open(time);
-  const int told = std::min(wanted, open);
+  const int sent = std::min(wanted, open);
   const double least =
-      told < wanted && told > 0 ? least_radius(settings_, entrapped / told) : settings_.radius_min;
+      sent < wanted && sent > 0 ? least_radius(settings_, entrapped / sent) : settings_.radius_min;
   const double offset = draw(seed_, step, kNoParticle).chance;
   std::vector<DetectedBubble> heard;
-  for (int k = 0; k < told; ++k) {
-    const auto which = static_cast<std::size_t>((k + offset) * wanted / told);
+  for (int k = 0; k < sent; ++k) {
+    const auto which = static_cast<std::size_t>((k + offset) * wanted / sent);
     const Spawn& spawn = spawns[which];
     const Draws draws = draw(seed_, step, static_cast<std::uint32_t>(spawn.id));
     const double part = spawn.before >= 0.0F ? static_cast<double>(spawn.before) : draws.moment;
@@ -250,9 +251,9 @@ std::vector<DetectedBubble> Bubbles::tell_spawns(const std::vector<Spawn>& spawn
     heard.back().time = time - frame * (1.0 - std::min(part, 1.0));
     air_.told += bubble_volume(heard.back().radius);
   }
-  budget_.spend(told);
+  budget_.spend(sent);
   air_.entrapped += entrapped;
-  air_.thinned += static_cast<std::uint64_t>(wanted - told);
+  air_.thinned += static_cast<std::uint64_t>(wanted - sent);
   return heard;
 }
 

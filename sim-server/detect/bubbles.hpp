@@ -89,7 +89,7 @@ class Bubbles {
   [[nodiscard]] std::vector<DetectedBubble> tell_spawns(const std::vector<Spawn>& spawns,
                                                         double time, double frame,
                                                         std::uint32_t step);
-  /// Leaves of the air of folds what is not of bodies' work.
+  /// Reduces the air of folds by the part whose energy is the `work` of bodies [J].
   void leave_own_loss(std::vector<AirFold>& folds, double work, double frame);
   /// From the air of all folds, until it is used up.
   [[nodiscard]] std::vector<DetectedBubble> tell_folds(const std::vector<AirFold>& folds,
@@ -104,7 +104,7 @@ class Bubbles {
   std::vector<Vector3> spawned_;  ///< places of the bubble particles that are to be added
   std::vector<BubbleState> states_;
   int carried_ = 0;
-  int frames_ = 0;
+  std::uint32_t frames_ = 0;
   bool looked_ = false;  ///< for spawns, in this frame
   int serial_ = 0;
   std::uint64_t dropped_ = 0;
@@ -112,7 +112,7 @@ class Bubbles {
   AirTotals air_;
   std::optional<AirFolds> folds_;  ///< without bubble_per_particle
   AirAccount account_;
-  std::uint32_t told_ = 0;  ///< bubbles from it
+  std::uint32_t drawn_ = 0;  ///< bubbles from it so far
 
   Buffer<float> memory_;
   Buffer<int> spawn_count_;

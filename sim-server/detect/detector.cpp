@@ -158,8 +158,9 @@ std::vector<SurfacePoint> Detector::surface() const {
 
 Detections Detector::collect(double time, double frame, std::uint32_t step) {
   Detections found;
-  const std::vector<SurfacePoint> skin = surface();
+  std::vector<SurfacePoint> skin = surface();
   found.impacts = impacts_.observe(time, frame, skin);
+  if (!touched_) skin.clear();  // how fast it was is not known
   found.bubbles =
       bubbles_.collect(time, frame, step, wakes_.observe(time, frame, skin, impacts_, settings_));
   if (cavities_) found.cavities = cavities_->search(time, bubbles_);

@@ -23,9 +23,10 @@
 
 namespace splash::sim {
 
-/// Of a frame.
+/// What bodies' wakes do in a frame.
 struct WakeAir {
-  /// What breaks up; id: that of a point of the skin, counted on from the water's particles.
+  /// Air that breaks up into bubbles; id: that of a point of the skin, counted on from the water's
+  /// particles.
   std::vector<AirFold> folds;
   double work = 0.0;  ///< of bodies on the water, above u0: eta of it takes air down [J]
 };

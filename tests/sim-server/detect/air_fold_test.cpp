@@ -186,6 +186,30 @@ TEST(Folds, AreToldToTheLastBubble) {
   EXPECT_EQ(bubbles.air().thinned, 0U);
 }
 
+// The share may be set to 0 while a scene runs, and back; with a body at work besides.
+TEST(Folds, ComeBackAfterTheirShareWasZero) {
+  DetectSettings s;
+  Device device;
+  Water water = hanging_block();
+  water.start(device);
+  water.stir(1.0, 6);
+  Bubbles bubbles(*water.fluid, detect_program(device), s, 7, 2000);
+  const auto air_of_frames = [&](double share, std::uint32_t first) {
+    const double before = bubbles.air().entrapped;
+    s.bubble_energy = share;
+    bubbles.set(s);
+    for (std::uint32_t step = first; step < first + 20; ++step) {
+      detect(water, bubbles, 0.004);
+      static_cast<void>(bubbles.collect(0.004 * step, 0.004, step));
+    }
+    return bubbles.air().entrapped - before;
+  };
+  const double some = air_of_frames(0.38, 1);
+  EXPECT_GT(some, 0.0);
+  EXPECT_EQ(air_of_frames(0.0, 21), 0.0);
+  EXPECT_NEAR(air_of_frames(0.38, 41), some, 1e-6 * some);
+}
+
 TEST(Folds, AboveTheBudgetAreToldInLargerBubbles) {
   DetectSettings s;
   s.bubble_energy = 0.3;

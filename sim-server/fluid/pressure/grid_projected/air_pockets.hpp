@@ -16,8 +16,8 @@ namespace splash::sim {
 
 class ShutInAir {
  public:
-  /// `looks`: whether the scene has such air at all; else there is none. Throws DeviceError
-  /// where the device solves with many work-items.
+  /// `looks`: whether the scene asks for it (air_pockets); otherwise none is ever found. Throws
+  /// DeviceError if it does and the device solves with many work-items.
   ShutInAir(Device& device, const cl::Program& program, const MacFields& fields,
             const GridSolids& solids, bool looks);
 

@@ -40,7 +40,8 @@ static int cell_inside(const MacLevel l, int item) {
   return number_of(l, at);
 }
 
-// Air in a cell of the pocket with this label, and what its neighbours with water lack [cells].
+// Air in cell `c` of a pocket, and in the cells with water around it that have not been counted for
+// this pocket, whose `mark` they get [cells].
 static float air_around(const MacLevel l, global const float* space, global const float* fill,
                         global const int* label, global float* counted, int c, float mark) {
   float air = (HAS_SOLIDS ? space[c] : 1.0f) * (1.0f - fill[c]);
@@ -107,9 +108,8 @@ static void find_regions(const MacLevel l, global const float* gap, global const
 kernel void find_pockets(constant FluidParams* p, constant MacGrid* g, float dt,
                          global const float* gap, global const float* space,
                          global const float* fill, global int* label, global float* counted,
-                         global int* was,
-                         global int* list, global AirPockets* pockets, global float* air,
-                         global float* compliance, global float* pressure) {
+                         global int* was, global int* list, global AirPockets* pockets,
+                         global float* air, global float* compliance, global float* pressure) {
   const MacLevel l = g->level[0];
   const int inside = l.nx * l.ny * l.nz;
   for (int item = 0; item < inside; ++item) {
