@@ -22,6 +22,9 @@ namespace {
 /// The air around a body is looked at so far from it [R].
 constexpr double kAround = 2.0;
 
+/// The square of a way that is none [m2].
+constexpr double kNoWay = 1.0e-12;
+
 struct Box {
   Vector3 lower = {0.0, 0.0, 0.0};
   Vector3 upper = {0.0, 0.0, 0.0};
@@ -158,9 +161,14 @@ bool BodyAir::is_solid(const Vector3& place) const {
   return false;
 }
 
-/// The air within 2 R of the body, below `level`.
-AirCells BodyAir::fill(std::size_t body, double level) const {
-  Box box = around(extents_[body], tank_, spacing_);
+/// The air within 2 R of the body and of where it came from, below `level`.
+AirCells BodyAir::fill(std::size_t body, const Vector3& from, double level) const {
+  BodyExtent extent = extents_[body];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    extent.lower[axis] = std::min(extent.lower[axis], from[axis]);
+    extent.upper[axis] = std::max(extent.upper[axis], from[axis]);
+  }
+  Box box = around(extent, tank_, spacing_);
   box.upper[2] = level;
   box.lower[2] = std::min(box.lower[2], level - spacing_);
   AirCells air(box.lower, box.upper, spacing_, support_);
@@ -178,10 +186,14 @@ AirCells BodyAir::fill(std::size_t body, double level) const {
   return air;
 }
 
-bool BodyAir::is_open_to(std::size_t body, double level, double below) const {
+bool BodyAir::is_open_to(std::size_t body, const Vector3& from, double level, double below) const {
   const double near = extents_[body].radius;
-  return fill(body, level).any_open([&](const Vector3& place) {
-    return place[2] <= level - below && -depth_in(body, place) <= near;
+  const Vector3 way = extents_[body].front - from;
+  return fill(body, from, level).any_open([&](const Vector3& place) {
+    if (place[2] > level - below) return false;
+    const double along =
+        std::clamp(dot(place - from, way) / std::max(dot(way, way), kNoWay), 0.0, 1.0);
+    return length(place - from - along * way) <= near || -depth_in(body, place) <= near;
   });
 }
 

@@ -45,12 +45,13 @@ class BodyAir {
   /// Height to which the water around the body would stand if it were level [m]. Other bodies are
   /// taken for air.
   [[nodiscard]] double level_around(std::size_t body) const;
-  /// Whether air that is joined to the sky comes as near to the body as its radius, so far below
-  /// `level` [m].
-  [[nodiscard]] bool is_open_to(std::size_t body, double level, double below) const;
+  /// Whether air that is joined to the sky comes as near as its radius to the body or to its way
+  /// from a place [m], so far below `level` [m].
+  [[nodiscard]] bool is_open_to(std::size_t body, const Vector3& from, double level,
+                                double below) const;
 
  private:
-  [[nodiscard]] AirCells fill(std::size_t body, double level) const;
+  [[nodiscard]] AirCells fill(std::size_t body, const Vector3& from, double level) const;
   [[nodiscard]] BodyExtent extent_of(std::size_t body, const BodyState& state) const;
   [[nodiscard]] bool is_solid(const Vector3& place) const;
   [[nodiscard]] double depth_in(std::size_t body, const Vector3& place) const;

@@ -2,7 +2,9 @@
 // What each point of a body's skin sees of the water (paper, section 5.1.2):
 //   c_f = sum_j V_j W,   its gradient,   and the water's velocity  sum_j V_j W v_j / c_f
 // over particles that belong to a body of water. Spray and the film that a body carries along are
-// no surface that could be hit: their density, without the body's part of it, is lower.
+// no surface that could be hit: around them there is less water. That is told by the density,
+// without the bodies' part of it, averaged over the neighbours: next to a solid a particle may have
+// few of them, though the water goes on.
 // And how much matter backs what it may hit: the colour of all water and of the tank's solid at a
 // place as far ahead along its normal as the water is deep that a blow of the whole body moves.
 
@@ -32,8 +34,28 @@ static float matter_at(constant FluidParams* p, const Cloud* water, float piston
   return fmin(share + walls, 1.0f);
 }
 
+// sum_j W rho_j / sum_j W of each particle near a body; of others `mean` stays as it is.
+kernel void average_density(constant FluidParams* p, global const int* cell_start,
+                            global const float* position, global const float* density, int count,
+                            global const BodyStep* bodies, int first_body, int body_count,
+                            global float* mean) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const int n = p->capacity;
+  const float x = position[i], y = position[n + i], z = position[2 * n + i];
+  if (!near_bodies(bodies, first_body, body_count, x, y, z)) return;
+  const Cloud water = {cell_start, position, n};
+  lanes sum = 0.0f, weights = 0.0f;
+  for (Around a = around(p, x, y, z); next_around(p, &water, &a);) {
+    const lanes weight = kernel_shape(square_of(&a), p->inverse_support);
+    sum += weight * LOAD(density, a.j);
+    weights += weight;
+  }
+  mean[i] = total(sum) / fmax(total(weights), TINY);
+}
+
 // `skin`: points of the bodies' true surfaces in body axes; `facing`: of each its normal and how
-// far ahead it looks [m]; `owner`: which body each belongs to.
+// far ahead it looks [m]; `owner`: which body each belongs to; `density`: averaged.
 kernel void touch_water(constant FluidParams* p, global const int* cell_start,
                         global const float* position, global const float* velocity,
                         global const float* density, int points, global const float* skin,
@@ -52,12 +74,14 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
   const float x = b.px + arm.x, y = b.py + arm.y, z = b.pz + arm.z;
   const Cloud water = {cell_start, position, n};
   const float least = p->least_density;
-  lanes c = 0.0f, gx = 0.0f, gy = 0.0f, gz = 0.0f, u = 0.0f, v = 0.0f, w = 0.0f;
+  lanes all = 0.0f, c = 0.0f, gx = 0.0f, gy = 0.0f, gz = 0.0f, u = 0.0f, v = 0.0f, w = 0.0f;
   for (Around a = around(p, x, y, z); next_around(p, &water, &a);) {
     const lanes dense = step((lanes)(least), LOAD(density, a.j));
     const lanes r2 = square_of(&a);
-    const lanes weight = dense * kernel_shape(r2, p->inverse_support);
+    const lanes shape = kernel_shape(r2, p->inverse_support);
+    const lanes weight = dense * shape;
     const lanes slope = dense * kernel_slope(r2, p->inverse_support);
+    all += shape;
     c += weight;
     gx -= slope * a.dx;
     gy -= slope * a.dy;
@@ -73,9 +97,10 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
   const float far = facing[4 * s + 3];
   const float ahead = matter_at(p, &water, piston, x + far * normal.x, y + far * normal.y,
                                 z + far * normal.z);
-  const Touch touch = {volume * p->kernel_norm * sum, gradient * total(gx), gradient * total(gy),
+  const float colour = volume * p->kernel_norm;
+  const Touch touch = {colour * sum, gradient * total(gx), gradient * total(gy),
                        gradient * total(gz), x, y, z, motion.x, motion.y, motion.z,
                        share * total(u), share * total(v), share * total(w), normal.x, normal.y,
-                       normal.z, ahead, {0.0f, 0.0f, 0.0f}};
+                       normal.z, ahead, colour * total(all), {0.0f, 0.0f}};
   out[s] = touch;
 }

@@ -150,7 +150,9 @@ void CavityWatch::look(double time, bool looks, std::vector<DetectedCavity>& fou
     const bool wants = wants_look(b, time);
     if (looks && (wants || always_)) {
       const double level = watch.slam ? watch.slam->level : air_.level_around(b);
-      const bool open = air_.is_open_to(b, level, kBelow * air_.extent(b).radius);
+      const BodyExtent& extent = air_.extent(b);
+      const Vector3 from = watch.hollow ? watch.hollow->entry() : extent.front;
+      const bool open = air_.is_open_to(b, from, level, kBelow * extent.radius);
       watch.seen = watch.seen || (wants && open);
     }
     if (!watch.hollow || time < watch.hollow->closes_at()) continue;

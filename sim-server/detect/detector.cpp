@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim-server/detect/added_mass.hpp"
+#include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
 
 namespace splash::sim {
@@ -55,6 +56,13 @@ std::vector<int> owners(const std::vector<SkinPoint>& skin) {
   return owners;
 }
 
+/// How much nearer than it is the water's surface seems, by the depth of its outermost particles:
+/// on a grid they do not pack more densely [m].
+double seems_nearer(const FluidParams& p) {
+  const bool grid = p.solver == SPLASH_GRID_PROJECTED;
+  return grid ? kSurfaceLoss * static_cast<double>(p.spacing) : 0.0;
+}
+
 SurfaceDistance distance_of(const FluidParams& p) {
   return {static_cast<double>(p.spacing), static_cast<double>(p.support),
           static_cast<double>(p.layer_weight)};
@@ -73,11 +81,13 @@ Detector::Detector(Fluid& fluid, const std::vector<SkinPoint>& skin, const Detec
                                       kSpacingsSeen * static_cast<double>(fluid.params().spacing))),
       owner_(fluid.device(), owners(points_)),
       touches_(fluid.device(), points_.size()),
+      mean_density_(fluid.device(), points_.empty() ? 1 : fluid.water_density().size()),
       touches_read_(points_.size(), unseen()),
       program_(build(fluid.device())),
+      average_density_(program_, "average_density"),
       touch_water_(program_, "touch_water"),
       bubbles_(fluid, program_, settings, seed, bubble_room(fluid.params().count)),
-      impacts_(faces_, settings, distance_of(fluid.params())),
+      impacts_(faces_, settings, distance_of(fluid.params()), seems_nearer(fluid.params())),
       wakes_(gravity_of(fluid.params()), static_cast<double>(fluid.params().rest_density),
              fluid.params().count) {
   if (!settings.cavity_by_count) return;
@@ -112,12 +122,23 @@ void Detector::rehearse(const Step& step) {
 }
 
 void Detector::enqueue_contacts(const Step& step) {
+  const int count = fluid_.params().count;
+  average_density_.run(fluid_.device().queue(), static_cast<std::size_t>(count),
+                       {{"p", fluid_.params_buffer()},
+                        {"cell_start", fluid_.grid().cell_start()},
+                        {"position", fluid_.particles().position},
+                        {"density", fluid_.water_density()},
+                        {"count", count},
+                        {"bodies", fluid_.boundary().steps()},
+                        {"first_body", step.first_body},
+                        {"body_count", fluid_.boundary().body_count()},
+                        {"mean", mean_density_}});
   touch_water_.run(fluid_.device().queue(), points_.size(),
                    {{"p", fluid_.params_buffer()},
                     {"cell_start", fluid_.grid().cell_start()},
                     {"position", fluid_.particles().position},
                     {"velocity", fluid_.particles().velocity},
-                    {"density", fluid_.water_density()},
+                    {"density", mean_density_},
                     {"points", static_cast<int>(points_.size())},
                     {"skin", skin_},
                     {"facing", facing_},

@@ -70,9 +70,11 @@ class Detector {
   Buffer<float> facing_;       ///< of each its normal, and how far ahead it looks [m]
   Buffer<int> owner_;
   Buffer<Touch> touches_;
+  Buffer<float> mean_density_;  ///< of the water around each particle near a body [kg/m3]
   std::vector<Touch> touches_read_;
   bool touched_ = false;  ///< contacts were looked at in this frame
   cl::Program program_;
+  Kernel average_density_;
   Kernel touch_water_;
   Bubbles bubbles_;
   std::optional<Cavities> cavities_;  ///< where they are groups of bubbles

@@ -40,6 +40,8 @@ class Hollow {
   [[nodiscard]] double closes_at() const;
   /// When the front went in [s].
   [[nodiscard]] double began_at() const noexcept { return slices_.front().front.time; }
+  /// Where its middle did [m].
+  [[nodiscard]] const Vector3& entry() const noexcept { return slices_.front().front.place; }
   /// How far it has gone since [m].
   [[nodiscard]] double way() const noexcept { return slices_.back().way; }
   /// R of all of its way [m].

@@ -76,7 +76,8 @@ Vector3 mean_inward(const std::vector<SurfacePoint>& points,
 /// The dry skin of a body that is next to meet the water, on average, and what comes of it.
 struct ImpactWatch::Meeting {
   double gap = kNever;                 ///< of the very nearest [m]
-  double after = kNever;               ///< time until the surfaces meet [s]
+  double after = kNever;               ///< time until the skin gets wet [s]
+  double later = 0.0;                  ///< the surfaces meet after that [s]
   double approach = 0.0;               ///< speed of a level plate that would press as much [m/s]
   double own = 0.0;                    ///< the body's part of it [m/s]
   Vector3 water = {0.0, 0.0, 0.0};     ///< velocity of the water [m/s]
@@ -96,8 +97,8 @@ struct ImpactWatch::Meeting {
 };
 
 ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
-                         const SurfaceDistance& distance)
-    : faces_(std::move(faces)), distance_(distance), blows_(faces_.size()) {
+                         const SurfaceDistance& distance, double nearer)
+    : faces_(std::move(faces)), distance_(distance), nearer_(nearer), blows_(faces_.size()) {
   for (const double face : faces_) {
     closing_.push_back(closing_time(std::sqrt(face / std::numbers::pi), kGravity));
   }
@@ -115,14 +116,23 @@ void ImpactWatch::forget() {
 }
 
 std::vector<double> ImpactWatch::gaps_of(const std::vector<SurfacePoint>& points) const {
-  const double faintest = distance_.colour_at(kSpacingsSeen * distance_.spacing());
   std::vector<double> gaps;
   gaps.reserve(points.size());
-  for (const SurfacePoint& point : points) {
-    const double colour = static_cast<double>(point.touch.colour);
-    gaps.push_back(colour < faintest ? kNever : distance_.distance_for(colour));
-  }
+  for (const SurfacePoint& point : points) gaps.push_back(gap_for(point.touch.colour));
   return gaps;
+}
+
+double ImpactWatch::gap_for(float colour) const {
+  const double faintest = distance_.colour_at(kSpacingsSeen * distance_.spacing());
+  const double seen = static_cast<double>(colour);
+  return seen < faintest ? kNever : distance_.distance_for(seen);
+}
+
+/// Thin water beside skin is water all the same where there is matter behind it: such is the wake
+/// of a body that moves on. Around a body in the air it is spray, or a film.
+bool ImpactWatch::is_dry(const Touch& touch, double gap) const {
+  if (gap <= settings_.impact_release) return false;
+  return touch.ahead < kBacked || gap_for(touch.all_colour) > settings_.impact_release;
 }
 
 /// Dry skin that goes towards the water; what lies on a body is carried, not hit.
@@ -160,7 +170,10 @@ ImpactWatch::Meeting ImpactWatch::next_meeting(int body, const std::vector<Surfa
   // comes by itself.
   const double sinking = dot(meeting.velocity, meeting.inward);
   const double nears = settings_.impact_waves ? sinking - meeting.flow : sinking;
-  if (nears > 0.0) meeting.after = meeting.gap / nears;
+  if (nears > 0.0) {
+    meeting.after = meeting.gap / nears;
+    meeting.later = nearer_ / nears;
+  }
   return meeting;
 }
 
@@ -282,14 +295,14 @@ void ImpactWatch::meet(int body, double time, double frame, const std::vector<Su
   blow.surface = meeting.surface;
   blow.inward = meeting.inward;
   DetectedImpact impact;
-  impact.time = touched;
+  impact.time = touched + meeting.later;
   impact.body = body;
   impact.speed = meeting.speed;
   impact.approach = dot(meeting.velocity, meeting.inward) - meeting.flow;
   impact.momentum = meeting.momentum;
   impact.rise = meeting.rise;
   impact.area = meeting.area;
-  impact.position = meeting.position + std::max(meeting.after, -frame) * meeting.velocity;
+  impact.position = meeting.position + (impact.time - time) * meeting.velocity;
   blow.due = impact;
 }
 
@@ -310,7 +323,7 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
     const bool goes_in = below && time <= blow.lasts_until + blow.pause;
     const bool in_hollow = below && time <= blow.touched + closing_[body];
     const bool could_enter = skin.withdrawn;
-    if (!goes_in && gaps[i] > settings_.impact_release) {
+    if (!goes_in && is_dry(touch, gaps[i])) {
       skin.dry_for += frame;
       skin.withdrawn = skin.withdrawn || (skin.wet && !skin.in_water);
       skin.wet = skin.in_water = false;
@@ -352,7 +365,7 @@ std::vector<DetectedImpact> ImpactWatch::observe(double time, double frame,
   if (skin_.size() != points.size()) {
     skin_.assign(points.size(), {});
     for (std::size_t i = 0; i < points.size(); ++i) {
-      skin_[i].wet = gaps[i] <= settings_.impact_release;
+      skin_[i].wet = !is_dry(points[i].touch, gaps[i]);
       skin_[i].withdrawn = !skin_[i].wet;
     }
     return impacts;

@@ -36,9 +36,10 @@ inline constexpr double kSpacingsSeen = 1.2;
 
 class ImpactWatch {
  public:
-  /// `faces`: the largest area that each body shows [m2].
+  /// `faces`: the largest area that each body shows [m2]; `nearer`: how much nearer than it is
+  /// `distance` tells the water's surface [m].
   ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
-              const SurfaceDistance& distance);
+              const SurfaceDistance& distance, double nearer = 0.0);
 
   /// Impacts told at `time`; `frame`: seconds since the last call; `points`: always the same ones
   /// in the same order. The first call only notes who is in the water already.
@@ -87,6 +88,8 @@ class ImpactWatch {
   };
   struct Meeting;
 
+  [[nodiscard]] double gap_for(float colour) const;
+  [[nodiscard]] bool is_dry(const Touch& touch, double gap) const;
   [[nodiscard]] std::vector<double> gaps_of(const std::vector<SurfacePoint>& points) const;
   [[nodiscard]] Vector3 way_of(const Touch& touch) const;
   [[nodiscard]] bool may_meet(std::size_t i, const SurfacePoint& point) const;
@@ -106,6 +109,7 @@ class ImpactWatch {
   std::vector<double> closing_;  ///< of a hollow as wide as those, after which it closes [s]
   DetectSettings settings_;
   SurfaceDistance distance_;
+  double nearer_;          ///< [m]
   double touching_ = 0.0;  ///< nearer, skin and water touch [m]
   std::vector<Blow> blows_;
   std::vector<Skin> skin_;

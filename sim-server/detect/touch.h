@@ -10,14 +10,15 @@ namespace splash::sim {
 #endif
 
 typedef struct {
-  float colour;                     // c_f [1]
+  float colour;                     // c_f of bodies of water [1]
   float gx, gy, gz;                 // its gradient: points into the water [1/m]
   float x, y, z;                    // of the point [m]
   float u, v, w;                    // its velocity [m/s]
   float water_u, water_v, water_w;  // the water's mean velocity [m/s]
   float nx, ny, nz;                 // unit vector out of the body
   float ahead;                      // matter some way along it: 1 in water without end [1]
-  float unused[3];
+  float all_colour;                 // c_f of all particles, spray and films among them [1]
+  float unused[2];
 } Touch;
 SPLASH_SHARED_STRUCT(Touch, 80)
 

@@ -226,6 +226,20 @@ TEST(CavityWatch, NeedsAHollowInTheWater) {
   EXPECT_EQ(tell(story).cavities.size(), 1U);
 }
 
+// Where the body went in, it must be R / 2 = 3.6 cm deep; it need not reach the body.
+TEST(CavityWatch, NeedsAHollowAlongTheWay) {
+  for (const double deep : {0.03, 0.07}) {
+    Story story = plain();
+    story.path = "{time: 0, position: [0, 0, 0.52]}, {time: 0.2, position: [0, 0, 0.12]}";
+    story.speed = 2.0;
+    story.slap = 0.05;
+    story.hollow = [deep](const Vector3& x, double time, double top) {
+      return shaft(x, time, top) && x[2] > kLevel - deep;
+    };
+    EXPECT_EQ(tell(story).cavities.size(), deep > 0.036 ? 1U : 0U) << deep;
+  }
+}
+
 // A hand turned by 60 degrees shows 11.5 by 9 cm from above, its middle 7.8 cm above its lowest
 // edge; where the edge met the water is not where the hollow begins.
 TEST(CavityWatch, CountsFromTheMiddleOfASlantedFront) {

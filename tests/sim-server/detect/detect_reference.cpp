@@ -45,12 +45,13 @@ ReferenceTouch reference_touch(const FluidState& state, const std::vector<float>
   for (std::size_t j = 0; j < state.position.size(); ++j) {
     const Vector3 away = place - state.position[j];
     if (dot(away, away) >= support * support) continue;
+    const double weight = volume * kernel_value(length(away), support);
+    touch.all_colour += weight;
     if (water_density[j] < static_cast<float>(kLeastDensity) * state.params.rest_density) {
       ++touch.passed_over;
       continue;
     }
     ++touch.seen;
-    const double weight = volume * kernel_value(length(away), support);
     const Vector3 slope = volume * kernel_gradient(length(away), support) * away;
     touch.colour += weight;
     touch.gradient = touch.gradient + slope;
@@ -59,6 +60,21 @@ ReferenceTouch reference_touch(const FluidState& state, const std::vector<float>
   }
   if (touch.colour > 0.0) touch.water = (1.0 / touch.colour) * touch.water;
   return touch;
+}
+
+double reference_mean_density(const FluidState& state, const std::vector<float>& water_density,
+                              std::size_t i) {
+  const double support = static_cast<double>(state.params.support);
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t j = 0; j < state.position.size(); ++j) {
+    const double apart = length(state.position[i] - state.position[j]);
+    if (apart >= support) continue;
+    const double weight = kernel_value(apart, support);
+    sum += weight * static_cast<double>(water_density[j]);
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 double reference_matter(const FluidState& state, const Vector3& place) {

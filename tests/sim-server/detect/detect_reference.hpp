@@ -13,6 +13,7 @@ namespace splash::sim {
 /// all terms: rounding is relative to these.
 struct ReferenceTouch {
   double colour = 0.0;                 ///< c_f [1]
+  double all_colour = 0.0;             ///< of spray, too [1]
   Vector3 gradient = {0.0, 0.0, 0.0};  ///< [1/m]
   Vector3 water = {0.0, 0.0, 0.0};     ///< mean velocity [m/s]
   double gradient_scale = 0.0;         ///< [1/m]
@@ -23,6 +24,10 @@ struct ReferenceTouch {
 [[nodiscard]] ReferenceTouch reference_touch(const FluidState& state,
                                              const std::vector<float>& water_density,
                                              const Vector3& place);
+
+/// sum_j W rho_j / sum_j W at a particle [kg/m3].
+[[nodiscard]] double reference_mean_density(const FluidState& state,
+                                            const std::vector<float>& water_density, std::size_t i);
 
 /// Matter at a place: colour of all water and of the walls' solid, at most 1; 1 inside a wall [1].
 [[nodiscard]] double reference_matter(const FluidState& state, const Vector3& place);

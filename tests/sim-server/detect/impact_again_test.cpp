@@ -29,6 +29,27 @@ TEST(Again, OnlyBeyondTheReleaseGap) {
   }
 }
 
+/// Goes back by 3 cm 20 cm under water, which stays 2 cm behind but for thin water, and on again.
+Story through_a_wake(double thin, double ahead) {
+  return [thin, ahead](double time) {
+    Scenery at = path(0.1, {{0.3, -0.2}, {0.4, -0.17}, {0.6, -0.5}})(time);
+    const bool wake = time > 0.31 && time < 0.42;
+    if (!wake) return at;
+    at.level = at.underside - 0.02;
+    at.thin = thin;
+    at.ahead = ahead;
+    return at;
+  };
+}
+
+// Thin water with matter behind it is water: skin that it wets has not come out. With none it is a
+// film.
+TEST(Again, NotAfterThinWater) {
+  EXPECT_EQ(watch(through_a_wake(0.0, 1.0), 0.7).size(), 2U);
+  EXPECT_EQ(watch(through_a_wake(0.02, 1.0), 0.7).size(), 1U);
+  EXPECT_EQ(watch(through_a_wake(0.02, 0.0), 0.7).size(), 2U);
+}
+
 TEST(Again, AfterEasingInAndComingOut) {
   const auto all = watch(path(0.03, {{1.5, -0.01}, {1.8, 0.1}, {2.0, -0.1}}), 2.5);
   ASSERT_EQ(all.size(), 1U);

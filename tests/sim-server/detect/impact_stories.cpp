@@ -24,6 +24,8 @@ void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {
     const double gap = at.underside - at.level;
     const bool any = at.water && gap < distance.farthest();
     point.touch.colour = any ? static_cast<float>(distance.colour_at(gap)) : 0.0F;
+    point.touch.all_colour =
+        at.water ? static_cast<float>(distance.colour_at(gap - at.thin)) : 0.0F;
     point.touch.gz = any ? -30.0F : 0.0F;
     point.touch.x = 0.02F * static_cast<float>(k % 4);
     point.touch.y = 0.02F * static_cast<float>(k / 4);
@@ -38,8 +40,9 @@ void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {
 }
 
 std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
-                             const DetectSettings& settings) {
-  ImpactWatch watch(std::vector<double>(bodies.size(), kUnderside), settings, surface_distance());
+                             const DetectSettings& settings, double nearer) {
+  ImpactWatch watch(std::vector<double>(bodies.size(), kUnderside), settings, surface_distance(),
+                    nearer);
   std::vector<Announced> all;
   for (int k = 0; k * kStoryFrame < seconds; ++k) {
     const double time = k * kStoryFrame;
@@ -54,8 +57,9 @@ std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
   return all;
 }
 
-std::vector<Announced> watch(const Story& body, double seconds, const DetectSettings& settings) {
-  return watch(std::vector<Story>{body}, seconds, settings);
+std::vector<Announced> watch(const Story& body, double seconds, const DetectSettings& settings,
+                             double nearer) {
+  return watch(std::vector<Story>{body}, seconds, settings, nearer);
 }
 
 Story path(double from, std::vector<Leg> legs) {

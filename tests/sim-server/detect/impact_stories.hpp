@@ -24,6 +24,7 @@ struct Scenery {
   double drift = 0.0;      ///< of the body, sideways [m/s]
   bool water = true;       ///< any there at all
   double ahead = 1.0;      ///< matter behind the water's surface: 1 if it is deep [1]
+  double thin = 0.0;       ///< how far thin water reaches above the level [m]
 };
 
 /// The area of such an underside [m2].
@@ -40,11 +41,13 @@ struct Announced {
 /// What is to be seen at a time.
 using Story = std::function<Scenery(double)>;
 
-/// Lives through the stories of all bodies, frame by frame.
+/// Lives through the stories of all bodies, frame by frame. `nearer`: as in ImpactWatch.
 [[nodiscard]] std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
-                                           const DetectSettings& settings = {});
+                                           const DetectSettings& settings = {},
+                                           double nearer = 0.0);
 [[nodiscard]] std::vector<Announced> watch(const Story& body, double seconds,
-                                           const DetectSettings& settings = {});
+                                           const DetectSettings& settings = {},
+                                           double nearer = 0.0);
 
 struct Leg {
   double until = 0.0;   ///< [s]

@@ -53,6 +53,19 @@ TEST_P(Plunge, IsPlacedWhereTheSurfacesMeet) {
   EXPECT_NEAR(place[2], 0.0, 1.0e-3);
 }
 
+// Where the surface lies farther off than its colour tells, they meet later, and deeper.
+TEST_P(Plunge, IsLaterWhereTheSurfaceIsFarther) {
+  const double speed = GetParam();
+  const double meets = 0.0613 + 0.1 / speed;
+  const double nearer = 0.2 * kSpacing;
+  const auto all = watch(
+      [&](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; },
+      meets + 0.1, {}, nearer);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NEAR(all[0].impact.time, meets + nearer / speed, 2.0e-4 * kSpacing / speed + 1.0e-6);
+  EXPECT_NEAR(all[0].impact.position[2], -nearer, 1.0e-3);
+}
+
 // Said in the first frame from which the meeting is no farther than the look-ahead.
 TEST_P(Plunge, IsAnnouncedAhead) {
   const double speed = GetParam();

@@ -18,7 +18,7 @@ constexpr double kRim = 1.0e-8;
 
 constexpr double kFar = 0.03;  ///< how far ahead the points look [m]
 
-/// Where a body is, as the kernel reads it; no box.
+/// Where a body is, as the kernel reads it; near everything.
 BodyStep as_step(const BodyState& body) {
   const auto f = [](double x) { return static_cast<float>(x); };
   BodyStep step = {};
@@ -27,6 +27,8 @@ BodyStep as_step(const BodyState& body) {
   step.qw = f(body.rotation[3]);
   step.vx = f(body.velocity[0]), step.vy = f(body.velocity[1]), step.vz = f(body.velocity[2]);
   step.wx = f(body.spin[0]), step.wy = f(body.spin[1]), step.wz = f(body.spin[2]);
+  step.lower_x = step.lower_y = step.lower_z = -1.0e9F;
+  step.upper_x = step.upper_y = step.upper_z = 1.0e9F;
   return step;
 }
 
@@ -38,8 +40,29 @@ struct Skins {
   std::vector<Vector3> normals;
 };
 
+/// The mean density around each particle, all of which are near a body.
+Buffer<float> averaged(Water& water) {
+  Device& device = water.fluid->device();
+  Kernel kernel(detect_program(device), "average_density");
+  const Fluid& fluid = *water.fluid;
+  const int count = fluid.params().count;
+  const Buffer<BodyStep> bodies(device, std::vector<BodyStep>{as_step({})});
+  Buffer<float> mean(device, fluid.water_density().size());
+  kernel.run(device.queue(), static_cast<std::size_t>(count),
+             {{"p", fluid.params_buffer()},
+              {"cell_start", fluid.grid().cell_start()},
+              {"position", fluid.particles().position},
+              {"density", fluid.water_density()},
+              {"count", count},
+              {"bodies", bodies},
+              {"first_body", 0},
+              {"body_count", 1},
+              {"mean", mean}});
+  return mean;
+}
+
 /// Runs the kernel for bodies of the second of two steps; the first has them elsewhere.
-std::vector<Touch> touch(Water& water, const Skins& skins) {
+std::vector<Touch> touch(Water& water, const Buffer<float>& density, const Skins& skins) {
   Device& device = water.fluid->device();
   Kernel kernel(detect_program(device), "touch_water");
   std::vector<float> parts;
@@ -64,7 +87,7 @@ std::vector<Touch> touch(Water& water, const Skins& skins) {
               {"cell_start", fluid.grid().cell_start()},
               {"position", fluid.particles().position},
               {"velocity", fluid.particles().velocity},
-              {"density", fluid.water_density()},
+              {"density", density},
               {"points", static_cast<int>(skins.places.size())},
               {"skin", skin},
               {"facing", facing},
@@ -93,6 +116,8 @@ void expect_references(const FluidState& state, const std::vector<float>& densit
       reference_touch(state, density, vector(touch.x, touch.y, touch.z));
   ASSERT_NEAR(static_cast<double>(touch.colour), reference.colour,
               kBound * reference.colour + kRim);
+  ASSERT_NEAR(static_cast<double>(touch.all_colour), reference.all_colour,
+              kBound * reference.all_colour + kRim);
   const Vector3 gradient = vector(touch.gx, touch.gy, touch.gz);
   const double rim = 100.0 * kRim / static_cast<double>(state.params.support);
   ASSERT_LT(length(gradient - reference.gradient), kBound * reference.gradient_scale + rim);
@@ -147,7 +172,7 @@ TEST_P(TouchWater, IsTheTwins) {
     water.stir(1.5, 71);
     prepare(water);
     const Skins skins = wide_bodies();
-    const std::vector<Touch> touches = touch(water, skins);
+    const std::vector<Touch> touches = touch(water, water.fluid->water_density(), skins);
     const FluidState state = read_state(*water.fluid, water.piston.offset);
     const auto density = water.fluid->water_density().read(device, state.position.size());
     for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -181,6 +206,24 @@ TEST_P(TouchWater, GoesByTheDensityWithoutBodies) {
 
 INSTANTIATE_TEST_SUITE_P(Lanes, TouchWater, kLaneCounts, lanes_name);
 
+TEST_P(TouchWater, AveragesTheDensityAroundEachParticle) {
+  Device device(-1, false, GetParam());
+  for (Water& water : situations()) {
+    SCOPED_TRACE(water.name);
+    water.start(device);
+    water.stir(1.5, 71);
+    prepare(water);
+    const FluidState state = read_state(*water.fluid, water.piston.offset);
+    const std::size_t count = state.position.size();
+    const auto density = water.fluid->water_density().read(device, count);
+    const auto mean = averaged(water).read(device, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double reference = reference_mean_density(state, density, i);
+      ASSERT_NEAR(static_cast<double>(mean[i]), reference, kBound * reference);
+    }
+  }
+}
+
 // The limit is such that a film of one layer is no surface, the top layer of still water is.
 TEST(LeastDensity, TellsAFilmFromWater) {
   Device device;
@@ -194,7 +237,7 @@ TEST(LeastDensity, TellsAFilmFromWater) {
   const auto colour_below = [](Water& water) {
     const Skins skins = {
         {{0.0, 0.0, 0.0}}, {0}, {{{0.5, 0.5, kBlockBottom - 0.005}}}, {{0.0, 0.0, 1.0}}};
-    return static_cast<double>(touch(water, skins).front().colour);
+    return static_cast<double>(touch(water, averaged(water), skins).front().colour);
   };
   EXPECT_EQ(colour_below(film), 0.0);
   EXPECT_GT(colour_below(block), 0.1);
