@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -13,12 +14,19 @@
 namespace splash::sim {
 namespace {
 
-/// Particles so far apart [mm].
-class AppearingBody : public ::testing::TestWithParam<int> {};
+struct Case {
+  const char* solver;
+  int spacing;     ///< of the particles [mm]
+  double densest;  ///< how much too dense water may be [1]
+};
+
+class AppearingBody : public ::testing::TestWithParam<Case> {};
 
 TEST_P(AppearingBody, DrivesTheWaterAway) {
   Device device;
-  const Scene scene = parse_scene("fluid: {spacing: " + std::to_string(GetParam() / 1000.0) + R"(}
+  const Scene scene = parse_scene("fluid: {solver: " + std::string(GetParam().solver) +
+                                      ", spacing: " + std::to_string(GetParam().spacing / 1000.0) +
+                                      R"(}
 tank: {lower: [0.0, 0.0, 0.0], upper: [0.24, 0.24, 0.6]}
 water: [{lower: [0.0, 0.0, 0.0], upper: [0.24, 0.24, 0.24]}]
 bodies:
@@ -45,11 +53,21 @@ bodies:
               fastest);
   EXPECT_EQ(simulation.totals().retried, 0U);
   EXPECT_EQ(simulation.totals().calmed + simulation.totals().resets, 0U);
-  EXPECT_LT(densest, 0.45);
+  EXPECT_LT(densest, GetParam().densest);
   EXPECT_LT(length(simulation.bodies().state(0, simulation.seconds()).position - middle), 1.0e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Spacings, AppearingBody, ::testing::Values(25, 20, 13, 9));
+constexpr Case kCases[] = {
+    {"weakly_compressible", 25, 0.45}, {"weakly_compressible", 20, 0.45},
+    {"weakly_compressible", 13, 0.45}, {"weakly_compressible", 9, 0.45},
+    {"grid_projected", 25, 1.5},       {"grid_projected", 20, 1.5},
+    {"grid_projected", 13, 1.5},       {"grid_projected", 9, 4.0},
+};
+INSTANTIATE_TEST_SUITE_P(Solvers, AppearingBody, ::testing::ValuesIn(kCases),
+                         [](const auto& tried) {
+                           return std::string(tried.param.solver) + "_" +
+                                  std::to_string(tried.param.spacing);
+                         });
 
 }  // namespace
 }  // namespace splash::sim

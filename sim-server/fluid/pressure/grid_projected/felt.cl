@@ -34,19 +34,20 @@ kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int bod
 
 // Water that flows through the lower face of a cell along an axis relative to a body that cuts the
 // cell beside it, over the face's area [m/s].
-static float flow_through(constant MacGrid* g, global const BodyStep* bodies, int body,
+static float flow_through(constant MacGrid* g, global const BodyStep* bodies, int body, float dt,
                           global const float* gap, global const float* mean, int4 at, int axis) {
   const MacLevel l = g->level[0];
   const int face = axis * l.cells + number_of(l, at);
   const int where = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
   const bool wall = where == 0 || (axis < 2 && where == (axis == 0 ? l.nx : l.ny));
-  return gap[face] * ((wall ? 0.0f : mean[face]) - solid_at_face(g, bodies, body, 0.0f, at, axis));
+  const float solid = solid_at_face(g, bodies, body, dt, 0.0f, at, axis);
+  return gap[face] * ((wall ? 0.0f : mean[face]) - solid);
 }
 
 // The system's right side becomes K of one `part` of the speeds of felt body `k`, or, if that is
 // SPLASH_BY_FLOW, what of -div u the cells have that it cuts, relative to it and without gravity.
 // The solution begins at zero.
-kernel void ask_for_answer(constant MacGrid* g, int k, int part, constant FreeBody* felt,
+kernel void ask_for_answer(constant MacGrid* g, int k, int part, float dt, constant FreeBody* felt,
                            global const BodyStep* bodies, int first_body, global const int* owner,
                            global const float* gap, global const float* mean,
                            global const float* grip, global const float* open, global float* x,
@@ -61,8 +62,8 @@ kernel void ask_for_answer(constant MacGrid* g, int k, int part, constant FreeBo
   for (int axis = 0; axis < 3 && beside && part == SPLASH_BY_FLOW; ++axis) {
     const int4 next = at + (int4)(axis == 0, axis == 1, axis == 2, 0);
     const float inverse = axis == 0 ? g->ix : axis == 1 ? g->iy : g->iz;
-    b += inverse * (flow_through(g, bodies + first_body, owner[c], gap, mean, at, axis) -
-                    flow_through(g, bodies + first_body, owner[c], gap, mean, next, axis));
+    b += inverse * (flow_through(g, bodies + first_body, owner[c], dt, gap, mean, at, axis) -
+                    flow_through(g, bodies + first_body, owner[c], dt, gap, mean, next, axis));
   }
   right[c] = b;
   x[c] = rest[c] = start[c] = way[c] = 0.0f;

@@ -68,6 +68,7 @@ void FeltForces::weigh_answer(Fluid& fluid, const Step& step, int k, int part) {
                       {{"g", fields_.on_device},
                        {"k", k},
                        {"part", part},
+                       {"dt", static_cast<float>(step.dt)},
                        {"felt", now_->on_device},
                        {"bodies", fluid.boundary().steps()},
                        {"first_body", step.first_body},

@@ -32,7 +32,7 @@ static lane_flags are_washed(const MacLevel l, global const float* wet, const Ce
 // How fast the solids beside the lower faces of cells, `s` from those below, go along an axis
 // [m/s].
 static lanes solids_beside(constant MacGrid* g, global const BodyStep* bodies,
-                           global const int* owner, float piston_speed, const Cells* at,
+                           global const int* owner, float dt, float piston_speed, const Cells* at,
                            lane_flags covered, int axis, int s) {
   int x[LANES], y[LANES], is_covered[LANES];
   float speed[LANES];
@@ -45,7 +45,7 @@ static lanes solids_beside(constant MacGrid* g, global const BodyStep* bodies,
     const int c = at->first + lane;
     const int whose = owner[c] != OF_NOBODY ? owner[c] : owner[c - s];
     speed[lane] =
-        solid_at_face(g, bodies, whose, piston_speed, (int4)(x[lane], y[lane], at->z, 0), axis);
+        solid_at_face(g, bodies, whose, dt, piston_speed, (int4)(x[lane], y[lane], at->z, 0), axis);
   }
   return LOAD(speed, 0);
 }
@@ -77,8 +77,8 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
       const lane_flags covered = at.real & (freed < (lanes)(1.0f));
       if (any_lane(covered)) {
         open |= covered;
-        const lanes goes = solids_beside(g, bodies + first_body, owner, piston_speed, &at, covered,
-                                         axis, step[axis]);
+        const lanes goes = solids_beside(g, bodies + first_body, owner, dt, piston_speed, &at,
+                                         covered, axis, step[axis]);
         change =
             select(change, freed * change + (1.0f - freed) * (goes - LOAD(carries, face)), covered);
       }

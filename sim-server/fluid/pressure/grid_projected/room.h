@@ -39,14 +39,21 @@ static float3 face_middle(constant MacGrid* g, int4 at, int axis) {
                   g->z + (at.z + (axis == 2 ? 0.0f : middle)) * g->hz);
 }
 
-// Velocity of a solid there, along the axis.
-static float solid_at_face(constant MacGrid* g, global const BodyStep* bodies, int owner,
+// How fast a body that appears swells, by its size after a step of `dt`: so that it drives away as
+// much water in the step as it displaces more [1/s].
+static float swelling(BodyStep b, float dt) {
+  const float before = fmax(1.0f - b.grows * dt / size_of(b), 0.0f);
+  return (1.0f - before * before * before) / (3.0f * dt);
+}
+
+// Velocity of a solid there in a step of `dt`, along the axis.
+static float solid_at_face(constant MacGrid* g, global const BodyStep* bodies, int owner, float dt,
                            float piston_speed, int4 at, int axis) {
   if (owner == OF_PISTON) return axis == 0 ? piston_speed : 0.0f;
   if (owner < 0) return 0.0f;
   const BodyStep b = bodies[owner];
   const float3 arm = face_middle(g, at, axis) - (float3)(b.px, b.py, b.pz);
   const float3 v = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm) +
-                   b.grows / size_of(b) * arm;
+                   swelling(b, dt) * arm;
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }

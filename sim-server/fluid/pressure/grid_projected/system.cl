@@ -60,7 +60,7 @@ static int last_of(lane_flags marked) {
 
 // How fast solids go at the faces of cells that they cut, below and above along an axis [m/s].
 static void solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
-                            global const int* owner, float piston_speed, const Cells* at,
+                            global const int* owner, float dt, float piston_speed, const Cells* at,
                             lane_flags cut, int axis, lanes* low, lanes* high) {
   int x[LANES], y[LANES], is_cut[LANES];
   float below[LANES], above[LANES];
@@ -73,8 +73,8 @@ static void solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
     const int whose = owner[at->first + lane];
     const int4 here = (int4)(x[lane], y[lane], at->z, 0);
     const int4 next = here + (int4)(axis == 0, axis == 1, axis == 2, 0);
-    below[lane] = solid_at_face(g, bodies, whose, piston_speed, here, axis);
-    above[lane] = solid_at_face(g, bodies, whose, piston_speed, next, axis);
+    below[lane] = solid_at_face(g, bodies, whose, dt, piston_speed, here, axis);
+    above[lane] = solid_at_face(g, bodies, whose, dt, piston_speed, next, axis);
   }
   *low = LOAD(below, 0);
   *high = LOAD(above, 0);
@@ -142,7 +142,7 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
       lanes in = LOAD(pushed, face), out = LOAD(pushed, face + s);
       if (any_cut) {
         lanes below, above;
-        solids_at_faces(g, bodies + first_body, owner, piston_speed, &at, cut, axis, &below,
+        solids_at_faces(g, bodies + first_body, owner, dt, piston_speed, &at, cut, axis, &below,
                         &above);
         in -= below;
         out -= above;
