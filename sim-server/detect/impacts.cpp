@@ -373,7 +373,7 @@ std::vector<DetectedImpact> ImpactWatch::observe(double time, double frame,
   for (std::size_t b = 0; b < blows_.size(); ++b) {
     meet(static_cast<int>(b), time, frame, points, gaps);
     std::optional<DetectedImpact>& due = blows_[b].due;
-    if (due && due->time <= time + settings_.impact_lookahead) {
+    if (due && blows_[b].touched <= time + settings_.impact_lookahead) {
       impacts.push_back(*due);
       due.reset();
     }

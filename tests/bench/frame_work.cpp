@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/frame_work.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -19,8 +21,8 @@ constexpr double kEddy = 0.06;  ///< its width, bubble_eddy [m]
 constexpr double kState = 36.0;
 
 // Operations of a pair that a detector looks at: where it is and the kernel (colour.h), what else
-// it sums (body_touch.cl, bubble_state.cl). Of a particle in the statistics.
-constexpr double kOfPair = 18.0, kOfTouch = 22.0, kOfCarried = 8.0, kOfEddy = 14.0,
+// it sums (body_touch.cl, bubble_state.cl, air_fold.cl). Of a particle in the statistics.
+constexpr double kOfPair = 18.0, kOfTouch = 22.0, kOfCarried = 8.0, kOfEddy = 14.0, kOfMean = 3.0,
                  kOfSurvey = 60.0;
 // Scalar instructions of the nine runs around a place, of a particle that is slow, of a cell that
 // wakes others.
@@ -36,6 +38,27 @@ double count_fast(Fluid& fluid, double speed) {
     fast += u >= speed ? 1.0 : 0.0;
   }
   return fast;
+}
+
+/// Particles in any body's box, in which neighbours may be those of its skin.
+double count_near(Fluid& fluid, const Step& step) {
+  const auto stride = static_cast<std::size_t>(fluid.particles().stride);
+  const auto count = static_cast<std::size_t>(fluid.params().count);
+  const auto bodies = static_cast<std::size_t>(fluid.boundary().body_count());
+  if (bodies == 0) return 0.0;
+  const std::vector<float> x = fluid.particles().position.read(fluid.device(), 3 * stride);
+  std::vector<BodyStep> steps(bodies);
+  fluid.boundary().steps().read(fluid.device(), std::span<BodyStep>(steps),
+                                static_cast<std::size_t>(step.first_body));
+  double near = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    near += std::any_of(steps.begin(), steps.end(), [&](const BodyStep& b) {
+      return x[i] > b.lower_x && x[i] < b.upper_x && x[stride + i] > b.lower_y &&
+             x[stride + i] < b.upper_y && x[2 * stride + i] > b.lower_z &&
+             x[2 * stride + i] < b.upper_z;
+    });
+  }
+  return near;
 }
 
 /// Lanes that a search for one place visits, on average.
@@ -66,6 +89,7 @@ FrameSeen see_frame(Simulation& simulation) {
     const std::int64_t reads = noted_commands().reads;
     seen.places = places_of(fluid, step);
     seen.fast = count_fast(fluid, scene.detect.bubble_speed);
+    seen.near = count_near(fluid, step);
     seen.own_reads += noted_commands().reads - reads;
   });
   const FrameResult frame = simulation.advance();
@@ -106,6 +130,10 @@ std::map<std::string, Work> frame_work(const FrameSeen& seen, const Profile& pro
   if (seen.skin > 0.0) {
     all["touch_water"] = pairs_of(2.0 * seen.skin, lanes, kOfPair + 0.5 * kOfTouch, profile);
     all["touch_water"].bytes = 116.0 * seen.skin;
+    Work means = pairs_of(seen.near, lanes, kOfPair + kOfMean, profile);
+    means.groups = std::ceil(n / 64.0);
+    means.bytes = 12.0 * n + 4.0 * seen.near;
+    all["average_density"] = means;
   }
   if (seen.looks) {
     Work spawns = pairs_of(seen.fast, lanes, kOfPair, profile);

@@ -20,6 +20,7 @@ struct FrameSeen {
   bool sleeps = false;         ///< water may
   bool looks = false;          ///< for spawns of bubbles
   double skin = 0.0;           ///< points of bodies that look at the water
+  double near = 0.0;           ///< particles in bodies' boxes
   double bubbles = 0.0;        ///< that are carried
   double fast = 0.0;           ///< particles that may entrap air
   std::int64_t own_reads = 0;  ///< that looking at it took, if the ledger is open

@@ -15,9 +15,16 @@ namespace {
 using namespace splash::sim;
 using testing::UnorderedElementsAreArray;
 
-/// The pool of the program, with less water.
-Scene small_pool() {
+/// The pool of the program, by the state equation.
+Scene pool_scene() {
   Scene scene = read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
+  scene.fluid.solver = PressureKind::weakly_compressible;
+  return scene;
+}
+
+/// The same with less water.
+Scene small_pool() {
+  Scene scene = pool_scene();
   scene.fluid.particles = 3000;
   scene.fluid.settle = SettleKind::never;
   scene.detect.bubble_speed = 0.3;  // what falls in place is fast enough
@@ -99,7 +106,7 @@ TEST_P(FrameOfThePool, GrowsWithTheWater) {
 // 4.3 TB/s, 60 T operations/s, of which pairs reach a third, and 5 us for each command: an H200.
 TEST(FrameWork, OfThePoolIsShortOnAFastGpu) {
   Device device(-1, false, gpu_profile());
-  Scene scene = read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
+  Scene scene = pool_scene();
   scene.fluid.settle = SettleKind::never;
   Simulation pool(device, scene, {});
   const FrameSeen seen = see_frame(pool);
