@@ -77,7 +77,7 @@ TEST(SceneReader, ReadsTheSolver) {
     std::string text = kGood;
     return parse_scene(text.insert(text.find("  particles"), keys), "small.yaml").fluid;
   };
-  EXPECT_EQ(with("").solver, PressureKind::weakly_compressible);
+  EXPECT_EQ(with("  solver: weakly_compressible\n").solver, PressureKind::weakly_compressible);
   EXPECT_EQ(with("").kernels, KernelKind::vector);
   const FluidSettings fluid = with("  solver: grid_projected\n  kernels: reference\n");
   EXPECT_EQ(fluid.solver, PressureKind::grid_projected);
