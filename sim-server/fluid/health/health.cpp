@@ -36,6 +36,12 @@ double ceiling(const FluidParams& p) {
   return std::min(top + sound * sound / (2.0 * down), std::max(top, readable));
 }
 
+/// What cannot be [rho0]: a state equation would fling such water apart. On the grid no force comes
+/// of it, and where a hollow closes upon its axis particles meet so for a moment.
+float most_dense(int solver) {
+  return solver == SPLASH_GRID_PROJECTED ? 4.0F : 2.0F;
+}
+
 }  // namespace
 
 std::string_view describe(Fault fault) noexcept {
@@ -93,7 +99,7 @@ HealthLimits health_limits(const FluidParams& p) {
   limits.speed = 0.98F * p.speed_limit;
   limits.thinnest =
       0.99F * static_cast<float>(kernel_value(0.0, static_cast<double>(p.support))) * p.mass;
-  limits.densest = 2.0F * p.rest_density;
+  limits.densest = most_dense(p.solver) * p.rest_density;
   return limits;
 }
 
