@@ -26,6 +26,9 @@ constexpr double kTogether = 0.5;
 /// Water in a direction this much upward lies on the body: vertical part of the unit vector.
 constexpr double kLyingOn = 0.3;
 
+/// Water as far off as this moves as it did before the body came [spacings].
+constexpr double kUndisturbed = 0.5;
+
 /// Skin that is dry for this long is out of the water, wherever it is [s].
 constexpr double kClearFor = 0.5;
 
@@ -331,7 +334,11 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
       // or the water must be long gone.
       skin.withdrawn = skin.withdrawn || skin.dry_for > kClearFor ||
                        skin.deepest - skin.way >= settings_.impact_release;
-      skin.water = water_velocity_of(touch);
+      // Nearer, the water may have begun to give way.
+      if (gaps[i] > kUndisturbed * distance_.spacing() || !skin.sees) {
+        skin.water = water_velocity_of(touch);
+      }
+      skin.sees = gaps[i] != kNever;
       if (skin.withdrawn && !in_hollow) skin.entry.reset();
     } else if (goes_in || gaps[i] <= touching_) {
       if (!skin.wet && skin.withdrawn && speed >= settings_.impact_speed) {

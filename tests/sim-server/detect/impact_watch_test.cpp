@@ -107,6 +107,21 @@ TEST(FastBody, IsTimedWithinTheFrame) {
   }
 }
 
+// Nearer than half a spacing the water may have begun to give way to the body.
+TEST(Entry, IsIntoTheWaterAsItWasBefore) {
+  ImpactWatch watch({kUnderside}, {}, surface_distance());
+  for (int k = 0; k * kStoryFrame < 0.2; ++k) {
+    const double time = k * kStoryFrame;
+    const double height = 0.1 - time;
+    std::vector<SurfacePoint> points;
+    add_body(points, 0,
+             {.underside = height, .speed = -1.0, .flow = height > 0.45 * kSpacing ? 0.1 : 0.3});
+    static_cast<void>(watch.observe(time, kStoryFrame, points));
+  }
+  ASSERT_TRUE(watch.entry(0));
+  EXPECT_NEAR(watch.entry(0)->water[2], 0.1, 1.0e-6);
+}
+
 TEST(NoImpact, FromABodyThatStands) {
   // Water that sloshes up to it, around it and away again.
   const auto slosh = [](double time) {
