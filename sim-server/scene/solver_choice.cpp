@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/scene/solver_choice.hpp"
 
+#include <algorithm>
+
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/support_state.hpp"
@@ -28,6 +30,20 @@ bool is_tracked(const BodySettings& body) {
   return false;
 }
 
+bool has_edges(const BodySettings& body) {
+  return body.shape.kind != ShapeKind::sphere;
+}
+
+/// Where bodies with edges may lie on each other, steps are short with either solver
+/// (bodies/mass.hpp), and a step of the grid's costs more.
+bool may_stack(const Scene& scene) {
+  const auto stacks = [](const BodySettings& body) {
+    return has_edges(body) && body.motion.kind == MotionKind::free;
+  };
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), stacks) &&
+         std::count_if(scene.bodies.begin(), scene.bodies.end(), has_edges) > 1;
+}
+
 /// Why the scene needs the state equation; empty: it does not.
 std::string unsuited(const Scene& scene) {
   const FluidSettings& fluid = scene.fluid;
@@ -44,6 +60,9 @@ std::string unsuited(const Scene& scene) {
     if (is_tracked(body)) {
       return "'" + body.name + "' is moved by a tracker, which may put it anywhere at once";
     }
+  }
+  if (may_stack(scene)) {
+    return "bodies with edges may lie on each other, which takes short steps";
   }
   if (!is_all_supported(scene)) {
     return "nothing holds some of the water, and it strikes what it meets";

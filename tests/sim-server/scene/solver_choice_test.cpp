@@ -75,6 +75,16 @@ TEST(SolverChoice, ASceneGetsWhatSuitsWhatItCanDo) {
       {"sinks", basin(body(free + "2000}", "[0.5, 0.5, 0.3]")), kGrid, ""},
       {"held", basin(body(free + "500, held: [x]}", "[0.5, 0.5, 0.5]")), kGrid, ""},
       {"tracked", basin(body("{kind: osc}", "[0.5, 0.5, 0.8]")), kState, "a tracker"},
+      {"two boxes",
+       basin(body(free + "500}", "[0.5, 0.5, 0.5]") +
+             "  - {name: lid, shape: {kind: box, size: [0.1, 0.1, 0.1]}, motion: {kind: fixed}, "
+             "rest: {position: [0.2, 0.2, 0.9]}}\n"),
+       kState, "short steps"},
+      {"a box and a ball",
+       basin(body(free + "500}", "[0.5, 0.5, 0.5]") +
+             "  - {name: ball, shape: {kind: sphere, size: [0.1, 0.1, 0.1]}, motion: {kind: "
+             "fixed}, rest: {position: [0.2, 0.2, 0.9]}}\n"),
+       kGrid, ""},
       {"sheet", basin("", "", "[{lower: [0, 0, 0], upper: [1, 1, 0.15]}]"), kState, "shallower"},
       {"dam", basin("", "", kDam), kState, "nothing holds"},
       {"gate", basin(kGate, "", kDam), kState, "gate"},
@@ -102,11 +112,16 @@ TEST(SolverChoice, EachSceneThatIsShippedHasItsOwn) {
     if (entry.path().extension() != ".yaml") continue;
     ++scenes;
     const Scene scene = read_scene(entry.path());
-    // A treadmill's belt goes through a thin layer of water; hand and rest are for trackers.
+    // A treadmill's belt goes through a thin layer of water, a boat may meet a hand's edges; hand
+    // and rest are for trackers.
     const bool thin = scene.name == "walk";
+    const bool stacks = scene.name == "boat";
     const bool tracked = scene.name == "hand" || scene.name == "rest";
-    EXPECT_EQ(scene.fluid.solver, thin || tracked ? kState : kGrid) << scene.name;
-    EXPECT_THAT(solver_notice(scene), HasSubstr(thin ? "shallower" : tracked ? "tracker" : "deep"));
+    EXPECT_EQ(scene.fluid.solver, thin || stacks || tracked ? kState : kGrid) << scene.name;
+    EXPECT_THAT(solver_notice(scene), HasSubstr(thin      ? "shallower"
+                                                : stacks  ? "short steps"
+                                                : tracked ? "tracker"
+                                                          : "deep"));
   }
   EXPECT_GE(scenes, 10);
 }
