@@ -45,8 +45,9 @@ class BodyAir {
   /// Height to which the water around the body would stand if it were level [m]. Other bodies are
   /// taken for air.
   [[nodiscard]] double level_around(std::size_t body) const;
-  /// Whether air that is joined to the sky comes as near as its radius to the body or to its way
-  /// from a place [m], so far below `level` [m].
+  /// Whether air that is joined to the sky lies at least `below` under `level` [m] and no farther
+  /// than the body's radius from the body, or from the straight line between `from` [m] and the
+  /// body's front.
   [[nodiscard]] bool is_open_to(std::size_t body, const Vector3& from, double level,
                                 double below) const;
 

@@ -2,9 +2,9 @@
 // What each point of a body's skin sees of the water (paper, section 5.1.2):
 //   c_f = sum_j V_j W,   its gradient,   and the water's velocity  sum_j V_j W v_j / c_f
 // over particles that belong to a body of water. Spray and the film that a body carries along are
-// no surface that could be hit: around them there is less water. That is told by the density,
-// without the bodies' part of it, averaged over the neighbours: next to a solid a particle may have
-// few of them, though the water goes on.
+// no surface that could be hit. Particles of them are those around which the mean density of the
+// neighbours is low, without the bodies' part of it. A particle's own density would not do: next to
+// a solid it has few neighbours, although the water goes on.
 // And how much matter backs what it may hit: the colour of all water and of the tank's solid at a
 // place as far ahead along its normal as the water is deep that a blow of the whole body moves.
 

@@ -56,8 +56,8 @@ std::vector<int> owners(const std::vector<SkinPoint>& skin) {
   return owners;
 }
 
-/// How much nearer than it is the water's surface seems, by the depth of its outermost particles:
-/// on a grid they do not pack more densely [m].
+/// By how much SurfaceDistance tells the water's surface too near [m]: it expects the outermost
+/// particles to lie kSurfaceLoss deeper than half a spacing, which on a grid they do not.
 double seems_nearer(const FluidParams& p) {
   const bool grid = p.solver == SPLASH_GRID_PROJECTED;
   return grid ? kSurfaceLoss * static_cast<double>(p.spacing) : 0.0;

@@ -101,7 +101,11 @@ struct ImpactWatch::Meeting {
 
 ImpactWatch::ImpactWatch(std::vector<double> faces, const DetectSettings& settings,
                          const SurfaceDistance& distance, double nearer)
-    : faces_(std::move(faces)), distance_(distance), nearer_(nearer), blows_(faces_.size()) {
+    : faces_(std::move(faces)),
+      distance_(distance),
+      nearer_(nearer),
+      faintest_(distance.colour_at(kSpacingsSeen * distance.spacing())),
+      blows_(faces_.size()) {
   for (const double face : faces_) {
     closing_.push_back(closing_time(std::sqrt(face / std::numbers::pi), kGravity));
   }
@@ -126,9 +130,8 @@ std::vector<double> ImpactWatch::gaps_of(const std::vector<SurfacePoint>& points
 }
 
 double ImpactWatch::gap_for(float colour) const {
-  const double faintest = distance_.colour_at(kSpacingsSeen * distance_.spacing());
   const double seen = static_cast<double>(colour);
-  return seen < faintest ? kNever : distance_.distance_for(seen);
+  return seen < faintest_ ? kNever : distance_.distance_for(seen);
 }
 
 /// Thin water beside skin is water all the same where there is matter behind it: such is the wake

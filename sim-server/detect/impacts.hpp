@@ -111,6 +111,7 @@ class ImpactWatch {
   DetectSettings settings_;
   SurfaceDistance distance_;
   double nearer_;          ///< [m]
+  double faintest_;        ///< colour of water that is just seen [1]
   double touching_ = 0.0;  ///< nearer, skin and water touch [m]
   std::vector<Blow> blows_;
   std::vector<Skin> skin_;
