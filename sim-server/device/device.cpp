@@ -171,7 +171,9 @@ std::string describe(const DeviceFacts& facts) {
 Device::Device(int index, bool profiling, int lanes) : Device(index, profiling, Profile{}) {
   const bool asked = std::getenv("SPLASH_SCALAR") != nullptr;
   const bool scalar = lanes == 1 || (lanes == 0 && (asked || facts_.kind != DeviceKind::cpu));
-  profile_ = scalar ? gpu_profile() : cpu_profile(facts_.compute_units, lanes != 0 ? lanes : 16);
+  const int suited = handle_.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? 16 : 8;
+  profile_ =
+      scalar ? gpu_profile() : cpu_profile(facts_.compute_units, lanes != 0 ? lanes : suited);
 }
 
 Device::Device(int index, bool profiling, const Profile& profile) : profile_(profile) {

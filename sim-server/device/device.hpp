@@ -58,7 +58,8 @@ class Device {
   /// `index` as list_devices counts; -1: the first that $SPLASH_DEVICE means, or of all
   /// (device_choice.hpp).
   /// `lanes`: 8 or 16 particles per vector in kernels; 1: as GPUs do it, whatever the device;
-  /// 0: as suits the device, or 1 where $SPLASH_SCALAR is set.
+  /// 0: as suits the device (16 on CPUs with AVX-512, 8 on others), or 1 where $SPLASH_SCALAR is
+  /// set.
   explicit Device(int index = -1, bool profiling = false, int lanes = 0);
   /// Cuts work as `profile` says, whatever would suit the device.
   Device(int index, bool profiling, const Profile& profile);

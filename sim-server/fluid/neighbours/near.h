@@ -39,6 +39,16 @@ static lanes apart(const Group* g, lanes x, lanes y, lanes z) {
   return dx * dx + dy * dy + dz * dz;
 }
 
+#if LANES == 8 && defined(__AVX__)
+// Numbers of the bits that are set in 0 to 15, from the lowest on.
+constant int4 SET_BITS[16] = {(int4)(0, 0, 0, 0), (int4)(0, 0, 0, 0), (int4)(1, 0, 0, 0),
+                              (int4)(0, 1, 0, 0), (int4)(2, 0, 0, 0), (int4)(0, 2, 0, 0),
+                              (int4)(1, 2, 0, 0), (int4)(0, 1, 2, 0), (int4)(3, 0, 0, 0),
+                              (int4)(0, 3, 0, 0), (int4)(1, 3, 0, 0), (int4)(0, 1, 3, 0),
+                              (int4)(2, 3, 0, 0), (int4)(0, 2, 3, 0), (int4)(1, 2, 3, 0),
+                              (int4)(0, 1, 2, 3)};
+#endif
+
 // Appends those of the LANES points from `j` on, and before `end`, that are near.
 static int cull(const Group* g, float reach2, global const float* position, int stride, int j,
                 int end, int* index, int count) {
@@ -63,6 +73,18 @@ static int cull(const Group* g, float reach2, global const float* position, int 
   numbers.n = __builtin_ia32_compresssi512_mask(numbers.n, numbers.n, near);
   vstore16(numbers.f, 0, index + count);
   return count + popcount((uint)near);
+#elif LANES == 8 && defined(__AVX__)
+  typedef float native __attribute__((__vector_size__(32)));
+  union {
+    lane_flags f;
+    native n;
+  } flags;
+  flags.f = r2 < (lanes)(reach2);
+  const int near = __builtin_ia32_movmskps256(flags.n), low = near & 15, high = near >> 4;
+  vstore4(SET_BITS[low] + j, 0, index + count);
+  count += popcount(low);
+  vstore4(SET_BITS[high] + (j + 4), 0, index + count);
+  return count + popcount(high);
 #else
   const lane_flags near = r2 < (lanes)(reach2);
   int flag[LANES];

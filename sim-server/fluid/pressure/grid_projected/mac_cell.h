@@ -52,11 +52,16 @@ static Between between_middles(lanes x, float from, float inverse, int n) {
 }
 
 // The lanes of a vector in another order, where that is one instruction.
-#if LANES == 16 && defined(__AVX512F__)
+#if LANES == 16 && defined(__AVX512F__) || LANES == 8 && defined(__AVX2__)
 #define PICKS
+#if LANES == 16
+#define PERMUTED __builtin_ia32_permvarsf512
+#else
+#define PERMUTED __builtin_ia32_permvarsf256
+#endif
 static lanes picked(lanes a, lane_flags which) {
-  typedef float native __attribute__((__vector_size__(64)));
-  typedef int numbers __attribute__((__vector_size__(64)));
+  typedef float native __attribute__((__vector_size__(4 * LANES)));
+  typedef int numbers __attribute__((__vector_size__(4 * LANES)));
   union {
     lanes f;
     native n;
@@ -67,7 +72,7 @@ static lanes picked(lanes a, lane_flags which) {
   } by;
   from.f = a;
   by.f = which;
-  to.n = __builtin_ia32_permvarsf512(from.n, by.n);
+  to.n = PERMUTED(from.n, by.n);
   return to.f;
 }
 #endif
