@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A body that goes through deep water parts it, and behind it no gap opens.
+// A body that goes through deep water parts it, and behind it no gap opens. The bounds for the grid
+// are what it reaches, not what is wanted: fluid/pressure/grid_projected/README.md, "Limits".
 #include <gtest/gtest.h>
 
 #include <algorithm>

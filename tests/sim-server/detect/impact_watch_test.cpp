@@ -64,7 +64,7 @@ TEST_P(Plunge, IsLaterWhereTheSurfaceIsFarther) {
   ASSERT_EQ(all.size(), 1U);
   EXPECT_NEAR(all[0].impact.time, meets + nearer / speed, 2.0e-4 * kSpacing / speed + 1.0e-6);
   EXPECT_NEAR(all[0].impact.position[2], -nearer, 1.0e-3);
-  EXPECT_LE(all[0].at, meets) << "it is told before the surfaces meet, as elsewhere";
+  EXPECT_LE(all[0].at, meets) << "an impact is never reported later than the surfaces meet";
 }
 
 // Said in the first frame from which the meeting is no farther than the look-ahead.

@@ -52,7 +52,7 @@ static Between between_middles(lanes x, float from, float inverse, int n) {
 }
 
 // The lanes of a vector in another order, where that is one instruction.
-#if LANES == 16 && defined(__AVX512F__) || LANES == 8 && defined(__AVX2__)
+#if (LANES == 16 && defined(__AVX512F__)) || (LANES == 8 && defined(__AVX2__))
 #define PICKS
 #if LANES == 16
 #define PERMUTED __builtin_ia32_permvarsf512
