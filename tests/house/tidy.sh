@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too,
-# and the static analyzer follows calls from one function into others (several times as long).
+# clang-tidy over every translation unit of the product; with SPLASH_TIDY_ALL set, of its tests, too. The static analyzer,
+# which takes nearly as long as all other checks, is among them with a third argument, analyzer; with SPLASH_TIDY_ALL it
+# follows calls from one function into others (several times as long).
 # Reading the system headers takes most of the time, so units of the product are joined into one and
 # read together, with the options of all: they differ only in definitions and folders that others have
 # no use for. If clang-tidy finds fault with those, each is read alone. A unit found clean is not read
@@ -10,7 +11,7 @@ set -euo pipefail
 cd "$1"
 build=$2
 clean=$build/tidy-clean
-joined=$build/tidy-joined
+joined=$build/tidy-joined${3:+-$3}
 readonly kMost=32  # units read together
 rm -rf "$joined"
 mkdir -p "$clean" "$joined"
@@ -18,12 +19,14 @@ commands=$build/separate.json
 awk -f tests/house/separate_units.awk "$build/compile_commands.json" >"$commands"
 
 extra=--extra-arg=-Wno-unknown-warning-option
+checks=-readability-duplicate-include  # seen below, in less time
+[[ ${3:-} == analyzer ]] || checks+=,-clang-analyzer-*
 if [[ -z ${SPLASH_TIDY_ALL:-} ]]; then  # following calls is half of all time
   for word in -Xclang -analyzer-config -Xclang mode=shallow; do extra+=" --extra-arg=$word"; done
 fi
 
 rules=$(clang-tidy --version
-  echo "$extra"
+  echo "$extra $checks"
   cat .clang-tidy tests/.clang-tidy
   find program protocol sim-server synth-server pd-patches tests \
     \( -name '*.hpp' -o -name '*.def' -o -name '*.h' \) \
@@ -33,7 +36,7 @@ rules=$(sha256sum <<<"$rules")
 units=$(paste -d'\t' \
   <(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$commands") \
   <(sed -n 's/^ *"command": "[^ ]*\( [^ ]*c++\)\{0,1\} \(.*\) -o [^ ]* -c .*/\2/p' \
-      "$commands" | sed 's/ -O[0-3]//g') |
+      "$commands" | sed 's/ -O[0-3]//g; s/ -Werror//g') |
   grep -F "$1/" | grep -vF "$build/" | grep -v "^$1/${SPLASH_TIDY_ALL-tests}/" | sort -u -k1,1 |
   awk -F'\t' -v tests="$1/tests/" '
     { source[NR] = $1; options[NR] = $2 }
@@ -61,7 +64,7 @@ read_alone() {  # options, source: silent when clean
   local output words
   read -ra words <<<"$(unquoted "$1")"  # one of its commands: tests may compile it, too
   # shellcheck disable=SC2086
-  if output=$(clang-tidy --quiet $extra "$2" -- "${words[@]}" 2>&1); then
+  if output=$(clang-tidy --quiet --checks="$checks" $extra "$2" -- "${words[@]}" 2>&1); then
     touch "$(key_of "$@")"
   else
     printf '%s\n' "$output" | grep -v 'warnings generated\|^Suppressed\|^Use -header-filter' || true
@@ -78,7 +81,7 @@ read_together() {  # options, sources
   for source in "$@"; do printf '#line 1 "%s"\n%s\n' "$source" "$(<"$source")"; done >"$text"
   # shellcheck disable=SC2086
   if (($# > 1)) && clang-tidy --quiet --config-file=.clang-tidy \
-      --checks=-readability-duplicate-include $extra \
+      --checks="$checks" $extra \
       "$text" -- "${words[@]}" &>"$text.log"; then
     for source in "$@"; do touch "$(key_of "$options" "$source")"; done
   else
@@ -87,7 +90,7 @@ read_together() {  # options, sources
   return "$failed"
 }
 export -f key_of unquoted read_alone read_together
-export build clean joined rules extra
+export build clean joined rules extra checks
 
 # Tests, which have rules of their own, are read one by one.
 join_units() {
