@@ -19,6 +19,23 @@ constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73"};  // by sol
 /// Of the paper's section 6: 15,000 particles in the pool and on the beach, 7,000 in the basin.
 constexpr const char* kPaper = "$paper << EOD\n15000 152\n15000 147\n7000 240\nEOD\n";
 
+/// Two other programs on two cores of an AMD EPYC with AVX-512 (23 November 2026), with the same
+/// lattice and mass of water; README of sim-server/fluid has how.
+struct Peer {
+  const char* item;   // the case
+  const char* name;   // of the program
+  double resolution;  // size over particle spacing
+  double cost;        // seconds by the clock per simulated second
+  double error;       // [%]
+};
+constexpr const char* kDfsph = "SPlisHSPlasH 2.16, DFSPH, another day";
+constexpr const char* kDual = "DualSPHysics 5.4, another day";
+constexpr Peer kPeers[] = {
+    {"standing_wave", kDfsph, 20.0, 5.9, 0.5}, {"standing_wave", kDual, 20.0, 16.0, 3.5},
+    {"spheric2", kDfsph, 13.75, 5.45, 4.62},   {"spheric2", kDfsph, 18.33, 20.4, 4.35},
+    {"spheric2", kDual, 13.75, 40.7, 6.15},    {"float", kDfsph, 4.0, 10.1, 0.9},
+    {"float", kDual, 4.0, 33.0, 1.7}};
+
 constexpr const char* kSetup = R"gp(
 set encoding utf8
 set minussign
@@ -47,6 +64,11 @@ std::string style(const Quality& q) {
                                        : 6)
        << " pointsize 1";
   return text.str();
+}
+
+std::string peer_style(const std::string& name) {
+  return name == kDfsph ? "linecolor rgb \"#56b4e9\" linewidth 1.6 pointtype 9 pointsize 1.4"
+                        : "linecolor rgb \"#e69f00\" linewidth 1.6 pointtype 11 pointsize 1.4";
 }
 
 double cost(const SweepPoint& point, const ChartSettings& settings) {
@@ -98,8 +120,22 @@ void draw_case(std::ostream& out, const std::vector<SweepPoint>& points, const S
     });
     plot += (plot.empty() ? "" : ", ") + ("$" + block) + " with linespoints " + style(qualities[q]);
     if (q == 0) {
-      plot += ", $" + block + " using 1:2:3 with labels offset 0,0.9 font \",9\" textcolor rgb ink";
+      plot +=
+          ", $" + block +
+          " using 1:2:(sprintf(\"%.3g\", $3)) with labels offset 0,0.9 font \",9\" textcolor rgb "
+          "ink";
     }
+  }
+  for (const char* name : {kDfsph, kDual}) {
+    const std::string block = item.name + (name == kDfsph ? "_dfsph" : "_dual");
+    std::ostringstream lines;
+    for (const Peer& peer : kPeers) {
+      if (item.name != peer.item || std::string(peer.name) != name) continue;
+      lines << peer.cost << ' ' << peer.error << ' ' << peer.resolution << '\n';
+    }
+    if (lines.str().empty()) continue;
+    out << '$' << block << " << EOD\n" << lines.str() << "EOD\n";
+    plot += ", $" + block + " with linespoints " + peer_style(name);
   }
   out << "set title \"" << item.name << ": " << item.figure << " [%]\" noenhanced\n"
       << "set arrow 1 from 1, graph 0 to 1, graph 1 nohead linecolor rgb \"#cc79a7\" linewidth "
@@ -130,6 +166,9 @@ void draw_legend(std::ostream& out, const std::vector<Quality>& qualities) {
          "set xrange [0:1]\nset yrange [0:1]\nplot ";
   for (const Quality& quality : qualities) {
     out << "NaN with linespoints " << style(quality) << " title \"" << quality.name() << "\", ";
+  }
+  for (const char* name : {kDfsph, kDual}) {
+    out << "NaN with linespoints " << peer_style(name) << " title \"" << name << "\", ";
   }
   out << "NaN with lines linewidth 1.6 linecolor rgb \"#cc79a7\" title \"real time\", "
          "NaN with points pointtype 3 linewidth 2 linecolor rgb \"#000000\" title "

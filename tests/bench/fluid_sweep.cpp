@@ -111,6 +111,8 @@ const std::vector<SweepCase>& sweep_cases() {
       {"vortex", "decay rate, error"},
       {"dam_martin_moyce", "front, rms with one shift"},
       {"dam_koshizuka_oka", "front, rms with one shift"},
+      {"spheric2", "H1 to H4, mean error, of the column", 3.0},
+      {"float", "draft, error, of the height"},
   };
   return kCases;
 }
