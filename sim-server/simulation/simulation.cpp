@@ -261,6 +261,7 @@ FrameResult Simulation::advance() {
     const BodyState before = bodies_.state(b, seconds_);
     live_[b]->begin({seconds_, origin_ + seconds_, 1.0 / scene_.serve.frame_rate});
     bodies_.note_jump(b, before, seconds_);
+    limit_step();
   }
   std::optional<StepFault> step_fault;
   while (true) {
@@ -425,6 +426,13 @@ void Simulation::set_largest_step(double fastest, double acceleration) {
   largest_step_ =
       std::min(largest_time_step(fluid_.params(), fastest, acceleration, step_policy_.factor()),
                contact_step_);
+}
+
+// Only when a frame begins do trackers say how fast their bodies go in it.
+void Simulation::limit_step() {
+  const double before = largest_step_;
+  set_largest_step(std::max(stats_.speed, fastest_mover(seconds_)), stats_.acceleration);
+  largest_step_ = std::min(largest_step_, before);
 }
 
 StepFault Simulation::examine(const Diagnosis& what, double dt) {

@@ -155,6 +155,7 @@ class Simulation {
   /// The speed of the fastest body or the piston [m/s].
   [[nodiscard]] double fastest_mover(double seconds) const;
   void set_largest_step(double fastest, double acceleration);
+  void limit_step();
   void count(const FramePlan& plan);
 
   [[nodiscard]] std::vector<cl::Buffer> state() const;

@@ -71,10 +71,11 @@ static bool leave_body(constant FluidParams* p, BodyShape shape, global const fl
     excess = 0.0f;
   }
   *out = rotate_by(*out, b.qx, b.qy, b.qz, b.qw);
-  const float3 skin = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm) +
-                      b.grows / size * arm;
-  *stopped = -fmin(dot(*v - skin, *out), 0.0f);
   *x += size * excess * *out;
+  const float3 there = *x - centre;
+  const float3 skin = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), there) +
+                      b.grows / size * there;
+  *stopped = -fmin(dot(*v - skin, *out), 0.0f);
   *v += *stopped * *out;
   return true;
 }

@@ -39,11 +39,12 @@ static float3 face_middle(constant MacGrid* g, int4 at, int axis) {
                   g->z + (at.z + (axis == 2 ? 0.0f : middle)) * g->hz);
 }
 
-// How fast a body that appears swells, by its size after a step of `dt`: so that it drives away as
-// much water in the step as it displaces more [1/s].
+// How fast a body that appears swells, by its size before a step of `dt`: so that it drives away as
+// much water in the step as it displaces more after it [1/s]. A seed is too small for the grid to
+// see: that it grows more than tenfold in a step is of no account.
 static float swelling(BodyStep b, float dt) {
-  const float before = fmax(1.0f - b.grows * dt / size_of(b), 0.0f);
-  return (1.0f - before * before * before) / (3.0f * dt);
+  const float after = 1.0f + fmin(b.grows * dt / size_of(b), 10.0f);
+  return (after * after * after - 1.0f) / (3.0f * dt);
 }
 
 // Velocity of a solid there in a step of `dt`, along the axis.

@@ -80,16 +80,31 @@ static void solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
   *high = LOAD(above, 0);
 }
 
+// The divergence of how solids go in cells that they cut: of a body that appears, which swells
+// alike in all directions [1/s].
+static lanes swelling_of_solids(global const BodyStep* bodies, global const int* owner, float dt,
+                                int c, lane_flags cut) {
+  int is_cut[LANES];
+  float sum[LANES];
+  STORE(cut, is_cut, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    const int whose = is_cut[lane] ? owner[c + lane] : OF_NOBODY;
+    sum[lane] = whose < 0 ? 0.0f : 3.0f * swelling(bodies[whose], dt);
+  }
+  return LOAD(sum, 0);
+}
+
 // Row by row the system A f = b: `link`, 1 / h^2 between a cell and the one below it along an axis
 // where both hold water, by the open part of the face; `open`, what its surface adds to the
 // diagonal; `start`: f of the pressures that were. `wet`: 1 where a cell holds water, `air`: where
 // it is shut-in air's, which q = `compliance` makes give way. `most`: the largest number of a cell
 // with water. Of a cell beside a solid, what flows out of its open faces and what the solid takes
-// of it is its flow relative to the solid, out of the same faces. What the solve works with begins
-// at zero.
+// of it is its flow relative to the solid, out of the same faces, and the divergence of the solid's
+// motion in its open part, `space`. What the solve works with begins at zero.
 kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
                        global const BodyStep* bodies, int first_body, float piston_speed,
-                       global const float* gap, global const int* owner, global const float* fill,
+                       global const float* gap, global const float* space,
+                       global const int* owner, global const float* fill,
                        global const float* pushed, global const float* pressure,
                        global const float* air, global const float* compliance, int room,
                        global float* link, global float* open, global float* x, global float* right,
@@ -150,6 +165,9 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
       b -= (high * out - low * in) * inverse[axis];
     }
     STORE(between, link, axis * room + c);
+  }
+  if (any_cut) {
+    b -= LOAD(space, c) * swelling_of_solids(bodies + first_body, owner, dt, c, cut);
   }
   if (any) {
     const lanes lack = REGAINED * within(1.0f - full, 0.0f, MOST_LACK);

@@ -59,6 +59,7 @@ void PressureSystem::lay(Fluid& fluid, const Step& step) {
                    {"first_body", step.first_body},
                    {"piston_speed", as_float(step.piston_speed)},
                    {"gap", solids_.gap()},
+                   {"space", solids_.space()},
                    {"owner", solids_.owner()},
                    {"fill", solids_.fill()},
                    {"pushed", fields_.change},
