@@ -13,23 +13,6 @@ namespace {
 /// Water that is shallower than two of the grid's cells has no pressure inside [spacings].
 constexpr double kShallow = 4.0;
 
-/// A tracker may put its body anywhere from one moment to the next.
-bool is_tracked(const BodySettings& body) {
-  switch (body.motion.kind) {
-    case MotionKind::osc:
-    case MotionKind::touch:
-    case MotionKind::pressure:
-      return true;
-    case MotionKind::script:
-    case MotionKind::csv:
-    case MotionKind::trc:
-    case MotionKind::free:
-    case MotionKind::fixed:
-      break;
-  }
-  return false;
-}
-
 bool has_edges(const BodySettings& body) {
   return body.shape.kind != ShapeKind::sphere;
 }
@@ -56,11 +39,6 @@ std::string unsuited(const Scene& scene) {
   }
   if (scene.gate.present) return "the gate lets water go that strikes what it meets";
   if (scene.flow.kind == FlowKind::uniform) return "the flow strikes what it meets";
-  for (const BodySettings& body : scene.bodies) {
-    if (is_tracked(body)) {
-      return "'" + body.name + "' is moved by a tracker, which may put it anywhere at once";
-    }
-  }
   if (may_stack(scene)) {
     return "bodies with edges may lie on each other, which takes short steps";
   }
@@ -91,8 +69,7 @@ SolverChoice suitable_solver(const Scene& scene) {
   }
   const std::string reason = unsuited(scene);
   if (!reason.empty()) return {PressureKind::weakly_compressible, reason};
-  return {PressureKind::grid_projected,
-          "the water is deep and held, and no tracker moves a body in it"};
+  return {PressureKind::grid_projected, "the water is deep and held"};
 }
 
 std::string solver_notice(const Scene& scene) {

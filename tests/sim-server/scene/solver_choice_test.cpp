@@ -74,7 +74,7 @@ TEST(SolverChoice, ASceneGetsWhatSuitsWhatItCanDo) {
       {"thrown up", basin(body(free + "500, velocity: [0, 0, 2]}", "[0.5, 0.5, 0.5]")), kGrid, ""},
       {"sinks", basin(body(free + "2000}", "[0.5, 0.5, 0.3]")), kGrid, ""},
       {"held", basin(body(free + "500, held: [x]}", "[0.5, 0.5, 0.5]")), kGrid, ""},
-      {"tracked", basin(body("{kind: osc}", "[0.5, 0.5, 0.8]")), kState, "a tracker"},
+      {"tracked", basin(body("{kind: osc}", "[0.5, 0.5, 0.8]")), kGrid, "deep"},
       {"two boxes",
        basin(body(free + "500}", "[0.5, 0.5, 0.5]") +
              "  - {name: lid, shape: {kind: box, size: [0.1, 0.1, 0.1]}, motion: {kind: fixed}, "
@@ -112,16 +112,13 @@ TEST(SolverChoice, EachSceneThatIsShippedHasItsOwn) {
     if (entry.path().extension() != ".yaml") continue;
     ++scenes;
     const Scene scene = read_scene(entry.path());
-    // A treadmill's belt goes through a thin layer of water, a boat may meet a hand's edges; hand
-    // and rest are for trackers.
+    // A treadmill's belt goes through a thin layer of water, a boat may meet a hand's edges.
     const bool thin = scene.name == "walk";
     const bool stacks = scene.name == "boat";
-    const bool tracked = scene.name == "hand" || scene.name == "rest";
-    EXPECT_EQ(scene.fluid.solver, thin || stacks || tracked ? kState : kGrid) << scene.name;
-    EXPECT_THAT(solver_notice(scene), HasSubstr(thin      ? "shallower"
-                                                : stacks  ? "short steps"
-                                                : tracked ? "tracker"
-                                                          : "deep"));
+    EXPECT_EQ(scene.fluid.solver, thin || stacks ? kState : kGrid) << scene.name;
+    EXPECT_THAT(solver_notice(scene), HasSubstr(thin     ? "shallower"
+                                                : stacks ? "short steps"
+                                                         : "deep"));
   }
   EXPECT_GE(scenes, 10);
 }
