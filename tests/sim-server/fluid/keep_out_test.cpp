@@ -155,7 +155,7 @@ TEST_P(KeepOut, LeavesNobodyDeepInside) {
       }
       const Vector3 out = shape.kind == ShapeKind::mesh ? outward(shape, x)
                                                         : (1.0 / length(x - before)) * (x - before);
-      const Vector3 skin = kMotion + cross(kSpin, before - kCentre);
+      const Vector3 skin = kMotion + cross(kSpin, x - kCentre);
       EXPECT_GT(dot(vector_of(*water.fluid, after.velocity, i) - skin, out), -1.0e-3);
     }
     EXPECT_GT(moved, 20);
