@@ -13,12 +13,12 @@
 #include "program/this_program.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
+#include "synth-server/calibrate/sweep.hpp"
+#include "synth-server/calibrate/test_tone.hpp"
 #include "synth-server/options.hpp"
 #include "synth-server/output/rig_reader.hpp"
-#include "synth-server/replay_file.hpp"
-#include "synth-server/server.hpp"
-#include "synth-server/sweep.hpp"
-#include "synth-server/test_tone.hpp"
+#include "synth-server/serve/replay_file.hpp"
+#include "synth-server/serve/server.hpp"
 #include "synth-server/voice_options.hpp"
 
 namespace {

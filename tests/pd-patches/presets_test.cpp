@@ -10,7 +10,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "synth-server/pd_sound.hpp"
+#include "synth-server/pd_sound/pd_sound.hpp"
 #include "synth-server/sound/sound_reader.hpp"
 #include "tests/pd-patches/rendering.hpp"
 

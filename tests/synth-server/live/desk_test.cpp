@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a person may change, by name, and what no change may do.
-#include "synth-server/desk.hpp"
+#include "synth-server/serve/desk.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

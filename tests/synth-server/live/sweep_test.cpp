@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The measuring sweep against transducers that are known: filters, with noise, distortion and a
 // delay, in the file domain.
-#include "synth-server/sweep.hpp"
+#include "synth-server/calibrate/sweep.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

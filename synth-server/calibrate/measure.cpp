@@ -8,11 +8,11 @@
 
 #include "program/failure.hpp"
 #include "program/files.hpp"
+#include "synth-server/calibrate/sweep.hpp"
+#include "synth-server/calibrate/tapped_output.hpp"
 #include "synth-server/figure/wav_reader.hpp"
 #include "synth-server/output/fade.hpp"
-#include "synth-server/server_text.hpp"
-#include "synth-server/sweep.hpp"
-#include "synth-server/tapped_output.hpp"
+#include "synth-server/serve/server_text.hpp"
 
 namespace splash::synth {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/pd_sound.hpp"
+#include "synth-server/pd_sound/pd_sound.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/replay_file.hpp"
+#include "synth-server/serve/replay_file.hpp"
 
 #include <cstdio>
 #include <string>
@@ -8,9 +8,9 @@
 #include "program/files.hpp"
 #include "protocol/event_log.hpp"
 #include "synth-server/output/wav_file.hpp"
-#include "synth-server/output_choice.hpp"
 #include "synth-server/replay/replay.hpp"
-#include "synth-server/server_text.hpp"
+#include "synth-server/serve/output_choice.hpp"
+#include "synth-server/serve/server_text.hpp"
 
 namespace splash::synth {
 namespace {

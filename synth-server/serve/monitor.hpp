@@ -13,9 +13,9 @@
 
 #include "protocol/frame.hpp"
 #include "protocol/frame_stream.hpp"
-#include "synth-server/desk.hpp"
 #include "synth-server/output/rig.hpp"
 #include "synth-server/play/block_tap.hpp"
+#include "synth-server/serve/desk.hpp"
 
 namespace splash::synth {
 

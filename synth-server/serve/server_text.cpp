@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/server_text.hpp"
+#include "synth-server/serve/server_text.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/output_choice.hpp"
+#include "synth-server/serve/output_choice.hpp"
 
 #include "synth-server/audio/null_output.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/test_tone.hpp"
+#include "synth-server/calibrate/test_tone.hpp"
 
 #include <cstdio>
 #include <ctime>
 
 #include "program/failure.hpp"
+#include "synth-server/calibrate/tapped_output.hpp"
 #include "synth-server/play/test_tone.hpp"
-#include "synth-server/server_text.hpp"
-#include "synth-server/tapped_output.hpp"
+#include "synth-server/serve/server_text.hpp"
 
 namespace splash::synth {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/tapped_output.hpp"
+#include "synth-server/calibrate/tapped_output.hpp"
 
 #include <cstdio>
 
 #include "program/failure.hpp"
-#include "synth-server/output_choice.hpp"
+#include "synth-server/serve/output_choice.hpp"
 
 namespace splash::synth {
 namespace {

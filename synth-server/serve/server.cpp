@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/server.hpp"
+#include "synth-server/serve/server.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "synth-server/audio/rtaudio_output.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay/replay.hpp"
-#include "synth-server/replay_file.hpp"
+#include "synth-server/serve/replay_file.hpp"
 #include "synth-server/voice_options.hpp"
 
 namespace splash::synth {

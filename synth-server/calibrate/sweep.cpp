@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/sweep.hpp"
+#include "synth-server/calibrate/sweep.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/monitor.hpp"
+#include "synth-server/serve/monitor.hpp"
 
 #include <algorithm>
 #include <chrono>

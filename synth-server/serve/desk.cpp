@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/desk.hpp"
+#include "synth-server/serve/desk.hpp"
 
 #include <algorithm>
 #include <array>

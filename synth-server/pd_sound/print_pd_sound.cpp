@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "synth-server/pd_sound.hpp"
+#include "synth-server/pd_sound/pd_sound.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) {
