@@ -45,9 +45,9 @@ class BodyAir {
   /// Height to which the water around the body would stand if it were level [m]. Other bodies are
   /// taken for air.
   [[nodiscard]] double level_around(std::size_t body) const;
-  /// Whether the open air reaches down to the body: whether there is air connected to the sky at
-  /// least `below` under `level` [m], and within the body's radius of the body or of the straight
-  /// line from `from` [m] to its front.
+  /// Whether there is air that is connected to the air above the water, at least `below` [m] under
+  /// `level` [m], and no farther than the body's radius from the body or from the straight line
+  /// between `from` [m] and the body's front.
   [[nodiscard]] bool is_open_to(std::size_t body, const Vector3& from, double level,
                                 double below) const;
 

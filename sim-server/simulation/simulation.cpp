@@ -256,13 +256,15 @@ std::vector<BodyPush> Simulation::find_pushes(double seconds) {
 }
 
 FrameResult Simulation::advance() {
+  bool any_live = false;
   for (std::size_t b = 0; b < live_.size(); ++b) {
     if (live_[b] == nullptr) continue;
+    any_live = true;
     const BodyState before = bodies_.state(b, seconds_);
     live_[b]->begin({seconds_, origin_ + seconds_, 1.0 / scene_.serve.frame_rate});
     bodies_.note_jump(b, before, seconds_);
-    limit_step();
   }
+  if (any_live) limit_step();
   std::optional<StepFault> step_fault;
   while (true) {
     const FrameSteps division =
@@ -428,7 +430,7 @@ void Simulation::set_largest_step(double fastest, double acceleration) {
                contact_step_);
 }
 
-// Only when a frame begins do trackers say how fast their bodies go in it.
+// How fast a tracker moves its body in a frame is known only when the frame begins.
 void Simulation::limit_step() {
   const double before = largest_step_;
   set_largest_step(std::max(stats_.speed, fastest_mover(seconds_)), stats_.acceleration);

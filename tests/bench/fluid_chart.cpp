@@ -28,8 +28,8 @@ struct Peer {
   double cost;        // seconds by the clock per simulated second
   double error;       // [%]
 };
-constexpr const char* kDfsph = "SPlisHSPlasH 2.16, DFSPH, another day";
-constexpr const char* kDual = "DualSPHysics 5.4, another day";
+constexpr const char* kDfsph = "SPlisHSPlasH 2.16 (DFSPH), on another CPU";
+constexpr const char* kDual = "DualSPHysics 5.4, on another CPU";
 constexpr Peer kPeers[] = {
     {"standing_wave", kDfsph, 20.0, 5.9, 0.5}, {"standing_wave", kDual, 20.0, 16.0, 3.5},
     {"spheric2", kDfsph, 13.75, 5.45, 4.62},   {"spheric2", kDfsph, 18.33, 20.4, 4.35},
