@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a step costs: the two main kernels beside C++ by hand, the whole step against the number of
 // particles, its stages, what a launch costs that does nothing, and all that beside what the device
-// can do at most. Prints tables.
+// can do at most. Each is a table of the benchmark.
 #pragma once
-
-#include <cstdio>
-#include <filesystem>
 
 #include "sim-server/device/device.hpp"
 #include "tests/bench/fluid_work.hpp"
+#include "tests/bench/report.hpp"
 
 namespace splash::bench {
 
@@ -31,17 +29,16 @@ struct Until {
 /// Of three arrays that together have so many bytes, from where they are after a first pass [B/s].
 [[nodiscard]] double bandwidth_of(sim::Device& device, std::size_t bytes);
 
-/// In one run, on the same particles; `device` with profiling. `csv`: or null. Throws
-/// std::runtime_error when both do not give the same sums.
-void beside_the_yardstick(sim::Device& device, int most_particles, std::FILE* csv);
-/// Up to what time and the device's memory allow; `picture`: SVG, or empty.
-void against_size(sim::Device& device, int most_particles, const Until& until, std::FILE* csv,
-                  const std::filesystem::path& picture);
+/// In one run, on the same particles; `device` with profiling. Throws std::runtime_error when both
+/// do not give the same sums.
+void beside_the_yardstick(Bench& bench, sim::Device& device, int most_particles);
+/// Up to what time and the device's memory allow.
+void against_size(Bench& bench, sim::Device& device, int most_particles, const Until& until);
 /// Kernel by kernel; `device` with profiling. `there`: another device, of which the least times are
 /// told, too, or nothing.
-void against_limits(sim::Device& device, const Asks& asks, int most_particles, const Until& until,
-                    const Limits& there, std::FILE* csv);
+void against_limits(Bench& bench, sim::Device& device, const Asks& asks, int most_particles,
+                    const Until& until, const Limits& there);
 /// Of a cube of water, and of the pool with its bodies and detectors; `device` with profiling.
-void stage_by_stage(sim::Device& device, std::FILE* csv);
+void stage_by_stage(Bench& bench, sim::Device& device);
 
 }  // namespace splash::bench

@@ -122,45 +122,38 @@ void foretell(const Asked& asked, const Limits& there) {
               launches + asked.commands, with_launches(sum, launches, asked, there));
 }
 
-void print(const Asked& asked, const Measured& found, const Limits& here, const Limits& there,
-           std::FILE* csv) {
-  std::printf(
-      "\n%s, %d particles, bytes at %.1f GB/s\n"
-      "                       launches      MB  M operations  M scalar  M counts  M runs  M held   "
-      "     ms"
-      "  expected  of it\n",
-      asked.what, asked.particles, 1e-9 * here.bandwidth);
+void add(Table& table, const Asked& asked, const Measured& found, const Limits& here,
+         const Limits& there) {
+  std::printf("\n%s, %d particles, bytes at %.1f GB/s\n", asked.what, asked.particles,
+              1e-9 * here.bandwidth);
   double sum = 0.0, launches = 0.0;
   for (const auto& [name, seconds] : found.kernels) {
     if (!asked.work.contains(name)) {
-      std::printf("  %-20s ran, but not in the frame that was looked at\n", name.c_str());
+      std::printf("%s ran, but not in the frame that was looked at\n", name.c_str());
       continue;
     }
     const Work& work = asked.work.at(name);
     const double least = expected(work, here);
     launches += work.launches;
     sum += least;
-    std::printf("  %-20s %8.2f %7.2f  %12.2f  %8.2f  %8.2f  %6.2f  %6.3f  %8.4f  %8.4f  %5.2f\n",
-                name.c_str(), work.launches, 1e-6 * work.bytes, 1e-6 * work.operations,
-                1e-6 * work.scalar, 1e-6 * work.counts, 1e-6 * work.runs, 1e-6 * work.held,
-                1e3 * seconds, 1e3 * least, least / seconds);
-    if (csv != nullptr) {
-      std::fprintf(csv, "limit:%s:%s,%d,%g,%g,%g,%g\n", asked.what, name.c_str(), asked.particles,
-                   1e3 * seconds, 1e3 * least, work.bytes, work.operations);
-    }
+    table.add({asked.what, std::to_string(asked.particles), name, number(work.launches),
+               number(1e-6 * work.bytes), number(1e-6 * work.operations),
+               number(1e-6 * work.scalar), number(1e-6 * work.counts), number(1e-6 * work.runs),
+               number(1e-6 * work.held), number(1e3 * seconds), number(1e3 * least),
+               number(least / seconds, 2)});
   }
-  std::printf("  the step takes %.3f ms, expected with its %.1f launches %.3f ms\n",
-              1e3 * found.step, launches + asked.commands,
-              with_launches(sum, launches, asked, here));
+  const double least = with_launches(sum, launches, asked, here);
+  table.add({asked.what, std::to_string(asked.particles), "the step",
+             number(launches + asked.commands), "", "", "", "", "", "", number(1e3 * found.step),
+             number(least), number(1e-3 * least / found.step, 2)});
   if (there.bandwidth > 0.0) foretell(asked, there);
-  std::fflush(stdout);
 }
 
 struct Place {
   Device& device;
   Limits here;
   Limits there;
-  std::FILE* csv = nullptr;
+  Table& table;
 };
 
 void of_cube(Place& at, int count) {
@@ -184,7 +177,7 @@ void of_cube(Place& at, int count) {
     asked.work = work_of(places, at.device.profile());
     asked.there = work_of(places, gpu_profile());
   }
-  print(asked, measure.found(), at.here, at.there, at.csv);
+  add(at.table, asked, measure.found(), at.here, at.there);
 }
 
 void of_pool(Place& at, int count) {
@@ -227,7 +220,7 @@ void of_pool(Place& at, int count) {
   std::printf(
       "\nThe pool: %d steps a frame, %.0f bubbles, %.0f fast particles, %.0f points of skin",
       seen.steps, seen.bubbles, seen.fast, seen.skin);
-  print(asked, measure.found(), at.here, at.there, at.csv);
+  add(at.table, asked, measure.found(), at.here, at.there);
 }
 
 /// Of sizes that grow, up to what time allows.
@@ -244,22 +237,27 @@ void each(Place at, void (*run)(Place&, int), std::initializer_list<int> sizes, 
 
 }  // namespace
 
-void against_limits(Device& device, const Asks& asks, int most_particles, const Until& until,
-                    const Limits& there, std::FILE* csv) {
+void against_limits(Bench& bench, Device& device, const Asks& asks, int most_particles,
+                    const Until& until, const Limits& there) {
   const Limits here = limits_of(device);
-  std::printf(
-      "\nThe device streams %.1f GB/s from memory (triad), computes %.1f G operations/s, %.1f G "
-      "scalar\ninstructions/s, %.2f G counts/s, %.3f G runs/s, %.3f G held/s, %.3f G "
-      "work-groups/s; "
-      "a launch takes\n%.1f us of the host, %.1f us of the device\n",
+  char what[400];
+  std::snprintf(
+      what, sizeof what,
+      "The device streams %.1f GB/s from memory (triad), computes %.1f G operations/s, %.1f G "
+      "scalar instructions/s, %.2f G counts/s, %.3f G runs/s, %.3f G held/s, %.3f G "
+      "work-groups/s; a launch takes %.1f us of the host, %.1f us of the device. What a step asks "
+      "beside that, by the rule at the head of tests/bench/fluid_limits.cpp:",
       1e-9 * here.bandwidth, 1e-9 * here.arithmetic, 1e-9 * here.scalar, 1e-9 * here.counts,
       1e-9 * here.runs, 1e-9 * here.held, 1e-9 * here.groups, 1e6 * here.launch, 1e6 * here.begin);
-  if (csv != nullptr) {
-    std::fprintf(csv, "limits,,%g,%g,%g\n", here.bandwidth, here.arithmetic, here.launch);
-  }
-  const Place at = {device, here, with_runs(there), csv};
+  std::printf("\n%s\n", what);
+  auto table = bench.table(
+      "limits.csv", {"water", "particles", "kernel", "launches", "MB", "M operations", "M scalar",
+                     "M counts", "M runs", "M held", "ms", "expected", "of it"});
+  const Place at = {device, here, with_runs(there), table};
   if (asks.pool) each(at, of_pool, {0, 250'000, 4'000'000}, most_particles, until);
   if (asks.cube) each(at, of_cube, {15'625, 250'000, 1'000'000, 4'000'000}, most_particles, until);
+  bench.tell(what);
+  bench.tell(table.text());
 }
 
 }  // namespace splash::bench

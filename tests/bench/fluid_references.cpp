@@ -119,14 +119,16 @@ struct MainKernels {
 
 }  // namespace
 
-void beside_the_yardstick(sim::Device& device, int most_particles, std::FILE* csv) {
+void beside_the_yardstick(Bench& bench, sim::Device& device, int most_particles) {
   const int threads = static_cast<int>(
       std::min<std::size_t>(device.facts().compute_units, std::thread::hardware_concurrency()));
-  std::printf(
-      "\nThe two main kernels beside C++ by hand, %d threads; interleaved, the fastest tenth\n",
-      threads);
-  std::printf(
-      "particles   density  by hand  ratio    forces  by hand  ratio   both   difference\n");
+  const std::string what =
+      "The two main kernels of the state equation beside C++ by hand (explicit vectors, OpenMP), " +
+      std::to_string(threads) + " threads; interleaved, the fastest tenth:";
+  std::printf("\n%s\n", what.c_str());
+  auto table =
+      bench.table("kernels.csv", {"particles", "density [ms]", "by hand [ms]", "forces [ms]",
+                                  "by hand [ms]", "by hand / ours", "difference, of the largest"});
   for (const int count : {2'000, 7'000, 15'625, 60'000, 250'000, 1'000'000}) {
     if (count > most_particles) break;
     Block block(device, count);
@@ -157,15 +159,12 @@ void beside_the_yardstick(sim::Device& device, int most_particles, std::FILE* cs
     const double off =
         std::max(farthest(density, kernels.rho.read(device, stride), stride, particles),
                  farthest(push, theirs, stride, particles));
-    std::printf("%9zu  %6.3f ms  %6.3f  %5.2f  %6.3f ms  %6.3f  %5.2f  %5.2f      %.1e\n",
-                particles, 1e3 * d, 1e3 * hd, hd / d, 1e3 * f, 1e3 * hf, hf / f,
-                (hd + hf) / (d + f), off);
-    if (csv != nullptr) {
-      std::fprintf(csv, "kernels,%zu,%g,%g,%g,%g\n", particles, 1e3 * d, 1e3 * hd, 1e3 * f,
-                   1e3 * hf);
-    }
+    table.add({std::to_string(particles), number(1e3 * d), number(1e3 * hd), number(1e3 * f),
+               number(1e3 * hf), number((hd + hf) / (d + f)), number(off, 1)});
     if (!(off < 1e-4)) throw std::runtime_error("the yardstick and the kernels disagree");
   }
+  bench.tell(what);
+  bench.tell(table.text());
 }
 
 }  // namespace splash::bench

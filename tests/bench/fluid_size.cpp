@@ -61,29 +61,25 @@ Cost cost_of(Device& device, int count) {
   return cost;
 }
 
-void print(const char* what, const StageTimes& times, std::FILE* csv) {
+void add(Table& table, const char* what, const StageTimes& times) {
   std::vector<std::pair<std::string, Launches>> sorted(times.kernels.begin(), times.kernels.end());
   std::sort(sorted.begin(), sorted.end(),
             [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
-  double sum = 0.0;
-  std::int64_t launches = 0;
+  Launches all;
   for (const auto& [name, stage] : sorted) {
-    sum += stage.seconds;
-    launches += stage.count;
+    all.seconds += stage.seconds;
+    all.count += stage.count;
   }
   const auto steps = static_cast<double>(times.steps);
-  std::printf("\n%s: %lld steps, %.1f launches each\n", what, static_cast<long long>(times.steps),
-              static_cast<double>(launches) / steps);
-  std::printf("stage                         launches/step   ms/step   of all\n");
+  const auto row = [&](const std::string& name, double launches, double seconds) {
+    table.add({what, name, number(launches / steps), number(1e3 * seconds / steps),
+               number(100.0 * seconds / all.seconds)});
+  };
   for (const auto& [name, stage] : sorted) {
-    const double ms = 1e3 * stage.seconds / steps;
-    std::printf("%-28s  %13.2f  %8.4f  %5.1f %%\n", name.c_str(),
-                static_cast<double>(stage.count) / steps, ms, 100.0 * stage.seconds / sum);
-    if (csv != nullptr) std::fprintf(csv, "stage:%s:%s,,%g\n", what, name.c_str(), ms);
+    row(name, static_cast<double>(stage.count), stage.seconds);
   }
-  std::printf("kernels %.3f ms, between them %.3f ms (%.1f us per launch)\n", 1e3 * sum / steps,
-              1e3 * (times.wall - sum) / steps,
-              1e6 * (times.wall - sum) / static_cast<double>(launches));
+  row("all", static_cast<double>(all.count), all.seconds);
+  row("between them", static_cast<double>(all.count), times.wall - all.seconds);
 }
 
 StageTimes of_cube(Device& device, int count) {
@@ -133,51 +129,53 @@ bool Until::allows(double seconds) const {
   return end == 0.0 || protocol::monotonic_now() + seconds < end;
 }
 
-void against_size(Device& device, int most_particles, const Until& until, std::FILE* csv,
-                  const std::filesystem::path& picture) {
-  std::printf("\nThe whole step, without walls and bodies, in batches of %d; median of 7\n",
-              kSteps);
-  std::printf(
-      "particles   ms/step  of processors  steps/s  M particle updates/s    MiB  B/particle\n");
+void against_size(Bench& bench, Device& device, int most_particles, const Until& until) {
+  const std::string what =
+      "The whole step with the state equation, without walls and bodies, in "
+      "batches of " +
+      std::to_string(kSteps) + "; median of 7, of large sizes of 3:";
+  std::printf("\n%s\n", what.c_str());
+  auto table = bench.table("size.csv", {"particles", "ms per step", "of processors", "steps/s",
+                                        "million updates/s", "MiB", "bytes per particle"});
   SvgCurve steps = {device.facts().name, {}};
   Cost last;
   for (const int count : kSizes) {
     if (count > most_particles) break;
     const double ratio = count / std::max(last.particles, 1.0);
     if (!until.allows(1.2 * ratio * last.seconds)) {
-      std::printf("%9d  would take longer than there is time\n", count);
+      std::printf("%d would take longer than there is time\n", count);
       break;
     }
     if (ratio * last.memory > 0.8 * static_cast<double>(device.facts().memory)) {
-      std::printf("%9d  would take %.0f MiB of %zu\n", count, ratio * last.memory / 1048576.0,
+      std::printf("%d would take %.0f MiB of %zu\n", count, ratio * last.memory / 1048576.0,
                   device.facts().memory >> 20U);
       break;
     }
     last = cost_of(device, count);
-    std::printf("%9.0f  %8.3f  %13.3f  %7.0f  %20.2f  %5.1f  %10.0f\n", last.particles,
-                1e3 * last.step, 1e3 * last.busy, 1.0 / last.step,
-                1e-6 * last.particles / last.step, last.memory / 1048576.0,
-                last.memory / last.particles);
-    std::fflush(stdout);
-    if (csv != nullptr) {
-      std::fprintf(csv, "step,%.0f,%g,%g,%g\n", last.particles, 1e3 * last.step, 1e3 * last.busy,
-                   last.memory);
-      std::fflush(csv);
-    }
+    table.add({number(last.particles, 8), number(1e3 * last.step), number(1e3 * last.busy),
+               number(1.0 / last.step), number(1e-6 * last.particles / last.step),
+               number(last.memory / 1048576.0), number(last.memory / last.particles)});
     steps.points.emplace_back(last.particles, 1e3 * last.step);
-    if (!picture.empty()) {
-      draw_log_chart(picture, "Time of a step", "particles", "ms", {steps});
-    }
+    draw_log_chart(bench.out() / "size.svg", "Time of a step", "particles", "ms", {steps});
   }
+  bench.tell(what);
+  bench.tell(table.text());
 }
 
-void stage_by_stage(Device& device, std::FILE* csv) {
-  print("cube of 15,625", of_cube(device, 15'625), csv);
-  print("pool", of_pool(device), csv);
+void stage_by_stage(Bench& bench, Device& device) {
   const auto [wall, processor] = empty_launch(device);
-  std::printf("a launch that does nothing: %.1f us, %.1f us of processors\n", 1e6 * wall,
-              1e6 * processor);
-  if (csv != nullptr) std::fprintf(csv, "launch,,%g,%g\n", 1e3 * wall, 1e3 * processor);
+  char launch[96];
+  std::snprintf(
+      launch, sizeof launch,
+      "A launch that does nothing takes %.1f us, %.1f us of processors. Kernel by kernel:",
+      1e6 * wall, 1e6 * processor);
+  std::printf("\n%s\n", launch);
+  auto table = bench.table("stages.csv",
+                           {"water", "kernel", "launches per step", "ms per step", "of all [%]"});
+  add(table, "cube of 15,625", of_cube(device, 15'625));
+  add(table, "pool", of_pool(device));
+  bench.tell(launch);
+  bench.tell(table.text());
 }
 
 }  // namespace splash::bench

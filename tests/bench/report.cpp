@@ -98,8 +98,14 @@ Table Bench::table(const std::string& file, Row head) const {
   return Table(std::move(head), out_ / file);
 }
 
+void Bench::show(const std::string& picture, const std::string& what) {
+  pictures_.push_back(picture);
+  tell("![" + what + "](" + picture + ")");
+}
+
 void Bench::write_docs(const std::string& begun) const {
-  const std::filesystem::path path = tests::source_folder() / "docs" / doc_;
+  const std::filesystem::path docs = tests::source_folder() / "docs";
+  const std::filesystem::path path = docs / doc_;
   std::string section = "## " + title_ + "\n\n`" + command_ + "`, " + today() + ", " + commit() +
                         ", " + processor() + " (" +
                         std::to_string(std::thread::hardware_concurrency()) + " cores)";
@@ -109,6 +115,10 @@ void Bench::write_docs(const std::string& begun) const {
   std::ofstream file(path);
   file << updated;
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+  for (const std::string& picture : pictures_) {
+    std::filesystem::copy_file(out_ / picture, docs / picture,
+                               std::filesystem::copy_options::overwrite_existing);
+  }
   std::printf("written: %s\n", path.c_str());
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/bench/tables.hpp"
 
@@ -32,6 +33,8 @@ class Bench {
   [[nodiscard]] Table table(const std::string& file, Row head) const;
   /// More of the section in docs/: Markdown.
   void tell(const std::string& paragraph) { section_ << paragraph << "\n\n"; }
+  /// A picture in the folder, copied into docs/ when the section is written.
+  void show(const std::string& picture, const std::string& what);
 
  private:
   void write_docs(const std::string& begun) const;
@@ -44,6 +47,7 @@ class Bench {
   std::string command_;
   std::string device_;
   std::ostringstream section_;
+  std::vector<std::string> pictures_;
 };
 
 }  // namespace splash::bench

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "protocol/time_tag.hpp"
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/support/source_folder.hpp"
@@ -23,7 +25,8 @@ using namespace splash::sim;
 
 struct Options {
   std::vector<std::string> scenes;
-  double seconds = 5.0;  ///< of each run, simulated
+  std::vector<PressureKind> solvers;  ///< empty: the scene's own
+  double seconds = 5.0;               ///< of each run, simulated
   int runs = 3;
 };
 
@@ -93,9 +96,12 @@ Result measure(Device& device, const Scene& scene, const Options& options) {
   return result;
 }
 
-bench::Row row(const Case& item, const Result& r) {
+/// `own`: the solver of the scene file.
+bench::Row row(const Case& item, PressureKind solver, PressureKind own, const Result& r) {
   const auto rounded = [](double value) { return std::to_string(std::lround(value)); };
   return {item.scene,
+          name_of(solver),
+          solver == own ? "yes" : "no",
           std::to_string(r.particles),
           rounded(r.steps_per_second),
           item.paper_rate > 0.0 ? rounded(item.paper_rate) : "",
@@ -121,16 +127,21 @@ bool run(bench::Bench& bench, const Options& options) {
       "Median of %d runs of %g s; water, bodies and detectors; events are sent to no synth.",
       options.runs, options.seconds);
   std::printf("%s\n\n", what);
-  auto table = bench.table("scenes.csv",
-                           {"scene", "particles", "steps/s", "paper's", "real-time factor",
-                            "million updates/s", "mean density error [%]", "largest [%]", "wrong"});
+  auto table = bench.table("scenes.csv", {"scene", "solver", "as shipped", "particles", "steps/s",
+                                          "paper's", "real-time factor", "million updates/s",
+                                          "mean density error [%]", "largest [%]", "wrong"});
   bool sound = true;
   for (const Case& item : cases()) {
     if (!is_wanted(item, options)) continue;
     const auto path = tests::source_folder() / "configs" / "scenes" / (item.scene + ".yaml");
-    const Result r = measure(device, read_scene(path), options);
-    sound = sound && r.broken.empty();
-    table.add(row(item, r));
+    Scene scene = read_scene(path);
+    const PressureKind own = scene.fluid.solver;
+    for (const PressureKind solver : options.solvers.empty() ? std::vector{own} : options.solvers) {
+      scene.fluid.solver = solver;
+      const Result r = measure(device, scene, options);
+      sound = sound && r.broken.empty();
+      table.add(row(item, solver, own, r));
+    }
   }
   bench.tell(what);
   bench.tell(table.text());
@@ -148,6 +159,11 @@ int main(int argc, char** argv) {
   CLI::App& app = bench.options();
   app.add_option("--scene", options.scenes, "Only this scene (repeatable)")
       ->check(CLI::IsMember(names));
+  const std::map<std::string, PressureKind> solvers = {
+      {"weakly_compressible", PressureKind::weakly_compressible},
+      {"grid_projected", PressureKind::grid_projected}};
+  app.add_option("--solver", options.solvers, "This one, whatever the scene has (repeatable)")
+      ->transform(CLI::CheckedTransformer(solvers));
   app.add_option("--seconds", options.seconds, "Of each run, simulated")
       ->check(CLI::Range(0.1, 1.0e4))
       ->capture_default_str();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/bench/fluid_sweep.hpp"
+#include "tests/bench/error_sweep.hpp"
 
 #include <unistd.h>
 
