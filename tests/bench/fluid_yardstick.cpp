@@ -15,8 +15,6 @@ YardstickLoops yardstick_avx512();
 
 namespace {
 
-constexpr int kGroup = 16;  ///< particles that share a list of neighbours
-
 /// The best that this processor can.
 YardstickLoops loops() {
 #ifdef __x86_64__
@@ -32,32 +30,32 @@ YardstickLoops loops() {
 }
 
 /// First particles of all groups: row by row, so that none straddles two.
-std::vector<int> group_starts(const Particles& p) {
+std::vector<int> group_starts(const Particles& p, int group) {
   std::vector<int> starts;
   const auto slices = static_cast<std::size_t>(SPLASH_SLICES * p.params.cells_x);
   for (std::size_t row = 0; (row + 1) * slices < p.cell_start.size(); ++row) {
     const int end = p.cell_start[(row + 1) * slices];
-    for (int first = p.cell_start[row * slices]; first < end; first += kGroup) {
+    for (int first = p.cell_start[row * slices]; first < end; first += group) {
       starts.push_back(first);
     }
   }
   return starts;
 }
 
-void run(Sums sums, const Particles& p, int threads, float* found) {
-  const std::vector<int> starts = group_starts(p);
+void run(Sums sums, int group, const Particles& p, int threads, float* found) {
+  const std::vector<int> starts = group_starts(p, group);
   sums(p, {starts.data(), static_cast<int>(starts.size())}, threads, found);
 }
 
 }  // namespace
 
 void density_by_hand(const Particles& particles, int threads, std::vector<float>& density) {
-  run(loops().density, particles, threads, density.data());
+  run(loops().density, loops().group, particles, threads, density.data());
 }
 
 void acceleration_by_hand(const Particles& particles, int threads,
                           std::vector<float>& acceleration) {
-  run(loops().acceleration, particles, threads, acceleration.data());
+  run(loops().acceleration, loops().group, particles, threads, acceleration.data());
 }
 
 }  // namespace splash::bench

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Compiled once for each instruction set. Sixteen particles that follow each other in a row of
-// cells share one list of neighbours, culled against the box around them (neighbours/near.h has the
-// same idea); AVX-512 compresses the list, elsewhere a branch-free scalar loop does.
+// Compiled once for each instruction set. As many particles as one of its vectors holds, that
+// follow each other in a row of cells, share one list of neighbours, culled against the box around
+// them (neighbours/near.h has the same idea); AVX-512 compresses the list, elsewhere a branch-free
+// scalar loop does.
 #include "tests/bench/fluid_yardstick_loops.hpp"
 
 #ifdef __AVX512F__
@@ -16,7 +17,13 @@
 namespace splash::bench {
 namespace {
 
+#if defined(__AVX512F__)
 constexpr int kLanes = 16;
+#elif defined(__AVX2__)
+constexpr int kLanes = 8;
+#else
+constexpr int kLanes = 4;
+#endif
 constexpr int kRoom = 4096;  // neighbours of one vector: ten times what a settled fluid has
 using Vector = float __attribute__((vector_size(4 * kLanes)));
 using Flags = std::int32_t __attribute__((vector_size(4 * kLanes)));
@@ -107,7 +114,7 @@ void cull(const Particles& p, const Box& box, int from, int to, Group& group) {
   }
 }
 
-/// The group that begins at particle `first`: those of up to 16 that share its row of cells.
+/// The group that begins at particle `first`: those of a vector that share its row of cells.
 void gather(const Particles& p, int first, Group& group) {
   const sim::FluidParams& s = p.params;
   const float* x = p.position.data();
@@ -221,7 +228,7 @@ void acceleration(const Particles& p, const Starts& starts, int threads, float* 
 }  // namespace
 
 YardstickLoops SPLASH_YARDSTICK() {
-  return {density, acceleration};
+  return {density, acceleration, kLanes};
 }
 
 }  // namespace splash::bench

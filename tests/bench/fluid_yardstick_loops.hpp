@@ -17,6 +17,7 @@ using Sums = void (*)(const Particles& particles, const Starts& starts, int thre
 struct YardstickLoops {
   Sums density = nullptr;
   Sums acceleration = nullptr;
+  int group = 0;  ///< particles that share a list of neighbours
 };
 
 }  // namespace splash::bench
