@@ -45,9 +45,9 @@ class BodyAir {
   /// Height to which the water around the body would stand if it were level [m]. Other bodies are
   /// taken for air.
   [[nodiscard]] double level_around(std::size_t body) const;
-  /// Whether there is air that is connected to the air above the water, at least `below` [m] under
-  /// `level` [m], and no farther than the body's radius from the body or from the straight line
-  /// between `from` [m] and the body's front.
+  /// Whether air at least `below` [m] under `level` [m] is connected to the air above the water.
+  /// Only air counts that is within the body's radius of the body, or of the straight line between
+  /// `from` [m] and the body's front.
   [[nodiscard]] bool is_open_to(std::size_t body, const Vector3& from, double level,
                                 double below) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Run time against error: validation cases with each solver, with half the time step and with the
-// reference kernels, beside two other programs. Prints a table and writes CSV, Markdown and PNG.
+// reference kernels, beside two other programs. Prints each run and writes CSV and PNG.
 #include <algorithm>
 #include <map>
 #include <string>

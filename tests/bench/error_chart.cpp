@@ -242,10 +242,10 @@ std::string explanation(const ChartSettings& settings) {
   return std::string(
              "Each case's error, in percent of the size of its figure, and the seconds of ") +
          (settings.clock == Clock::wall ? "computing" : "processor per core") +
-         " that one simulated second takes. Nothing sleeps, nobody looks for bubbles; set-up, "
+         " that one simulated second takes. Sleep and the search for bubbles are off; set-up, "
          "settling and gauges are left out. \"dt x 0.5\" has half the safe time step; the "
-         "reference "
-         "kernels look at one particle at a time. The last panel has the steps per second of all "
+         "reference kernels look at one particle at a time. The last panel has the steps per "
+         "second of all "
          "runs beside the paper's three points, which have no error.";
 }
 

@@ -11,7 +11,7 @@
 
 namespace splash::bench {
 
-/// Which seconds the picture is drawn over.
+/// The time on the picture's horizontal axis.
 enum class Clock {
   wall,      ///< those that passed: on a machine with nothing else to do
   processor  ///< those of processors, as if shared evenly among all cores

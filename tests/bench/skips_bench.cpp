@@ -71,7 +71,7 @@ void compare(Bench& bench, sim::Device& device) {
   bench.tell(table.text());
 }
 
-void stir(Bench& bench, sim::Device& device, const std::vector<int>& sizes) {
+void measure_sleep(Bench& bench, sim::Device& device, const std::vector<int>& sizes) {
   const std::string what =
       "A settled pool (state equation) with a paddle in one corner that keeps about a tenth of it "
       "moving; the same frames with sleep on and off, processor time per step:";
@@ -93,7 +93,7 @@ bool run(Bench& bench, const Options& options) {
   sim::Device device(options.device, true);
   bench.set_device(describe(device.facts()));
   if (options.wants("equality")) compare(bench, device);
-  if (options.wants("sleep")) stir(bench, device, options.sizes);
+  if (options.wants("sleep")) measure_sleep(bench, device, options.sizes);
   return true;
 }
 
@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
   CLI::App& app = bench.options();
   app.add_option("--part", options.parts, "Only these: equality, sleep (repeatable)")
       ->check(CLI::IsMember({"equality", "sleep"}));
-  app.add_option("--particles", options.sizes, "Of the stirred pool (repeatable)");
+  app.add_option("--particles", options.sizes, "In the pool that a paddle moves (repeatable)");
   app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
   return bench.run(argc, argv, [&] { return run(bench, options); });
 }
