@@ -277,8 +277,9 @@ TEST(FeltForce, ChangesWithTheSpeedByItsRate) {
 // the force of that frame.
 TEST(FeltForce, OfWaterOnAGridChangesWithTheSpeedByItsRate) {
   Device device;
-  const Scene scene =
+  Scene scene =
       parse_scene("fluid: {spacing: 0.03, solver: grid_projected}" + kHeldBox, "held.yaml");
+  scene.bodies[0].rest.rotation = from_turn({0.3, -0.2, 0.1});
   Simulation simulation(device, scene, {});
   simulation.feel(true);
   const BodyPush still = simulation.advance().pushes.at(0);
@@ -331,8 +332,8 @@ TEST(FeltForce, OfWaterAtRestOnAGridIsThatOfItsPressures) {
     const Press press = simulation.fluid().press().at(0);
     const Vector3 torque = press.torque - cross(scene.bodies[0].rest.position, press.force);
     EXPECT_GT(length(press.force), 1.0);
-    EXPECT_LT(length(push.force - press.force), 2.0e-3 * length(press.force));
-    EXPECT_LT(length(push.torque - torque), 2.0e-3 * 0.12 * length(press.force));
+    EXPECT_LT(length(push.force - press.force), 5.0e-3 * length(press.force));
+    EXPECT_LT(length(push.torque - torque), 5.0e-3 * 0.12 * length(press.force));
   }
 }
 

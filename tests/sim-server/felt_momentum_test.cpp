@@ -138,7 +138,7 @@ Balance balance(const Blow& blow) {
   const Scene scene = parse_scene(
       "fluid: {settle: never, solver: grid_projected, spacing: " + std::to_string(blow.spacing) +
           ", gravity: [0, 0, 0]}\n" +
-          "tank: {lower: [-1.1, -0.7, -0.8], upper: [1.1, 0.7, 1.0]}\nwater: [{" + blow.water +
+          "tank: {lower: [-1.4, -0.7, -0.8], upper: [1.4, 0.7, 1.0]}\nwater: [{" + blow.water +
           "}]\nbodies:\n  - name: plate\n    shape: {size: " + blow.size +
           "}\n    motion: {kind: osc}\n    rest: {position: [" + std::to_string(blow.begins) +
           ", 0, 0.3]}\n",

@@ -5,16 +5,17 @@
 // particles that have entered a body back out of it, also change velocities. A body's force F that
 // counts all this is the momentum that the water around it loses per second:
 //   dt F = - rho0 V K^T f - sum_faces (sum_i m w_i du / W_i - I) - sum_i m jolt_i
-//   I = rho0 V open ((f' - f) / h + dt g t)
+//   I = rho0 V (open ((f' - f) / h + dt g t) + excess dt g)
 // over the faces of the cells that the body owns (room.h) or that are near it, with the weights w
 // of move.cl, and over the particles that are nearer to it than to any other body. du: change of
 // velocity at a face by pressure, gravity and solids that cover it; t: part of the distance between
-// the two cell centres that is water. In water at rest du and I are zero, so that the weight of a
-// few particles too many or too few does not count as a force. The derivative of F by a component
-// of the body's velocity is the same sum with A^-1 K of that component for f, and without g and
-// jolt. Over all other faces, far off, the same sum is taken with the answer to the body's flow
-// (felt.cl) for f, as they give particles too much or too little of any pressure: of what the waves
-// do there on their own the body feels nothing.
+// the two cell centres that is water; open, excess: of the face (solids.cl). In water at rest du
+// and I are zero but for the excess, so that the weight of a few particles too many or too few does
+// not count as a force. The derivative of F by a component of the body's velocity is the same sum
+// with A^-1 K of that component for f, and without g and jolt. Over all other faces, far off, the
+// same sum is taken with the answer to the body's flow (felt.cl) for f, as they give particles too
+// much or too little of any pressure: of what the waves do there on their own the body feels
+// nothing.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_face.h"
@@ -42,7 +43,8 @@ static float3 edge_of(constant MacGrid* g) {
 kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls, int only,
                        int part, int felt_count, constant FreeBody* felt,
                        global const BodyStep* bodies, int first_body, global const int* owner,
-                       global const float* gap, global const float* free, global const float* fill,
+                       global const float* gap, global const float* held,
+                       global const float* excess, global const float* fill,
                        global const float* wet, global const float* found,
                        global const float* change, global float* given, global float* taken,
                        global float* whose) {
@@ -80,15 +82,17 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
                                             : p->gravity_z - p->pull_z * (place.z - p->centre_z));
     const float rise = (here ? found[c] : 0.0f) - (there ? found[below] : 0.0f);
     const float grows = rise / way * inverse[axis];
-    if (of != OF_NOBODY && (here || there)) taken[face] = heavy * gap[face] * way * (fall - grows);
+    if (of != OF_NOBODY && (here || there)) {
+      taken[face] = heavy * (gap[face] * way * (fall - grows) + excess[face] * fall);
+    }
     if (change[face] >= MAC_KNOWN) continue;
-    given[face] = only < 0 ? change[face] : -free[face] * grows;
+    given[face] = only < 0 ? change[face] : -(1.0f - held[face]) * grows;
     if (only >= 0 && only == of && !afar) {
       const float3 e = (float3)(part % 3 == 0, part % 3 == 1, part % 3 == 2);
       const BodyStep b = bodies[first_body + felt[of].body];
       const float3 arm = place - (float3)(b.px, b.py, b.pz);
       const float3 goes = part < 3 ? e : cross(e, arm) / felt[of].size;
-      given[face] += (1.0f - free[face]) * (axis == 0 ? goes.x : axis == 1 ? goes.y : goes.z);
+      given[face] += held[face] * (axis == 0 ? goes.x : axis == 1 ? goes.y : goes.z);
     }
   }
 }

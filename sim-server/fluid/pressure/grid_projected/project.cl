@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Faces beside water get what the pressures do to them, and walls beside it stop it, as far as a
 // cell along the wall: what the step changed at each face is left in `pushed`, or MAC_UNKNOWN where
-// there is no water, or a solid closes the face.
+// there is no water, or a solid closes the face. `gains`: the same of what open_areas (solids.cl)
+// calls excess: of water that goes with a solid, or of what flows through the face.
 // Then the pressures of cells with water, or with air that is shut in, are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"
@@ -33,15 +34,15 @@ static lane_flags are_washed(const MacLevel l, global const float* wet, const Ce
 // [m/s].
 static lanes solids_beside(constant MacGrid* g, global const BodyStep* bodies,
                            global const int* owner, float dt, float piston_speed, const Cells* at,
-                           lane_flags covered, int axis, int s) {
-  int x[LANES], y[LANES], is_covered[LANES];
+                           lane_flags held, int axis, int s) {
+  int x[LANES], y[LANES], is_held[LANES];
   float speed[LANES];
   STORE(at->x, x, 0);
   STORE(at->y, y, 0);
-  STORE(covered, is_covered, 0);
+  STORE(held, is_held, 0);
   for (int lane = 0; lane < LANES; ++lane) {
     speed[lane] = 0.0f;
-    if (!is_covered[lane]) continue;
+    if (!is_held[lane]) continue;
     const int c = at->first + lane;
     const int whose = owner[c] != OF_NOBODY ? owner[c] : owner[c - s];
     speed[lane] =
@@ -52,11 +53,12 @@ static lanes solids_beside(constant MacGrid* g, global const BodyStep* bodies,
 
 kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt,
                           global const BodyStep* bodies, int first_body, float piston_speed,
-                          global const float* gap, global const float* free,
+                          global const float* gap, global const float* held,
                           global const int* owner, global const float* fill,
                           global const float* carries, global const float* weight,
                           global const float* found, global const float* wet,
-                          global const float* air, global float* pushed, global float* pressure) {
+                          global const float* air, global float* gains, global float* pushed,
+                          global float* pressure) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -73,15 +75,17 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     const lanes by = inverse[axis] * growth(fill, wet, air, found, c, step[axis]);
     lanes change = LOAD(pushed, face) - LOAD(carries, face) - select(by, none, wall);
     if (HAS_SOLIDS) {
-      const lanes freed = LOAD(free, face);
-      const lane_flags covered = at.real & (freed < (lanes)(1.0f));
-      if (any_lane(covered)) {
-        open |= covered;
-        const lanes goes = solids_beside(g, bodies + first_body, owner, dt, piston_speed, &at,
-                                         covered, axis, step[axis]);
-        change =
-            select(change, freed * change + (1.0f - freed) * (goes - LOAD(carries, face)), covered);
+      const lanes part = LOAD(held, face);
+      const lane_flags some = at.real & (part > none);
+      lanes gained = change;
+      if (any_lane(some)) {
+        open |= some & beside;
+        const lanes goes = solids_beside(g, bodies + first_body, owner, dt, piston_speed, &at, some,
+                                         axis, step[axis]);
+        gained = select(change, goes - LOAD(carries, face), some);
+        change += part * (gained - change);
       }
+      STORE(gained, gains, face);
     }
     const lane_flags known = at.real & open & (LOAD(weight, face) > (lanes)(MAC_LIGHT));
     STORE(select((lanes)(MAC_UNKNOWN), change, known), pushed, face);

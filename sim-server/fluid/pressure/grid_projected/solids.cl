@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Where solids are in the grid: how much they leave open of the volume around each face, half a
-// cell to either side (Batty, Bertails & Bridson 2007), and of each cell, by the distances of
-// places half a cell apart from the nearest outline. Between these they are taken as linear, so a
-// flat face is where it is, and what a body displaces is its volume. A cell that a solid cuts is as
-// full as its water fills what the hat sees of open space around it.
+// cell to either side (Batty, Bertails & Bridson 2007), of its area (Ng, Min & Gibou 2009), and of
+// each cell, by the distances of places half a cell apart from the nearest outline. Between these
+// they are taken as linear, so a flat face is where it is, and what a body displaces is its volume.
+// A cell that a solid cuts is as full as its water fills what the hat sees of open space around it.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_face.h"
@@ -21,6 +21,8 @@
 #define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
 #define TOUCHES 0.75f     // bodies so near to a particle touch it, at rest half of one [spacings]
 #define CLEAR 1.0f        // bodies that are farther off do not [spacings]
+#define SECTIONS 4        // in which a plate is looked for between two faces
+#define LESS_CLOSED 0.25f // than the next one a face must be to be left open by a thin plate [1]
 
 // Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
 static float open_tetrahedron(float a, float b, float c, float d) {
@@ -348,10 +350,10 @@ kernel void see_room(constant MacGrid* g, global const float* lower, global cons
   }
 }
 
-// From halves to faces: `gap` begins as the lower ones. Of the tank's faces it is the area that is
-// open, and the piston's wall is behind it.
+// From halves to faces: `volume` begins as the lower ones. Of the tank's faces it is the area that
+// is open, and the piston's wall is behind it.
 kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global const float* upper,
-                       global float* gap) {
+                       global float* volume) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -363,11 +365,11 @@ kernel void open_faces(constant FluidParams* p, constant MacGrid* g, global cons
     const int face = axis * l.cells + at.first;
     const lane_flags first = here[axis] == (lane_flags)(0);
     const lane_flags last = here[axis] == (lane_flags)(count[axis]);
-    const lanes above = LOAD(gap, face), below = LOAD(upper, face - step[axis]);
+    const lanes above = LOAD(volume, face), below = LOAD(upper, face - step[axis]);
     lanes open = select(select(0.5f * (above + below), above, first), below, last);
     if (HAS_PISTON && p->piston >= 0 && axis == 0) open = select(open, none, first);
     const lane_flags closed = open < (lanes)(LEAST_GAP);
-    STORE(select(select(open, none, closed), none, at.real == (lane_flags)(0)), gap, face);
+    STORE(select(select(open, none, closed), none, at.real == (lane_flags)(0)), volume, face);
   }
 }
 
@@ -441,7 +443,7 @@ static lanes seen_well(global const float* seen, int c) {
 // around goes on to be there, but empty where no water touches a body. The less open space a cell
 // has, the more it counts what is behind its open faces: in a gap where no particle fits there may
 // be water.
-kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
+kernel void fill_beside_solids(constant MacGrid* g, global const float* volume,
                                global const float* room, global const float* seen,
                                global const float* clear, global const float* fill,
                                global float* filled) {
@@ -470,7 +472,8 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* gap,
         const lanes expected = near + trust * (fill_beyond(near, far) - near);
         weights += trust;
         estimates += trust * expected;
-        const lanes through = LOAD(room, c + s) * LOAD(gap, axis * l.cells + c + side * step[axis]);
+        const lanes open = LOAD(volume, axis * l.cells + c + side * step[axis]);
+        const lanes through = LOAD(room, c + s) * open;
         const lanes share = select(none, closed * through * LOAD(seen, c + s), beside);
         in_gaps += share * expected;
         gaps += share;
@@ -517,13 +520,39 @@ static float open_surface(constant FluidParams* p, constant MacGrid* g, const So
   return sum < LEAST_GAP ? 0.0f : sum;
 }
 
-// Between a cell that holds water and one that does not, a face is no more open than the surface
-// between them: water that a solid lies flat on has none. `free`: which part of what is open by
-// volume that leaves, 1 at all other faces; the rest goes with the solid.
-kernel void cover_surface(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
-                          global const float* meshes, global const BodyStep* bodies, int first_body,
-                          int body_count, float piston, global const int* owner,
-                          global const float* fill, global float* gap, global float* free) {
+// What a body leaves open of the area of a face between two full cells: `volume` is what it leaves
+// of the volume around the face, and `beside` of that around the next faces along the axis, the
+// less of both. A plate thinner than a cell may be between two faces, which are then more open than
+// their volumes. The one whose volume it closes more is as open as its widest section leaves it;
+// the nearer the other one comes to that, the more so is it. A thicker body closes the next face
+// entirely, and this one is as it is.
+// `held`: of what is open around the face, the part that such a plate closes.
+static float open_area(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
+                       int axis, float volume, float beside, float* held) {
+  const float here = open_surface(p, g, s, at, axis, 0.5f);
+  const float share = clamp(1.0f - (volume - beside) / LESS_CLOSED, 0.0f, 1.0f);
+  const bool between = here > volume && share > 0.0f;
+  float least = here;
+  for (int k = 0; k < SECTIONS && between; ++k) {
+    least = fmin(least, open_surface(p, g, s, at, axis, (k + 0.5f) / SECTIONS));
+  }
+  const float open = here + share * (least - here);
+  *held = open < LEAST_GAP ? 1.0f : 1.0f - open / here;
+  return open < LEAST_GAP ? 0.0f : open;
+}
+
+// How open faces are for the flow, `gap`, by what solids leave of the `volume` around them.
+// Between full cells bodies that go their own way leave what they leave of the area: by volume a
+// plate of a cell's thickness would let water through, and a body's edge more than there is room
+// for. Those that the water moves are borne evenly by volumes only. Between a cell that holds water
+// and one that does not, a face is no more open than the surface between them: water that a solid
+// lies flat on has none. `held`: of the water around a face, the part that goes with the solid.
+// `excess`: between full cells, volume less area.
+kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
+                       global const float* meshes, global const BodyStep* bodies, int first_body,
+                       int body_count, float piston, global const int* owner,
+                       global const float* fill, global const float* volume, global float* gap,
+                       global float* held, global float* excess) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -532,33 +561,44 @@ kernel void cover_surface(constant FluidParams* p, constant MacGrid* g, constant
   const lane_flags here[3] = {at.x, at.y, (lane_flags)(at.z)};
   const int count[3] = {l.nx, l.ny, l.nz};
   const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
-  const lane_flags unowned = OF_NOBODY, first = 0;
+  const lanes none = 0.0f, one = 1.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const int s = step[axis];
-    STORE((lanes)(1.0f), free, axis * l.cells + c);
+    const int s = step[axis], first = axis * l.cells + c;
+    const lanes open = LOAD(volume, first);
+    STORE(open, gap, first);
+    STORE(none, held, first);
+    STORE(none, excess, first);
     const lanes above = LOAD(fill, c), below = LOAD(fill, c - s);
     const lane_flags wet_above = above > (lanes)(MAC_FULL), wet_below = below > (lanes)(MAC_FULL);
-    const lane_flags ends = at.real & (wet_above ^ wet_below) & (here[axis] > first) &
-                            (here[axis] < (lane_flags)(count[axis])) &
-                            ((LOAD(owner, c) != unowned) | (LOAD(owner, c - s) != unowned));
-    if (!any_lane(ends)) continue;
+    const lane_flags cut = at.real & (here[axis] > (lane_flags)(0)) &
+                           (here[axis] < (lane_flags)(count[axis])) & (open > none) &
+                           (open < one) & (wet_above | wet_below);
+    if (!any_lane(cut)) continue;
     const lanes part =
         select(way_to_surface(below, above), 1.0f - way_to_surface(above, below), wet_above);
-    int x[LANES], y[LANES], is_end[LANES];
+    int x[LANES], y[LANES], is_cut[LANES], is_full[LANES];
     float up[LANES];
     STORE(at.x, x, 0);
     STORE(at.y, y, 0);
-    STORE(ends, is_end, 0);
+    STORE(cut, is_cut, 0);
+    STORE(wet_above & wet_below, is_full, 0);
     STORE(part, up, 0);
     for (int lane = 0; lane < LANES; ++lane) {
-      if (!is_end[lane]) continue;
-      const int face = axis * l.cells + c + lane;
+      if (!is_cut[lane]) continue;
+      const int face = first + lane;
       const int4 cell = (int4)(x[lane], y[lane], at.z, 0);
-      const float volume = gap[face];
-      const float surface = open_surface(p, g, &solids, cell, axis, up[lane]);
-      if (surface >= volume) continue;
-      gap[face] = surface;
-      free[face] = surface / volume;
+      if (!is_full[lane]) {
+        gap[face] = fmin(volume[face], open_surface(p, g, &solids, cell, axis, up[lane]));
+        held[face] = 1.0f - gap[face] / volume[face];
+        continue;
+      }
+      const int whose = owner[c + lane] >= 0 ? owner[c + lane] : owner[c + lane - s];
+      if (whose < 0 || shapes[whose].free) continue;
+      float with;
+      gap[face] = open_area(p, g, &solids, cell, axis, volume[face],
+                            fmin(volume[face - s], volume[face + s]), &with);
+      held[face] = with;
+      excess[face] = volume[face] - gap[face];
     }
   }
 }

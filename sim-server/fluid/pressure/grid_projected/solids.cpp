@@ -12,8 +12,11 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
                        bool any)
     : fields_(fields),
       any_(any),
-      gap_(device, any ? 3 * fields.room : 1),
+      volume_(device, any ? 3 * fields.room : 1),
       upper_(device, any ? 3 * fields.room : 1),
+      gap_(device, any ? 3 * fields.room : 1),
+      excess_(device, any ? 3 * fields.room : 1),
+      gains_(device, any ? 3 * fields.room : 1),
       space_(device, any ? fields.room : 1),
       owner_(device, any ? fields.room : 1),
       seen_space_(device, any ? fields.room : 1),
@@ -24,7 +27,7 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
       open_faces_(program, "open_faces", device.profile().group),
       find_clear_(program, "find_clear", std::min<std::size_t>(device.profile().group, 16)),
       fill_beside_solids_(program, "fill_beside_solids", device.profile().group),
-      cover_surface_(program, "cover_surface", std::min<std::size_t>(device.profile().group, 16)) {}
+      open_areas_(program, "open_areas", std::min<std::size_t>(device.profile().group, 16)) {}
 
 void GridSolids::place(Fluid& fluid, const Step& step) {
   if (!any_) return;
@@ -35,14 +38,14 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                  {{"p", params},
                   {"g", fields_.on_device},
                   {"piston", as_float(step.piston)},
-                  {"lower", gap_},
+                  {"lower", volume_},
                   {"upper", upper_},
                   {"room", space_},
                   {"owner", owner_}},
                  boundary.outlines(), boundary.bodies_at(step));
   see_room_.run(queue, fields_.vectors,
                 {{"g", fields_.on_device},
-                 {"lower", gap_},
+                 {"lower", volume_},
                  {"upper", upper_},
                  {"room", space_},
                  {"owner", owner_},
@@ -56,64 +59,96 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                    {"owner", owner_},
                    {"clear", clear_}},
                   boundary.outlines(), boundary.bodies_at(step));
-  open_faces_.run(queue, fields_.vectors,
-                  {{"p", params}, {"g", fields_.on_device}, {"upper", upper_}, {"gap", gap_}});
+  open_faces_.run(
+      queue, fields_.vectors,
+      {{"p", params}, {"g", fields_.on_device}, {"upper", upper_}, {"volume", volume_}});
   fill_beside_solids_.run(queue, fields_.vectors,
                           {{"g", fields_.on_device},
-                           {"gap", gap_},
+                           {"volume", volume_},
                            {"room", space_},
                            {"seen", seen_space_},
                            {"clear", clear_},
                            {"fill", fields_.fill},
                            {"filled", filled_}});
-  cover_surface_.run(queue, fields_.vectors,
-                     {{"p", params},
-                      {"g", fields_.on_device},
-                      {"piston", as_float(step.piston)},
-                      {"owner", owner_},
-                      {"fill", filled_},
-                      {"gap", gap_},
-                      {"free", upper_}},
-                     boundary.outlines(), boundary.bodies_at(step));
+  open_areas_.run(queue, fields_.vectors,
+                  {{"p", params},
+                   {"g", fields_.on_device},
+                   {"piston", as_float(step.piston)},
+                   {"owner", owner_},
+                   {"fill", filled_},
+                   {"volume", volume_},
+                   {"gap", gap_},
+                   {"held", upper_},
+                   {"excess", excess_}},
+                  boundary.outlines(), boundary.bodies_at(step));
+  params_ = fluid.params();
+  dt_ = step.dt;
 }
 
-// As coupling.h does it for those that the water moves: - p V K.
+// As coupling.h does it for those that the water moves, - p V K; and what gravity and the step do
+// to the excess, whose water the pressures' areas have as the body's, or, where it is negative, the
+// other way round.
 std::vector<Press> GridSolids::press(Device& device, std::size_t bodies) const {
   std::vector<Press> all(bodies);
-  if (!any_) return all;
-  const MacLevel& l = fields_.grid.level[0];
+  if (!any_ || dt_ <= 0.0) return all;
+  const MacGrid& g = fields_.grid;
+  const MacLevel& l = g.level[0];
   const auto cells = static_cast<std::size_t>(l.cells);
   const std::vector<float> gap = gap_.read(device, 3 * cells);
+  const std::vector<float> excess = excess_.read(device, 3 * cells);
+  const std::vector<float> gains = gains_.read(device, 3 * cells);
   const std::vector<float> pressure = fields_.pressure.read(device, cells);
   const std::vector<int> owner = owner_.read(device, cells);
   const std::array<std::size_t, 3> step = {1, static_cast<std::size_t>(l.row),
                                            static_cast<std::size_t>(l.layer)};
-  const Vector3 lower = {static_cast<double>(fields_.grid.x), static_cast<double>(fields_.grid.y),
-                         static_cast<double>(fields_.grid.z)};
-  const Vector3 edge = {static_cast<double>(fields_.grid.hx), static_cast<double>(fields_.grid.hy),
-                        static_cast<double>(fields_.grid.hz)};
-  for (std::size_t c = step[2]; c + step[2] < cells; ++c) {
-    if (owner[c] < 0 || static_cast<std::size_t>(owner[c]) >= bodies || pressure[c] == 0.0F) {
-      continue;
-    }
-    Press& press = all[static_cast<std::size_t>(owner[c])];
+  const Vector3 lower = {static_cast<double>(g.x), static_cast<double>(g.y),
+                         static_cast<double>(g.z)};
+  const Vector3 edge = {static_cast<double>(g.hx), static_cast<double>(g.hy),
+                        static_cast<double>(g.hz)};
+  const Vector3 gravity = {static_cast<double>(params_.gravity_x),
+                           static_cast<double>(params_.gravity_y),
+                           static_cast<double>(params_.gravity_z)};
+  const Vector3 pull = {static_cast<double>(params_.pull_x), static_cast<double>(params_.pull_y),
+                        static_cast<double>(params_.pull_z)};
+  const Vector3 centre = {static_cast<double>(params_.centre_x),
+                          static_cast<double>(params_.centre_y),
+                          static_cast<double>(params_.centre_z)};
+  const double volume = edge[0] * edge[1] * edge[2];
+  const auto middle_of = [&](std::size_t c, std::size_t axis, std::size_t side) {
     const std::array<std::size_t, 3> at = {c % step[2] % step[1], c % step[2] / step[1],
                                            c / step[2]};
+    Vector3 place;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double off = k == axis ? static_cast<double>(side) : 0.5;
+      place[k] = lower[k] + (static_cast<double>(at[k]) - 1.0 + off) * edge[k];
+    }
+    return place;
+  };
+  const auto add = [&](int whose, std::size_t axis, double along, const Vector3& place) {
+    if (whose < 0 || static_cast<std::size_t>(whose) >= bodies) return;
+    Vector3 force = {0.0, 0.0, 0.0};
+    force[axis] = along;
+    Press& press = all[static_cast<std::size_t>(whose)];
+    press.force = press.force + force;
+    press.torque = press.torque + cross(place, force);
+  };
+  for (std::size_t c = step[2]; c + step[2] < cells; ++c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double area = edge[0] * edge[1] * edge[2] / edge[axis];
       const std::size_t face = axis * cells + c;
-      for (const std::size_t side : {0U, 1U}) {
-        Vector3 place;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double off = k == axis ? static_cast<double>(side) : 0.5;
-          place[k] = lower[k] + (static_cast<double>(at[k]) - 1.0 + off) * edge[k];
-        }
-        Vector3 force = {0.0, 0.0, 0.0};
-        force[axis] = (side == 0U ? 1.0 : -1.0) * area * static_cast<double>(pressure[c]) *
-                      static_cast<double>(gap[face + side * step[axis]]);
-        press.force = press.force + force;
-        press.torque = press.torque + cross(place, force);
+      const Vector3 place = middle_of(c, axis, 0);
+      if (excess[face] != 0.0F) {
+        const double fall = gravity[axis] - pull[axis] * (place[axis] - centre[axis]);
+        const double rate = fall - static_cast<double>(gains[face]) / dt_;
+        add(owner[c] >= 0 ? owner[c] : owner[c - step[axis]], axis,
+            static_cast<double>(params_.rest_density) * volume * static_cast<double>(excess[face]) *
+                rate,
+            place);
       }
+      if (pressure[c] == 0.0F) continue;
+      const double force = volume / edge[axis] * static_cast<double>(pressure[c]);
+      add(owner[c], axis, force * static_cast<double>(gap[face]), place);
+      add(owner[c], axis, -force * static_cast<double>(gap[face + step[axis]]),
+          middle_of(c, axis, 1));
     }
   }
   return all;

@@ -19,8 +19,8 @@ class GridSolids {
 
   /// Cuts the grid by the solids where they are in this step.
   void place(Fluid& fluid, const Step& step);
-  /// The force and moment of the last step's pressures on each of so many bodies. Waits for the
-  /// device.
+  /// The force and moment of the last step's pressures on each of so many bodies, less the weight
+  /// of the water that goes with them. Waits for the device.
   [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) const;
 
   [[nodiscard]] bool any() const noexcept { return any_; }
@@ -29,27 +29,36 @@ class GridSolids {
   /// Open part of what a cell's hat sees [1].
   [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_space_; }
   [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
-  /// Part of a face's open volume that does not go with a solid which covers the surface [1].
-  [[nodiscard]] const Buffer<float>& free() const noexcept { return upper_; }
+  /// Of the water around faces, the part that goes with the solid [1].
+  [[nodiscard]] const Buffer<float>& held() const noexcept { return upper_; }
+  /// Between full cells, by how much more of a face's volume is open than of its area [1].
+  [[nodiscard]] const Buffer<float>& excess() const noexcept { return excess_; }
+  /// How the step changed the speed of that [m/s], written by project.cl.
+  [[nodiscard]] const Buffer<float>& gains() const noexcept { return gains_; }
   [[nodiscard]] const Buffer<float>& space() const noexcept { return space_; }
   [[nodiscard]] const Buffer<int>& owner() const noexcept { return owner_; }
 
  private:
   const MacFields& fields_;
   bool any_;
-  Buffer<float> gap_;         ///< open part around faces [1]
-  Buffer<float> upper_;       ///< of the upper half of cells along each axis [1]
+  Buffer<float> volume_;  ///< open part of the volume around faces [1]
+  Buffer<float> upper_;   ///< of the upper half of cells along each axis, then held() [1]
+  Buffer<float> gap_;     ///< open part of faces [1]
+  Buffer<float> excess_;
+  Buffer<float> gains_;
   Buffer<float> space_;       ///< of cells [1]
   Buffer<int> owner_;         ///< whose a cell is (room.h)
   Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
   Buffer<float> clear_;       ///< 1: no water touches a body near the cell; 0: some does [1]
   Buffer<float> filled_;
+  FluidParams params_ = {};  ///< of the last step
+  double dt_ = 0.0;          ///< of the last step [s]
   Kernel cut_cells_;
   Kernel see_room_;
   Kernel open_faces_;
   Kernel find_clear_;
   Kernel fill_beside_solids_;
-  Kernel cover_surface_;
+  Kernel open_areas_;
 };
 
 }  // namespace splash::sim
