@@ -171,7 +171,13 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"amd", "amdgcn-amd-amdhsa", "-DLANES=1 -DTEAM=64 -DJUDGES=256"},
                       Target{"spir", "spir64-unknown-unknown", "-DLANES=1 -DTEAM=64 -DJUDGES=256"},
                       Target{"vectors", "spir64-unknown-unknown",
-                             "-DLANES=16 -DTEAM=1 -DJUDGES=64"}),
+                             "-DLANES=16 -DTEAM=1 -DJUDGES=64"},
+                      Target{"bodies_alone", "spir64-unknown-unknown",
+                             "-DLANES=16 -DTEAM=1 -DJUDGES=64 -DHAS_SLOPE=0 -DHAS_PISTON=0 "
+                             "-DHAS_FRICTION=0 -DHAS_MESH=0 -DHAS_POCKETS=0"},
+                      Target{"water_alone", "spir64-unknown-unknown",
+                             "-DLANES=16 -DTEAM=1 -DJUDGES=64 -DHAS_BODIES=0 -DHAS_SLOPE=0 "
+                             "-DHAS_PISTON=0 -DHAS_FRICTION=0 -DHAS_MESH=0 -DHAS_POCKETS=0"}),
     [](const auto& target) { return target.param.name; });
 
 }  // namespace

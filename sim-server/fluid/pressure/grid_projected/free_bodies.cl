@@ -61,7 +61,7 @@ kernel void grip_water(constant MacGrid* g, int free_count, constant FreeBody* f
     float3 push = (float3)(0.0f), turn = (float3)(0.0f);
     const int step[3] = {1, l.row, l.layer};
     const float inverse[3] = {g->ix, g->iy, g->iz};
-    const bool pushes = wet[c] > 0.0f || (HAS_POCKETS && air[c] > 0.0f);
+    const bool pushes = (HAS_POCKETS ? fmax(wet[c], air[c]) : wet[c]) > 0.0f;
     for (int axis = 0; axis < 3 && pushes; ++axis) {
       const int face = axis * l.cells + c;
       const float3 e = (float3)(axis == 0, axis == 1, axis == 2);
