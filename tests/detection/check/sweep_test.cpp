@@ -63,7 +63,7 @@ TEST(Sweep, EachStepInAPoolIsOneImpactInItsHollow) {
 }
 
 // On the grid the water closes around the foot, and it hits none; but beside it the water is thin.
-// Whether a frame of it is taken for a blow is partly chance: six such walks have 0 to 2.
+// False impacts vary from run to run: the benchmark's six walks in 17 cm of water have 0 to 2.
 TEST(Sweep, NoStepInAPoolIsAnImpactWhereTheWaterCloses) {
   sim::Device device;
   const Outcome outcome =

@@ -21,8 +21,8 @@
 #define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
 #define TOUCHES 0.75f     // bodies so near to a particle touch it, at rest half of one [spacings]
 #define CLEAR 1.0f        // bodies that are farther off do not [spacings]
-#define SECTIONS 4        // in which a plate is looked for between two faces
-#define LESS_CLOSED 0.25f // than the next one a face must be to be left open by a thin plate [1]
+#define SECTIONS 4        // between two cells' middles, in which a thin plate is looked for
+#define LESS_CLOSED 0.25f // a thin plate leaves faces open that are so much less closed [1]
 
 // Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
 static float open_tetrahedron(float a, float b, float c, float d) {

@@ -135,6 +135,8 @@ std::vector<Press> GridSolids::press(Device& device, std::size_t bodies) const {
   for (std::size_t c = step[2]; c + step[2] < cells; ++c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t face = axis * cells + c;
+      const bool presses = owner[c] >= 0 && pressure[c] != 0.0F;
+      if (!presses && excess[face] == 0.0F) continue;
       const Vector3 place = middle_of(c, axis, 0);
       if (excess[face] != 0.0F) {
         const double fall = gravity[axis] - pull[axis] * (place[axis] - centre[axis]);
@@ -144,7 +146,7 @@ std::vector<Press> GridSolids::press(Device& device, std::size_t bodies) const {
                 rate,
             place);
       }
-      if (pressure[c] == 0.0F) continue;
+      if (!presses) continue;
       const double force = volume / edge[axis] * static_cast<double>(pressure[c]);
       add(owner[c], axis, force * static_cast<double>(gap[face]), place);
       add(owner[c], axis, -force * static_cast<double>(gap[face + step[axis]]),

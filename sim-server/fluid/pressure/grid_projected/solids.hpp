@@ -20,7 +20,7 @@ class GridSolids {
   /// Cuts the grid by the solids where they are in this step.
   void place(Fluid& fluid, const Step& step);
   /// The force and moment of the last step's pressures on each of so many bodies, less the weight
-  /// of the water that goes with them. Waits for the device.
+  /// and inertia of excess(). Waits for the device.
   [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) const;
 
   [[nodiscard]] bool any() const noexcept { return any_; }
@@ -29,7 +29,7 @@ class GridSolids {
   /// Open part of what a cell's hat sees [1].
   [[nodiscard]] const Buffer<float>& seen() const noexcept { return seen_space_; }
   [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
-  /// Of the water around faces, the part that goes with the solid [1].
+  /// Part of the water around a face that moves with the solid [1].
   [[nodiscard]] const Buffer<float>& held() const noexcept { return upper_; }
   /// Between full cells, by how much more of a face's volume is open than of its area [1].
   [[nodiscard]] const Buffer<float>& excess() const noexcept { return excess_; }
