@@ -9,7 +9,7 @@
 // over the faces of the cells that the body owns (room.h) or that are near it, with the weights w
 // of move.cl, and over the particles that are nearer to it than to any other body. du: change of
 // velocity at a face by pressure, gravity and solids that cover it; t: part of the distance between
-// the two cell centres that is water; open, excess: of the face (solids.cl). In water at rest du
+// the two cell centres that is water; open, excess: of the face (open_areas.cl). In still water du
 // and I are zero but for the excess, so that the weight of a few particles too many or too few does
 // not count as a force. The derivative of F by a component of the body's velocity is the same sum
 // with A^-1 K of that component for f, and without g and jolt. Over all other faces, far off, the

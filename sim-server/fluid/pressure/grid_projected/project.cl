@@ -2,7 +2,7 @@
 // Faces beside water get what the pressures do to them, and walls beside it stop it, as far as a
 // cell along the wall: what the step changed at each face is left in `pushed`, or MAC_UNKNOWN where
 // there is no water, or a solid closes the face. `gains`: the change of velocity that the excess at
-// a face has (open_areas in solids.cl): the solid's where water goes with it, else the water's.
+// a face has (open_areas.cl): the solid's where water goes with it, else the water's.
 // Then the pressures of cells with water, or with air that is shut in, are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What bodies, slope and wave maker leave open of the grid (solids.cl), and how the pressures there
-// push bodies.
+// What bodies, slope and wave maker leave open of the grid (solids.cl, open_areas.cl), and how the
+// pressures there push bodies.
 #pragma once
 
 #include <vector>

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// How open faces are for the flow beside solids: by the area that these leave open (Ng, Min & Gibou
+// 2009), also where a plate is thinner than a cell.
+
+#include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/lanes/lanes.h"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
+#include "sim-server/fluid/pressure/grid_projected/solids.h"
+#include "sim-server/fluid/pressure/grid_projected/surface.h"
+
+#define SECTIONS 4        // between two cells' middles, in which a thin plate is looked for
+#define LESS_CLOSED 0.25f // a thin plate leaves faces open that are so much less closed [1]
+
+// How much of the surface solids leave open, between the middles of cell `c` at `at` and the one
+// below it along an axis, `part` of the way up [1].
+static float open_surface(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
+                          int axis, float part) {
+  const float edge[3] = {g->hx, g->hy, g->hz}, from[3] = {g->x, g->y, g->z};
+  const int cell[3] = {at.x, at.y, at.z};
+  const int across[2] = {(axis + 1) % 3, (axis + 2) % 3};
+  float place[3][16], d[16];  // nine places, and the last one again for whole vectors
+  for (int n = 0; n < 16; ++n) {
+    const int k = min(n, 8);
+    place[axis][n] = from[axis] + (cell[axis] - 0.5f + part) * edge[axis];
+    place[across[0]][n] = from[across[0]] + (cell[across[0]] + 0.5f * (k % 3)) * edge[across[0]];
+    place[across[1]][n] = from[across[1]] + (cell[across[1]] + 0.5f * (k / 3)) * edge[across[1]];
+  }
+  const float3 first = (float3)(place[0][0], place[1][0], place[2][0]);
+  const float3 last = (float3)(place[0][8], place[1][8], place[2][8]);
+  for (int n = 0; n < 9; n += LANES) {
+    lanes whose;
+    const lanes far =
+        solid_distance(p, s, first, last, LOAD(place[0], n), LOAD(place[1], n), LOAD(place[2], n),
+                       &whose);
+    STORE(far, d, n);
+  }
+  float sum = 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    const int a = k % 2 + 3 * (k / 2);
+    const float flat[8] = {d[a], d[a + 1], d[a + 3], d[a + 4], d[a], d[a + 1], d[a + 3], d[a + 4]};
+    sum += 0.25f * open_box(flat);
+  }
+  return sum < LEAST_GAP ? 0.0f : sum;
+}
+
+// What a body leaves open of the area of a face between two full cells: `volume` is what it leaves
+// of the volume around the face, and `beside` of that around the next faces along the axis, the
+// less of both. A plate thinner than a cell may be between two faces, which are then more open than
+// their volumes. The one whose volume it closes more is as open as its widest section leaves it;
+// the nearer the other one comes to that, the more so is it. A thicker body closes the next face
+// entirely, and this one is as it is.
+// `held`: of what is open around the face, the part that such a plate closes.
+static float open_area(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
+                       int axis, float volume, float beside, float* held) {
+  const float here = open_surface(p, g, s, at, axis, 0.5f);
+  const float share = clamp(1.0f - (volume - beside) / LESS_CLOSED, 0.0f, 1.0f);
+  const bool between = here > volume && share > 0.0f;
+  float least = here;
+  for (int k = 0; k < SECTIONS && between; ++k) {
+    least = fmin(least, open_surface(p, g, s, at, axis, (k + 0.5f) / SECTIONS));
+  }
+  const float open = here + share * (least - here);
+  *held = open < LEAST_GAP ? 1.0f : 1.0f - open / here;
+  return open < LEAST_GAP ? 0.0f : open;
+}
+
+// How open faces are for the flow, `gap`, by what solids leave of the `volume` around them.
+// Between full cells bodies that go their own way leave what they leave of the area: by volume a
+// plate of a cell's thickness would let water through, and a body's edge more than there is room
+// for. Those that the water moves are borne evenly by volumes only. Between a cell that holds water
+// and one that does not, a face is no more open than the surface between them: water that a solid
+// lies flat on has none. `held`: of the water around a face, the part that goes with the solid.
+// `excess`: between full cells, volume less area.
+kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
+                       global const float* meshes, global const BodyStep* bodies, int first_body,
+                       int body_count, float piston, global const int* owner,
+                       global const float* fill, global const float* volume, global float* gap,
+                       global float* held, global float* excess) {
+  const Cells at = cells_of(g, get_global_id(0));
+  const MacLevel l = g->level[0];
+  if (at.z > l.nz) return;
+  const int c = at.first;
+  const int step[3] = {1, l.row, l.layer};
+  const lane_flags here[3] = {at.x, at.y, (lane_flags)(at.z)};
+  const int count[3] = {l.nx, l.ny, l.nz};
+  const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
+  const lanes none = 0.0f, one = 1.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int s = step[axis], first = axis * l.cells + c;
+    const lanes open = LOAD(volume, first);
+    STORE(open, gap, first);
+    STORE(none, held, first);
+    STORE(none, excess, first);
+    const lanes above = LOAD(fill, c), below = LOAD(fill, c - s);
+    const lane_flags wet_above = above > (lanes)(MAC_FULL), wet_below = below > (lanes)(MAC_FULL);
+    const lane_flags cut = at.real & (here[axis] > (lane_flags)(0)) &
+                           (here[axis] < (lane_flags)(count[axis])) & (open > none) &
+                           (open < one) & (wet_above | wet_below);
+    if (!any_lane(cut)) continue;
+    const lanes part =
+        select(way_to_surface(below, above), 1.0f - way_to_surface(above, below), wet_above);
+    int x[LANES], y[LANES], is_cut[LANES], is_full[LANES];
+    float up[LANES];
+    STORE(at.x, x, 0);
+    STORE(at.y, y, 0);
+    STORE(cut, is_cut, 0);
+    STORE(wet_above & wet_below, is_full, 0);
+    STORE(part, up, 0);
+    for (int lane = 0; lane < LANES; ++lane) {
+      if (!is_cut[lane]) continue;
+      const int face = first + lane;
+      const int4 cell = (int4)(x[lane], y[lane], at.z, 0);
+      if (!is_full[lane]) {
+        gap[face] = fmin(volume[face], open_surface(p, g, &solids, cell, axis, up[lane]));
+        held[face] = 1.0f - gap[face] / volume[face];
+        continue;
+      }
+      const int whose = owner[c + lane] >= 0 ? owner[c + lane] : owner[c + lane - s];
+      if (whose < 0 || shapes[whose].free) continue;
+      float with;
+      gap[face] = open_area(p, g, &solids, cell, axis, volume[face],
+                            fmin(volume[face - s], volume[face + s]), &with);
+      held[face] = with;
+      excess[face] = volume[face] - gap[face];
+    }
+  }
+}
