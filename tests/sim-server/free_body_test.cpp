@@ -148,6 +148,46 @@ TEST(FreeBody, ThatIsNowhereIsAFault) {
   EXPECT_NEAR(simulation.bodies().state(0, simulation.seconds()).position[0], 0.25, 1.0e-3);
 }
 
+/// The first acceleration of a body that is let go in deep water of 2 cm a particle [m/s2].
+double first_acceleration(Device& device, const Shape& shape, double height, double density) {
+  Scene scene;
+  scene.fluid.spacing = 0.02;
+  scene.fluid.solver = PressureKind::grid_projected;
+  scene.tank = {.lower = {0.0, 0.0, 0.0}, .upper = {0.64, 0.64, 0.7}};
+  scene.water = {{{0.0, 0.0, 0.0}, {0.64, 0.64, 0.5}}};
+  BodySettings body;
+  body.name = "body";
+  body.shape = shape;
+  body.rest.position = {0.32, 0.32, height};
+  body.motion.kind = MotionKind::free;
+  body.motion.density = density;
+  scene.bodies = {body};
+  Simulation simulation(device, scene, {});
+  static_cast<void>(simulation.advance());
+  return simulation.bodies().state(0, simulation.seconds()).velocity[2] / simulation.seconds();
+}
+
+/// A flat disc that rises takes its added mass of water with it, 8/3 rho R^3 (Lamb, Hydrodynamics,
+/// article 102), wherever it is in the grid's cells of 4 cm.
+TEST(FreeBody, TakesWaterWithItHoweverThin) {
+  Device device;
+  constexpr double kWater = 998.0;
+  constexpr double kRadius = 0.1;
+  constexpr double kDensity = 500.0;
+  const double added = 8.0 / 3.0 * kWater * std::pow(kRadius, 3);
+  for (const double thick : {0.02, 0.04}) {
+    const double volume = M_PI * kRadius * kRadius * thick;
+    const double wanted = 9.81 * (kWater - kDensity) * volume / (kDensity * volume + added);
+    for (const double off : {0.0, 0.01, 0.02, 0.03}) {
+      const double found = first_acceleration(
+          device, {.kind = ShapeKind::cylinder, .size = {2.0 * kRadius, 2.0 * kRadius, thick}},
+          0.24 + off, kDensity);
+      std::printf("%.0f mm thick, %.2f m: %.2f of %.2f m/s2\n", 1000.0 * thick, off, found, wanted);
+      EXPECT_NEAR(found / wanted, 0.85, 0.3) << thick << ' ' << off;
+    }
+  }
+}
+
 TEST(FreeBody, ComesToRestAndThenCostsNothing) {
   Device device;
   Simulation simulation(device, pond("0.2", "density: 499"), {});

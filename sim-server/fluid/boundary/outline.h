@@ -152,6 +152,23 @@ static float3 reach_along_axes(BodyShape s, BodyStep b) {
   return s.half_x * fabs(x) + s.half_y * fabs(y) + s.half_z * fabs(z);
 }
 
+// Of a moment about its centre what pressures can have: they go through a sphere's centre, and
+// through a cylinder's axis.
+static float3 moment_of_pressures(BodyShape s, BodyStep b, float3 moment) {
+  switch (form_of(s)) {
+    case SPLASH_SPHERE:
+      return (float3)(0.0f);
+    case SPLASH_CYLINDER: {
+      const float3 z = out_of_body(b, (float3)(0.0f, 0.0f, 1.0f));
+      return moment - dot(moment, z) * z;
+    }
+    case SPLASH_BOX:
+    case SPLASH_MESH:
+      break;
+  }
+  return moment;
+}
+
 // How far it reaches from its centre in any direction, at most, if along the axes so far [m].
 static float farthest_reach(BodyShape s, float3 along_axes) {
   return s.kind == SPLASH_SPHERE ? s.half_x : length(along_axes);

@@ -215,6 +215,22 @@ TEST_P(GridBodies, BeginAsTheirAddedMassSays) {
 
 INSTANTIATE_TEST_SUITE_P(Densities, GridBodies, ::testing::Values(20.0, 500.0, 2000.0));
 
+/// Pressures have no moment about a ball's centre.
+TEST(GridSolids, ABallThatFloatsDoesNotSpin) {
+  Device device;
+  FreeFloat world;
+  world.scene = tank_scene(0.025, {0.4, 0.4, 0.6}, 0.2);
+  world.scene.fluid.solver = PressureKind::grid_projected;
+  world.add({ShapeKind::sphere, {0.12, 0.12, 0.12}, 0.0, 0.0}, 0.5 * kDensity,
+            {{0.2, 0.2, 0.1}, {0, 0, 0, 1}, {}, {}});
+  world.start(device);
+  world.dt = 1.0e-2;
+  world.run(3.0);
+  const double spin = length(world.state(0).spin);
+  std::printf("%.2f rad/s\n", spin);
+  EXPECT_LT(spin, 0.5);
+}
+
 TEST(GridSolids, ABoxFloatsAsDeepAsItIsHeavy) {
   Device device;
   constexpr double kSide = 0.16;

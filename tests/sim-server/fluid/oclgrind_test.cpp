@@ -75,12 +75,12 @@ const Kernels kTurn = {"turn_water"};
 /// Where pressure pushes pairs of particles.
 const Kernels kPairs = {"compute_acceleration", "integrate"};
 const Kernels kGrid = {
-    "cut_cells",      "open_faces",     "fill_beside_solids", "find_deviation",   "move_particles",
-    "project_faces",  "find_spacing",   "sample_pressure",    "solve_pressure",   "push_faces",
-    "lay_system",     "let_fall",       "grip_water",         "push_bodies",      "tie_bodies",
-    "tell_tugs",      "weigh_pressure", "mark_faces",         "weigh_faces",      "weigh_given",
-    "sum_given",      "open_areas",     "see_room",           "share_at_surface", "sharpen_faces",
-    "ask_for_answer", "find_clear",     "ask_for_room",       "find_shift"};
+    "cut_cells",     "open_faces",     "fill_beside_solids", "find_deviation", "move_particles",
+    "project_faces", "find_spacing",   "sample_pressure",    "solve_pressure", "push_faces",
+    "lay_system",    "let_fall",       "grip_water",         "push_bodies",    "tie_bodies",
+    "tell_tugs",     "load_bodies",    "weigh_pressure",     "mark_faces",     "weigh_faces",
+    "weigh_given",   "sum_given",      "open_areas",         "see_room",       "share_at_surface",
+    "sharpen_faces", "ask_for_answer", "find_clear",         "ask_for_room",   "find_shift"};
 /// How pushes on felt bodies depend on speeds.
 const Kernels kAnswers = {"weigh_answer"};
 /// Where air may be shut in, which is for CPUs.

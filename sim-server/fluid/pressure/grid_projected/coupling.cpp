@@ -13,10 +13,12 @@ CoupledBodies::CoupledBodies(Device& device, const cl::Program& program, const M
       solids_(solids),
       no_body_(device, 1),
       grip_(device, 1),
+      loads_(device, 1),
       kept_(device, 1),
       tied_(device, 1),
       tuggings_(device, 1),
       let_fall_(program, "let_fall", 1),
+      load_bodies_(program, "load_bodies", fields.team),
       grip_water_(program, "grip_water"),
       push_bodies_(program, "push_bodies", fields.team),
       tie_bodies_(program, "tie_bodies", 1),
@@ -24,6 +26,7 @@ CoupledBodies::CoupledBodies(Device& device, const cl::Program& program, const M
 
 void CoupledBodies::release(Device& device, std::size_t count) {
   grip_ = Buffer<float>(device, 6 * fields_.room);
+  loads_ = Buffer<float>(device, SPLASH_LOAD_FLOATS * count);
   kept_ = Buffer<float>(device, SPLASH_KEPT_FLOATS * count);
   tied_ = Buffer<FreeBody>(device, count);
   tuggings_ = Buffer<float>(device, SPLASH_TUG_FLOATS * count);
@@ -60,7 +63,24 @@ void CoupledBodies::let_fall(Fluid& fluid, const Step& step) {
                  {"bodies", fluid.boundary().steps()},
                  {"first_body", step.first_body},
                  {"kept", kept_}});
-  if (!any_hung(fluid)) return;
+  if (any_hung(fluid)) tie(fluid, step);
+  load_bodies_.run_teams(fluid.device().queue(), 1,
+                         {{"p", fluid.params_buffer()},
+                          {"g", fields_.on_device},
+                          {"dt", as_float(step.dt)},
+                          {"free_count", count},
+                          {"frees", solved(fluid)},
+                          {"shapes", fluid.boundary().shapes()},
+                          {"bodies", fluid.boundary().steps()},
+                          {"first_body", step.first_body},
+                          {"owner", solids_.owner()},
+                          {"excess", solids_.excess()},
+                          {"carries", fields_.carries},
+                          {"loads", loads_}});
+}
+
+void CoupledBodies::tie(Fluid& fluid, const Step& step) {
+  const int count = this->count(fluid);
   const int first_anchor = step.first_body / fluid.boundary().body_count() * count;
   tie_bodies_.run(fluid.device().queue(), static_cast<std::size_t>(count),
                   {{"p", fluid.params_buffer()},
@@ -86,6 +106,7 @@ void CoupledBodies::find_grip(Fluid& fluid, const Step& step, int count,
                   {{"g", fields_.on_device},
                    {"free_count", count},
                    {"frees", bodies},
+                   {"shapes", fluid.boundary().shapes()},
                    {"bodies", fluid.boundary().steps()},
                    {"first_body", step.first_body},
                    {"gap", solids_.gap()},
@@ -108,6 +129,7 @@ void CoupledBodies::push(Fluid& fluid, const Step& step, const Buffer<float>& fo
                           {"owner", solids_.owner()},
                           {"grip", grip_},
                           {"found", found},
+                          {"loads", loads_},
                           {"kept", kept_},
                           {"felt", fluid.free_bodies()->felt()}});
   if (!any_hung(fluid)) return;

@@ -19,7 +19,8 @@ class CoupledBodies {
 
   /// Makes room for `count` free bodies.
   void release(Device& device, std::size_t count);
-  /// Gives the bodies the velocities that they would have after the step without water.
+  /// Gives the bodies the velocities that they would have after the step without the water's
+  /// pressures, and finds their loads (load.cl).
   void let_fall(Fluid& fluid, const Step& step);
   /// Finds K (coupling.h) of the cells beside the bodies. The system has been laid.
   void find_grip(Fluid& fluid, const Step& step);
@@ -34,12 +35,16 @@ class CoupledBodies {
   /// The free bodies, with what their springs add to their inertia.
   [[nodiscard]] const Buffer<FreeBody>& solved(Fluid& fluid) const;
   [[nodiscard]] const Buffer<float>& grip() const noexcept { return grip_; }
+  /// The water that goes with each free body.
+  [[nodiscard]] const Buffer<float>& loads() const noexcept { return loads_; }
 
   /// State that the next step depends on.
   [[nodiscard]] const cl::Buffer& kept() const noexcept { return kept_.memory(); }
   void forget(Device& device) { kept_.enqueue_clear(device); }
 
  private:
+  /// Makes bodies as heavy as their springs do.
+  void tie(Fluid& fluid, const Step& step);
   /// Whether a spring ties any free body to a haptic device or a tracker.
   [[nodiscard]] bool any_hung(Fluid& fluid) const;
   [[nodiscard]] const Buffer<FreeBody>& frees(Fluid& fluid) const;
@@ -48,10 +53,12 @@ class CoupledBodies {
   const GridSolids& solids_;
   Buffer<FreeBody> no_body_;
   Buffer<float> grip_;  ///< K of each cell
+  Buffer<float> loads_;
   Buffer<float> kept_;
   Buffer<FreeBody> tied_;  ///< as heavy as springs make them
   Buffer<float> tuggings_;
   Kernel let_fall_;
+  Kernel load_bodies_;
   Kernel grip_water_;
   Kernel push_bodies_;
   Kernel tie_bodies_;

@@ -21,7 +21,7 @@ kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int bod
                            global const float* found, global float* sums) {
   local float parts[JUDGES];
   const float heavy = p->rest_density * g->hx * g->hy * g->hz;
-  const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy};
+  const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy, 0};
   for (int k = 0; k < body_count; ++k) {
     float push[6];
     find_push(g, &all, k, found, parts, push);
@@ -77,7 +77,7 @@ kernel void weigh_answer(constant FluidParams* p, constant MacGrid* g, int k, in
                          global const float* found, global float* sums) {
   local float parts[JUDGES];
   const float heavy = p->rest_density * g->hx * g->hy * g->hz;
-  const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy};
+  const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy, 0};
   float push[6];
   find_push(g, &all, k, found, parts, push);
   if (FIRST_ITEM > 0) return;

@@ -6,8 +6,10 @@
 // done, it is taken back, and contacts (free_bodies/body_move.cl) find what is true.
 
 #include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/boundary/outline.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
+#include "sim-server/fluid/pressure/grid_projected/load.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"
@@ -47,9 +49,9 @@ kernel void let_fall(constant FluidParams* p, float dt, int free_count, constant
 
 // K of each cell that is a free body's, by the body's lever.
 kernel void grip_water(constant MacGrid* g, int free_count, constant FreeBody* frees,
-                       global const BodyStep* bodies, int first_body, global const float* gap,
-                       global const int* owner, global const float* wet, global const float* air,
-                       global float* grip) {
+                       constant BodyShape* shapes, global const BodyStep* bodies, int first_body,
+                       global const float* gap, global const int* owner, global const float* wet,
+                       global const float* air, global float* grip) {
   const int4 at = cell_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.w == 0 || at.x == l.nx || at.y == l.ny || at.z == l.nz) return;
@@ -71,6 +73,7 @@ kernel void grip_water(constant MacGrid* g, int free_count, constant FreeBody* f
       push += (high - low) * e;
       turn += (high * cross(next, e) - low * cross(arm, e)) / f.size;
     }
+    turn = moment_of_pressures(shapes[f.body], b, turn);
     grip[c] = push.x;
     grip[l.cells + c] = push.y;
     grip[2 * l.cells + c] = push.z;
@@ -84,10 +87,11 @@ kernel void grip_water(constant MacGrid* g, int free_count, constant FreeBody* f
 kernel void push_bodies(constant FluidParams* p, constant MacGrid* g, int free_count,
                         constant FreeBody* frees, global BodyStep* bodies, int first_body,
                         global const int* owner, global const float* grip,
-                        global const float* found, global float* kept, global float* felt) {
+                        global const float* found, global const float* loads, global float* kept,
+                        global float* felt) {
   local float parts[JUDGES];
   const float heavy = p->rest_density * g->hx * g->hy * g->hz;
-  const Coupling all = {free_count, frees, bodies + first_body, owner, grip, heavy};
+  const Coupling all = {free_count, frees, bodies + first_body, owner, grip, heavy, loads};
   for (int k = 0; k < free_count; ++k) {
     float push[6], answer[6];
     find_push(g, &all, k, found, parts, push);
@@ -98,12 +102,15 @@ kernel void push_bodies(constant FluidParams* p, constant MacGrid* g, int free_c
     const float3 dv = -(float3)(answer[0], answer[1], answer[2]);
     const float3 dw = -(float3)(answer[3], answer[4], answer[5]) / f.size;
     global float* own = kept + k * SPLASH_KEPT_FLOATS;
-    const float3 force = heavy * (float3)(push[0], push[1], push[2]);
-    const float3 torque = heavy * f.size * (float3)(push[3], push[4], push[5]);
-    vstore3(vload3(2 * k, felt) - force, 2 * k, felt);
-    vstore3(vload3(2 * k + 1, felt) - torque, 2 * k + 1, felt);
-    const float3 v = (float3)(b.vx, b.vy, b.vz) + dv - vload3(0, own + KEPT_HELD);
-    const float3 w = (float3)(b.wx, b.wy, b.wz) + dw - vload3(0, own + KEPT_TURNED);
+    b = faster_by(b, dv, dw);
+    float given[6];
+    give_load(f, b, loads + k * SPLASH_LOAD_FLOATS, given);
+    for (int e = 0; e < 6; ++e) given[e] -= heavy * push[e];
+    const float3 force = vload3(0, given), torque = f.size * vload3(1, given);
+    vstore3(vload3(2 * k, felt) + force, 2 * k, felt);
+    vstore3(vload3(2 * k + 1, felt) + torque, 2 * k + 1, felt);
+    const float3 v = (float3)(b.vx, b.vy, b.vz) - vload3(0, own + KEPT_HELD);
+    const float3 w = (float3)(b.wx, b.wy, b.wz) - vload3(0, own + KEPT_TURNED);
     set_speeds(v, w, &b);
     bodies[first_body + f.body] = b;
     vstore3(v, 0, own + KEPT_SPEED);

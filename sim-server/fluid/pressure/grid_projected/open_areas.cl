@@ -67,12 +67,14 @@ static float open_area(constant FluidParams* p, constant MacGrid* g, const Solid
 }
 
 // How open faces are for the flow, `gap`, by what solids leave of the `volume` around them.
-// Between full cells bodies that go their own way leave what they leave of the area: by volume a
-// plate of a cell's thickness would let water through, and a body's edge more than there is room
-// for. Those that the water moves are borne evenly by volumes only. Between a cell that holds water
-// and one that does not, a face is no more open than the surface between them: water that a solid
-// lies flat on has none. `held`: of the water around a face, the part that goes with the solid.
-// `excess`: between full cells, volume less area.
+// Between full cells bodies leave what they leave of the area: by volume a plate of a cell's
+// thickness would let water through, and a body's edge more than there is room for. Those that the
+// water moves leave no more than of the volume, so that no load (load.cl) is negative; and just the
+// volume a cell under the surface, as areas open and close at once while a body sways, and water at
+// its edge would jump. Between a cell that holds water and one that does not, a face is no more
+// open than the surface between them: water that a solid lies flat on has none. `held`: of the
+// water around a face, the part that goes with the solid. `excess`: between full cells, volume less
+// area.
 kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                        global const float* meshes, global const BodyStep* bodies, int first_body,
                        int body_count, float piston, global const int* owner,
@@ -118,10 +120,16 @@ kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant Bo
         continue;
       }
       const int whose = owner[c + lane] >= 0 ? owner[c + lane] : owner[c + lane - s];
-      if (whose < 0 || shapes[whose].free) continue;
+      const int over = c + lane + l.layer;
+      const bool deep = fill[over] > MAC_FULL && fill[over - s] > MAC_FULL;
+      if (whose < 0 || (shapes[whose].free && !deep)) continue;
       float with;
       gap[face] = open_area(p, g, &solids, cell, axis, volume[face],
                             fmin(volume[face - s], volume[face + s]), &with);
+      if (shapes[whose].free) {
+        gap[face] = fmin(gap[face], volume[face]);
+        with = 1.0f - gap[face] / volume[face];
+      }
       held[face] = with;
       excess[face] = volume[face] - gap[face];
     }
