@@ -152,8 +152,8 @@ static float3 reach_along_axes(BodyShape s, BodyStep b) {
   return s.half_x * fabs(x) + s.half_y * fabs(y) + s.half_z * fabs(z);
 }
 
-// Of a moment about its centre what pressures can have: they go through a sphere's centre, and
-// through a cylinder's axis.
+// The part of a moment about the body's centre that pressures on its surface can exert: none on a
+// sphere, and none about a cylinder's axis.
 static float3 moment_of_pressures(BodyShape s, BodyStep b, float3 moment) {
   switch (form_of(s)) {
     case SPLASH_SPHERE:

@@ -13,8 +13,8 @@
 #define SECTIONS 4        // between two cells' middles, in which a thin plate is looked for
 #define LESS_CLOSED 0.25f // a thin plate leaves faces open that are so much less closed [1]
 
-// How much of the surface solids leave open, between the middles of cell `c` at `at` and the one
-// below it along an axis, `part` of the way up [1].
+// How much solids leave open of the section across an axis, `part` of the way from the middle of
+// the cell below the one at `at` to its own [1].
 static float open_surface(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
                           int axis, float part) {
   const float edge[3] = {g->hx, g->hy, g->hz}, from[3] = {g->x, g->y, g->z};

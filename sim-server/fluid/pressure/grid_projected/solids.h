@@ -34,8 +34,8 @@ static float open_tetrahedron(float a, float b, float c, float d) {
          ((s[0] - s[2]) * (s[0] - s[3]) * (s[1] - s[2]) * (s[1] - s[3]));
 }
 
-// Of a box, from the distances of its eight corners, x first: six tetrahedra around the diagonal
-// from the first to the last (Kuhn 1960).
+// Part of a box where the distance is positive, from those of its eight corners, x first [1]. The
+// box is cut into six tetrahedra around its diagonal from the first corner to the last (Kuhn 1960).
 static float open_box(const float* d) {
   float low = d[0], high = d[0];
   for (int k = 1; k < 8; ++k) {
