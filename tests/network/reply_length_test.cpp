@@ -28,7 +28,8 @@ using protocol::Message;
 using testing::HasSubstr;
 
 constexpr std::size_t kHeaders = 28;  // of IPv4 and UDP [bytes]
-constexpr double kTimeout = 0.15;     // for one reply more than expected [s]
+constexpr double kPrompt = 0.05;      // for one reply more than expected [s]
+constexpr double kByFrame = 0.15;     // the same of the simulator, which replies between frames [s]
 constexpr double kLong = 20.0;        // for those expected; a pass waits no longer than they take
 
 /// A command with 1 where it is allowed; /notify 0, since the events of /notify 1 are no replies.
@@ -69,7 +70,8 @@ struct Drawn {
 
 class Talk {
  public:
-  Talk(protocol::UdpSocket socket, protocol::Endpoint to) : socket_(std::move(socket)), to_(to) {}
+  Talk(protocol::UdpSocket socket, protocol::Endpoint to, double timeout = kPrompt)
+      : socket_(std::move(socket)), to_(to), timeout_(timeout) {}
 
   /// `expected`: so many replies are waited for longer than for others.
   Drawn drawn_by(const std::vector<std::byte>& datagram, std::size_t expected = 0) {
@@ -81,7 +83,7 @@ class Talk {
     Drawn drawn;
     std::array<std::byte, 2048> buffer{};
     while (const auto received = socket_.receive(buffer.data(), buffer.size(),
-                                                 drawn.datagrams < expected ? kLong : kTimeout)) {
+                                                 drawn.datagrams < expected ? kLong : timeout_)) {
       drawn.bytes += received->size;
       ++drawn.datagrams;
     }
@@ -91,6 +93,7 @@ class Talk {
  private:
   protocol::UdpSocket socket_;
   protocol::Endpoint to_;
+  double timeout_;  // for one reply more than expected [s]
 };
 
 void expect_no_more(const char* what, std::string_view command, std::size_t sent, Drawn drawn) {
@@ -141,9 +144,9 @@ TEST_F(OnTwoHosts, NoReplyOfTheSimulatorIsLongerThanItsRequest) {
                          {"--scene", scene.path(), "--target", "10.77.0.2:57310", "--listen",
                           "0.0.0.0:57300", "--allow", "10.77.0.2"});
   ASSERT_TRUE(simulator->wait_for_text("running")) << simulator->output();
-  Talk home(hosts_.socket_on(kSimHost, "127.0.0.1:0"), {INADDR_LOOPBACK, 57300});
+  Talk home(hosts_.socket_on(kSimHost, "127.0.0.1:0"), {INADDR_LOOPBACK, 57300}, kByFrame);
   Talk afar(hosts_.socket_on(kSynthHost, "10.77.0.2:0"),
-            protocol::parse_endpoint("10.77.0.1:57300", 0));
+            protocol::parse_endpoint("10.77.0.1:57300", 0), kByFrame);
   try_commands(home, afar);
   EXPECT_TRUE(
       simulator->wait_for_text("asked /status in a datagram of 12 bytes; the reply has 108 bytes"));

@@ -54,7 +54,8 @@ class DeviceChoice : public testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  SmallScene scene_{plunging()};
+  /// As a GPU's, the grid's kernels take a CPU's compiler half a minute.
+  SmallScene scene_{plunging(), 1, "weakly_compressible"};
   /// Kept for the next test: kernels take long to compile.
   fs::path cache_ = fs::path(SPLASH_BINARY_DIR).parent_path() / "device-choice-cache";
   fs::path remembered_ = cache_ / "splash-devices";

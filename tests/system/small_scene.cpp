@@ -9,11 +9,9 @@
 namespace splash::tests {
 namespace {
 
-constexpr const char* kText = R"(name: small
+constexpr const char* kText = R"(
+name: small
 description: a disc in a little water
-
-fluid:
-  particles: 1400
 
 tank:
   lower: [-0.2, -0.2, 0.0]
@@ -32,9 +30,10 @@ int scenes = 0;
 
 }  // namespace
 
-SmallScene::SmallScene(const std::string& motion, int seed)
+SmallScene::SmallScene(const std::string& motion, int seed, const std::string& solver)
     : path_(temporary_path("small-" + std::to_string(++scenes) + ".yaml")) {
-  std::ofstream(path_) << "seed: " << seed << '\n' << kText << "    motion: " << motion << '\n';
+  std::ofstream(path_) << "seed: " << seed << "\nfluid: {particles: 1400, solver: " << solver << "}"
+                       << kText << "    motion: " << motion << '\n';
 }
 
 SmallScene::~SmallScene() {

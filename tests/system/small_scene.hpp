@@ -10,8 +10,8 @@ namespace splash::tests {
 class SmallScene {
  public:
   /// `motion`: the YAML of the only body's motion, a mapping in flow style. The body is a disc 5 cm
-  /// thick, high above the water at first, whose level is kLevel.
-  explicit SmallScene(const std::string& motion, int seed = 1);
+  /// thick, high above the water at first, whose level is kLevel. `solver`: as in a scene.
+  explicit SmallScene(const std::string& motion, int seed = 1, const std::string& solver = "auto");
   ~SmallScene();
   SmallScene(const SmallScene&) = delete;
   SmallScene& operator=(const SmallScene&) = delete;
