@@ -45,17 +45,22 @@ static float open_surface(constant FluidParams* p, constant MacGrid* g, const So
   return sum < LEAST_GAP ? 0.0f : sum;
 }
 
+// How much a body is a plate thinner than a cell at a face [1]: `volume` is what it leaves of the
+// volume around the face, `below` and `above` of those around the next faces along the axis. A
+// thicker body closes one of these more, and a body's side is in both of them, too.
+static float plate_share(float volume, float below, float above) {
+  const float thin = clamp(1.0f - (volume - fmin(below, above)) / LESS_CLOSED, 0.0f, 1.0f);
+  return thin * clamp((fmax(below, above) - volume) / (1.0f - volume), 0.0f, 1.0f);
+}
+
 // What a body leaves open of the area of a face between two full cells: `volume` is what it leaves
-// of the volume around the face, and `beside` of that around the next faces along the axis, the
-// less of both. A plate thinner than a cell may be between two faces, which are then more open than
-// their volumes. The one whose volume it closes more is as open as its widest section leaves it;
-// the nearer the other one comes to that, the more so is it. A thicker body closes the next face
-// entirely, and this one is as it is.
+// of the volume around the face. A plate thinner than a cell, by its `share`, may be between two
+// faces, which are then more open than their volumes. The one whose volume it closes more is as
+// open as its widest section leaves it; the nearer the other one comes to that, the more so is it.
 // `held`: of what is open around the face, the part that such a plate closes.
 static float open_area(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
-                       int axis, float volume, float beside, float* held) {
+                       int axis, float volume, float share, float* held) {
   const float here = open_surface(p, g, s, at, axis, 0.5f);
-  const float share = clamp(1.0f - (volume - beside) / LESS_CLOSED, 0.0f, 1.0f);
   const bool between = here > volume && share > 0.0f;
   float least = here;
   for (int k = 0; k < SECTIONS && between; ++k) {
@@ -69,9 +74,9 @@ static float open_area(constant FluidParams* p, constant MacGrid* g, const Solid
 // How open faces are for the flow, `gap`, by what solids leave of the `volume` around them.
 // Between full cells bodies leave what they leave of the area: by volume a plate of a cell's
 // thickness would let water through, and a body's edge more than there is room for. Those that the
-// water moves leave no more than of the volume, so that no load (load.cl) is negative; and just the
-// volume a cell under the surface, as areas open and close at once while a body sways, and water at
-// its edge would jump. Between a cell that holds water and one that does not, a face is no more
+// water moves leave what they leave of the volume, and less only where they are plates, as the water
+// in between goes with them (load.cl); nor a cell under the surface, as areas open and close at once
+// while a body sways, and water at its edge would jump. Between a cell that holds water and one that does not, a face is no more
 // open than the surface between them: water that a solid lies flat on has none. `held`: of the
 // water around a face, the part that goes with the solid. `excess`: between full cells, volume less
 // area.
@@ -123,11 +128,11 @@ kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant Bo
       const int over = c + lane + l.layer;
       const bool deep = fill[over] > MAC_FULL && fill[over - s] > MAC_FULL;
       if (whose < 0 || (shapes[whose].free && !deep)) continue;
+      const float plate = plate_share(volume[face], volume[face - s], volume[face + s]);
       float with;
-      gap[face] = open_area(p, g, &solids, cell, axis, volume[face],
-                            fmin(volume[face - s], volume[face + s]), &with);
+      gap[face] = open_area(p, g, &solids, cell, axis, volume[face], plate, &with);
       if (shapes[whose].free) {
-        gap[face] = fmin(gap[face], volume[face]);
+        gap[face] = volume[face] + plate * fmin(gap[face] - volume[face], 0.0f);
         with = 1.0f - gap[face] / volume[face];
       }
       held[face] = with;
