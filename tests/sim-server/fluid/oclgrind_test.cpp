@@ -78,7 +78,7 @@ const Kernels kGrid = {
     "cut_cells",     "open_faces",     "fill_beside_solids", "find_deviation", "move_particles",
     "project_faces", "find_spacing",   "sample_pressure",    "solve_pressure", "push_faces",
     "lay_system",    "let_fall",       "grip_water",         "push_bodies",    "tie_bodies",
-    "tell_tugs",     "load_bodies",    "weigh_pressure",     "mark_faces",     "weigh_faces",
+    "tell_tugs",     "entrain_water",  "weigh_pressure",     "mark_faces",     "weigh_faces",
     "weigh_given",   "sum_given",      "open_areas",         "see_room",       "share_at_surface",
     "sharpen_faces", "ask_for_answer", "find_clear",         "ask_for_room",   "find_shift"};
 /// How pushes on felt bodies depend on speeds.

@@ -13,12 +13,12 @@ CoupledBodies::CoupledBodies(Device& device, const cl::Program& program, const M
       solids_(solids),
       no_body_(device, 1),
       grip_(device, 1),
-      loads_(device, 1),
+      entrained_(device, 1),
       kept_(device, 1),
       tied_(device, 1),
       tuggings_(device, 1),
       let_fall_(program, "let_fall", 1),
-      load_bodies_(program, "load_bodies", fields.team),
+      entrain_water_(program, "entrain_water", fields.team),
       grip_water_(program, "grip_water"),
       push_bodies_(program, "push_bodies", fields.team),
       tie_bodies_(program, "tie_bodies", 1),
@@ -26,7 +26,7 @@ CoupledBodies::CoupledBodies(Device& device, const cl::Program& program, const M
 
 void CoupledBodies::release(Device& device, std::size_t count) {
   grip_ = Buffer<float>(device, 6 * fields_.room);
-  loads_ = Buffer<float>(device, SPLASH_LOAD_FLOATS * count);
+  entrained_ = Buffer<float>(device, SPLASH_ENTRAINED_FLOATS * count);
   kept_ = Buffer<float>(device, SPLASH_KEPT_FLOATS * count);
   tied_ = Buffer<FreeBody>(device, count);
   tuggings_ = Buffer<float>(device, SPLASH_TUG_FLOATS * count);
@@ -64,19 +64,19 @@ void CoupledBodies::let_fall(Fluid& fluid, const Step& step) {
                  {"first_body", step.first_body},
                  {"kept", kept_}});
   if (any_hung(fluid)) tie(fluid, step);
-  load_bodies_.run_teams(fluid.device().queue(), 1,
-                         {{"p", fluid.params_buffer()},
-                          {"g", fields_.on_device},
-                          {"dt", as_float(step.dt)},
-                          {"free_count", count},
-                          {"frees", solved(fluid)},
-                          {"shapes", fluid.boundary().shapes()},
-                          {"bodies", fluid.boundary().steps()},
-                          {"first_body", step.first_body},
-                          {"owner", solids_.owner()},
-                          {"excess", solids_.excess()},
-                          {"carries", fields_.carries},
-                          {"loads", loads_}});
+  entrain_water_.run_teams(fluid.device().queue(), 1,
+                           {{"p", fluid.params_buffer()},
+                            {"g", fields_.on_device},
+                            {"dt", as_float(step.dt)},
+                            {"free_count", count},
+                            {"frees", solved(fluid)},
+                            {"shapes", fluid.boundary().shapes()},
+                            {"bodies", fluid.boundary().steps()},
+                            {"first_body", step.first_body},
+                            {"owner", solids_.owner()},
+                            {"excess", solids_.excess()},
+                            {"carries", fields_.carries},
+                            {"entrained", entrained_}});
 }
 
 void CoupledBodies::tie(Fluid& fluid, const Step& step) {
@@ -129,7 +129,7 @@ void CoupledBodies::push(Fluid& fluid, const Step& step, const Buffer<float>& fo
                           {"owner", solids_.owner()},
                           {"grip", grip_},
                           {"found", found},
-                          {"loads", loads_},
+                          {"entrained", entrained_},
                           {"kept", kept_},
                           {"felt", fluid.free_bodies()->felt()}});
   if (!any_hung(fluid)) return;

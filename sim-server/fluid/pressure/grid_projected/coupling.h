@@ -6,7 +6,7 @@
 // no water,
 //   (L + sum_bodies K rho0 V M^-1 K^T) f = b
 // symmetric and positive, like L alone, however light the body (Batty, Bertails & Bridson 2007).
-// M has the inertia of the body's load (load.cl) in it.
+// M has the inertia of the water that the body entrains (entrained.cl) in it.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_inertia.h"
@@ -31,7 +31,7 @@ typedef struct {
   global const int* owner;
   global const float* grip;   // K of each cell, `cells` apart
   float heavy;                // rho0 V [kg]
-  global const float* loads;  // water that goes with each body (load.cl)
+  global const float* entrained;  // water that goes with each body (entrained.cl)
 } Coupling;
 
 // Cells that a body may be near: the lowest, and how many along each axis.
@@ -90,7 +90,7 @@ static void find_push(constant MacGrid* g, const Coupling* all, int k, global co
 static void answer_push(const Coupling* all, int k, const float* push, float* answer) {
   const FreeBody f = all->frees[k];
   float m[SIX_ENTRIES];
-  for (int e = 0; e < SIX_ENTRIES; ++e) m[e] = all->loads[k * SPLASH_LOAD_FLOATS + e];
+  for (int e = 0; e < SIX_ENTRIES; ++e) m[e] = all->entrained[k * SPLASH_ENTRAINED_FLOATS + e];
   add_inertia(f, all->bodies[f.body], m);
   for (int e = 0; e < 6; ++e) answer[e] = all->heavy * push[e];
   if (f.held) hold_six(f.held, answer, m);

@@ -20,7 +20,7 @@ class CoupledBodies {
   /// Makes room for `count` free bodies.
   void release(Device& device, std::size_t count);
   /// Gives the bodies the velocities that they would have after the step without the water's
-  /// pressures, and finds their loads (load.cl).
+  /// pressures, and finds the water that they entrain (entrained.cl).
   void let_fall(Fluid& fluid, const Step& step);
   /// Finds K (coupling.h) of the cells beside the bodies. The system has been laid.
   void find_grip(Fluid& fluid, const Step& step);
@@ -36,7 +36,7 @@ class CoupledBodies {
   [[nodiscard]] const Buffer<FreeBody>& solved(Fluid& fluid) const;
   [[nodiscard]] const Buffer<float>& grip() const noexcept { return grip_; }
   /// The water that goes with each free body.
-  [[nodiscard]] const Buffer<float>& loads() const noexcept { return loads_; }
+  [[nodiscard]] const Buffer<float>& entrained() const noexcept { return entrained_; }
 
   /// State that the next step depends on.
   [[nodiscard]] const cl::Buffer& kept() const noexcept { return kept_.memory(); }
@@ -53,12 +53,12 @@ class CoupledBodies {
   const GridSolids& solids_;
   Buffer<FreeBody> no_body_;
   Buffer<float> grip_;  ///< K of each cell
-  Buffer<float> loads_;
+  Buffer<float> entrained_;
   Buffer<float> kept_;
   Buffer<FreeBody> tied_;  ///< as heavy as springs make them
   Buffer<float> tuggings_;
   Kernel let_fall_;
-  Kernel load_bodies_;
+  Kernel entrain_water_;
   Kernel grip_water_;
   Kernel push_bodies_;
   Kernel tie_bodies_;

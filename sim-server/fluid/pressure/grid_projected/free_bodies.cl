@@ -9,7 +9,7 @@
 #include "sim-server/fluid/boundary/outline.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
-#include "sim-server/fluid/pressure/grid_projected/load.h"
+#include "sim-server/fluid/pressure/grid_projected/entrained.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"
@@ -87,11 +87,11 @@ kernel void grip_water(constant MacGrid* g, int free_count, constant FreeBody* f
 kernel void push_bodies(constant FluidParams* p, constant MacGrid* g, int free_count,
                         constant FreeBody* frees, global BodyStep* bodies, int first_body,
                         global const int* owner, global const float* grip,
-                        global const float* found, global const float* loads, global float* kept,
-                        global float* felt) {
+                        global const float* found, global const float* entrained,
+                        global float* kept, global float* felt) {
   local float parts[JUDGES];
   const float heavy = p->rest_density * g->hx * g->hy * g->hz;
-  const Coupling all = {free_count, frees, bodies + first_body, owner, grip, heavy, loads};
+  const Coupling all = {free_count, frees, bodies + first_body, owner, grip, heavy, entrained};
   for (int k = 0; k < free_count; ++k) {
     float push[6], answer[6];
     find_push(g, &all, k, found, parts, push);
@@ -104,7 +104,7 @@ kernel void push_bodies(constant FluidParams* p, constant MacGrid* g, int free_c
     global float* own = kept + k * SPLASH_KEPT_FLOATS;
     b = faster_by(b, dv, dw);
     float given[6];
-    give_load(f, b, loads + k * SPLASH_LOAD_FLOATS, given);
+    give_entrained(f, b, entrained + k * SPLASH_ENTRAINED_FLOATS, given);
     for (int e = 0; e < 6; ++e) given[e] -= heavy * push[e];
     const float3 force = vload3(0, given), torque = f.size * vload3(1, given);
     vstore3(vload3(2 * k, felt) + force, 2 * k, felt);

@@ -10,7 +10,7 @@
 
 #define SPLASH_MAC_LEVELS 12
 #define SPLASH_KEPT_FLOATS 16  // of each free body, from step to step (coupling.h)
-#define SPLASH_LOAD_FLOATS 27  // of each free body: the water that goes with it (load.cl)
+#define SPLASH_ENTRAINED_FLOATS 27  // of each free body: the water that goes with it (entrained.cl)
 #define SPLASH_TUG_FLOATS 16   // of each free body, of its spring in a step (hang.cl)
 #define SPLASH_BY_FLOW 6       // the answer to a body's flow, after those to its speeds (felt.cl)
 

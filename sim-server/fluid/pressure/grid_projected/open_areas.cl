@@ -74,12 +74,12 @@ static float open_area(constant FluidParams* p, constant MacGrid* g, const Solid
 // How open faces are for the flow, `gap`, by what solids leave of the `volume` around them.
 // Between full cells bodies leave what they leave of the area: by volume a plate of a cell's
 // thickness would let water through, and a body's edge more than there is room for. Those that the
-// water moves leave what they leave of the volume, and less only where they are plates, as the water
-// in between goes with them (load.cl); nor a cell under the surface, as areas open and close at once
-// while a body sways, and water at its edge would jump. Between a cell that holds water and one that does not, a face is no more
-// open than the surface between them: water that a solid lies flat on has none. `held`: of the
-// water around a face, the part that goes with the solid. `excess`: between full cells, volume less
-// area.
+// water moves leave what they leave of the volume, and less only where they are plates, as water in
+// between goes with them (entrained.cl); nor a cell under the surface, as areas open and close at
+// once while a body sways, and water at its edge would jump. Between a cell that holds water and
+// one that does not, a face is no more open than the surface between them: water that a solid lies
+// flat on has none. `held`: of the water around a face, the part that goes with the solid.
+// `excess`: between full cells, volume less area.
 kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                        global const float* meshes, global const BodyStep* bodies, int first_body,
                        int body_count, float piston, global const int* owner,

@@ -27,7 +27,7 @@ static float product(const MacLevel l, int end, global const float* a, global co
 kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int anew, int iterations,
                            int room, int free_count, constant FreeBody* frees,
                            global BodyStep* bodies, int first_body, global const int* owner,
-                           global const float* grip, global const float* loads,
+                           global const float* grip, global const float* entrained,
                            global const int* most, global float* link,
                            global float* open, global float* damped, global float* x,
                            global float* b, global float* r, global float* found, global float* way,
@@ -37,7 +37,7 @@ kernel void solve_pressure(constant FluidParams* p, constant MacGrid* g, int ane
   const Levels s = {{link, link + room, link + 2 * room}, open, damped, x, b, r};
   const MacLevel l = g->level[0];
   const Coupling all = {free_count, frees, bodies + first_body, owner, grip,
-                        p->rest_density * g->hx * g->hy * g->hz, loads};
+                        p->rest_density * g->hx * g->hy * g->hz, entrained};
   const int last = *most;
   const int end = end_of(g, 0, last);
   coarsen(g, &s, anew ? g->levels : 0);

@@ -97,7 +97,7 @@ void PressureSystem::solve(Fluid& fluid, const Step& step, bool anew, int iterat
                              {"first_body", step.first_body},
                              {"owner", solids_.owner()},
                              {"grip", bodies_.grip()},
-                             {"loads", bodies_.loads()},
+                             {"entrained", bodies_.entrained()},
                              {"most", most_},
                              {"link", link_},
                              {"open", open_},
