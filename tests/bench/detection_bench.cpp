@@ -132,10 +132,10 @@ class Progress {
   double shown_ = protocol::monotonic_now();
 };
 
-void update(const fs::path& path, const std::vector<Outcome>& outcomes) {
+void update(const fs::path& path, const std::vector<Outcome>& outcomes, bool all) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
-  const std::string updated = with_rows(text.str(), outcomes);
+  const std::string updated = with_rows(text.str(), outcomes, all);
   std::ofstream file(path);
   file << updated;
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
@@ -165,7 +165,8 @@ void bench(Options options) {
     // After every run, so that a run that is broken off leaves what it found.
     write_report(options.out, device.facts().name, outcomes);
   }
-  if (!options.readme.empty()) update(options.readme, outcomes);
+  const bool all = cases.size() == all_cases(options.material).size();
+  if (!options.readme.empty()) update(options.readme, outcomes, all);
   std::printf("\n%s\nreport: %s\n", summary(outcomes).c_str(), (options.out / "report.md").c_str());
 }
 
@@ -182,7 +183,9 @@ int main(int argc, char** argv) {
   app.add_flag("--list", options.list, "Names sweeps and cases, runs nothing");
   app.add_flag("--truth", options.truth, "With --list: what each must tell, and may");
   app.add_option("--scenes", options.scenes, "Folder to keep each case in, as a scene file");
-  app.add_option("--readme", options.readme, "Markdown file whose table gets the rows of this run")
+  app.add_option(
+         "--readme", options.readme,
+         "Markdown file whose table gets the rows of this run, and no others if it is of all cases")
       ->check(CLI::ExistingFile);
   app.add_option("--out", options.out, "Folder for the report")->capture_default_str();
   app.add_option("--walk", walk.file, "TRC file of two feet, in place of the tests' own")

@@ -146,7 +146,7 @@ std::string name_of(const std::string& row) {
 
 }  // namespace
 
-std::string with_rows(const std::string& text, const std::vector<Outcome>& outcomes) {
+std::string with_rows(const std::string& text, const std::vector<Outcome>& outcomes, bool all) {
   const std::size_t begin = text.find(kBegin);
   const std::size_t end = text.find(kEnd);
   if (begin == std::string::npos || end == std::string::npos || end < begin) {
@@ -155,7 +155,7 @@ std::string with_rows(const std::string& text, const std::vector<Outcome>& outco
   const std::size_t from = begin + std::string(kBegin).size();
   std::vector<std::string> rows;
   std::istringstream old(text.substr(from, end - from));
-  for (std::string line; std::getline(old, line);) {
+  for (std::string line; !all && std::getline(old, line);) {
     if (line.starts_with("| ") && !line.starts_with("| sweep") && !line.starts_with("| ---")) {
       rows.push_back(line + "\n");
     }

@@ -15,8 +15,10 @@ namespace splash::detection {
 
 /// The Markdown `text` with a row for each sweep, and for each case of a recording, in its table
 /// between the lines "<!-- begin: detection-bench -->" and "<!-- end: detection-bench -->". Rows of
-/// the same name are replaced, others stay. Throws std::runtime_error when a mark is missing.
-[[nodiscard]] std::string with_rows(const std::string& text, const std::vector<Outcome>& outcomes);
+/// the same name are replaced; others stay unless the outcomes are those of `all` cases. Throws
+/// std::runtime_error when a mark is missing.
+[[nodiscard]] std::string with_rows(const std::string& text, const std::vector<Outcome>& outcomes,
+                                    bool all);
 
 /// Writes report.md and cases.csv into `folder`, which must exist. Throws std::runtime_error.
 void write_report(const std::filesystem::path& folder, const std::string& device,

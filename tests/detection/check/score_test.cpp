@@ -302,15 +302,17 @@ TEST_F(Scorer, PutsItsRowsIntoAReadme) {
   walk.item.tracker = "walk.trc";
   const std::string empty =
       "before\n<!-- begin: detection-bench -->\n<!-- end: detection-bench -->\nafter\n";
-  const std::string both = with_rows(empty, {plunge, walk});
+  const std::string both = with_rows(empty, {plunge, walk}, false);
   EXPECT_THAT(both, HasSubstr("before\n<!-- begin: detection-bench -->\n\n| sweep | runs"));
   EXPECT_THAT(both, HasSubstr("\n| speed | 1 | 1 | 1 | 0 | 0 |"));
   EXPECT_THAT(both, HasSubstr("\n| walk: 5 cm | 1 | 0 | 0 | 0 | 0 |"));
   EXPECT_THAT(both, HasSubstr("|\n\n<!-- end: detection-bench -->\nafter\n"));
-  EXPECT_EQ(with_rows(both, {walk}), both);
+  EXPECT_EQ(with_rows(both, {walk}, false), both);
   plunge.score.untrue = 2;
-  EXPECT_THAT(with_rows(both, {plunge}), HasSubstr("\n| speed | 1 | 1 | 1 | 0 | 2 |"));
-  EXPECT_THROW(static_cast<void>(with_rows("no mark", {plunge})), std::runtime_error);
+  EXPECT_THAT(with_rows(both, {plunge}, false), HasSubstr("\n| speed | 1 | 1 | 1 | 0 | 2 |"));
+  EXPECT_THAT(with_rows(both, {plunge}, true),
+              AllOf(HasSubstr("\n| speed | 1 | 1 | 1 | 0 | 2 |"), Not(HasSubstr("walk"))));
+  EXPECT_THROW(static_cast<void>(with_rows("no mark", {plunge}, false)), std::runtime_error);
 }
 
 TEST(Recording, IsPlayedOtherwise) {
