@@ -26,9 +26,6 @@ constexpr double kTogether = 0.5;
 /// Water in a direction this much upward lies on the body: vertical part of the unit vector.
 constexpr double kLyingOn = 0.3;
 
-/// Water as far off as this moves as it did before the body came [spacings].
-constexpr double kUndisturbed = 0.5;
-
 /// Skin that is dry for this long is out of the water, wherever it is [s].
 constexpr double kClearFor = 0.5;
 
@@ -299,6 +296,10 @@ void ImpactWatch::meet(int body, double time, double frame, const std::vector<Su
                             : distance_.spacing();
   blow.pause = std::max(kPause, passes / meeting.approach);
   blow.surface = meeting.surface;
+  blow.water = {0.0, 0.0, 0.0};
+  for (const std::size_t i : meeting.points) {
+    blow.water = blow.water + 1.0 / static_cast<double>(meeting.points.size()) * skin_[i].water;
+  }
   blow.inward = meeting.inward;
   DetectedImpact impact;
   impact.time = touched + meeting.later;
@@ -337,10 +338,8 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
       // or the water must be long gone.
       skin.withdrawn = skin.withdrawn || skin.dry_for > kClearFor ||
                        skin.deepest - skin.way >= settings_.impact_release;
-      // Nearer, the water may have begun to give way.
-      if (gaps[i] > kUndisturbed * distance_.spacing() || !skin.sees) {
-        skin.water = water_velocity_of(touch);
-      }
+      // Water that comes into sight has not begun to give way; it does not to skin that stays away.
+      if (!skin.sees || speed < settings_.impact_speed) skin.water = water_velocity_of(touch);
       skin.sees = gaps[i] != kNever;
       if (skin.withdrawn && !in_hollow) skin.entry.reset();
     } else if (goes_in || gaps[i] <= touching_) {
@@ -355,7 +354,10 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
     }
     if (!skin.entry && could_enter && (in_hollow || skin.wet)) {
       const bool just_now = blow.touched > time - frame && blow.touched <= time;
-      skin.entry = Entry{just_now ? blow.touched : time - 0.5 * frame, skin.water};
+      // The skin that came first saw the water before the body moved it.
+      const bool follows = time <= blow.touched + closing_[body];
+      skin.entry =
+          Entry{just_now ? blow.touched : time - 0.5 * frame, follows ? blow.water : skin.water};
     }
     if (skin.entry) skin.entry->way = 0.5 * (skin.velocity + velocity_of(touch));
     skin.velocity = velocity_of(touch);

@@ -84,6 +84,7 @@ class ImpactWatch {
     double momentum = 0.0;                                          ///< [N s]
     double pause = 0.0;                 ///< after which another one begins [s]
     double surface = 0.0;               ///< how far along `inward` the water began [m]
+    Vector3 water = {0.0, 0.0, 0.0};    ///< its velocity before the body came near [m/s]
     Vector3 inward = {0.0, 0.0, -1.0};  ///< unit vector into the water
     std::optional<DetectedImpact> due;  ///< known, and not yet near enough to be told
   };
