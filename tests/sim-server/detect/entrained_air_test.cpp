@@ -72,7 +72,7 @@ TEST_P(Entry, HoldsTheAirOfTheLawAndAsManyBubblesWithHalfTheSpacing) {
   EXPECT_NEAR(static_cast<double>(finer.found.bubbles.size()), bubbles, 0.2 * bubbles);
 }
 
-INSTANTIATE_TEST_SUITE_P(Speeds, Entry, ::testing::Values(0.5, 1.0, 3.0));
+INSTANTIATE_TEST_SUITE_P(Speeds, Entry, ::testing::Values(1.0, 3.0));
 
 /// What that law gives a sphere of 10 cm of radius that goes 0.24 m deep and stays there [m3].
 double law_of_sphere(double speed) {
