@@ -50,7 +50,7 @@ class ImpactWatch {
   /// leaves there.
   struct Entry {
     double time = 0.0;                ///< [s]
-    Vector3 water = {0.0, 0.0, 0.0};  ///< velocity of the water before [m/s]
+    Vector3 water = {0.0, 0.0, 0.0};  ///< velocity of the water before the body came near [m/s]
     Vector3 way = {0.0, 0.0, 0.0};    ///< mean velocity of the skin in the last frame [m/s]
   };
   /// That of a point which has not left the water since.

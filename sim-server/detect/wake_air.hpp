@@ -3,9 +3,9 @@
 // it, by the drag of a body that leaves a hollow (Newton's law of the sine squared; a disc has
 // C_d = 1.1),
 //   dW/dt = 1/2 C_d rho (u.n)^3 dA    where u.n > 0,
-// u being its velocity relative to the water as that was before. Of this work the share eta lifts
-// air (Hoque & Aoki 2008), on average from half the depth |u| t_p / 2 that it goes to while the
-// hollow is open, so
+// u being its velocity relative to the water as that was before the body came. Of this work the
+// share eta lifts air (Hoque & Aoki 2008), on average from half the depth |u| t_p / 2 that it goes
+// to while the hollow is open, so
 //   dV/dt = eta C_d (u.n) ((u.n)^2 - u0^2) / (g |u| t_p) dA
 // for t_p = 2.285 sqrt(R / g) after the skin came out of the air into the water
 // (cavity_laws.hpp); pi R^2 is what the body shows along its motion. Straight down a body of the
