@@ -339,8 +339,9 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
       skin.withdrawn = skin.withdrawn || skin.dry_for > kClearFor ||
                        skin.deepest - skin.way >= settings_.impact_release;
       // Water that comes into sight has not begun to give way; it does not to skin that stays away.
+      // Drops in between fall as they like.
       if (!skin.sees || speed < settings_.impact_speed) skin.water = water_velocity_of(touch);
-      skin.sees = gaps[i] != kNever;
+      skin.sees = gaps[i] != kNever && touch.ahead >= kBacked;
       if (skin.withdrawn && !in_hollow) skin.entry.reset();
     } else if (goes_in || gaps[i] <= touching_) {
       if (!skin.wet && skin.withdrawn && speed >= settings_.impact_speed) {
