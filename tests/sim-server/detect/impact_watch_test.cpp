@@ -107,15 +107,23 @@ TEST(FastBody, IsTimedWithinTheFrame) {
   }
 }
 
-// Nearer than half a spacing the water may have begun to give way to the body.
+// Nearer than it comes into sight the water may have begun to give way to the body; a drop that is
+// seen before it falls as fast as the body.
 TEST(Entry, IsIntoTheWaterAsItWasBefore) {
   ImpactWatch watch({kUnderside}, {}, surface_distance());
   for (int k = 0; k * kStoryFrame < 0.2; ++k) {
     const double time = k * kStoryFrame;
     const double height = 0.1 - time;
     std::vector<SurfacePoint> points;
+    const bool drop = height > 1.05 * kSpacing;
     add_body(points, 0,
-             {.underside = height, .speed = -1.0, .flow = height > 0.45 * kSpacing ? 0.1 : 0.3});
+             {.underside = height,
+              .speed = -1.0,
+              .level = drop ? height - 0.01 : 0.0,
+              .flow = drop                       ? -1.0
+                      : height > 0.85 * kSpacing ? 0.1
+                                                 : 0.3,
+              .ahead = drop ? 0.0 : 1.0});
     static_cast<void>(watch.observe(time, kStoryFrame, points));
   }
   ASSERT_TRUE(watch.entry(0));
