@@ -45,8 +45,8 @@ class BodyAir {
   /// Height to which the water around the body would stand if it were level [m]. Other bodies are
   /// taken for air.
   [[nodiscard]] double level_around(std::size_t body) const;
-  /// Whether any air at a depth of `below` [m] or more under `level` [m] is connected to the air
-  /// above the water.
+  /// Whether air that lies at least `below` [m] under the height `level` [m] joins the air above
+  /// the water.
   /// Only air counts that is within the body's radius of the body, or of the straight line between
   /// `from` [m] and the body's front.
   [[nodiscard]] bool is_open_to(std::size_t body, const Vector3& from, double level,

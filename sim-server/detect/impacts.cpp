@@ -338,8 +338,8 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
       // or the water must be long gone.
       skin.withdrawn = skin.withdrawn || skin.dry_for > kClearFor ||
                        skin.deepest - skin.way >= settings_.impact_release;
-      // Water that comes into sight has not begun to give way; it does not to skin that stays away.
-      // Drops in between fall as they like.
+      // When water comes into sight it has not begun to give way, nor has it while skin does not
+      // approach it. Drops are seen before it and have speeds of their own.
       if (!skin.sees || speed < settings_.impact_speed) skin.water = water_velocity_of(touch);
       skin.sees = gaps[i] != kNever && touch.ahead >= kBacked;
       if (skin.withdrawn && !in_hollow) skin.entry.reset();
@@ -355,7 +355,7 @@ void ImpactWatch::note_wetness(double time, double frame, const std::vector<Surf
     }
     if (!skin.entry && could_enter && (in_hollow || skin.wet)) {
       const bool just_now = blow.touched > time - frame && blow.touched <= time;
-      // The skin that came first saw the water before the body moved it.
+      // The part of the body that met the water first saw it before the body moved it.
       const bool follows = time <= blow.touched + closing_[body];
       skin.entry =
           Entry{just_now ? blow.touched : time - 0.5 * frame, follows ? blow.water : skin.water};

@@ -72,7 +72,7 @@ class ImpactWatch {
     double way = 0.0;       ///< along its normal since it got wet [m]
     double deepest = 0.0;   ///< the largest of it [m]
     double dry_for = 0.0;   ///< [s]
-    bool sees = false;      ///< more of the water than drops, when last dry
+    bool sees = false;      ///< water that is more than drops, when last dry
     Vector3 water = {0.0, 0.0, 0.0};     ///< its velocity before that skin came near [m/s]
     Vector3 velocity = {0.0, 0.0, 0.0};  ///< of the skin in the last frame [m/s]
     std::optional<Entry> entry = {};

@@ -54,7 +54,7 @@ class DeviceChoice : public testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  /// As a GPU's, the grid's kernels take a CPU's compiler half a minute.
+  /// The grid's kernels, in the form for GPUs, take PoCL's compiler half a minute.
   SmallScene scene_{plunging(), 1, "weakly_compressible"};
   /// Kept for the next test: kernels take long to compile.
   fs::path cache_ = fs::path(SPLASH_BINARY_DIR).parent_path() / "device-choice-cache";

@@ -107,8 +107,8 @@ TEST(FastBody, IsTimedWithinTheFrame) {
   }
 }
 
-// Nearer than it comes into sight the water may have begun to give way to the body; a drop that is
-// seen before it falls as fast as the body.
+// Once in sight the water may begin to give way to the body. A drop is seen before the water is,
+// and falls as fast as the body.
 TEST(Entry, IsIntoTheWaterAsItWasBefore) {
   ImpactWatch watch({kUnderside}, {}, surface_distance());
   for (int k = 0; k * kStoryFrame < 0.2; ++k) {

@@ -47,7 +47,7 @@ static float open_surface(constant FluidParams* p, constant MacGrid* g, const So
 
 // How much a body is a plate thinner than a cell at a face [1]: `volume` is what it leaves of the
 // volume around the face, `below` and `above` of those around the next faces along the axis. A
-// thicker body closes one of these more, and a body's side is in both of them, too.
+// thicker body closes one of these much more, and a body's side along the axis both as much.
 static float plate_share(float volume, float below, float above) {
   const float thin = clamp(1.0f - (volume - fmin(below, above)) / LESS_CLOSED, 0.0f, 1.0f);
   return thin * clamp((fmax(below, above) - volume) / (1.0f - volume), 0.0f, 1.0f);
@@ -74,12 +74,12 @@ static float open_area(constant FluidParams* p, constant MacGrid* g, const Solid
 // How open faces are for the flow, `gap`, by what solids leave of the `volume` around them.
 // Between full cells bodies leave what they leave of the area: by volume a plate of a cell's
 // thickness would let water through, and a body's edge more than there is room for. Those that the
-// water moves leave what they leave of the volume, and less only where they are plates, as water in
-// between goes with them (entrained.cl); nor a cell under the surface, as areas open and close at
-// once while a body sways, and water at its edge would jump. Between a cell that holds water and
-// one that does not, a face is no more open than the surface between them: water that a solid lies
-// flat on has none. `held`: of the water around a face, the part that goes with the solid.
-// `excess`: between full cells, volume less area.
+// water moves leave what they leave of the volume, and less only where they are plates deeper than
+// a cell under the surface; the water that this encloses goes with them (entrained.cl). Nearer to
+// the surface areas open and close at once while a body sways, and water at its edge would jump.
+// Between a cell that holds water and one that does not, a face is no more open than the surface
+// between them: water that a solid lies flat on has none. `held`: of the water around a face, the
+// part that goes with the solid. `excess`: between full cells, volume less area.
 kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                        global const float* meshes, global const BodyStep* bodies, int first_body,
                        int body_count, float piston, global const int* owner,
