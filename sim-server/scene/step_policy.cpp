@@ -18,11 +18,14 @@ double StepPolicy::sound_factor(const FluidSettings& fluid) noexcept {
 }
 
 StepPolicy::StepPolicy(const FluidSettings& fluid) noexcept
-    : factor_((fluid.sound_speed > 0.0 ? 1.0 : sound_factor(fluid)) * fluid.time_step_factor) {
-  // 1.05, where still water around a sunken ball is calm to 1.15 and plunges are sound to 1.5 (the
-  // margin's map in tests/stress/README.md).
-  const double stable = stable_factor(PressureKind::weakly_compressible);
-  overload_factor_ = std::clamp(stable / fluid.time_step_factor, 1.0, stable);
+    : factor_((fluid.sound_speed > 0.0 ? 1.0 : sound_factor(fluid)) * fluid.time_step_factor),
+      largest_stretch_(
+          std::max(std::min(1.0, 1.0 / fluid.time_step_factor) * stable_factor(fluid.solver), 1.0)),
+      scene_may_ask_(fluid.solver == PressureKind::weakly_compressible &&
+                     fluid.sound_speed <= 0.0 && fluid.time_step_factor < kLargestFactor) {}
+
+void StepPolicy::set_stretch(double stretch) noexcept {
+  stretch_ = std::clamp(stretch, 1.0, largest_stretch_);
 }
 
 }  // namespace splash::sim

@@ -26,19 +26,20 @@ class StepPolicy {
   explicit StepPolicy(const FluidSettings& fluid) noexcept;
 
   /// What the default limits on a step are multiplied by at present [1].
-  [[nodiscard]] double factor() const noexcept {
-    return (overloaded_ ? overload_factor_ : 1.0) * factor_;
-  }
-  /// How much longer steps become under load, where they still are stable; 1 for scenes that ask
-  /// for longer steps themselves [1].
-  [[nodiscard]] double overload_factor() const noexcept { return overload_factor_; }
-  /// Whether steps are as long as is stable, since the machine does not keep up.
-  void set_overloaded(bool overloaded) noexcept { overloaded_ = overloaded; }
+  [[nodiscard]] double factor() const noexcept { return stretch_ * factor_; }
+  /// How much longer steps may become under load, where they still are stable and sound is as fast
+  /// as before; 1 for scenes that ask for longer steps themselves [1].
+  [[nodiscard]] double largest_stretch() const noexcept { return largest_stretch_; }
+  /// Makes steps `stretch` times as long as without load, largest_stretch() at most [1].
+  void set_stretch(double stretch) noexcept;
+  /// Whether a scene file that asks for kLargestFactor gets longer steps than load makes.
+  [[nodiscard]] bool scene_may_ask_for_more() const noexcept { return scene_may_ask_; }
 
  private:
   double factor_;           ///< of the scene, without load [1]
-  double overload_factor_;  ///< [1]
-  bool overloaded_ = false;
+  double largest_stretch_;  ///< [1]
+  double stretch_ = 1.0;    ///< by load [1]
+  bool scene_may_ask_;
 };
 
 }  // namespace splash::sim

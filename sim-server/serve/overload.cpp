@@ -10,33 +10,21 @@ namespace {
 
 constexpr double kMemory = 1.0;        ///< of the mean load: one slow frame is no load [s]
 constexpr double kLongestWait = 16.0;  ///< times the usual wait
+constexpr double kAim = 0.85;          ///< load for which steps are made longer [1]
 
 }  // namespace
 
-Load Overload::above() const noexcept {
-  switch (level_) {
-    case Load::easy:
-      return settings_.has_gauges ? Load::lean : Load::coarse;
-    case Load::lean:
-      return Load::coarse;
-    case Load::coarse:
-    case Load::slow:
-      break;
-  }
-  return Load::slow;
+bool Overload::helps(Load level) const noexcept {
+  if (level == Load::lean) return settings_.has_gauges;
+  return level != Load::coarse || settings_.largest_stretch > 1.0;
 }
 
-Load Overload::below() const noexcept {
-  switch (level_) {
-    case Load::slow:
-      return Load::coarse;
-    case Load::coarse:
-      return settings_.has_gauges ? Load::lean : Load::easy;
-    case Load::lean:
-    case Load::easy:
-      break;
-  }
-  return Load::easy;
+Load Overload::next(int step) const noexcept {
+  int level = static_cast<int>(level_);
+  do {
+    level += step;
+  } while (!helps(static_cast<Load>(level)));  // the first and the last level always do
+  return static_cast<Load>(level);
 }
 
 bool Overload::note(double seconds, double spent) {
@@ -54,20 +42,40 @@ bool Overload::note(double seconds, double spent) {
       if (level_ == Load::slow) since_ = 0.0;
       return false;
     }
-    if (fell_ < 2.0 * settings_.fall) wait_ = std::min(2.0 * wait_, kLongestWait);
-    level_ = above();
-    since_ = 0.0;
+    rise();
     return true;
   }
-  if (load_ > settings_.under) since_ = std::min(since_, settings_.rise);
+  // A level down steps may be shorter.
+  const double below = (level_ == Load::coarse ? stretch_ : 1.0) * load_;
+  if (below > settings_.under) since_ = std::min(since_, settings_.rise);
   if (level_ == Load::easy || since_ < wait_ * settings_.fall) return false;
-  level_ = below();
-  since_ = 0.0;
-  fell_ = 0.0;
+  fall();
   return true;
 }
 
-std::string describe(const Overload& overload, double overload_factor) {
+void Overload::rise() {
+  since_ = 0.0;
+  if (level_ != Load::coarse || stretch_ >= settings_.largest_stretch) {
+    if (fell_ < 2.0 * settings_.fall) wait_ = std::min(2.0 * wait_, kLongestWait);
+    level_ = next(1);
+  }
+  if (level_ == Load::coarse) stretch(stretch_ * load_ / kAim);
+}
+
+void Overload::fall() {
+  since_ = 0.0;
+  fell_ = 0.0;
+  level_ = next(-1);
+  if (level_ < Load::coarse) stretch(1.0);
+}
+
+void Overload::stretch(double factor) {
+  const double wanted = std::clamp(factor, 1.0, settings_.largest_stretch);
+  cost_ *= stretch_ / wanted;  // what is remembered as it would have been
+  stretch_ = wanted;
+}
+
+std::string describe(const Overload& overload, bool scene_may_ask_for_more) {
   std::array<char, 256> text = {};
   const double load = overload.load();
   switch (overload.level()) {
@@ -79,16 +87,16 @@ std::string describe(const Overload& overload, double overload_factor) {
       break;
     case Load::coarse:
       std::snprintf(text.data(), text.size(),
-                    "a simulated second takes %.2f s: steps are %.2f times as long, which is "
+                    "a simulated second takes %.2f s: steps become %.2f times as long, which is "
                     "stable",
-                    load, overload_factor);
+                    load, overload.stretch());
       break;
     case Load::slow:
       // Where steps may get longer still, the scene can ask for it.
       std::snprintf(text.data(), text.size(),
                     "a simulated second takes %.2f s: simulated time runs slower than the clock "
                     "(fewer fluid.particles%s or a faster --device would help)",
-                    load, overload_factor > 1.0 ? ", fluid.time_step_factor: 2" : "");
+                    load, scene_may_ask_for_more ? ", fluid.time_step_factor: 2" : "");
       break;
   }
   return text.data();

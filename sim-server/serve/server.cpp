@@ -81,7 +81,8 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
           {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),
       forces_(targets_, socket_, sender_.session()),
       pacer_({.real_time = options.real_time, .slip_limit = kSlipLimit}),
-      overload_({.has_gauges = gauges_.has_value()}),
+      overload_({.has_gauges = gauges_.has_value(),
+                 .largest_stretch = simulation_.step_policy().largest_stretch()}),
       target_status_(options.targets, protocol::monotonic_now,
                      [](const std::string& line) { print_line("sim-server: " + line); }),
       rows_(simulation.scene().detect),
@@ -218,12 +219,12 @@ void Server::pause_step() {
 void Server::note_load(double seconds, double spent) {
   if (!options_.real_time || !overload_.note(seconds, spent)) return;
   const Load level = overload_.level();
-  simulation_.step_policy().set_overloaded(level >= Load::coarse);
+  simulation_.step_policy().set_stretch(overload_.stretch());
   // Under a lasting load the backlog is given up frame by frame: what is told is told at once.
   const double frame = 1.0 / simulation_.scene().serve.frame_rate;
   pacer_.set_slip_limit(level == Load::slow ? frame : kSlipLimit);
   std::fprintf(stderr, "sim-server: %s\n",
-               describe(overload_, simulation_.step_policy().overload_factor()).c_str());
+               describe(overload_, simulation_.step_policy().scene_may_ask_for_more()).c_str());
 }
 
 void Server::report(const StepFault& step_fault) {

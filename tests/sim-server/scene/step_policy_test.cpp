@@ -44,18 +44,30 @@ TEST(StepPolicy, SolversWithoutSoundGetTheWholeFactor) {
 }
 
 TEST(StepPolicy, UnderLoadStepsGrowOnlyToWhereTheyAreStable) {
-  const auto under_load = [](double factor) {
-    StepPolicy policy(with(factor));
-    policy.set_overloaded(true);
+  const auto under_load = [](double factor, PressureKind solver, double stretch) {
+    StepPolicy policy(with(factor, solver));
+    policy.set_stretch(stretch);
     const double stretched = policy.factor();
-    policy.set_overloaded(false);
-    EXPECT_DOUBLE_EQ(policy.factor(), StepPolicy(with(factor)).factor()) << "and back";
+    policy.set_stretch(1.0);
+    EXPECT_DOUBLE_EQ(policy.factor(), StepPolicy(with(factor, solver)).factor()) << "and back";
     return stretched;
   };
-  EXPECT_NEAR(under_load(1.0), 1.05, 1e-12);
-  EXPECT_NEAR(under_load(1.02), 1.05, 1e-12);
-  EXPECT_NEAR(under_load(2.0), 1.05, 1e-12) << "the scene's own wish";
-  EXPECT_NEAR(under_load(0.1), 0.105, 1e-12) << "a careful scene stays careful";
+  const auto state = PressureKind::weakly_compressible;
+  EXPECT_NEAR(under_load(1.0, state, 9.0), 1.05, 1e-12);
+  EXPECT_NEAR(under_load(1.02, state, 9.0), 1.05, 1e-12);
+  EXPECT_NEAR(under_load(2.0, state, 9.0), 1.05, 1e-12) << "the scene's own wish";
+  EXPECT_NEAR(under_load(0.1, state, 9.0), 0.105, 1e-12) << "a careful scene stays careful";
+  const auto grid = PressureKind::grid_projected;
+  EXPECT_NEAR(under_load(1.0, grid, 9.0), 2.0, 1e-12);
+  EXPECT_NEAR(under_load(1.0, grid, 1.3), 1.3, 1e-12) << "no longer than is needed";
+  EXPECT_NEAR(under_load(1.5, grid, 9.0), 2.0, 1e-12);
+  EXPECT_NEAR(under_load(0.1, grid, 9.0), 0.2, 1e-12);
+}
+
+TEST(StepPolicy, KnowsWhetherASceneMayAskForMoreThanLoadMakes) {
+  EXPECT_TRUE(StepPolicy(with(1.0)).scene_may_ask_for_more()) << "bought with slower sound";
+  EXPECT_FALSE(StepPolicy(with(2.0)).scene_may_ask_for_more()) << "it did";
+  EXPECT_FALSE(StepPolicy(with(1.0, PressureKind::grid_projected)).scene_may_ask_for_more());
 }
 
 TEST(StepPolicy, NoFactorIsBeyondTheRangeOfTheTable) {
@@ -71,7 +83,7 @@ TEST(StepPolicy, NoFactorIsBeyondTheRangeOfTheTable) {
     for (int k = 1; k <= 40; ++k) {
       const double factor = std::min(0.05 * k, row->row.max);
       StepPolicy policy(with(factor, solver));
-      policy.set_overloaded(true);
+      policy.set_stretch(9.0);
       EXPECT_LE(policy.factor(), StepPolicy::kLargestFactor) << factor;
     }
   }
