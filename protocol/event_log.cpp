@@ -78,14 +78,15 @@ std::uint32_t read_size(const std::filesystem::path& path, std::uintmax_t offset
 
 }  // namespace
 
-LogWriter::LogWriter(const std::filesystem::path& path) : path_(path) {
+LogWriter::LogWriter(const std::filesystem::path& path, double start) : path_(path), start_(start) {
   errno = 0;
   file_.open(path, std::ios::binary | std::ios::trunc);
   if (!file_) throw program::WriteError(cannot("create", path_), errno);
 }
 
 void LogWriter::append(double seconds, const std::vector<Message>& messages) {
-  const double time = std::max(last_seconds_, seconds);  // in this order NaN keeps the last time
+  // In this order NaN keeps the last time.
+  const double time = std::max(last_seconds_, seconds - start_);
   const auto packet = encode(to_score_tag(time), messages);
   last_seconds_ = time;
   std::array<char, 4> size{};

@@ -17,9 +17,10 @@ namespace splash::protocol {
 /// disk leaves a log of whole bundles behind.
 class LogWriter {
  public:
-  explicit LogWriter(const std::filesystem::path& path);
-  /// `seconds`: the bundle's time from the log's start [s], never smaller than the last one's
-  /// (it is raised to it, so that the log is a legal score).
+  /// `start`: the time at which the log starts [s], of the clock that append() has.
+  explicit LogWriter(const std::filesystem::path& path, double start = 0.0);
+  /// `seconds`: the bundle's time [s], never smaller than the last one's nor the start's (it is
+  /// raised to it, so that the log is a legal score).
   void append(double seconds, const std::vector<Message>& messages);
 
  private:
@@ -27,8 +28,9 @@ class LogWriter {
   [[noreturn]] void give_up();
 
   std::filesystem::path path_;
+  double start_;
   std::ofstream file_;
-  double last_seconds_ = 0.0;
+  double last_seconds_ = 0.0;       ///< from the log's start
   std::uintmax_t whole_bytes_ = 0;  ///< of complete bundles
 };
 

@@ -15,6 +15,7 @@
 #include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
+#include "program/terminal.hpp"
 #include "program/this_program.hpp"
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
@@ -52,18 +53,21 @@ extern "C" void note_end(int number) {
   for (const int ending : {SIGINT, SIGTERM, number}) std::signal(ending, SIG_DFL);
 }
 
-extern "C" void note_reopen(int /*number*/) {
-  asked_to_reopen = 1;
+const program::Terminal terminal;
+
+/// SIGHUP asks the program to begin its files anew; if its terminal has been closed, it ends.
+extern "C" void note_hangup(int number) {
+  if (terminal.closed()) {
+    note_end(number);
+  } else {
+    asked_to_reopen = 1;
+  }
 }
 
-/// Without a terminal SIGHUP asks a daemon to begin its files anew; a terminal that closes takes
-/// its programs along.
 void take_signals() {
-  const bool at_terminal =
-      isatty(STDIN_FILENO) != 0 || isatty(STDOUT_FILENO) != 0 || isatty(STDERR_FILENO) != 0;
   std::signal(SIGINT, note_end);
   std::signal(SIGTERM, note_end);
-  const auto before = std::signal(SIGHUP, at_terminal ? note_end : note_reopen);
+  const auto before = std::signal(SIGHUP, note_hangup);
   if (before == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 

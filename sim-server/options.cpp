@@ -71,6 +71,7 @@ void add_wire(CLI::App& app, Options& options, Texts& texts) {
                  "(open water.vtk.series)")
       ->type_name("FOLDER");
   app.add_flag("--faster-than-real-time", texts.fast, "Do not wait for the wall clock");
+  app.add_flag("--quiet", options.quiet, "Print no line on the state every two seconds");
 }
 
 void add_device(CLI::App& app, Options& options) {

@@ -30,6 +30,7 @@ struct Options {
   std::filesystem::path settled;  ///< keeps the water at rest; empty: none
   double duration = 0.0;          ///< simulated seconds; 0: until it is stopped
   bool real_time = true;
+  bool quiet = false;  ///< no line on the state every two seconds
 
   bool check = false;  ///< say what the scene is, and end
   bool list_devices = false;

@@ -10,6 +10,7 @@
 #include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
+#include "program/terminal.hpp"
 #include "program/this_program.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/device_choice.hpp"
@@ -35,19 +36,15 @@ sigset_t ending_signals() {
   return signals;
 }
 
-bool at_terminal() {
-  return isatty(STDIN_FILENO) != 0 || isatty(STDOUT_FILENO) != 0 || isatty(STDERR_FILENO) != 0;
-}
-
-/// A signal of `signals`, or SIGHUP, that comes within 50 ms; 0: none. Without a terminal SIGHUP
-/// asks a daemon to begin its files anew and to read its sound again, and SIGHUP it is; a terminal
-/// that closes takes its programs along, as SIGTERM does.
-int await_signal(sigset_t signals, bool hangs_up) {
+/// A signal of `signals`, or SIGHUP, that comes within 50 ms; 0: none. SIGHUP asks the program to
+/// begin its files anew and to read its sound again; if its terminal has been closed, it ends the
+/// program as SIGTERM does, which is returned.
+int await_signal(sigset_t signals, const program::Terminal& terminal) {
   sigaddset(&signals, SIGHUP);
   const timespec slice{0, 50'000'000};
   const int number = sigtimedwait(&signals, nullptr, &slice);
   if (number <= 0) return 0;
-  return number == SIGHUP && hangs_up ? SIGTERM : number;
+  return number == SIGHUP && terminal.closed() ? SIGTERM : number;
 }
 
 /// True once it is known; said when realtime was refused.
@@ -74,13 +71,13 @@ void reload_sound(const Options& options, Server& server) {
 program::OptionValues play(const Options& options, Server& server,
                            program::ServiceNotice& service) {
   const sigset_t signals = ending_signals();
-  const bool hangs_up = at_terminal();
+  const program::Terminal terminal;
   const double start = protocol::monotonic_now();
   double next_line = start + 1.0;
   program::OptionValues next;
   bool knows_scheduling = false;
   for (;;) {
-    const int signal = await_signal(signals, hangs_up);
+    const int signal = await_signal(signals, terminal);
     const double now = protocol::monotonic_now();
     if (service.is_due() && server.alive()) service.alive();
     if (!knows_scheduling) knows_scheduling = say_scheduling(server);

@@ -183,7 +183,7 @@ void Server::run(const std::function<bool()>& ended) {
     note_status(frame);
     target_status_.poll();
     const double end = protocol::monotonic_now();
-    if (end >= next_line_) print_progress();
+    if (!options_.quiet && end >= next_line_) print_progress();
     note_load(frame.seconds - before, computed - begin + end - due);
   }
   run_cost_ = stopwatch.passed();
@@ -322,7 +322,7 @@ void Server::reopen() {
     keep_going(
         [&] {
           sender_.close(simulation_.seconds());
-          log_.emplace(options_.record);
+          log_.emplace(options_.record, simulation_.seconds());
           began(options_.record);
         },
         [this] { sender_.stop_logging(); });

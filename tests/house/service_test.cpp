@@ -72,9 +72,9 @@ TEST_F(Service, HasThisTreesPaths) {
   const std::string view = read_text(unit("splash-view"));
   EXPECT_THAT(view, HasSubstr("/a & 100%% b/bin/view-server\" --listen 127.0.0.1:8080 "));
   const std::string configs = std::string(SPLASH_SOURCE_DIR) + "/configs/";
-  EXPECT_THAT(sim,
-              HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
-                        "scenes/pool.yaml\" --target 127.0.0.1:57310 --show 127.0.0.1:57301\n"));
+  EXPECT_THAT(sim, HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
+                             "scenes/pool.yaml\" --listen 127.0.0.1:57300 --allow 127.0.0.1 "
+                             "--target 127.0.0.1:57310 --show 127.0.0.1:57301 --quiet\n"));
   EXPECT_THAT(
       synth, HasSubstr("/bin/synth-server\" --rig \"" + configs + "rigs/tiles36.yaml\" --sound \"" +
                        configs + "sounds/calibrated.yaml\" --middle=0.915,0.5,0.25 "));
@@ -86,6 +86,25 @@ TEST_F(Service, HasThisTreesPaths) {
     EXPECT_THAT(text, HasSubstr("\nNoNewPrivileges=yes\n"));
     EXPECT_THAT(text, testing::ContainsRegex("\nRestrictAddressFamilies=.*AF_INET .*\n"));
     EXPECT_THAT(text, testing::ContainsRegex("\nMemoryMax=[0-9]+%\n"));
+  }
+}
+
+TEST_F(Service, KnowsWhereTheOtherProgramIs) {
+  const CommandResult result = launch("pool --hosts 192.168.0.10,192.168.0.20");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, testing::ContainsRegex("splash-synth .*# on 192.168.0.20\n"));
+  const std::string sim = read_text(unit("splash-sim"));
+  EXPECT_THAT(sim, HasSubstr(" --listen 0.0.0.0:57300 --allow 192.168.0.20 "
+                             "--target 192.168.0.20:57310 --show 0.0.0.0:57301 --quiet\n"));
+  EXPECT_THAT(sim, Not(HasSubstr("splash-synth"))) << "this host has none to start";
+  EXPECT_THAT(read_text(unit("splash-synth")),
+              HasSubstr(" --listen 0.0.0.0:57310 --allow 192.168.0.10 "
+                        "--forces 192.168.0.10:57300 --show 0.0.0.0:57311\n"));
+  EXPECT_THAT(read_text(unit("splash-view")),
+              HasSubstr(" --sim 127.0.0.1:57300 --synth 192.168.0.20:57310 "
+                        "--sim-show 127.0.0.1:57301 --synth-show 192.168.0.20:57311\n"));
+  for (const char* wrong : {"--hosts 192.168.0.10", "--hosts a,b", "pool", "-- --allow 1.2.3.4"}) {
+    EXPECT_EQ(launch(std::string("pool ") + wrong).exit_code, 64) << wrong;
   }
 }
 
