@@ -33,8 +33,8 @@ constexpr ArgumentRow program(std::string_view name) {
   return {'s', "program", "", 0, 0, "who answers", name};
 }
 
-constexpr ArgumentRow kOffset = {'f', "offset_ms", "ms",
-                                 0,   10000,       "moment of the event after its bundle's time"};
+constexpr ArgumentRow kOffset = {
+    'f', "offset_ms", "ms", 0, 10000, "moment at which it sounds, after its bundle's time"};
 constexpr ArgumentRow kNearestBody = {'i', "body", "1",
                                       -1,  255,    "nearest body of the scene, -1: none"};
 
@@ -280,7 +280,10 @@ constexpr auto kTable = std::to_array<AddressRow>({
     {"/status", Direction::to_both, "Asks for /status.reply", {}},
     {"/version", Direction::to_both, "Asks for /version.reply", {}},
     {"/sync", Direction::to_both, "Answered by /synced when all earlier commands are done", kSync},
-    {"/clearSched", Direction::to_both, "Drops what waits for its time; answered by /done", {}},
+    {"/clearSched",
+     Direction::to_both,
+     "The synth drops what waits for its time; answered by /done",
+     {}},
     {"/mute", Direction::synth_alone,
      "Fades all channels out in 20 ms, or opens them within two seconds; answered by /done", kMute},
     {"/set", Direction::synth_alone,

@@ -31,7 +31,7 @@ struct Impact {
   float speed = 0.0F;      ///< speed of the touching point of the body [m/s]
   float approach = 0.0F;   ///< its part along the water surface's normal [m/s]
   Vec3 position;           ///< where the surfaces meet [m]
-  float offset_ms = 0.0F;  ///< moment of the event after its bundle's time [ms]
+  float offset_ms = 0.0F;  ///< moment at which it sounds, after its bundle's time [ms]
   float momentum = 0.0F;   ///< given to the water until the blow is strongest, 0: not known [N s]
   float rise = 0.0F;       ///< from the first touch until the blow is strongest, 0: not known [s]
   template <class Record>
@@ -51,7 +51,7 @@ struct Bubble {
   float radius = 0.0F;     ///< [m]
   float epsilon = 0.0F;    ///< initial excitation as a part of the radius [1]
   Vec3 position;           ///< [m]
-  float offset_ms = 0.0F;  ///< moment of the event after its bundle's time [ms]
+  float offset_ms = 0.0F;  ///< moment at which it sounds, after its bundle's time [ms]
   template <class Record>
   [[nodiscard]] static constexpr auto arguments(Record& r) noexcept {
     return std::tie(r.id, r.body, r.radius, r.epsilon, r.position.x, r.position.y, r.position.z,

@@ -2,7 +2,7 @@
 // Keeps a transducer from burning. Its coil is taken for a body that one number heats and cools:
 // the mean square h of what it got, forgotten with its thermal time constant. While h is under half
 // of what it bears for ever, nothing happens; from there on the limit of the limiter sinks, from
-// the ceiling down to the effective value that it bears, which it reaches when h does. No sample is
+// the ceiling down to the RMS value that it bears, which it reaches when h does. No sample is
 // beyond the limit, so h never gets past the budget, whatever comes in: at the budget the limit
 // squared is the budget. A gain computed from the loudness of the input alone could not promise it.
 #pragma once

@@ -57,7 +57,7 @@ struct Threshold {
 
 /// What a transducer bears for ever, see output/heat_budget.hpp.
 struct Heat {
-  double rms = 0.0;      ///< effective value [full scale]; 0: not known, no budget
+  double rms = 0.0;      ///< RMS value [full scale]; 0: not known, no budget
   double seconds = 5.0;  ///< thermal time constant [s]
 };
 

@@ -213,21 +213,20 @@ std::vector<Field<ThresholdEntry>> threshold_fields() {
 }
 
 std::vector<Field<Heat>> heat_fields() {
-  return {
-      {{.key = "rms",
-        .unit = "1",
-        .meaning = "effective value that the transducer bears for ever, in parts of full scale; "
-                   "its limit sinks from the ceiling to this as it warms up",
-        .min = 0.05,
-        .max = 1.0,
-        .required = true},
-       &Heat::rms},
-      {{.key = "seconds",
-        .unit = "s",
-        .meaning = "how fast it warms up and cools down: the coil's thermal time constant",
-        .min = 0.1,
-        .max = 600},
-       &Heat::seconds}};
+  return {{{.key = "rms",
+            .unit = "1",
+            .meaning = "RMS value that the transducer takes continuously, in parts of full scale; "
+                       "its limit sinks from the ceiling to this as it warms up",
+            .min = 0.05,
+            .max = 1.0,
+            .required = true},
+           &Heat::rms},
+          {{.key = "seconds",
+            .unit = "s",
+            .meaning = "how fast it warms up and cools down: the coil's thermal time constant",
+            .min = 0.1,
+            .max = 600},
+           &Heat::seconds}};
 }
 
 }  // namespace splash::synth

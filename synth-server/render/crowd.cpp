@@ -16,7 +16,7 @@ constexpr double kLowest = 62.5;            // edge of the first band [Hz]
 constexpr double kHighest = 0.47;           // edge of the last one, of the sample rate
 constexpr float kSilent = 1e-16F;           // power: -160 dB of full scale
 constexpr double kEdge = 1.12246204830937;  // 2^(1/6), from a band's middle to its edge
-/// Two resonators in a row let as much white noise through as the third of an octave holds.
+/// Two resonators in a row let as much white noise through as the third-octave band holds.
 constexpr double kQ = std::numbers::pi / 4.0 / (kEdge - 1.0 / kEdge);
 
 double middle(std::size_t band) noexcept {

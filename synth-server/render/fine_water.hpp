@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bubbles too small for the simulator, for outputs that reach above 1 kHz: thousands for each
-// simulated one, so that their sum is noise. In a third of an octave their energy per simulated
+// simulated one, so that their sum is noise. In a third-octave band their energy per simulated
 // bubble is
 //   E = integral of N(r) / N_sim (eps r)^2 / (4 d(r)) dr
 // over the radii that sound there; N(r) ~ r^(-10/3) above the Hinze scale of 1 mm and r^(-3/2)
@@ -62,7 +62,7 @@ class FineWater {
   double sample_rate_;
   std::vector<Channel> channels_;
   Bands gain_{}, a1_{}, a2_{};  ///< of the filters, see resonator.hpp
-  Bands levels_{};              ///< effective value of each band over the envelope's root
+  Bands levels_{};              ///< RMS value of each band over the envelope's root
   double power_ = 0.0;          ///< of all bands together
   ToneSound known_;             ///< what the levels were computed for
   FineSound fine_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How strong an impact is made: by a power of its speed, in metres, as the paper has it, or by how
-// strongly it is felt. The sensation level of a burst is its loudest third of an octave, averaged
+// strongly it is felt. The sensation level of a burst is its loudest third-octave band, averaged
 // over the first 125 ms, over the threshold of touch there. It grows evenly with the logarithm of
 // the speed,
 //   SL(v) = slow_db + (fast_db - slow_db) ln(v / slow) / ln(fast / slow),

@@ -174,7 +174,7 @@ std::vector<Field<ImpactSound>> felt_fields() {
        &ImpactSound::slow},
       {{.key = "slow_db",
         .unit = "dB",
-        .meaning = "loudest third of an octave of its first 125 ms, over the threshold of touch "
+        .meaning = "loudest third-octave band of its first 125 ms, over the threshold of touch "
                    "that the rig states",
         .min = -20.0,
         .max = 60.0,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A story of datagrams from a surface that is touched, or from a floor that feels weight, to the
+// A story of datagrams from a surface that is touched, or from a pressure-sensing floor, to the
 // feet that they move, with time passing: whatever comes, each foot is somewhere, and moves no
 // faster than a foot may.
 #include <algorithm>

@@ -38,7 +38,7 @@ bool try_rig(Bytes input);       ///< rig files
 bool try_mesh(Bytes input);      ///< triangle meshes, of either format
 bool try_tracker(Bytes input);   ///< datagrams of trackers, through every preset
 bool try_tuio(Bytes input);      ///< datagrams of touched surfaces in a row, to the feet they move
-bool try_pressure(Bytes input);  ///< datagrams of a floor that feels weight, likewise
+bool try_pressure(Bytes input);  ///< datagrams of a pressure-sensing floor, likewise
 
 struct Target {
   std::string name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Feet on a floor that feels weight. A load where no foot stands is a foot that comes down: the one
+// Feet on a pressure-sensing floor. A load where no foot stands is a foot that comes down: the one
 // that waits nearest. From then on the loads next to it are its own, until they carry next to
 // nothing. What lies between two feet that stand side by side is shared out by the lever between
 // them, so that either is felt to leave.
