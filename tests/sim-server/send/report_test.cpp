@@ -6,12 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "tests/sim-server/send/temporary_folder.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -54,6 +59,25 @@ RunReport example() {
   report.refused_datagrams = {{"padding is not zero", 4}};
   report.slow_seconds = 1.5;
   return report;
+}
+
+TEST(Report, HasNoKeyThatTheDocumentsLackNorTheyOneThatItLacks) {
+  std::ifstream file(tests::source_folder() / "docs" / "running.md");
+  std::stringstream all;
+  all << file.rdbuf();
+  const std::string text = all.str();
+  const std::size_t start = text.find("\n## The report\n");
+  ASSERT_NE(start, std::string::npos);
+  const std::string section = text.substr(start, text.find("\n## ", start + 1) - start);
+  std::set<std::string> told;
+  static const std::regex kKey("`([a-z_]+)`");
+  for (std::sregex_iterator it(section.begin(), section.end(), kKey), end; it != end; ++it) {
+    told.insert((*it)[1]);
+  }
+  std::set<std::string> written;
+  const json report = json::parse(to_json(example()));
+  for (const auto& [key, value] : report.items()) written.insert(key);
+  EXPECT_EQ(told, written);
 }
 
 TEST(Report, HoldsTheKeysOfTheContract) {
