@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Both real programs on one machine: the pool in several sizes, with each solver, as fast as it
-// can, and the synth that plays its events on 36 tiles into a device that throws the sound away.
-// Prints the real-time factor, beside that without a receiver.
+// Both real programs on one machine: the pool in several sizes, with each solver and the default
+// step and the longest one, as fast as it can, and the synth that plays its events on 36 tiles into
+// a device that throws the sound away. Prints the real-time factor, beside that without a receiver.
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::vector<int> particles = {15000, 60000};
   std::vector<std::string> solvers = {"grid_projected", "weakly_compressible"};
+  std::vector<double> factors = {1.0, 2.0};  ///< of the default step; load makes steps as long
   int runs = 3;
   double seconds = 4.0;  ///< simulated, of a run [s]
 };
@@ -38,8 +39,8 @@ struct Run {
   long events = 0;
 };
 
-/// The pool with so many particles and that solver, as a file in `folder`.
-fs::path pool(const fs::path& folder, int particles, const std::string& solver) {
+/// The pool with so many particles, that solver and that step, as a file in `folder`.
+fs::path pool(const fs::path& folder, int particles, const std::string& solver, double factor) {
   const fs::path scenes = source_folder() / "configs" / "scenes";
   for (const char* motion : {"pool_left.csv", "pool_right.csv"}) {
     fs::copy_file(scenes / motion, folder / motion, fs::copy_options::overwrite_existing);
@@ -47,6 +48,7 @@ fs::path pool(const fs::path& folder, int particles, const std::string& solver) 
   YAML::Node scene = YAML::LoadFile(scenes / "pool.yaml");
   scene["fluid"]["particles"] = particles;
   scene["fluid"]["solver"] = solver;
+  scene["fluid"]["time_step_factor"] = factor;
   fs::path file = folder / "pool.yaml";
   std::ofstream(file) << scene << '\n';
   return file;
@@ -84,20 +86,23 @@ bool measure(bench::Bench& bench, const Options& options) {
   std::printf("%s\n\n", what);
   Synth synth({"--rig", rig_path("tiles36.yaml"), "--device", "null"});
   const std::string target = protocol::to_string(synth.endpoint());
-  auto table = bench.table("both.csv",
-                           {"particles", "solver", "with the synth", "without", "events a second"});
+  auto table = bench.table("both.csv", {"particles", "solver", "time_step_factor", "with the synth",
+                                        "without", "events a second"});
+  const auto add = [&](int particles, const std::string& solver, double factor) {
+    const fs::path scene = pool(bench.out(), particles, solver, factor);
+    std::vector<Run> with;
+    std::vector<Run> without;
+    for (int k = 0; k < options.runs; ++k) {
+      with.push_back(run(scene, options.seconds, target));
+      without.push_back(run(scene, options.seconds, {}));
+    }
+    table.add({std::to_string(with.front().particles), solver, bench::number(factor),
+               bench::number(median_factor(with)), bench::number(median_factor(without)),
+               bench::number(static_cast<double>(with.front().events) / options.seconds)});
+  };
   for (const int particles : options.particles) {
     for (const std::string& solver : options.solvers) {
-      const fs::path scene = pool(bench.out(), particles, solver);
-      std::vector<Run> with;
-      std::vector<Run> without;
-      for (int k = 0; k < options.runs; ++k) {
-        with.push_back(run(scene, options.seconds, target));
-        without.push_back(run(scene, options.seconds, {}));
-      }
-      table.add({std::to_string(with.front().particles), solver, bench::number(median_factor(with)),
-                 bench::number(median_factor(without)),
-                 bench::number(static_cast<double>(with.front().events) / options.seconds)});
+      for (const double factor : options.factors) add(particles, solver, factor);
     }
   }
   bench.tell(what);
@@ -117,6 +122,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--solver", options.solvers, "Repeatable")
       ->check(CLI::IsMember({"grid_projected", "weakly_compressible"}))
+      ->capture_default_str();
+  app.add_option("--time-step-factor", options.factors, "Repeatable")
+      ->check(CLI::Range(0.05, 2.0))
       ->capture_default_str();
   app.add_option("--runs", options.runs, "Of each")
       ->check(CLI::Range(1, 99))
