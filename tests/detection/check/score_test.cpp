@@ -35,7 +35,7 @@ Path falling(double height, double speed, double degrees = 0.0) {
 }
 
 std::vector<Entry> whole(const sim::Shape& shape, const Path& path, double end = 1.0) {
-  return entries_of(0, shape, kWhole, path, kLevel, end, {});
+  return entries_of(0, shape, path, kLevel, end, {});
 }
 
 TEST(Truth, IsWhenTheLowestPlaceCrossesTheLevel) {
