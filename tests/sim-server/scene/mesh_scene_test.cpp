@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "program/config.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -49,12 +49,7 @@ class MeshScene : public ::testing::Test {
         (folder_ / "scene.yaml").string());
   }
   [[nodiscard]] std::string complaint(const std::string& body) const {
-    try {
-      static_cast<void>(scene_with(body));
-    } catch (const program::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return tests::refusal([&] { return scene_with(body); });
   }
 
   const Quaternion no_turn_ = {0.0, 0.0, 0.0, 1.0};

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program/config.hpp"
 #include "sim-server/bodies/motion/live_motion.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/bodies/motion/marker_text.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -27,12 +27,7 @@ BodySettings body(MotionKind kind) {
 }
 
 std::string refusal(const BodySettings& settings, const std::filesystem::path& tracker = {}) {
-  try {
-    static_cast<void>(make_motion(settings, tracker));
-    return "";
-  } catch (const program::ConfigError& error) {
-    return error.what();
-  }
+  return tests::refusal([&] { return make_motion(settings, tracker); });
 }
 
 TEST(MakeMotion, FixedBodiesStay) {
