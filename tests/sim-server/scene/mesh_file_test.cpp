@@ -4,16 +4,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "program/config.hpp"
 #include "sim-server/scene/mesh/mesh_mass.hpp"
 #include "sim-server/scene/mesh/soundness.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -111,12 +108,9 @@ TEST(MeshFile, LeavesOutVerticesOfNoTriangle) {
 }
 
 TEST(MeshFile, IsReadFromDisk) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("splash_corner_" + std::to_string(getpid()) + ".obj");
-  std::ofstream(path) << kObj;
-  EXPECT_EQ(read_mesh(path, 1.0).triangles.size(), 4U);
-  std::filesystem::remove(path);
-  EXPECT_THROW(static_cast<void>(read_mesh(path, 1.0)), program::ConfigError);
+  const tests::TemporaryFolder folder;
+  EXPECT_EQ(read_mesh(folder.write("corner.obj", kObj), 1.0).triangles.size(), 4U);
+  EXPECT_THROW(static_cast<void>(read_mesh(folder / "none.obj", 1.0)), program::ConfigError);
 }
 
 struct Wrong {
