@@ -11,7 +11,7 @@
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/opencl_ledger.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::bench {
 namespace {
@@ -95,8 +95,7 @@ StageTimes of_cube(Device& device, int count) {
 }
 
 StageTimes of_pool(Device& device) {
-  const auto path = tests::source_folder() / "configs" / "scenes" / "pool.yaml";
-  Simulation pool(device, read_scene(path), {});
+  Simulation pool(device, read_scene(tests::scene_file("pool")), {});
   StageTimes times;
   begin_ledger();
   const double start = protocol::monotonic_now();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,7 +14,7 @@
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/opencl_ledger.hpp"
 #include "tests/bench/report.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/scene_text.hpp"
 #include "tests/validation/series.hpp"
 
 namespace {
@@ -56,10 +55,6 @@ struct SkipDifference {
 
 constexpr double kShorter = 0.999;
 
-std::filesystem::path source(const char* file) {
-  return tests::source_folder() / file;
-}
-
 GaugeSettings probe(const char* name, GaugeKind kind, const Vector3& place) {
   GaugeSettings settings;
   settings.name = name;
@@ -71,7 +66,7 @@ GaugeSettings probe(const char* name, GaugeKind kind, const Vector3& place) {
 }
 
 SkipScene plunge() {
-  Scene scene = read_scene(source("configs/scenes/plunge.yaml"));
+  Scene scene = read_scene(tests::scene_file("plunge"));
   scene.gauges.rate = 50.0;
   scene.gauges.probes = {probe("near", GaugeKind::height, {0.15, 0.05, 0.0}),
                          probe("corner", GaugeKind::height, {0.25, -0.25, 0.0}),
@@ -81,7 +76,7 @@ SkipScene plunge() {
 }
 
 SkipScene spheric2() {
-  Scene scene = read_scene(source("tests/validation/scenes/spheric2.yaml"));
+  Scene scene = read_scene(tests::source_folder() / "tests/validation/scenes/spheric2.yaml");
   scene.fluid.spacing = 0.04;
   return {"spheric2", scene, 6.0};
 }
@@ -212,7 +207,7 @@ double way_of(int particles) {
 
 /// A paddle that goes to and fro in the corner, slowly.
 Scene stirred(int particles) {
-  Scene scene = read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
+  Scene scene = read_scene(tests::scene_file("pool"));
   scene.fluid.particles = particles;
   // On the grid all water sleeps or none.
   scene.fluid.solver = PressureKind::weakly_compressible;

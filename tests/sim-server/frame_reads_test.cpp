@@ -6,7 +6,7 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/opencl_ledger.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::sim {
 namespace {
@@ -15,7 +15,7 @@ class FrameOfThePool : public ::testing::TestWithParam<bool> {};
 
 TEST_P(FrameOfThePool, ReadsNothingBeforeTheLastKernel) {
   Device device(-1, false, GetParam() ? gpu_profile() : cpu_profile(2));
-  Scene scene = read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
+  Scene scene = read_scene(tests::scene_file("pool"));
   scene.fluid.solver = PressureKind::weakly_compressible;
   scene.fluid.particles = 3000;
   scene.fluid.settle = SettleKind::never;
