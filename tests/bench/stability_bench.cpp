@@ -269,9 +269,8 @@ int run_injections(bench::Bench& bench, sim::Device& device, const Options& opti
   int failed = 0;
   int total = 0;
   for (const PressureKind solver : options.solvers) {
-    const Water water = {solver};
     const std::string name = sim::name_of(solver);
-    sim::Simulation simulation(device, still_scene(water, 0.35), {});
+    sim::Simulation simulation(device, still_scene(solver, 0.35), {});
     for (const Injection& injection : injections()) {
       const auto outcomes = run_faults(simulation, {injection}, options.places, 2026);
       int seen = 0;
