@@ -25,10 +25,6 @@ constexpr double kStep = 4.0e-3;  ///< [s]
 
 class GridProjectedReference : public ::testing::TestWithParam<Build> {};
 
-const GridProjected& solver_of(const Water& water) {
-  return dynamic_cast<const GridProjected&>(water.fluid->solver());
-}
-
 /// Water in a tank that no whole number of cells fills.
 Water odd_tank() {
   Scene scene = tank_scene(0.02, {0.17, 0.09, 0.3}, 0.11);
@@ -36,27 +32,15 @@ Water odd_tank() {
   return fill(scene, PressureKind::grid_projected);
 }
 
-std::vector<double> read(Device& device, const Buffer<float>& buffer, std::size_t first,
-                         std::size_t count) {
-  std::vector<float> values(count);
-  buffer.read(device, values, first);
-  return {values.begin(), values.end()};
-}
-
-std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, std::size_t stride,
-                                  std::size_t count) {
-  std::vector<Vector3> vectors(count);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::vector<double> part = read(device, buffer, axis * stride, count);
-    for (std::size_t i = 0; i < count; ++i) vectors[i][axis] = part[i];
-  }
-  return vectors;
-}
-
 MacFaces read_faces(Device& device, const GridProjected& solver, const Buffer<float>& buffer) {
   const auto cells = static_cast<std::size_t>(solver.fields().grid.level[0].cells);
-  return {read(device, buffer, 0, cells), read(device, buffer, cells, cells),
-          read(device, buffer, 2 * cells, cells)};
+  const std::vector<double> all = read_numbers(device, buffer, 3 * cells);
+  MacFaces faces;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(axis * cells);
+    faces[axis].assign(first, first + static_cast<std::ptrdiff_t>(cells));
+  }
+  return faces;
 }
 
 /// The largest difference.
@@ -84,17 +68,16 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
   for (int k = 0; k < 3; ++k) water.step(kStep);
   FluidState before;
   water.step(kStep, [&](Fluid& fluid) { before = read_state(fluid); });
-  const GridProjected& solver = solver_of(water);
+  const GridProjected& solver = solver_of(*water.fluid);
   const FluidParams& p = before.params;
   const std::size_t count = before.id.size();
-  const auto stride = static_cast<std::size_t>(p.capacity);
   const MacReference reference(solver.fields().grid);
 
   ReferenceGathered gathered = reference.gather(before.position, before.velocity);
   const auto cells = static_cast<std::size_t>(solver.fields().grid.level[0].cells);
   EXPECT_LT(apart(read_faces(device, solver, solver.fields().mean), gathered.mean), 1.0e-5);
   EXPECT_LT(apart(read_faces(device, solver, solver.fields().weight), gathered.weight), 2.0e-4);
-  EXPECT_LT(apart(read(device, solver.solids().fill(), 0, cells), gathered.fill), 1.0e-4);
+  EXPECT_LT(apart(read_numbers(device, solver.solids().fill(), cells), gathered.fill), 1.0e-4);
   EXPECT_GT(*std::max_element(gathered.fill.begin(), gathered.fill.end()), 0.9);
 
   MacFaces everywhere = gathered.weight;
@@ -108,12 +91,12 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
     return left;
   };
   deviation = unseen(before.velocity, gathered.mean);
-  EXPECT_LT(apart(read_vectors(device, solver.deviation(), stride, count), deviation), 1.0e-5);
+  EXPECT_LT(apart(read_vectors(device, solver.deviation(), p.capacity, count), deviation), 1.0e-5);
   const ReferenceGathered seen = reference.gather(before.position, deviation);
   EXPECT_LT(apart(read_faces(device, solver, solver.seen()), seen.mean), 1.0e-5);
   const std::vector<Vector3> twice = unseen(deviation, seen.mean);
 
-  const std::vector<double> pressure = read(device, solver.fields().pressure, 0, cells);
+  const std::vector<double> pressure = read_numbers(device, solver.fields().pressure, cells);
   const MacFaces change = reference.change(gathered, p, pressure, kStep);
   const MacFaces shared = reference.shared(gathered, change);
   const MacFaces changed = read_faces(device, solver, solver.fields().change);
@@ -216,11 +199,11 @@ TEST_P(GridProjectedReference, CellsAskForTheRoomThatTheyLack) {
     Water water = pressed_together(part);
     water.start(device);
     water.step(1.0e-2);
-    const GridProjected& solver = solver_of(water);
+    const GridProjected& solver = solver_of(*water.fluid);
     const MacGrid& g = solver.fields().grid;
     const MacLevel& l = g.level[0];
     const auto cells = static_cast<std::size_t>(l.cells);
-    const std::vector<double> fill = read(device, solver.solids().fill(), 0, cells);
+    const std::vector<double> fill = read_numbers(device, solver.solids().fill(), cells);
     const MacFaces shift = read_faces(device, solver, solver.crowding().shift());
     const std::array<double, 3> inverse = {static_cast<double>(g.ix), static_cast<double>(g.iy),
                                            static_cast<double>(g.iz)};
@@ -295,9 +278,10 @@ TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
   const double wave = std::sqrt(9.81 * depth);
   EXPECT_LT(water.fluid->stats().speed, 0.002 * wave);
   // From below, as pressure gauges read it: the grid's lowest cells, carried to the floor.
-  const MacGrid& grid = solver_of(water).fields().grid;
+  const MacGrid& grid = solver_of(*water.fluid).fields().grid;
   const auto cells = static_cast<std::size_t>(grid.level[0].cells);
-  const std::vector<double> pressure = read(device, solver_of(water).fields().pressure, 0, cells);
+  const std::vector<double> pressure =
+      read_numbers(device, solver_of(*water.fluid).fields().pressure, cells);
   const MacReference reference(grid);
   double sum = 0.0;
   for (int j = 0; j < grid.level[0].ny; ++j) {

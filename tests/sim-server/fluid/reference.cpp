@@ -11,27 +11,10 @@
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "tests/support/vectors.hpp"
 
 namespace splash::sim {
 namespace {
-
-std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, int stride,
-                                  std::size_t count) {
-  const auto n = static_cast<std::size_t>(stride);
-  const std::vector<float> parts = buffer.read(device, 3 * n);
-  std::vector<Vector3> vectors(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      vectors[i][axis] = static_cast<double>(parts[axis * n + i]);
-    }
-  }
-  return vectors;
-}
-
-std::vector<double> read_numbers(Device& device, const Buffer<float>& buffer, std::size_t count) {
-  const std::vector<float> read = buffer.read(device, count);
-  return {read.begin(), read.end()};
-}
 
 Vector3 normal_of(const FluidParams& params, int wall) {
   const WallPlane& plane = params.walls[wall];
@@ -180,6 +163,16 @@ DistanceField field_of(const BodyShape& shape, const std::vector<float>& meshes)
 }
 
 }  // namespace
+
+std::vector<double> read_numbers(Device& device, const Buffer<float>& buffer, std::size_t count) {
+  const std::vector<float> read = buffer.read(device, count);
+  return {read.begin(), read.end()};
+}
+
+std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, int stride,
+                                  std::size_t count) {
+  return tests::vectors_of(buffer.read(device, 3 * static_cast<std::size_t>(stride)), count);
+}
 
 FluidState read_state(Fluid& fluid, double piston) {
   Device& device = fluid.device();
