@@ -261,7 +261,6 @@ $(nproc) cores, Linux $(uname -r)." '' '```' "$device_line" "${scalar:+kernels: 
     done
     printf '\nWhat each part holds:\n\n```\n%s\n```\n' "$(parts_of '')"
     [[ -z $energy ]] || printf '\nEnergy: %s\n' "$energy"
-    [[ ! -e $out/size/size.svg ]] || printf '\n![time of a step](size/size.svg)\n'
     quoted "Devices" "$out/devices.log"
     for name in scenes size stages yardstick validation; do quoted "$name" "$out/$name.log"; done
     contents

@@ -13,7 +13,7 @@
 #include <optional>
 #include <sstream>
 
-#include "protocol/time_tag.hpp"
+#include "tests/bench/progress.hpp"
 #include "tests/detection/table.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -106,31 +106,15 @@ void show_truth(const Case& item) {
   }
 }
 
-class Progress {
- public:
-  Progress(std::string what, std::size_t number, std::size_t of)
-      : what_(std::to_string(number) + "/" + std::to_string(of) + "  " + std::move(what)) {}
-  void operator()(double share) {
-    const double now = protocol::monotonic_now();
-    if (now - shown_ < 2.0) return;
-    shown_ = now;
-    std::printf("\r%s  %3.0f %%", what_.c_str(), 100.0 * std::min(share, 1.0));
-    std::fflush(stdout);
-  }
-  void end(const Outcome& outcome) const {
-    const Score& s = outcome.score;
-    std::printf(
-        "\r%s: told %d of %d, false %d; cavities %d, stray %d; %d bubbles  (%.1f s of processor)\n",
-        what_.c_str(), s.hit, s.wanted, s.untrue, s.cavities, s.stray, s.bubbles,
-        outcome.processor);
-    for (const std::string& fault : s.faults) std::printf("    %s\n", fault.c_str());
-    std::fflush(stdout);
-  }
-
- private:
-  std::string what_;
-  double shown_ = protocol::monotonic_now();
-};
+void tell(const bench::Progress& progress, const Outcome& outcome) {
+  const Score& s = outcome.score;
+  std::printf(
+      "%s: told %d of %d, false %d; cavities %d, stray %d; %d bubbles  (%.1f s of processor)\n",
+      progress.end().c_str(), s.hit, s.wanted, s.untrue, s.cavities, s.stray, s.bubbles,
+      outcome.processor);
+  for (const std::string& fault : s.faults) std::printf("    %s\n", fault.c_str());
+  std::fflush(stdout);
+}
 
 void update(const fs::path& path, const std::vector<Outcome>& outcomes, bool all) {
   std::ostringstream text;
@@ -141,7 +125,7 @@ void update(const fs::path& path, const std::vector<Outcome>& outcomes, bool all
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-void bench(Options options) {
+void run(Options options) {
   complete(options);
   options.material.folder = options.out / "files";
   fs::create_directories(options.material.folder);
@@ -158,10 +142,11 @@ void bench(Options options) {
   std::printf("device: %s\n", describe(device.facts()).c_str());
   std::vector<Outcome> outcomes;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    Progress progress(cases[k].sweep + ": " + cases[k].name, k + 1, cases.size());
+    bench::Progress progress(std::to_string(k + 1) + "/" + std::to_string(cases.size()) + "  " +
+                             cases[k].sweep + ": " + cases[k].name);
     outcomes.push_back(
         run_case(device, cases[k], options.solver, [&](double share) { progress(share); }));
-    progress.end(outcomes.back());
+    tell(progress, outcomes.back());
     // After every run, so that a run that is broken off leaves what it found.
     write_report(options.out, device.facts().name, outcomes);
   }
@@ -208,7 +193,7 @@ int main(int argc, char** argv) {
           {"grid_projected", sim::PressureKind::grid_projected}}));
   CLI11_PARSE(app, argc, argv);
   try {
-    bench(options);
+    run(options);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "bench-detection: " << error.what() << '\n';

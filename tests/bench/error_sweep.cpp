@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/error_sweep.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,7 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "protocol/time_tag.hpp"
+#include "tests/bench/progress.hpp"
 
 namespace splash::bench {
 namespace {
@@ -25,35 +23,17 @@ constexpr double kFrames = 200.0;
 constexpr double kHalf = 0.5;
 constexpr double kLonger = 1.25;
 
-/// One line that is written over until the run is done.
-class Line {
- public:
-  explicit Line(std::string what) : what_(std::move(what)), shown_(protocol::monotonic_now()) {}
-  void progress(double share) {
-    const double now = protocol::monotonic_now();
-    if (!on_terminal_ || now - shown_ < 2.0) return;
-    shown_ = now;
-    std::printf("\r%s %3.0f %%", what_.c_str(), 100.0 * std::min(share, 1.0));
-    std::fflush(stdout);
+void tell(const Progress& progress, const SweepPoint& point) {
+  const sim::SolveWork& work = point.result.work;
+  std::printf("%s %7d  %8.3f  %8.3f  %9.3g", progress.end().c_str(), point.result.particles,
+              point.wall_cost(), point.processor_cost(1), point.error());
+  if (work.solves > 0) {
+    std::printf("  %.1f (%d)",
+                static_cast<double>(work.iterations) / static_cast<double>(work.solves), work.most);
   }
-  void end(const SweepPoint& point) const {
-    const sim::SolveWork& work = point.result.work;
-    std::printf("%s%s %7d  %8.3f  %8.3f  %9.3g", on_terminal_ ? "\r" : "", what_.c_str(),
-                point.result.particles, point.wall_cost(), point.processor_cost(1), point.error());
-    if (work.solves > 0) {
-      std::printf("  %.1f (%d)",
-                  static_cast<double>(work.iterations) / static_cast<double>(work.solves),
-                  work.most);
-    }
-    std::printf("\n");
-    std::fflush(stdout);
-  }
-
- private:
-  std::string what_;
-  double shown_;
-  bool on_terminal_ = isatty(STDOUT_FILENO) != 0;
-};
+  std::printf("\n");
+  std::fflush(stdout);
+}
 
 /// Of SweepPoint::error in the outcome; what has no such figure is a mistake of ours.
 double figure_of(const validation::Outcome& outcome, const std::string& name) {
@@ -153,12 +133,12 @@ std::vector<SweepPoint> sweep(const SweepPlan& plan, int device,
         char what[128];
         std::snprintf(what, sizeof what, "%-17s %s/dp = %-4.0f  %-38s", item->name.c_str(),
                       run.size_name.c_str(), run.size / run.spacings[k], quality.name().c_str());
-        Line line(what);
+        Progress progress(what);
         sim::Device& where = quality.kernels == KernelKind::reference ? scalars : vectors;
         points.push_back({item, quality,
                           validation::run_case(where, run, setting_of(quality, run.spacings[k]), {},
-                                               [&](double share) { line.progress(share); })});
-        line.end(points.back());
+                                               [&](double share) { progress(share); })});
+        tell(progress, points.back());
         done(points);
       }
     }

@@ -15,6 +15,7 @@
 
 #include "protocol/time_tag.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/support/median.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/synth-server/live/jack_capture.hpp"
@@ -85,11 +86,6 @@ JackDeaths kill_jack(int rounds) {
   return deaths;
 }
 
-double middle(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
-
 double largest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
@@ -116,7 +112,7 @@ class Faults {
     const auto rounds = static_cast<int>(deaths.seen.size());
     add("jackd killed, loss seen", rounds, rounds, deaths.seen);
     add("jackd back, playing", rounds, rounds, deaths.back);
-    std::printf("  without it %.1f %% of a core, at most %.1f %%\n", 100.0 * middle(deaths.waited),
+    std::printf("  without it %.1f %% of a core, at most %.1f %%\n", 100.0 * median(deaths.waited),
                 100.0 * largest(deaths.waited));
   }
 
@@ -126,7 +122,7 @@ class Faults {
  private:
   void add(const std::string& what, int rounds, int survived, const std::vector<double>& seconds) {
     table_.add({what, std::to_string(rounds), std::to_string(survived),
-                bench::number(middle(seconds)), bench::number(largest(seconds))});
+                bench::number(median(seconds)), bench::number(largest(seconds))});
     for (const double value : seconds) recoveries_ << what << ',' << value << '\n';
   }
 

@@ -32,11 +32,6 @@ sim::FluidParams open(sim::FluidParams params) {
 
 }  // namespace
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 double undisturbed(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 10];

@@ -7,10 +7,12 @@
 
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/scene/scene.hpp"
+#include "tests/support/median.hpp"
 
 namespace splash::bench {
 
-[[nodiscard]] double median(std::vector<double> values);
+using tests::median;
+
 /// The value that a tenth of them stay below: what something takes when nobody gets in its way.
 [[nodiscard]] double undisturbed(std::vector<double> values);
 /// Median of `runs` [s].

@@ -23,7 +23,7 @@
 #include "tests/bench/fluid_work.hpp"
 #include "tests/bench/frame_work.hpp"
 #include "tests/bench/opencl_ledger.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::bench {
 namespace {
@@ -181,7 +181,7 @@ void of_cube(Place& at, int count) {
 }
 
 void of_pool(Place& at, int count) {
-  Scene scene = read_scene(tests::source_folder() / "configs" / "scenes" / "pool.yaml");
+  Scene scene = read_scene(tests::scene_file("pool"));
   // fluid_work.hpp has the state equation's kernels only.
   scene.fluid.solver = PressureKind::weakly_compressible;
   // Settling a large pool takes hours: its particles lie on their lattice when time begins.

@@ -11,8 +11,7 @@
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/opencl_ledger.hpp"
-#include "tests/bench/svg_chart.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::bench {
 namespace {
@@ -96,8 +95,7 @@ StageTimes of_cube(Device& device, int count) {
 }
 
 StageTimes of_pool(Device& device) {
-  const auto path = tests::source_folder() / "configs" / "scenes" / "pool.yaml";
-  Simulation pool(device, read_scene(path), {});
+  Simulation pool(device, read_scene(tests::scene_file("pool")), {});
   StageTimes times;
   begin_ledger();
   const double start = protocol::monotonic_now();
@@ -137,7 +135,6 @@ void against_size(Bench& bench, Device& device, int most_particles, const Until&
   std::printf("\n%s\n", what.c_str());
   auto table = bench.table("size.csv", {"particles", "ms per step", "of processors", "steps/s",
                                         "million updates/s", "MiB", "bytes per particle"});
-  SvgCurve steps = {device.facts().name, {}};
   Cost last;
   for (const int count : kSizes) {
     if (count > most_particles) break;
@@ -155,8 +152,6 @@ void against_size(Bench& bench, Device& device, int most_particles, const Until&
     table.add({number(last.particles, 8), number(1e3 * last.step), number(1e3 * last.busy),
                number(1.0 / last.step), number(1e-6 * last.particles / last.step),
                number(last.memory / 1048576.0), number(last.memory / last.particles)});
-    steps.points.emplace_back(last.particles, 1e3 * last.step);
-    draw_log_chart(bench.out() / "size.svg", "Time of a step", "particles", "ms", {steps});
   }
   bench.tell(what);
   bench.tell(table.text());

@@ -86,11 +86,9 @@ FrameSeen see_frame(Simulation& simulation) {
   seen.bubbles = static_cast<double>(before.bubbles_alive);
   simulation.set_hook([&](Fluid& fluid, Step& step, Moment moment) {
     if (moment != Moment::between) return;
-    const std::int64_t reads = noted_commands().reads;
     seen.places = places_of(fluid, step);
     seen.fast = count_fast(fluid, scene.detect.bubble_speed);
     seen.near = count_near(fluid, step);
-    seen.own_reads += noted_commands().reads - reads;
   });
   const FrameResult frame = simulation.advance();
   simulation.set_hook({});

@@ -3,7 +3,6 @@
 // stats, detectors, the copy of the state.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 
@@ -17,13 +16,12 @@ namespace splash::bench {
 struct FrameSeen {
   Places places;  ///< in its last step
   int steps = 0;
-  bool sleeps = false;         ///< water may
-  bool looks = false;          ///< for spawns of bubbles
-  double skin = 0.0;           ///< points of bodies that look at the water
-  double near = 0.0;           ///< particles in bodies' boxes
-  double bubbles = 0.0;        ///< that are carried
-  double fast = 0.0;           ///< particles that may entrap air
-  std::int64_t own_reads = 0;  ///< that looking at it took, if the ledger is open
+  bool sleeps = false;   ///< water may
+  bool looks = false;    ///< for spawns of bubbles
+  double skin = 0.0;     ///< points of bodies that look at the water
+  double near = 0.0;     ///< particles in bodies' boxes
+  double bubbles = 0.0;  ///< that are carried
+  double fast = 0.0;     ///< particles that may entrap air
 };
 
 /// Computes a frame and looks at it; waits in its midst. Throws std::runtime_error for a frame that

@@ -5,6 +5,7 @@
 // folder, each input a file. Ends with 1 when anything was found.
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -16,9 +17,10 @@
 #include <vector>
 
 #include "protocol/time_tag.hpp"
-#include "tests/bench/fuzz_readers.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/fuzz/target.hpp"
+#include "tests/protocol/other_readers.hpp"
+#include "tests/protocol/random_packets.hpp"
 #include "tests/support/child_process.hpp"
 
 namespace {
@@ -213,6 +215,60 @@ bool report(bench::Bench& bench, const std::vector<Result>& results) {
   return findings == 0;
 }
 
+struct Counts {
+  std::uint64_t inputs = 0;
+  std::uint64_t accepted = 0;
+  std::uint64_t broken = 0;  ///< accepted ones that had been mutated
+  std::uint64_t different = 0;
+};
+
+void print(const Counts& counts, double seconds) {
+  std::printf(
+      "readers  %10llu inputs  %8.0f/s  accepted %llu (of them mutated %llu)  read differently "
+      "%llu\n",
+      static_cast<unsigned long long>(counts.inputs),
+      static_cast<double>(counts.inputs) / std::max(seconds, 1e-3),
+      static_cast<unsigned long long>(counts.accepted),
+      static_cast<unsigned long long>(counts.broken),
+      static_cast<unsigned long long>(counts.different));
+  std::fflush(stdout);
+}
+
+void print_packet(protocol::Bytes packet) {
+  std::printf("read differently: ");
+  for (const auto byte : packet) std::printf("%02x", std::to_integer<unsigned>(byte));
+  std::printf("\n");
+}
+
+/// The differential test at length: what the gate accepts, oscpack, liblo and our decoder read
+/// alike. `inputs` packets, half of them legal and half mutated. Prints progress and the counts;
+/// true when no packet was read differently.
+bool compare_readers(std::uint64_t inputs) {
+  constexpr std::uint64_t kNews = 10;  // lines of progress
+  constexpr std::uint64_t kShown = 5;  // packets printed
+  protocol::test::RandomPackets random(7);
+  protocol::test::LibloReader liblo;
+  Counts counts;
+  const double start = protocol::monotonic_now();
+  while (counts.inputs < inputs) {
+    const bool mutated = counts.inputs % 2 == 1;
+    const auto packet = mutated ? random.mutated() : random.legal();
+    ++counts.inputs;
+    const protocol::DecodeResult ours = protocol::decode(packet);
+    if (ours.refusal == protocol::Refusal::none) {
+      ++counts.accepted;
+      counts.broken += mutated ? 1U : 0U;
+      const bool alike = protocol::test::read_with_oscpack(packet) == ours.packet &&
+                         liblo.read(packet) == ours.packet;
+      if (!alike && counts.different++ < kShown) print_packet(packet);
+    }
+    if (counts.inputs % std::max<std::uint64_t>(1, inputs / kNews) == 0) {
+      print(counts, protocol::monotonic_now() - start);
+    }
+  }
+  return counts.different == 0;
+}
+
 bool run(bench::Bench& bench, Options options) {
   options.out = bench.out();
   bool right = true;
@@ -222,7 +278,7 @@ bool run(bench::Bench& bench, Options options) {
   }
   if (wanted(options, "readers")) {
     const auto inputs = static_cast<std::uint64_t>(0.1 * options.inputs);
-    const bool alike = bench::compare_readers(inputs);
+    const bool alike = compare_readers(inputs);
     bench.tell("Of " + std::to_string(inputs) + " packets, oscpack, liblo and our decoder read " +
                (alike ? "each alike." : "some differently."));
     right = alike && right;

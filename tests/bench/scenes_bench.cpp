@@ -16,7 +16,7 @@
 #include "sim-server/scene/solver_choice.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/report.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace {
 
@@ -55,7 +55,7 @@ const std::vector<Case>& cases() {
 std::filesystem::path tracker_of(const Scene& scene) {
   for (const BodySettings& body : scene.bodies) {
     if (body.motion.kind == MotionKind::trc && body.motion.file.empty()) {
-      return tests::source_folder() / "configs" / "scenes" / "walk.trc";
+      return tests::scene_folder() / "walk.trc";
     }
   }
   return {};
@@ -133,8 +133,7 @@ bool run(bench::Bench& bench, const Options& options) {
   bool sound = true;
   for (const Case& item : cases()) {
     if (!is_wanted(item, options)) continue;
-    const auto path = tests::source_folder() / "configs" / "scenes" / (item.scene + ".yaml");
-    Scene scene = read_scene(path);
+    Scene scene = read_scene(tests::scene_file(item.scene));
     const PressureKind own = scene.fluid.solver;
     for (const PressureKind solver : options.solvers.empty() ? std::vector{own} : options.solvers) {
       scene.fluid.solver = solver;

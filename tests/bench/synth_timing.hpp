@@ -2,9 +2,10 @@
 // Processor time, not wall time: other programs may be running.
 #pragma once
 
-#include <algorithm>
 #include <ctime>
 #include <vector>
+
+#include "tests/support/median.hpp"
 
 namespace splash::bench {
 
@@ -15,10 +16,7 @@ inline double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-inline double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
+using tests::median;
 
 /// Median time of `runs` runs [s].
 template <class Work>

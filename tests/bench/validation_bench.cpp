@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "protocol/time_tag.hpp"
 #include "sim-server/scene/solver_choice.hpp"
+#include "tests/bench/progress.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/validation/report.hpp"
 
@@ -23,26 +23,9 @@ struct Options {
   Setting setting;
 };
 
-/// A line that says how far the run is, not more often than every two seconds.
-class Progress {
- public:
-  explicit Progress(std::string what) : what_(std::move(what)), shown_(protocol::monotonic_now()) {}
-  void operator()(double share) {
-    const double now = protocol::monotonic_now();
-    if (now - shown_ < 2.0) return;
-    shown_ = now;
-    std::printf("\r%s  %3.0f %%", what_.c_str(), 100.0 * std::min(share, 1.0));
-    std::fflush(stdout);
-  }
-
- private:
-  std::string what_;
-  double shown_;
-};
-
-void print(const std::string& what, const Result& result) {
-  std::printf("\r%s  %d particles, %.1f s (%.1f s of processor)\n", what.c_str(), result.particles,
-              result.all.wall, result.all.processor);
+void print(const bench::Progress& progress, const Result& result) {
+  std::printf("%s  %d particles, %.1f s (%.1f s of processor)\n", progress.end().c_str(),
+              result.particles, result.all.wall, result.all.processor);
   for (const Figure& figure : result.outcome.figures) {
     const char* verdict = "";
     if (figure.has_gate()) verdict = figure.passes() ? "  as wanted" : "  OUTSIDE";
@@ -80,7 +63,7 @@ void run(bench::Bench& bench, const Options& options) {
         std::snprintf(what, sizeof what, "%-18s %-20s %s/dp = %-4.0f", item->name.c_str(),
                       name_of(solver).c_str(), item->size_name.c_str(),
                       item->size / item->spacings[k]);
-        Progress progress(what);
+        bench::Progress progress(what);
         Setting setting = options.setting;
         setting.solver = solver;
         setting.spacing = item->spacings[k];
@@ -88,7 +71,7 @@ void run(bench::Bench& bench, const Options& options) {
         std::filesystem::create_directories(series);
         results.push_back(
             run_case(device, *item, setting, series, [&](double share) { progress(share); }));
-        print(what, results.back());
+        print(progress, results.back());
         // After every run, so that a run that is broken off leaves what it found.
         write_report(bench.out(), device.facts().name + described(options.solvers), results);
       }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "protocol/udp_socket.hpp"
+#include "tests/support/median.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/view/chromium.hpp"
@@ -39,11 +40,6 @@ std::string shown_at(ChildProcess& process) {
 
 /// Graphics have nothing to do, all else goes its usual way.
 constexpr const char* kBlind = "WebGL2RenderingContext.prototype.drawArrays = () => {};";
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
 
 void look(const std::string& scene, const Settings& settings) {
   Synth synth({"--rig", "stereo", "--device", "null", "--show", "127.0.0.1:0"});

@@ -17,6 +17,7 @@
 
 #include "protocol/time_tag.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/support/median.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 
@@ -102,11 +103,6 @@ Run run(const std::string& scene, double seconds, bool watched) {
   unlink(report.c_str());
   return {(cpu_of_children() - before - ready) / seconds, number_of(text, "real_time_factor"),
           static_cast<long>(number_of(text, "shown_frames"))};
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 void compare(bench::Table& table, const std::string& scene, const Settings& settings) {

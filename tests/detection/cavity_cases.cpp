@@ -74,7 +74,7 @@ Case case_of(const std::string& sweep, const Stroke& stroke) {
   const double down = stroke.speed * std::sin(turn);
   sim::BodyState at_origin;
   at_origin.rotation = pitched(stroke.degrees);
-  const double low = lowest_point(stroke.shape, kWhole, at_origin)[2];
+  const double low = lowest_point(stroke.shape, at_origin)[2];
   // A box shows as much from behind: its front's middle is half its thickness before its own.
   const double sinks = (-low - 0.5 * law.thickness * std::sin(turn)) / down;
   const double depth =

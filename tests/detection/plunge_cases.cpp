@@ -38,7 +38,7 @@ Case case_of(const std::string& sweep, const Plunge& plunge) {
   const double inside = plunge.inside > 0.0 ? plunge.inside : std::min(kDepth / down, kAfter);
   sim::BodyState at_origin;
   at_origin.rotation = plunge.turn;
-  const double low = lowest_point(plunge.shape, kWhole, at_origin)[2];
+  const double low = lowest_point(plunge.shape, at_origin)[2];
   const double middle = 0.5 * (before + inside);
   Way way({-middle * plunge.velocity[0], 0.0, plunge.basin.level + gap - low}, plunge.turn);
   way.go(plunge.velocity, before + inside).wait(1.0);

@@ -160,7 +160,7 @@ double middle_height(const HandRecording& hand, const std::filesystem::path& fil
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   for (double t = 0.0; t < seconds; t += 0.005) {
-    const double z = lowest_point(body.shape, kWhole, motion->at(t))[2];
+    const double z = lowest_point(body.shape, motion->at(t))[2];
     low = std::min(low, z);
     high = std::max(high, z);
   }

@@ -22,7 +22,7 @@ Case plunges(const sim::Shape& shape, double degrees, double speed, double pause
   basin.level = 0.3;
   sim::BodyState at_origin;
   at_origin.rotation = pitched(degrees);
-  const double low = lowest_point(shape, kWhole, at_origin)[2];
+  const double low = lowest_point(shape, at_origin)[2];
   const sim::Vector3 top = {0.0, 0.0, basin.level + kAbove - low};
   const sim::Vector3 bottom = {0.0, 0.0, basin.level - kDepth - low};
   Way way(top, at_origin.rotation);

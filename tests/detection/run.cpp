@@ -48,14 +48,6 @@ struct Trace {
   }
 };
 
-/// P, where impacts tell it.
-template <class Impact>
-void note_momentum(const Impact& impact, std::vector<double>& momenta) {
-  if constexpr (requires { impact.momentum; }) {
-    momenta.push_back(static_cast<double>(impact.momentum));
-  }
-}
-
 template <class T>
 void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -167,7 +159,7 @@ std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
     if (!paths[b]) continue;
     const sim::Shape& shape = scene.bodies[b].shape;
     std::vector<Entry> mine =
-        !item.feet        ? entries_of(b, shape, kWhole, paths[b], level, item.seconds, limits)
+        !item.feet        ? entries_of(b, shape, paths[b], level, item.seconds, limits)
         : feet == nullptr ? steps_of(b, shape, paths[b], level, item.seconds, limits)
                           : feet->entries(b);
     for (Entry& entry : mine) {
@@ -211,7 +203,7 @@ Outcome run_case(sim::Device& device, const Case& item, std::optional<sim::Press
     paths.note(simulation);
     feet.look(simulation);
     for (const sim::DetectedImpact& impact : frame.found.impacts) {
-      note_momentum(impact, heard.momenta);
+      heard.momenta.push_back(impact.momentum);
     }
     append(heard.found.impacts, frame.found.impacts);
     append(heard.found.bubbles, frame.found.bubbles);

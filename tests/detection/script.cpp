@@ -90,14 +90,13 @@ std::string Way::text() const {
 }
 
 std::string Basin::scene(const std::vector<std::string>& bodies, const std::string& water) const {
-  const sim::Vector3 lower = {-0.5 * length, -0.5 * width, floor};
+  const sim::Vector3 lower = {-0.5 * length, -0.5 * width, 0.0};
   std::string text = "fluid: {spacing: " + digits(spacing);
   if (!solver.empty()) text += ", solver: " + solver;
   text += "}\ntank: {lower: " + digits(lower) +
           ", upper: " + digits({0.5 * length, 0.5 * width, level + 0.6}) +
           "}\nwater:\n  - {lower: " + digits(lower) +
           ", upper: " + digits({0.5 * length, 0.5 * width, level}) + "}\n" + water;
-  if (!detect.empty()) text += "detect: " + detect + "\n";
   if (!bodies.empty()) text += "bodies:\n";
   for (const std::string& body : bodies) text += body;
   return text;

@@ -41,15 +41,13 @@ class Way {
   std::vector<sim::Keyframe> keys_;
 };
 
-/// An open box whose floor is at `floor`, its middle at x = y = 0, with water up to `level`.
+/// An open box whose floor is at z = 0, its middle at x = y = 0, with water up to `level`.
 struct Basin {
   double length = 0.45;  ///< along x [m]
   double width = 0.36;   ///< along y [m]
   double level = 0.24;   ///< [m]
-  double floor = 0.0;    ///< [m]
   double spacing = 0.025;
   std::string solver;  ///< empty: the default
-  std::string detect;  ///< of the table detect, in braces; empty: the defaults
 
   /// A whole scene; `bodies` as body_text gives them, `water`: more of it, lines of a list.
   [[nodiscard]] std::string scene(const std::vector<std::string>& bodies,

@@ -17,7 +17,7 @@ using namespace sim;  // operators of vectors among it
 constexpr double kStep = 0.001;
 constexpr int kBisections = 40;
 
-/// The underside of a rocker is looked at in so many places along a part.
+/// The underside of a rocker is looked at in so many places.
 constexpr int kPlaces = 17;
 
 /// Around the speed below which a body is silent either is right [1].
@@ -25,22 +25,13 @@ constexpr double kSurelySlow = 0.9;
 constexpr double kSurelyFast = 1.15;
 
 /// Places in body axes of which one is the lowest, however the body is turned [m].
-std::vector<Vector3> corners_of(const Shape& shape, const Part& part) {
-  if (shape.kind == ShapeKind::mesh) {
-    std::vector<Vector3> all;
-    const double length = shape.mesh->upper[0] - shape.mesh->lower[0];
-    for (const Vector3& vertex : shape.mesh->surface.vertices) {
-      const double share = (vertex[0] - shape.mesh->lower[0]) / length;
-      if (share >= part.from && share <= part.to) all.push_back(vertex);
-    }
-    return all;
-  }
+std::vector<Vector3> corners_of(const Shape& shape) {
+  if (shape.kind == ShapeKind::mesh) return shape.mesh->surface.vertices;
   std::vector<Vector3> all;
   const Vector3 half = {0.5 * shape.size[0], 0.5 * shape.size[1], 0.5 * shape.size[2]};
   const int places = shape.rocker > 0.0 ? kPlaces : 2;
   for (int k = 0; k < places; ++k) {
-    const double share = part.from + (part.to - part.from) * k / (places - 1);
-    const double x = (share - 0.5) * shape.size[0];
+    const double x = (static_cast<double>(k) / (places - 1) - 0.5) * shape.size[0];
     for (const double y : {-half[1], half[1]}) {
       all.push_back({x, y, -half[2] + sim::rocker_rise(shape, x)});
       all.push_back({x, y, half[2]});
@@ -61,9 +52,9 @@ Vector3 lowest_of(const std::vector<Vector3>& corners, const sim::BodyState& sta
 /// A body that is asked again and again.
 class Underside {
  public:
-  Underside(const Shape& shape, const Part& part) : shape_(shape) {
+  explicit Underside(const Shape& shape) : shape_(shape) {
     if (shape.kind == ShapeKind::box || shape.kind == ShapeKind::mesh) {
-      corners_ = corners_of(shape, part);
+      corners_ = corners_of(shape);
     }
   }
   [[nodiscard]] Vector3 at(const sim::BodyState& state) const {
@@ -92,13 +83,13 @@ class Underside {
 
 }  // namespace
 
-Vector3 lowest_point(const Shape& shape, const Part& part, const sim::BodyState& state) {
-  return Underside(shape, part).at(state);
+Vector3 lowest_point(const Shape& shape, const sim::BodyState& state) {
+  return Underside(shape).at(state);
 }
 
-std::vector<Entry> entries_of(std::size_t body, const Shape& shape, const Part& part,
-                              const Path& path, double level, double end, const Limits& limits) {
-  const Underside underside(shape, part);
+std::vector<Entry> entries_of(std::size_t body, const Shape& shape, const Path& path, double level,
+                              double end, const Limits& limits) {
+  const Underside underside(shape);
   const auto height = [&](double time) { return underside.at(path(time))[2] - level; };
   std::vector<Entry> entries;
   double before = height(0.0);

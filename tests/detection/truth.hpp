@@ -11,21 +11,13 @@
 
 namespace splash::detection {
 
-/// Slice of a body across its own x axis: shares of its length from the -x end on (a foot's heel).
-struct Part {
-  double from = 0.0;
-  double to = 1.0;
-};
-inline constexpr Part kWhole = {0.0, 1.0};
-
 /// The body's state at a time [s].
 using Path = std::function<sim::BodyState(double)>;
 
-/// The lowest point of that part in the world [m]. Balls and cylinders have no parts.
-[[nodiscard]] sim::Vector3 lowest_point(const sim::Shape& shape, const Part& part,
-                                        const sim::BodyState& state);
+/// The lowest point in the world [m].
+[[nodiscard]] sim::Vector3 lowest_point(const sim::Shape& shape, const sim::BodyState& state);
 
-/// A part goes down through the level.
+/// A body goes down through the level.
 struct Entry {
   std::size_t body = 0;
   double time = 0.0;    ///< [s]
@@ -46,7 +38,7 @@ struct Limits {
 
 /// Entries between 0 and `end` [s], each `wanted` or not; what must stay silent is left out.
 [[nodiscard]] std::vector<Entry> entries_of(std::size_t body, const sim::Shape& shape,
-                                            const Part& part, const Path& path, double level,
-                                            double end, const Limits& limits);
+                                            const Path& path, double level, double end,
+                                            const Limits& limits);
 
 }  // namespace splash::detection

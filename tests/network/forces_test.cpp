@@ -16,6 +16,7 @@
 #include "protocol/event_log.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/network/on_two_hosts.hpp"
+#include "tests/support/median.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {
@@ -52,12 +53,6 @@ Moments moments_of(const std::string& path) {
   return moments;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Median of how much later those of `played` are than those of `meant` [s].
 template <class Key>
 double later(const std::map<Key, double>& played, const std::map<Key, double>& meant) {
@@ -68,7 +63,7 @@ double later(const std::map<Key, double>& played, const std::map<Key, double>& m
     }
   }
   EXPECT_GT(all.size(), 10U);
-  return all.empty() ? 0.0 : median(std::move(all));
+  return tests::median(std::move(all));
 }
 
 TEST_F(OnTwoHosts, ForcesAreFeltWithTheEventsThoughTheClocksAreAnHourApart) {

@@ -18,6 +18,7 @@
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/network/on_two_hosts.hpp"
+#include "tests/support/median.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {
@@ -51,12 +52,6 @@ Heard listen(protocol::UdpSocket& socket) {
     for (const auto& message : packet.messages) heard.events += protocol::to_event(message) ? 1 : 0;
   }
   return heard;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Hosts that do not exist. Kernels whose sending buffers hold no more than what waits for the
@@ -106,9 +101,9 @@ TEST_F(OnTwoHosts, EachReceiverGetsEveryEventWhateverTheOthersDo) {
                                                 << synth->output();
   EXPECT_THAT(simulator->output() + synth->output(), testing::Not(HasSubstr(" asked /")))
       << "neither asks the other in fewer bytes than the answer has";
-  EXPECT_LT(std::abs(median(heard.travel)), 0.05) << "tags and delays fit each other";
+  EXPECT_LT(std::abs(tests::median(heard.travel)), 0.05) << "tags and delays fit each other";
   std::cout << "events " << sent << ", late " << told.at("late") << ", median travel "
-            << 1e3 * median(heard.travel) << " ms\n";
+            << 1e3 * tests::median(heard.travel) << " ms\n";
 }
 
 TEST_F(OnTwoHosts, StrangersAreNotObeyed) {

@@ -4,9 +4,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -17,16 +16,12 @@ using testing::IsEmpty;
 
 class DeviceTrial : public testing::Test {
  protected:
-  DeviceTrial() { fs::create_directories(folder_); }
-  ~DeviceTrial() override { fs::remove_all(folder_); }
-
   /// By a program that does this. Each run of it leaves a dot in `runs`.
   [[nodiscard]] Trial test(const std::string& script, const TrialLimits& limits = {}) const {
-    const fs::path program = folder_ / "program";
-    std::ofstream(program) << "#!/bin/sh\nprintf . >>" << (folder_ / "runs").string() << '\n'
-                           << script << '\n';
+    const fs::path program = folder_.write(
+        "program", "#!/bin/sh\nprintf . >>" + (folder_ / "runs").string() + '\n' + script + '\n');
     fs::permissions(program, fs::perms::owner_all);
-    return DeviceTrials(folder_, program, limits)(device_);
+    return DeviceTrials(folder_.path(), program, limits)(device_);
   }
   [[nodiscard]] std::size_t runs() const {
     std::error_code none;
@@ -34,7 +29,7 @@ class DeviceTrial : public testing::Test {
     return none ? 0 : size;
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / ("splash-trials-" + std::to_string(getpid()));
+  tests::TemporaryFolder folder_;
   DeviceFacts device_ = [] {
     DeviceFacts facts;
     facts.index = 3;
@@ -86,7 +81,7 @@ TEST_F(DeviceTrial, WaitsAsLongAsKernelsGetReady) {
 }
 
 TEST_F(DeviceTrial, WithoutAProgramFails) {
-  EXPECT_THAT(DeviceTrials(folder_, folder_ / "none")(device_).failure,
+  EXPECT_THAT(DeviceTrials(folder_.path(), folder_ / "none")(device_).failure,
               HasSubstr("could not be run"));
 }
 

@@ -10,6 +10,7 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/support/vectors.hpp"
 
 namespace splash::sim {
 namespace {
@@ -29,18 +30,6 @@ Scene wet_bed() {
       "  - {lower: [0, 0, 0], upper: [0.5, 0.1, 0.2]}\n"
       "  - {lower: [0.5, 0, 0], upper: [1.5, 0.1, 0.08]}\n",
       "wet.yaml");
-}
-
-std::vector<Vector3> places_of(Simulation& simulation, std::vector<float> Snapshot::*what) {
-  const Snapshot now = simulation.fluid().snapshot();
-  const auto stride = static_cast<std::size_t>(simulation.fluid().params().capacity);
-  std::vector<Vector3> all(now.id.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      all[i][axis] = static_cast<double>((now.*what)[axis * stride + i]);
-    }
-  }
-  return all;
 }
 
 /// Depth of what is between two x, by its volume [m].
@@ -76,7 +65,8 @@ TEST(WetBed, IsHeldUntilTimeBeginsAndThenRunAcross) {
   Device device;
   Simulation simulation(device, wet_bed(), {});
   const double particle = particle_volume(simulation.scene());
-  const auto start = places_of(simulation, &Snapshot::position);
+  const Snapshot first = simulation.fluid().snapshot();
+  const auto start = tests::vectors_of(first.position, first.id.size());
   EXPECT_NEAR(depth(start, 0.0, kGate, particle), kHigh, 0.01 * kHigh) << "what weighs is more";
   EXPECT_NEAR(depth(start, kGate, 1.5, particle), kLow, 0.01 * kLow);
   const double spacing = particle_spacing(simulation.scene());
@@ -88,14 +78,15 @@ TEST(WetBed, IsHeldUntilTimeBeginsAndThenRunAcross) {
   }
   EXPECT_NEAR(left, kHigh - 0.7 * spacing, 0.4 * spacing);
   EXPECT_NEAR(right, kLow - 0.7 * spacing, 0.4 * spacing);
-  for (const Vector3& v : places_of(simulation, &Snapshot::velocity)) {
+  for (const Vector3& v : tests::vectors_of(first.velocity, first.id.size())) {
     EXPECT_EQ(v, (Vector3{0.0, 0.0, 0.0}));
   }
   for (const SupportState how : simulation.support_states())
     EXPECT_EQ(how, SupportState::supported);
   while (simulation.seconds() < 0.35) ASSERT_FALSE(simulation.advance().step_fault);
   const Stoker wave = stoker();
-  const auto now = places_of(simulation, &Snapshot::position);
+  const Snapshot later = simulation.fluid().snapshot();
+  const auto now = tests::vectors_of(later.position, later.id.size());
   const double t = simulation.seconds();
   const double behind = kGate + 0.3 * wave.bore * t;
   const double ahead = kGate + 0.8 * wave.bore * t;

@@ -2,18 +2,16 @@
 // Water that is taken up from a file is, to the bit, that which came to rest; a file that is not
 // what it should be is refused and stays as it is.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 
 #include "program/failure.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -23,23 +21,10 @@ namespace fs = std::filesystem;
 /// Behind the mark: key, sum and size.
 constexpr std::size_t kMark = 23, kHeader = kMark + 24;
 
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-void write(const fs::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
+using tests::read_file;
 
 class SettledWater : public ::testing::TestWithParam<const char*> {
  protected:
-  SettledWater()
-      : file_(fs::temp_directory_path() / ("settled-" + std::to_string(::getpid()) + ".water")) {
-    fs::remove(file_);
-  }
-  ~SettledWater() override { fs::remove(file_); }
-
   /// A tank with a float; `depth` of the water [m].
   static Scene scene(double depth) {
     return parse_scene("fluid: {spacing: 0.025, solver: " + std::string(GetParam()) +
@@ -80,7 +65,7 @@ class SettledWater : public ::testing::TestWithParam<const char*> {
   }
 
   void expect_refused(const std::string& bytes, const std::string& why) {
-    write(file_, bytes);
+    folder_.write("settled.water", bytes);
     try {
       start(0.15, file_);
       ADD_FAILURE() << "taken up: " << why;
@@ -88,7 +73,7 @@ class SettledWater : public ::testing::TestWithParam<const char*> {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find(file_.string()), std::string::npos);
     }
-    EXPECT_TRUE(read(file_) == bytes) << "the file stays as it is: " << why;
+    EXPECT_TRUE(read_file(file_) == bytes) << "the file stays as it is: " << why;
   }
 
   /// With the sum that suits its body, as a program that writes nonsense would leave it.
@@ -103,7 +88,8 @@ class SettledWater : public ::testing::TestWithParam<const char*> {
     return bytes;
   }
 
-  fs::path file_;
+  tests::TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "settled.water";
   Device device_;
 };
 
@@ -121,15 +107,15 @@ TEST_P(SettledWater, IsTheSameToTheBit) {
 
 TEST_P(SettledWater, OfAnotherSceneIsWrittenAnew) {
   static_cast<void>(start(0.15, file_));
-  const std::string before = read(file_);
+  const std::string before = read_file(file_);
   EXPECT_FALSE(start(0.175, file_).took_up);
-  EXPECT_FALSE(read(file_) == before);
+  EXPECT_FALSE(read_file(file_) == before);
   EXPECT_TRUE(start(0.175, file_).took_up);
 }
 
 TEST_P(SettledWater, IsRefusedWhenTheFileIsNotWhatItShouldBe) {
   static_cast<void>(start(0.15, file_));
-  const std::string sound = read(file_);
+  const std::string sound = read_file(file_);
   ASSERT_EQ(sealed(sound), sound);
   expect_refused("", "no settled water");
   expect_refused("name: pool\n", "no settled water");
@@ -155,7 +141,7 @@ TEST_P(SettledWater, IsRefusedWhenTheFileIsNotWhatItShouldBe) {
   other[kHeader] = static_cast<char>(other[kHeader] ^ 4);
   expect_refused(sealed(other), "another size");
   expect_refused(sealed(sound + "more"), "too long");
-  write(file_, sound);
+  folder_.write("settled.water", sound);
   EXPECT_TRUE(start(0.15, file_).took_up);
 }
 

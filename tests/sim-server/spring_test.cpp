@@ -77,12 +77,21 @@ TEST(Spring, SagsByTheWeightInTheAirAndByThatLessTheBuoyancyInWater) {
   }
 }
 
+/// Expects what swings downwards through its middle then to do so as 0.5 kg on 50 N/m do.
+void expect_swing(const std::vector<double>& crossings, std::size_t least) {
+  ASSERT_GE(crossings.size(), least);
+  const double period = 2.0 * M_PI * std::sqrt(0.5 / 50.0);
+  const double found =
+      (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  std::printf("period %.5f s of %.5f s\n", found, period);
+  EXPECT_NEAR(found / period, 1.0, 0.01);
+}
+
 // It begins to fall on a slack spring, so it swings about where it would hang.
 TEST(Spring, SwingsAsAMassOnItDoes) {
   Device device;
   Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 50"), {});
   const double sag = 0.5 * kGravity / 50.0;
-  const double period = 2.0 * M_PI * std::sqrt(0.5 / 50.0);
   std::vector<double> crossings;
   double above = sag;
   while (simulation.seconds() < 3.0) {
@@ -93,18 +102,13 @@ TEST(Spring, SwingsAsAMassOnItDoes) {
     }
     above = now;
   }
-  ASSERT_GE(crossings.size(), 4U);
-  const double found =
-      (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-  std::printf("period %.5f s of %.5f s\n", found, period);
-  EXPECT_NEAR(found / period, 1.0, 0.01);
+  expect_swing(crossings, 4);
 }
 
 // The device is turned by half a radian and held; a cube's moments of inertia are alike.
 TEST(Spring, TurnsAsFastAsItSwings) {
   Device device;
   Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 50"), {});
-  const double period = 2.0 * M_PI * std::sqrt(0.5 / 50.0);
   std::vector<double> crossings;
   double before = 0.0;
   while (simulation.seconds() < 3.0) {
@@ -118,11 +122,7 @@ TEST(Spring, TurnsAsFastAsItSwings) {
     }
     before = angle;
   }
-  ASSERT_GE(crossings.size(), 3U);
-  const double found =
-      (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-  std::printf("period %.5f s of %.5f s\n", found, period);
-  EXPECT_NEAR(found / period, 1.0, 0.01);
+  expect_swing(crossings, 3);
 }
 
 void expect_all_momentum(const std::string& fluid) {

@@ -15,7 +15,7 @@
 #include "sim-server/scene/solver_choice.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/tables.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::stress {
 namespace {
@@ -38,10 +38,6 @@ double resident() {
 int descriptors() {
   const auto all = std::filesystem::directory_iterator("/proc/self/fd");
   return static_cast<int>(std::distance(begin(all), end(all)));
-}
-
-std::filesystem::path scenes_folder() {
-  return tests::source_folder() / "configs" / "scenes";
 }
 
 std::string variant_of(const Endurance& wanted) {
@@ -145,16 +141,11 @@ bool sound(const Piece& p) {
 }  // namespace
 
 std::vector<std::string> built_in_scenes() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(scenes_folder())) {
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
+  return tests::scene_names();
 }
 
 sim::Scene built_in_scene(const std::string& name, const Endurance& wanted) {
-  sim::Scene scene = sim::read_scene(scenes_folder() / (name + ".yaml"));
+  sim::Scene scene = sim::read_scene(tests::scene_file(name));
   scene.fluid.spacing = wanted.coarser * sim::particle_spacing(scene);
   scene.fluid.particles = 0;
   scene.fluid.solver = wanted.solver;
@@ -164,7 +155,7 @@ sim::Scene built_in_scene(const std::string& name, const Endurance& wanted) {
     // A walk ends elsewhere than it begins.
     body.motion.repeat = kind == sim::MotionKind::script || kind == sim::MotionKind::csv;
     if (kind == sim::MotionKind::trc && body.motion.file.empty()) {
-      body.motion.file = tests::source_folder() / "configs/scenes/walk.trc";
+      body.motion.file = tests::scene_folder() / "walk.trc";
     }
   }
   return scene;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim-server/scene/solver_choice.hpp"
-
 namespace splash::stress {
 namespace {
 
@@ -70,20 +68,11 @@ Outcome observe(sim::Simulation& simulation, const Injection& injection, int ste
 
 }  // namespace
 
-std::vector<Water> all_waters() {
-  using sim::PressureKind;
-  return {{PressureKind::weakly_compressible}, {PressureKind::grid_projected}};
-}
-
-std::string name_of(const Water& water) {
-  return sim::name_of(water.solver);
-}
-
-sim::Scene still_scene(const Water& water, double factor) {
+sim::Scene still_scene(sim::PressureKind solver, double factor) {
   sim::Scene scene;
   scene.name = "still";
   scene.fluid.spacing = 0.03;
-  scene.fluid.solver = water.solver;
+  scene.fluid.solver = solver;
   scene.fluid.time_step_factor = factor;
   scene.tank.lower = {0.0, 0.0, 0.0};
   scene.tank.upper = {0.24, 0.24, 0.5};

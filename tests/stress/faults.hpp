@@ -6,21 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/stress/injection.hpp"
 
 namespace splash::stress {
 
-/// How the water is solved.
-struct Water {
-  sim::PressureKind solver = sim::PressureKind::weakly_compressible;
-};
-/// Those that the default tests run: with each solver.
-[[nodiscard]] std::vector<Water> all_waters();
-/// In letters and underlines, short.
-[[nodiscard]] std::string name_of(const Water& water);
+inline constexpr sim::PressureKind kBothSolvers[] = {sim::PressureKind::weakly_compressible,
+                                                     sim::PressureKind::grid_projected};
 
 /// A little still water with a body above it, in steps of `factor` of the largest.
-[[nodiscard]] sim::Scene still_scene(const Water& water, double factor);
+[[nodiscard]] sim::Scene still_scene(sim::PressureKind solver, double factor);
 
 struct Outcome {
   std::string fault;

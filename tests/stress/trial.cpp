@@ -13,6 +13,7 @@
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/step_policy.hpp"
+#include "tests/support/median.hpp"
 
 namespace splash::stress {
 namespace {
@@ -99,13 +100,6 @@ double fallen_speed(const Scene& scene) {
   return std::sqrt(2.0 * sim::length(scene.fluid.gravity) * rounding);
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void watch(Simulation& simulation, const Drive& drive, double seconds, Verdict& verdict) {
   const double first = simulation.time_step();
   const double height = mean_height(simulation);
@@ -129,7 +123,7 @@ void watch(Simulation& simulation, const Drive& drive, double seconds, Verdict& 
     if (frame.step_fault && verdict.step_fault.empty())
       verdict.step_fault = describe(*frame.step_fault);
   }
-  verdict.calm = median(std::move(at_the_end));
+  verdict.calm = tests::median(std::move(at_the_end));
   verdict.drift = mean_height(simulation) - height;
   // The water was put out of where bodies were when the last step began.
   const double way = simulation.bodies().fastest(simulation.seconds()) * simulation.time_step();

@@ -55,11 +55,16 @@ Arguments command(const std::string& name, const Arguments& arguments) {
   return all;
 }
 
-Ended run_program(const std::string& name, const Arguments& arguments, double seconds,
+Ended run_command(const Arguments& words, double seconds,
                   const ChildProcess::Environment& environment) {
-  ChildProcess process(command(name, arguments), environment);
+  ChildProcess process(words, environment);
   const int code = process.wait_for_end(seconds);
   return {code, process.output()};
+}
+
+Ended run_program(const std::string& name, const Arguments& arguments, double seconds,
+                  const ChildProcess::Environment& environment) {
+  return run_command(command(name, arguments), seconds, environment);
 }
 
 Daemon::Daemon(const std::string& name, const Arguments& arguments,

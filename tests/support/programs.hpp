@@ -24,7 +24,10 @@ struct Ended {
   int code = 0;
   std::string text;  ///< all it printed
 };
-/// Runs a program of ours until it ends.
+/// Runs what ChildProcess takes until it ends.
+[[nodiscard]] Ended run_command(const Arguments& words, double seconds,
+                                const ChildProcess::Environment& environment = {});
+/// The same with a program of ours.
 [[nodiscard]] Ended run_program(const std::string& name, const Arguments& arguments,
                                 double seconds = 120.0,
                                 const ChildProcess::Environment& environment = {});

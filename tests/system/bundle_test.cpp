@@ -39,9 +39,7 @@ class Bundle : public testing::Test {
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
   static Ended run(const Arguments& words, const ChildProcess::Environment& environment = {}) {
-    ChildProcess program(words, environment);
-    const int code = program.wait_for_end(300.0);
-    return {code, program.output()};
+    return run_command(words, 300.0, environment);
   }
   const fs::path& folder() const { return folder_; }
   /// A PATH with bash and what it may call of coreutils.

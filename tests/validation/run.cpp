@@ -11,6 +11,7 @@
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/support/vectors.hpp"
 
 namespace splash::validation {
 
@@ -35,18 +36,6 @@ void add_since(const Effort& before, Effort& sum) {
   const Effort now = effort_now();
   sum.wall += now.wall - before.wall;
   sum.processor += now.processor - before.processor;
-}
-
-/// The first `count` of vectors that lie component after component.
-std::vector<sim::Vector3> vectors_of(const std::vector<float>& parts, std::size_t count) {
-  std::vector<sim::Vector3> all(count);
-  const std::size_t stride = parts.size() / 3;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      all[i][axis] = static_cast<double>(parts[axis * stride + i]);
-    }
-  }
-  return all;
 }
 
 }  // namespace
@@ -91,8 +80,8 @@ Run run_scene(sim::Device& device, const std::string& name, const Setting& setti
   }
   run.particles = simulation.particles();
   const sim::Snapshot water = simulation.fluid().snapshot();
-  run.places = vectors_of(water.position, water.id.size());
-  run.velocities = vectors_of(water.velocity, water.id.size());
+  run.places = tests::vectors_of(water.position, water.id.size());
+  run.velocities = tests::vectors_of(water.velocity, water.id.size());
   run.steps = simulation.totals().steps;
   run.simulated = simulation.seconds();
   run.work = simulation.solver_work();

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/symmetric_matrix.hpp"
 
 namespace splash::validation {
 
@@ -27,27 +28,11 @@ Vector3 velocity_of_mode(const Basin& basin, std::size_t n, const Vector3& x) {
           -std::cos(k * x[0]) * std::sinh(k * x[2]) / top};
 }
 
-/// By Gauss's elimination; the matrix is symmetric and positive definite, so it needs no pivots.
-Weights solve(std::array<Weights, kModes> a, Weights b) {
-  for (std::size_t k = 0; k < kModes; ++k) {
-    for (std::size_t i = k + 1; i < kModes; ++i) {
-      const double factor = a[i][k] / a[k][k];
-      for (std::size_t j = k; j < kModes; ++j) a[i][j] -= factor * a[k][j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (std::size_t k = kModes; k-- > 0;) {
-    for (std::size_t j = k + 1; j < kModes; ++j) b[k] -= a[k][j] * b[j];
-    b[k] /= a[k][k];
-  }
-  return b;
-}
-
 }  // namespace
 
 Parts split(const Basin& basin, const std::vector<Vector3>& places,
             const std::vector<Vector3>& velocities) {
-  std::array<Weights, kModes> products = {};
+  sim::Matrix<kModes> products = {};  // its lower half
   Weights seen = {};
   double all = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -59,10 +44,7 @@ Parts split(const Basin& basin, const std::vector<Vector3>& places,
     }
     all += sim::dot(velocities[i], velocities[i]);
   }
-  for (std::size_t n = 0; n < kModes; ++n) {
-    for (std::size_t m = 0; m < n; ++m) products[m][n] = products[n][m];
-  }
-  const Weights weights = solve(products, seen);
+  const Weights weights = sim::solve(products, seen);
   double sloshing = 0.0;
   for (std::size_t n = 0; n < kModes; ++n) sloshing += weights[n] * seen[n];
   const double count = static_cast<double>(places.size());

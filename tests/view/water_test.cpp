@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/median.hpp"
 #include "tests/view/picture.hpp"
 #include "tests/view/played_page.hpp"
 
@@ -81,12 +82,6 @@ TEST_F(DrawnWater, TheFarWallMirrorsABeach) {
   EXPECT_GT(far, 0.8 * front);
   RecordProperty("far_to_front", std::to_string(far / front));
   EXPECT_THAT(browser().errors(), IsEmpty());
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// How bumpy the water's end along a straight line of the picture is: the median distance from its

@@ -3,13 +3,11 @@
 // is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "sim-server/bodies/motion/path_motion.hpp"
-#include "tests/detection/recording.hpp"
 #include "tests/detection/score.hpp"
 #include "tests/detection/script.hpp"
 #include "tests/detection/steps.hpp"
@@ -37,7 +35,7 @@ Path falling(double height, double speed, double degrees = 0.0) {
 }
 
 std::vector<Entry> whole(const sim::Shape& shape, const Path& path, double end = 1.0) {
-  return entries_of(0, shape, kWhole, path, kLevel, end, {});
+  return entries_of(0, shape, path, kLevel, end, {});
 }
 
 TEST(Truth, IsWhenTheLowestPlaceCrossesTheLevel) {
@@ -282,16 +280,6 @@ TEST_F(Scorer, AllowsWavesOnAStandingBodyOnlyWhereTheyAreWished) {
   EXPECT_THAT(judged().faults, ElementsAre("1 impacts of waves, wanted 2 to 3"));
 }
 
-TEST_F(Scorer, SumsUpInARow) {
-  heard_.found.impacts.push_back(impact(0.5, 0.4));
-  Outcome one;
-  one.item.sweep = "speed";
-  one.score = judged();
-  const std::string table = summary({one, one});
-  EXPECT_THAT(table, HasSubstr("| speed | 2 | 2 | 2 | 0 | 2 | +1.0 / +1.0 / +1.0 | "
-                               "+10 / +10 / +10 | 1.25 / 1.25 / 1.25 | 0 | 0 (0) |  |  | 0 | 2 |"));
-}
-
 TEST_F(Scorer, PutsItsRowsIntoAReadme) {
   Outcome plunge;
   plunge.item.sweep = "speed";
@@ -313,31 +301,6 @@ TEST_F(Scorer, PutsItsRowsIntoAReadme) {
   EXPECT_THAT(with_rows(both, {plunge}, true),
               AllOf(HasSubstr("\n| speed | 1 | 1 | 1 | 0 | 2 |"), Not(HasSubstr("walk"))));
   EXPECT_THROW(static_cast<void>(with_rows("no mark", {plunge}, false)), std::runtime_error);
-}
-
-TEST(Recording, IsPlayedOtherwise) {
-  sim::MarkerRecording recording;
-  recording.rate = 100.0;
-  recording.names = {"A", "B"};
-  recording.times = {2.0, 2.01, 2.02};
-  const sim::Vector3 low = {0.1, 0.2, 0.0};
-  const sim::Vector3 high = {0.3, 0.4, 1.0};
-  recording.frames = {{low, high}, {low, std::nullopt}, {high, low}};
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("splash_played_" + std::to_string(getpid()) + ".trc");
-  write_trc(played(recording, {.backwards = true, .over = true, .pace = 2.0}), file);
-  const sim::MarkerRecording back = sim::read_markers(file);
-  std::filesystem::remove(file);
-  EXPECT_THAT(back.times,
-              ElementsAre(0.0, testing::DoubleNear(0.005, 1e-9), testing::DoubleNear(0.01, 1e-9)));
-  EXPECT_EQ(back.rate, 200.0);
-  EXPECT_FALSE(back.frames[1][1]);
-  // The last frame comes first, and what was high is low.
-  const sim::Vector3 first = back.frames[0][0].value();
-  EXPECT_NEAR(first[0], 0.3, 1e-6);
-  EXPECT_NEAR(first[1], -0.4, 1e-6);
-  EXPECT_NEAR(first[2], 0.0, 1e-6);
-  EXPECT_NEAR(played(recording, {.mirrored = true}).frames[0][0].value()[1], -0.2, 1e-12);
 }
 
 }  // namespace

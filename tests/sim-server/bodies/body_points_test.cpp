@@ -115,7 +115,8 @@ TEST(BodyPoints, FollowARockerSole) {
   EXPECT_NEAR(rocker_rise(foot, 0.13), 0.03, 1.0e-12);
   EXPECT_NEAR(rocker_rise(foot, -0.13), 0.03, 1.0e-12);
   EXPECT_NEAR(rocker_rise(foot, 0.091), 0.03 / 4, 1.0e-12);  // half way along the curve
-  double area = 0.0;                                         // of the side, by the midpoint rule
+  EXPECT_NEAR(rocker_rise(foot, 9.0), 0.03, 1.0e-12);
+  double area = 0.0;  // of the side, by the midpoint rule
   for (int k = 0; k < 10000; ++k) {
     area += (0.08 - rocker_rise(foot, 0.26 * ((k + 0.5) / 10000 - 0.5))) * 0.26 / 10000;
   }

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program/config.hpp"
 #include "sim-server/bodies/mass.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -29,12 +29,7 @@ std::string pool(const std::string& motion, const std::string& more = "") {
 }
 
 std::string refusal(const std::string& motion, const std::string& more = "") {
-  try {
-    static_cast<void>(parse_scene(pool(motion, more), "pool.yaml"));
-  } catch (const program::ConfigError& error) {
-    return error.what();
-  }
-  return {};
+  return tests::refusal([&] { return parse_scene(pool(motion, more), "pool.yaml"); });
 }
 
 TEST(FreeRules, WhatIsHeldAndItsInertiaReachTheDevice) {

@@ -60,20 +60,6 @@ class Pool : public ::testing::Test {
 constexpr double kBelow = kBlockBottom - 0.01;
 constexpr double kAbove = kBlockTop + 0.01;
 
-TEST_F(Pool, KeepsPairsBelowTheWater) {
-  Bubbles& bubbles = make(16);
-  fill_pool(bubbles, pair_at(0.5, kBelow));
-  static_cast<void>(live_until(0.1));
-  EXPECT_EQ(serials(), (std::vector<int>{0, 1}));
-}
-
-TEST_F(Pool, DropsTheLonely) {
-  Bubbles& bubbles = make(16);
-  fill_pool(bubbles, {{0.5, 0.5, kBelow}});
-  static_cast<void>(live_until(0.1));
-  EXPECT_TRUE(bubbles.pool().empty());
-}
-
 // Company at the very rim of the support is none.
 TEST_F(Pool, DropsThoseThatBarelyHaveCompany) {
   for (const double share : {0.9, 0.98}) {
@@ -88,13 +74,6 @@ TEST_F(Pool, DropsThoseThatBarelyHaveCompany) {
   }
 }
 
-TEST_F(Pool, DropsThoseAboveTheWater) {
-  Bubbles& bubbles = make(16);
-  fill_pool(bubbles, pair_at(0.5, kAbove));
-  static_cast<void>(live_until(0.1));
-  EXPECT_TRUE(bubbles.pool().empty());
-}
-
 TEST_F(Pool, DropsTheOld) {
   Bubbles& bubbles = make(16);
   fill_pool(bubbles, pair_at(0.5, kBelow), 1.0);
@@ -106,6 +85,7 @@ TEST_F(Pool, DropsTheOld) {
   EXPECT_EQ(serials(), (std::vector<int>{2, 3}));
 }
 
+// Those above the water go.
 TEST_F(Pool, KeepsItsOrderAndMarks) {
   Bubbles& bubbles = make(32);
   std::vector<Vector3> places;
@@ -187,15 +167,6 @@ TEST_F(Spawns, AreAllRead) {
 }
 
 // Heard they are all the same: the pool is for cavities.
-TEST_F(Spawns, BeyondTheRoomAreCounted) {
-  Bubbles& bubbles = make(150, eager());
-  drop();
-  const auto fresh = live_until(0.1);
-  EXPECT_EQ(fresh.size(), 400U);
-  EXPECT_EQ(bubbles.pool().size(), 150U);
-  EXPECT_EQ(bubbles.dropped(), 250U);
-}
-
 TEST_F(Spawns, BeyondThePoolsRoomAreCounted) {
   Bubbles& bubbles = make(401, eager());
   fill_pool(bubbles, pair_at(0.5, kBelow));

@@ -162,15 +162,6 @@ class Memory : public ::testing::Test {
   std::uint32_t step_ = 0;
 };
 
-TEST_F(Memory, PlacesAreWhatTheyAreTakenFor) {
-  for (const auto& [place, low, high] : std::vector<std::tuple<Vector3, double, double>>{
-           {kBelow, 0.5, 2.0}, {kSideways, 0.01, 0.29}, {kAbove, -2.0, -0.5}, {kNowhere, 0, 0}}) {
-    static_cast<void>(at(place, kSlow));
-    EXPECT_GE(upward(), low);
-    EXPECT_LE(upward(), high);
-  }
-}
-
 TEST_F(Memory, SlowParticlesSpawnNothing) {
   EXPECT_TRUE(at(kBelow, kSlow).empty());
 }

@@ -101,23 +101,16 @@ std::vector<Vector3> clouds() {
   return places;
 }
 
-TEST_P(Grow, IsUnionFind) {
+TEST_P(Grow, IsUnionFindInAnyOrder) {
   const std::vector<Vector3> places = clouds();
   const std::vector<int> groups = groups_of(places);
   EXPECT_GT(parts_in(groups), 5);
   EXPECT_GT(std::count(groups.begin(), groups.end(), -1), 50);
-  expect_same_parts(cavities_of(places), groups);
-  EXPECT_EQ(static_cast<int>(found_.size()), parts_in(groups));
-}
-
-TEST_P(Grow, DoesNotDependOnTheOrder) {
-  const std::vector<Vector3> places = clouds();
-  const std::vector<int> groups = groups_of(places);
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), 0U);
   std::mt19937 random(104);
   for (int k = 0; k < 3; ++k) {
-    std::shuffle(order.begin(), order.end(), random);
+    if (k > 0) std::shuffle(order.begin(), order.end(), random);
     std::vector<Vector3> shuffled;
     std::vector<int> expected;
     for (const std::size_t i : order) {
@@ -125,6 +118,7 @@ TEST_P(Grow, DoesNotDependOnTheOrder) {
       expected.push_back(groups[i]);
     }
     expect_same_parts(cavities_of(shuffled), expected);
+    EXPECT_EQ(static_cast<int>(found_.size()), parts_in(groups));
   }
 }
 

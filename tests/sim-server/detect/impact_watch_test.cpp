@@ -13,6 +13,11 @@
 namespace splash::sim {
 namespace {
 
+/// A body that goes down at `speed`, and meets the water's level at `meets`.
+auto falling(double speed, double meets) {
+  return [=](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; };
+}
+
 class Plunge : public ::testing::TestWithParam<double> {};
 
 TEST_P(Plunge, IsOneImpactAtItsMomentAndSpeed) {
@@ -41,9 +46,7 @@ TEST_P(Plunge, IsOneImpactAtItsMomentAndSpeed) {
 TEST_P(Plunge, IsPlacedWhereTheSurfacesMeet) {
   const double speed = GetParam();
   const double meets = 0.0613 + 0.1 / speed;
-  const auto all = watch(
-      [&](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; },
-      meets + 0.1);
+  const auto all = watch(falling(speed, meets), meets + 0.1);
   ASSERT_EQ(all.size(), 1U);
   const Vector3& place = all[0].impact.position;
   EXPECT_GE(place[0], -1.0e-6);
@@ -58,9 +61,7 @@ TEST_P(Plunge, IsLaterWhereTheSurfaceIsFarther) {
   const double speed = GetParam();
   const double meets = 0.0613 + 0.1 / speed;
   const double nearer = 0.2 * kSpacing;
-  const auto all = watch(
-      [&](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; },
-      meets + 0.1, {}, nearer);
+  const auto all = watch(falling(speed, meets), meets + 0.1, {}, nearer);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_NEAR(all[0].impact.time, meets + nearer / speed, 2.0e-4 * kSpacing / speed + 1.0e-6);
   EXPECT_NEAR(all[0].impact.position[2], -nearer, 1.0e-3);
@@ -71,9 +72,7 @@ TEST_P(Plunge, IsLaterWhereTheSurfaceIsFarther) {
 TEST_P(Plunge, IsAnnouncedAhead) {
   const double speed = GetParam();
   const double meets = 0.0613 + 0.1 / speed;
-  const auto all = watch(
-      [&](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; },
-      meets + 0.1);
+  const auto all = watch(falling(speed, meets), meets + 0.1);
   ASSERT_EQ(all.size(), 1U);
   const DetectSettings settings;
   EXPECT_LE(all[0].impact.time, all[0].at + settings.impact_lookahead);
@@ -91,9 +90,7 @@ TEST(FastBody, IsTimedWithinTheFrame) {
   for (const double part : {0.05, 0.2, 0.4, 0.6, 0.8, 0.95}) {
     const double speed = 12.0;  // 48 mm per frame, seen from 28 mm on
     const double meets = 5.0 * kStoryFrame + part * kStoryFrame;
-    const auto all = watch(
-        [&](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; },
-        0.2);
+    const auto all = watch(falling(speed, meets), 0.2);
     ASSERT_EQ(all.size(), 1U) << part;
     EXPECT_GE(all[0].impact.time, all[0].at - kStoryFrame);
     const double deepest = (kSpacing / 2.0) / speed;

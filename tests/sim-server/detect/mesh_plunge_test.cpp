@@ -2,14 +2,12 @@
 // A ball that falls into still water at 1 m/s is heard at the same moment whether it is a sphere or
 // a mesh of one.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 #include "tests/sim-server/detect/scene_run.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -24,12 +22,10 @@ std::string plunge_of(const std::string& shape) {
 }
 
 TEST(MeshPlunge, IsHeardWhenTheSpheresIs) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("splash_plunge_ball_" + std::to_string(getpid()) + ".obj");
-  std::ofstream(file) << obj_text(sphere_mesh(kRadius, 3));
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("ball.obj", obj_text(sphere_mesh(kRadius, 3)));
   const SceneRun sphere = run_scene(plunge_of("kind: sphere, size: [0.2, 0.2, 0.2]"), 2.2);
   const SceneRun mesh = run_scene(plunge_of("mesh: " + file.string()), 2.2);
-  std::filesystem::remove(file);
   ASSERT_EQ(sphere.found.impacts.size(), 1U);
   ASSERT_EQ(mesh.found.impacts.size(), 1U);
   const DetectedImpact& one = sphere.found.impacts.front();

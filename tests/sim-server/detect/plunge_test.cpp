@@ -164,20 +164,6 @@ EventNumbers numbers_of(const Detections& found) {
   return all;
 }
 
-TEST(Repetition, IsTheSameToTheBit) {
-  const std::string text = scene_text("plunge.yaml");
-  const SceneRun one = run_scene(text, 2.0);
-  const SceneRun other = run_scene(text, 2.0);
-  const EventNumbers first = numbers_of(one.found);
-  const EventNumbers second = numbers_of(other.found);
-  EXPECT_GT(one.totals.air.entrapped, 0.0);
-  EXPECT_EQ(one.totals.air.entrapped, other.totals.air.entrapped);
-  EXPECT_GT(first.sizes.size(), 100U);
-  EXPECT_EQ(first.impacts, second.impacts);
-  EXPECT_EQ(first.places, second.places);
-  EXPECT_EQ(first.sizes, second.sizes);
-}
-
 // The seed is the bubbles' alone: what happens in the water is the same.
 TEST(Repetition, WithAnotherSeedHasOtherBubbleSizes) {
   const std::string text =

@@ -26,6 +26,12 @@ TEST(Rest, IsSilent) {
   expect_silence(run_scene(scene_text("rest.yaml"), 5.0));
 }
 
+TEST(Rest, IsSilentForAMinute) {
+  const SceneRun run = run_scene(scene_text("rest.yaml"), 60.0);
+  expect_silence(run);
+  EXPECT_GT(run.totals.frames, 1000);
+}
+
 // One sunk, one half in the water, one just above it.
 TEST(Rest, AroundStillBodiesIsSilent) {
   const std::string text = scene_text("rest.yaml") + box("sunk", "[0.1, 0.1, 0.25]") +

@@ -148,6 +148,15 @@ const std::vector<Meeting> kMeetings = {
 INSTANTIATE_TEST_SUITE_P(Shapes, Meetings, ::testing::ValuesIn(kMeetings),
                          [](const auto& meeting) { return meeting.param.name; });
 
+void expect_stacked(const FreeFloat& world, std::size_t bricks) {
+  for (std::size_t k = 0; k < bricks; ++k) {
+    SCOPED_TRACE(k);
+    EXPECT_NEAR(world.state(k).position[2], 0.04 + 0.08 * static_cast<double>(k), 0.004);
+    EXPECT_NEAR(world.state(k).position[0], 1.5, 0.004);
+    EXPECT_LT(length(world.state(k).velocity), 0.02);
+  }
+}
+
 class Stack : public ::testing::TestWithParam<double> {};
 
 // Also in steps in which all fall by as much as what a knock rebounds from.
@@ -167,12 +176,7 @@ TEST_P(Stack, OfTenStands) {
     }
   }
   EXPECT_LT(fastest, 0.5 * 9.81 * world.dt) << "one of them fell before it was carried";
-  for (std::size_t k = 0; k < 10; ++k) {
-    SCOPED_TRACE(k);
-    EXPECT_NEAR(world.state(k).position[2], 0.04 + 0.08 * static_cast<double>(k), 0.004);
-    EXPECT_NEAR(world.state(k).position[0], 1.5, 0.004);
-    EXPECT_LT(length(world.state(k).velocity), 0.02);
-  }
+  expect_stacked(world, 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, Stack, ::testing::Values(0.0, 0.01), [](const auto& dt) {
@@ -256,12 +260,7 @@ TEST(BodyContact, AStackOfMeshesStands) {
   }
   world.start(device);
   world.run(2.0);
-  for (std::size_t k = 0; k < 4; ++k) {
-    SCOPED_TRACE(k);
-    EXPECT_NEAR(world.state(k).position[2], 0.04 + 0.08 * static_cast<double>(k), 0.004);
-    EXPECT_NEAR(world.state(k).position[0], 1.5, 0.004);
-    EXPECT_LT(length(world.state(k).velocity), 0.02);
-  }
+  expect_stacked(world, 4);
 }
 
 // A mesh need not be convex: what falls into a tray lies on its floor, and goes along with it.

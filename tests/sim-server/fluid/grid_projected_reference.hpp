@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "tests/sim-server/fluid/reference.hpp"
 
@@ -20,6 +21,10 @@ struct ReferenceGathered {
   MacFaces weight;  ///< [particles]
   MacField fill;    ///< [1]
 };
+
+[[nodiscard]] inline const GridProjected& solver_of(const Fluid& fluid) {
+  return dynamic_cast<const GridProjected&>(fluid.solver());
+}
 
 class MacReference {
  public:

@@ -23,15 +23,6 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kDensity = 998.0;
 
-const GridProjected& solver_of(const Fluid& fluid) {
-  return dynamic_cast<const GridProjected&>(fluid.solver());
-}
-
-std::vector<double> read(Device& device, const Buffer<float>& buffer, std::size_t count) {
-  const std::vector<float> values = buffer.read(device, count);
-  return {values.begin(), values.end()};
-}
-
 /// A body that stays where it is.
 Water with_solid(double spacing, const Vector3& tank, double depth, const Shape& shape,
                  const BodyState& place) {
@@ -64,10 +55,10 @@ Displaced displaced(Device& device, const Fluid& fluid) {
   const MacLevel& level = grid.level[0];
   const MacReference reference(grid);
   const auto cells = static_cast<std::size_t>(level.cells);
-  const std::vector<double> gap = read(device, solver.solids().gap(), 3 * cells);
-  const std::vector<double> excess = read(device, solver.solids().excess(), 3 * cells);
-  const std::vector<double> space = read(device, solver.solids().space(), cells);
-  const std::vector<double> pressure = read(device, solver.fields().pressure, cells);
+  const std::vector<double> gap = read_numbers(device, solver.solids().gap(), 3 * cells);
+  const std::vector<double> excess = read_numbers(device, solver.solids().excess(), 3 * cells);
+  const std::vector<double> space = read_numbers(device, solver.solids().space(), cells);
+  const std::vector<double> pressure = read_numbers(device, solver.fields().pressure, cells);
   const double area = static_cast<double>(grid.hx) * static_cast<double>(grid.hy);
   const double volume = area * static_cast<double>(grid.hz);
   const std::array<int, 3> step = {1, level.row, level.layer};

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -20,6 +19,7 @@
 
 #include "sim-server/device/device.hpp"
 #include "sim-server/fluid/params/parts.hpp"
+#include "tests/support/programs.hpp"
 
 namespace splash::sim {
 
@@ -57,24 +57,12 @@ std::vector<NamedProgram> programs() {
           {"gauge", kernels::gauge()}};
 }
 
-std::string output_of(const std::string& command, int& status) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return "cannot start " + command;
-  std::string output;
-  char part[4096];
-  for (std::size_t size = 0; (size = fread(part, 1, sizeof part, pipe)) > 0;) {
-    output.append(part, size);
-  }
-  status = pclose(pipe);
-  return output;
-}
-
 class Compiled : public ::testing::Test {
  protected:
   void SetUp() override {
-    int status = 0;
-    static_cast<void>(output_of("clang --version", status));
-    if (status != 0) GTEST_SKIP() << "clang is not installed";
+    if (tests::run_command({"clang", "--version"}, 10.0).code != 0) {
+      GTEST_SKIP() << "clang is not installed";
+    }
   }
   ~Compiled() override { std::filesystem::remove(file_); }
 
@@ -85,15 +73,14 @@ class Compiled : public ::testing::Test {
       file << "#line 1 \"" << source.name << "\"\n" << source.text << '\n';
     }
     file.close();
-    int status = 0;
-    std::string output = output_of(
+    const std::string command =
         "clang -x cl -cl-std=CL1.2 -Xclang -cl-ext=-all -Xclang -finclude-default-header "
         "-nogpulib -Wno-unused-command-line-argument -Wall -Wextra -Wshadow -Wdouble-promotion "
         "-Werror -Wno-unused-function -Wno-unused-parameter " +
-            how + ' ' + file_.string(),
-        status);
-    EXPECT_EQ(status, 0) << program.name << ":\n" << output;
-    return output;
+        how + ' ' + file_.string();
+    const tests::Ended ended = tests::run_command({"sh", "-c", command}, 100.0);
+    EXPECT_EQ(ended.code, 0) << program.name << ":\n" << ended.text;
+    return ended.text;
   }
 
  private:

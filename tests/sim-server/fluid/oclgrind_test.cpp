@@ -6,8 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -17,25 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/programs.hpp"
+
+namespace splash {
 namespace {
-
-struct Ended {
-  int status = 0;
-  std::string output;
-};
-
-Ended run(const std::string& command) {
-  Ended ended;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return {-1, "cannot start " + command};
-  std::array<char, 4096> part;
-  std::size_t size = 0;
-  while ((size = fread(part.data(), 1, part.size(), pipe)) > 0) {
-    ended.output.append(part.data(), size);
-  }
-  ended.status = pclose(pipe);
-  return ended;
-}
 
 /// The first group of each match.
 std::set<std::string> found_in(const std::string& text, const std::regex& pattern) {
@@ -121,20 +104,22 @@ const std::vector<Watched> kWatched = {
 class Oclgrind : public ::testing::TestWithParam<Watched> {};
 
 TEST_P(Oclgrind, FindsNothing) {
-  if (run("oclgrind --version").status != 0) GTEST_SKIP() << "oclgrind is not installed";
+  if (tests::run_command({"oclgrind", "--version"}, 10.0).code != 0)
+    GTEST_SKIP() << "oclgrind is not installed";
   // Its compiler's optimiser makes instructions that its interpreter does not know.
   const char* asked = std::getenv("SPLASH_OCLGRIND_STEPS");
   const int steps = asked != nullptr ? std::max(std::atoi(asked), 2) : 2;
-  const Ended ended = run(
+  const std::string command =
       "timeout " + std::to_string(600 * steps) + " oclgrind --data-races --check-api " +
       (GetParam().kernels.empty() ? "" : "--inst-counts ") + "--build-options -cl-opt-disable " +
-      std::string(SPLASH_BINARY_DIR) + "/" + GetParam().command + " " + std::to_string(steps));
+      std::string(SPLASH_BINARY_DIR) + "/" + GetParam().command + " " + std::to_string(steps);
+  const tests::Ended ended = tests::run_command({"sh", "-c", command}, 660.0 * steps);
   static const std::regex kRan("Instructions executed for kernel '([a-z_]+)'");
-  EXPECT_EQ(ended.status, 0) << ended.output;
-  EXPECT_THAT(ended.output, ::testing::HasSubstr(GetParam().says));
-  EXPECT_EQ(found_in(ended.output, kRan), GetParam().kernels);
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  EXPECT_THAT(ended.text, ::testing::HasSubstr(GetParam().says));
+  EXPECT_EQ(found_in(ended.text, kRan), GetParam().kernels);
   for (const char* report : {"Invalid", "race", "error", "ERROR", "CL_"}) {
-    EXPECT_THAT(ended.output, ::testing::Not(::testing::HasSubstr(report)));
+    EXPECT_THAT(ended.text, ::testing::Not(::testing::HasSubstr(report)));
   }
 }
 
@@ -160,3 +145,4 @@ TEST(OclgrindTable, HasEveryKernel) {
 }
 
 }  // namespace
+}  // namespace splash

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
@@ -95,11 +96,7 @@ TEST_P(Parts, NorIsFrictionWhereThereIsNone) {
 INSTANTIATE_TEST_SUITE_P(Solvers, Parts,
                          ::testing::Values(PressureKind::weakly_compressible,
                                            PressureKind::grid_projected),
-                         [](const auto& parameter) {
-                           return parameter.param == PressureKind::grid_projected
-                                      ? "grid_projected"
-                                      : "weakly_compressible";
-                         });
+                         [](const auto& solver) { return name_of(solver.param); });
 
 TEST(KernelParts, AreWhatTheSceneHas) {
   FluidParams params = {};

@@ -10,6 +10,7 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -209,11 +210,7 @@ TEST(WeaklyCompressible, GoesOnFromARestoredState) {
 INSTANTIATE_TEST_SUITE_P(Solvers, EitherSolver,
                          ::testing::Values(PressureKind::weakly_compressible,
                                            PressureKind::grid_projected),
-                         [](const auto& tested) {
-                           return tested.param == PressureKind::grid_projected
-                                      ? "grid_projected"
-                                      : "weakly_compressible";
-                         });
+                         [](const auto& solver) { return name_of(solver.param); });
 
 }  // namespace
 }  // namespace splash::sim

@@ -3,34 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "tests/sim-server/fluid/body_image_reference.hpp"
+#include "sim-server/scene/shape.hpp"
+#include "tests/support/vectors.hpp"
 
 namespace splash::sim {
 namespace {
-
-std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, int stride,
-                                  std::size_t count) {
-  const auto n = static_cast<std::size_t>(stride);
-  const std::vector<float> parts = buffer.read(device, 3 * n);
-  std::vector<Vector3> vectors(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      vectors[i][axis] = static_cast<double>(parts[axis * n + i]);
-    }
-  }
-  return vectors;
-}
-
-std::vector<double> read_numbers(Device& device, const Buffer<float>& buffer, std::size_t count) {
-  const std::vector<float> read = buffer.read(device, count);
-  return {read.begin(), read.end()};
-}
 
 Vector3 normal_of(const FluidParams& params, int wall) {
   const WallPlane& plane = params.walls[wall];
@@ -87,6 +71,84 @@ Vector3 pair_push(const FluidState& s, std::size_t i, const Vector3& from, const
   return -weight * (own + theirs - rub) * kernel_gradient(r, support) * x;
 }
 
+// The image of the water behind a body's face (boundary/body_image.h); gradients by differences.
+
+/// R and its gradient.
+struct ReferenceImage {
+  double factor = 1.0;                 ///< [1]
+  Vector3 gradient = {0.0, 0.0, 0.0};  ///< [1/m]
+};
+
+Shape shape_of(const BodyShape& s) {
+  Shape shape;
+  shape.kind = static_cast<ShapeKind>(s.kind);
+  shape.size = {2.0 * static_cast<double>(s.half_x), 2.0 * static_cast<double>(s.half_y),
+                2.0 * static_cast<double>(s.half_z)};
+  shape.rocker = static_cast<double>(s.rocker);
+  shape.flat = static_cast<double>(s.flat);
+  return shape;
+}
+
+/// With a curved underside: the height below it.
+double outline_distance(const Shape& shape, const Vector3& x) {
+  const double half = 0.5 * shape.size[2];
+  if (shape.kind != ShapeKind::box || shape.rocker <= 0.0) return distance_to(shape, x);
+  const double under = rocker_rise(shape, x[0]) - half - x[2];
+  // A box whose underside is where that distance says.
+  return distance_to(shape, {x[0], x[1], std::max(under, x[2] - half) + half});
+}
+
+/// To the nearest body.
+double nearest(const FluidState& s, const Vector3& place) {
+  double found = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < s.shapes.size(); ++b) {
+    const BodyStep& step = s.bodies[b];
+    const Vector3 centre = {static_cast<double>(step.px), static_cast<double>(step.py),
+                            static_cast<double>(step.pz)};
+    const Quaternion turned = {static_cast<double>(step.qx), static_cast<double>(step.qy),
+                               static_cast<double>(step.qz), static_cast<double>(step.qw)};
+    const Vector3 own = rotate(inverse(turned), place - centre);
+    const double d = s.shapes[b].kind == SPLASH_MESH ? s.fields[b].at(own)
+                                                     : outline_distance(shape_of(s.shapes[b]), own);
+    found = std::min(found, d);
+  }
+  return found;
+}
+
+double factor_at(const FluidParams& params, double distance) {
+  const double support = static_cast<double>(params.support);
+  const double spacing = static_cast<double>(params.spacing);
+  const double d = std::max(distance, 0.0);
+  const double kept = std::max(distance, 0.5 * spacing);
+  double mirror = 0.0;
+  double fixed = 0.0;
+  for (double behind = 0.0; behind < 0.999 * support; behind += spacing) {
+    const double z = 2.0 * kept + behind;
+    mirror += plane_marginal(z, support);
+    mirror += 4.0 * std::numbers::pi * z * kernel_value(z, support) * (kept - d);
+    fixed += plane_marginal(d + 0.5 * spacing + behind, support);
+  }
+  return fixed > 0.0 ? mirror / fixed : 0.0;
+}
+
+/// Without bodies: 1 everywhere.
+ReferenceImage reference_image(const FluidState& s, const Vector3& place) {
+  ReferenceImage image;
+  if (s.shapes.empty()) return image;
+  image.factor = factor_at(s.params, nearest(s, place));
+  const double step = 1.0e-5 * static_cast<double>(s.params.spacing);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vector3 more = place;
+    Vector3 less = place;
+    more[axis] += step;
+    less[axis] -= step;
+    image.gradient[axis] =
+        (factor_at(s.params, nearest(s, more)) - factor_at(s.params, nearest(s, less))) /
+        (2.0 * step);
+  }
+  return image;
+}
+
 /// A mesh's distances, out of the device's numbers.
 DistanceField field_of(const BodyShape& shape, const std::vector<float>& meshes) {
   DistanceField field;
@@ -101,6 +163,16 @@ DistanceField field_of(const BodyShape& shape, const std::vector<float>& meshes)
 }
 
 }  // namespace
+
+std::vector<double> read_numbers(Device& device, const Buffer<float>& buffer, std::size_t count) {
+  const std::vector<float> read = buffer.read(device, count);
+  return {read.begin(), read.end()};
+}
+
+std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, int stride,
+                                  std::size_t count) {
+  return tests::vectors_of(buffer.read(device, 3 * static_cast<std::size_t>(stride)), count);
+}
 
 FluidState read_state(Fluid& fluid, double piston) {
   Device& device = fluid.device();

@@ -10,6 +10,12 @@
 
 namespace splash::sim {
 
+[[nodiscard]] std::vector<double> read_numbers(Device& device, const Buffer<float>& buffer,
+                                               std::size_t count);
+/// Of a buffer whose components are `stride` apart.
+[[nodiscard]] std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer,
+                                                int stride, std::size_t count);
+
 /// What the device holds between Fluid::prepare and Fluid::advance, in the device's order.
 struct FluidState {
   FluidParams params = {};

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -15,6 +14,7 @@
 #include "sim-server/gauge/gauge_file.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -90,14 +90,8 @@ TEST(Gauges, ChangeNothingByLooking) {
 
 class GaugeFiles : public ::testing::Test {
  protected:
-  GaugeFiles()
-      : path_(std::filesystem::temp_directory_path() /
-              ("splash-gauges-" + std::to_string(getpid()) + ".csv")) {}
-  ~GaugeFiles() override {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  std::filesystem::path path_;
+  tests::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_ / "gauges.csv";
 };
 
 TEST_F(GaugeFiles, HoldALinePerSampleAtTheScenesRate) {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <deque>
 
-#include "program/config.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -32,12 +32,7 @@ std::string pool(const std::string& motion, const std::string& shape = "size: [0
 }
 
 std::string refusal(const std::string& motion, const std::string& shape = "size: [0.1, 0.1, 0.1]") {
-  try {
-    static_cast<void>(parse_scene(pool(motion, shape), "pool.yaml"));
-  } catch (const program::ConfigError& error) {
-    return error.what();
-  }
-  return {};
+  return tests::refusal([&] { return parse_scene(pool(motion, shape), "pool.yaml"); });
 }
 
 TEST(CouplingRules, ABodyOnASpringIsFreeAndTied) {

@@ -4,19 +4,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "program/config.hpp"
 #include "sim-server/scene/mesh/mesh_mass.hpp"
 #include "sim-server/scene/mesh/soundness.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// A tetrahedron of volume 1/6, corners a unit from the origin along each axis.
@@ -109,12 +108,9 @@ TEST(MeshFile, LeavesOutVerticesOfNoTriangle) {
 }
 
 TEST(MeshFile, IsReadFromDisk) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("splash_corner_" + std::to_string(getpid()) + ".obj");
-  std::ofstream(path) << kObj;
-  EXPECT_EQ(read_mesh(path, 1.0).triangles.size(), 4U);
-  std::filesystem::remove(path);
-  EXPECT_THROW(static_cast<void>(read_mesh(path, 1.0)), program::ConfigError);
+  const tests::TemporaryFolder folder;
+  EXPECT_EQ(read_mesh(folder.write("corner.obj", kObj), 1.0).triangles.size(), 4U);
+  EXPECT_THROW(static_cast<void>(read_mesh(folder / "none.obj", 1.0)), program::ConfigError);
 }
 
 struct Wrong {
@@ -176,13 +172,8 @@ class WrongMesh : public ::testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongMesh, IsRefusedWithPlaceAndReason) {
   const Wrong& wrong = GetParam();
-  try {
-    static_cast<void>(parse_mesh(wrong.bytes, wrong.file, 1.0));
-    FAIL() << "accepted";
-  } catch (const program::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(wrong.file + wrong.place));
-    EXPECT_THAT(error.what(), HasSubstr(wrong.reason));
-  }
+  EXPECT_THAT(tests::refusal([&] { return parse_mesh(wrong.bytes, wrong.file, 1.0); }),
+              AllOf(HasSubstr(wrong.file + wrong.place), HasSubstr(wrong.reason)));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WrongMesh, ::testing::ValuesIn(kWrong),
@@ -191,12 +182,8 @@ INSTANTIATE_TEST_SUITE_P(All, WrongMesh, ::testing::ValuesIn(kWrong),
 TEST(WrongBinaryMesh, NamesTheTriangle) {
   std::string bytes = stl_bytes(box_mesh({1.0, 1.0, 1.0}));
   bytes.replace(84 + 50 * 4 + 12, 4, std::string("\x00\x00\xc0\x7f", 4));
-  try {
-    static_cast<void>(parse_mesh(bytes, "a.stl", 1.0));
-    FAIL() << "accepted";
-  } catch (const program::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("triangle 5: a coordinate is not finite"));
-  }
+  EXPECT_THAT(tests::refusal([&] { return parse_mesh(bytes, "a.stl", 1.0); }),
+              HasSubstr("triangle 5: a coordinate is not finite"));
 }
 
 TEST(MeshFile, MayBeginWithAByteOrderMark) {
@@ -211,12 +198,9 @@ TEST(MeshFile, OfObjMayContinueALineInTheNext) {
   EXPECT_EQ(mesh.triangles.size(), 2U);
   ASSERT_EQ(mesh.vertices.size(), 4U);
   EXPECT_EQ(mesh.vertices[3], (Vector3{0.0, 0.0, 1.0}));
-  try {
-    static_cast<void>(parse_mesh("v 0 0 0\nf 1 \\\n1 \\\nx\n", "a.obj", 1.0));
-    FAIL();
-  } catch (const program::ConfigError& error) {
-    EXPECT_EQ(error.place().line, 2) << "where it begins";
-  }
+  EXPECT_THAT(tests::refusal([] { return parse_mesh("v 0 0 0\nf 1 \\\n1 \\\nx\n", "a.obj", 1.0); }),
+              HasSubstr("a.obj:2:"))
+      << "where it begins";
 }
 
 }  // namespace

@@ -2,23 +2,19 @@
 // A scene's mesh is found beside it, and a free one is about its centre of mass.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "program/config.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
 
 using ::testing::HasSubstr;
-namespace fs = std::filesystem;
 
 const Vector3 kSize = {0.2, 0.12, 0.1};
 const Vector3 kAway = {0.3, 0.0, -0.05};  ///< of the box's middle from the file's origin [m]
@@ -27,16 +23,10 @@ const Vector3 kAway = {0.3, 0.0, -0.05};  ///< of the box's middle from the file
 class MeshScene : public ::testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directories(folder_);
-    write("box.obj", obj_text(placed(box_mesh(1000.0 * kSize), no_turn_, 1000.0 * kAway)));
+    folder_.write("box.obj", obj_text(placed(box_mesh(1000.0 * kSize), no_turn_, 1000.0 * kAway)));
     TriangleMesh open = box_mesh(kSize);
     open.triangles.pop_back();
-    write("open.obj", obj_text(open));
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    folder_.write("open.obj", obj_text(open));
   }
   /// With the body's mappings.
   [[nodiscard]] Scene scene_with(const std::string& body) const {
@@ -49,17 +39,11 @@ class MeshScene : public ::testing::Test {
         (folder_ / "scene.yaml").string());
   }
   [[nodiscard]] std::string complaint(const std::string& body) const {
-    try {
-      static_cast<void>(scene_with(body));
-    } catch (const program::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return tests::refusal([&] { return scene_with(body); });
   }
 
   const Quaternion no_turn_ = {0.0, 0.0, 0.0, 1.0};
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("splash_mesh_scene_" + std::to_string(getpid()));
+  const tests::TemporaryFolder folder_;
 };
 
 TEST_F(MeshScene, ATrackedMeshKeepsItsOwnOrigin) {

@@ -9,6 +9,7 @@
 
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -16,12 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string complaint(const TriangleMesh& mesh) {
-  try {
-    check_soundness(mesh);
-  } catch (const program::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::refusal([&] { check_soundness(mesh); });
 }
 
 TEST(MeshSoundness, AcceptsSolids) {
@@ -95,12 +91,7 @@ TEST(MeshSoundness, RefusesASpeck) {
 }
 
 std::string complaint_of_solid(const TriangleMesh& mesh, double spacing) {
-  try {
-    static_cast<void>(make_solid(mesh, spacing));
-  } catch (const program::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::refusal([&] { return make_solid(mesh, spacing); });
 }
 
 TEST(MeshSolid, IsAsThickAsAParticle) {

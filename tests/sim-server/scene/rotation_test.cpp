@@ -58,13 +58,5 @@ TEST(ShapeGeometry, DistancesOfTheThreeShapes) {
   EXPECT_NEAR(distance_to(disc, {0.19, 0.0, 0.0}), -0.01, 1e-15);
 }
 
-TEST(ShapeGeometry, SoleIsFlatInTheMiddleAndCurvesUp) {
-  const Shape sole{ShapeKind::box, {0.3, 0.1, 0.07}, 0.03, 0.5};
-  EXPECT_DOUBLE_EQ(rocker_rise(sole, 0.07), 0.0);
-  EXPECT_NEAR(rocker_rise(sole, -0.15), 0.03, 1e-15);
-  EXPECT_NEAR(rocker_rise(sole, 0.1125), 0.03 / 4, 1e-15);
-  EXPECT_NEAR(rocker_rise(sole, 9.0), 0.03, 1e-15);
-}
-
 }  // namespace
 }  // namespace splash::sim

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -12,28 +11,21 @@
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::sim {
 namespace {
 
-const std::filesystem::path kSource = SPLASH_SOURCE_DIR;
-
-std::vector<std::string> scene_files() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(kSource / "configs" / "scenes")) {
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+using tests::scene_file;
+using tests::scene_names;
 
 class SampleScene : public ::testing::TestWithParam<std::string> {
  protected:
-  Scene scene_ = read_scene(kSource / "configs" / "scenes" / (GetParam() + ".yaml"));
+  Scene scene_ = read_scene(scene_file(GetParam()));
   std::vector<std::unique_ptr<Motion>> motions_ = [this] {
     std::vector<std::unique_ptr<Motion>> motions;
     for (const auto& body : scene_.bodies) {
-      motions.push_back(make_motion(body, kSource / "configs" / "scenes" / "walk.trc"));
+      motions.push_back(make_motion(body, tests::scene_folder() / "walk.trc"));
     }
     return motions;
   }();
@@ -85,14 +77,14 @@ TEST_P(SampleScene, BodiesMoveAsFastAsPeopleDo) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SampleScene, ::testing::ValuesIn(scene_files()),
+INSTANTIATE_TEST_SUITE_P(All, SampleScene, ::testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 TEST(SampleScenes, ThePapersAreThere) {
-  const auto files = scene_files();
-  const std::set<std::string> names(files.begin(), files.end());
+  const auto all = scene_names();
+  const std::set<std::string> names(all.begin(), all.end());
   const auto particles = [](const std::string& name) {
-    return read_scene(kSource / "configs" / "scenes" / (name + ".yaml")).fluid.particles;
+    return read_scene(scene_file(name)).fluid.particles;
   };
   for (const char* name : {"pool", "beach", "basin", "bucket", "walk", "plunge", "rest"}) {
     EXPECT_TRUE(names.contains(name)) << name;

@@ -51,15 +51,6 @@ void expect_each_filled(const Fields<Entry>& fields, Others... others) {
   }
 }
 
-TEST(SceneMembers, OfAStructAreCounted) {
-  struct Two {
-    double number = 0.0;
-    std::vector<std::string> words;
-  };
-  EXPECT_EQ(member_count<Two>(), 2U);
-  EXPECT_EQ(member_count<Keyframe>(), 3U);
-}
-
 TEST(SceneMembers, OfTheWholeAreFilled) {
   expect_each_filled<Scene>(scene_fields(), &Scene::fluid, &Scene::tank, &Scene::slope,
                             &Scene::wave_maker, &Scene::tank_motion, &Scene::water, &Scene::gate,

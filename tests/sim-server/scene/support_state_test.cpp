@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::sim {
 namespace {
@@ -137,17 +137,14 @@ TEST(SupportState, TheWayDownIsThatOfTheField) {
   EXPECT_EQ(kinds(scene), kFlows) << "tilted, it is not level";
 }
 
-const std::filesystem::path kSource = SPLASH_SOURCE_DIR;
-
 /// All scenes that are shipped, and those that are compared with experiments.
 std::vector<std::filesystem::path> scene_files() {
   std::vector<std::filesystem::path> all;
-  for (const char* folder : {"configs/scenes", "tests/validation/scenes"}) {
-    for (const auto& entry : std::filesystem::directory_iterator(kSource / folder)) {
-      if (entry.path().extension() == ".yaml") all.push_back(entry.path());
-    }
+  for (const auto& folder :
+       {tests::scene_folder(), tests::source_folder() / "tests/validation/scenes"}) {
+    for (const std::string& name : tests::scene_names(folder))
+      all.push_back(folder / (name + ".yaml"));
   }
-  std::sort(all.begin(), all.end());
   return all;
 }
 

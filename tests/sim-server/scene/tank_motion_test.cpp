@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "program/config.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -101,12 +101,7 @@ std::string tank(const std::string& motion, const std::string& more = "") {
 }
 
 std::string refusal(const std::string& motion, const std::string& more = "") {
-  try {
-    static_cast<void>(parse_scene(tank(motion, more), "tank.yaml"));
-  } catch (const program::ConfigError& error) {
-    return error.what();
-  }
-  return {};
+  return tests::refusal([&] { return parse_scene(tank(motion, more), "tank.yaml"); });
 }
 
 TEST(TankMotion, IsReadFromAScene) {

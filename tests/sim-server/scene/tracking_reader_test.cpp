@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program/config.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -46,13 +46,9 @@ struct Mistake {
 class TrackingMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(TrackingMistake, IsRefusedWithItsReason) {
-  try {
-    static_cast<void>(read(GetParam().source));
-    FAIL() << "was read: " << GetParam().source;
-  } catch (const program::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("test.yaml:1"));
-    EXPECT_THAT(error.what(), HasSubstr(GetParam().reason));
-  }
+  EXPECT_THAT(tests::refusal([] { return read(GetParam().source); }),
+              AllOf(HasSubstr("test.yaml:1"), HasSubstr(GetParam().reason)))
+      << GetParam().source;
 }
 
 INSTANTIATE_TEST_SUITE_P(

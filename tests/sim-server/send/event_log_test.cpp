@@ -13,7 +13,7 @@
 #include "protocol/event_log.hpp"
 #include "sim-server/send/event_sender.hpp"
 #include "tests/sim-server/send/sample_events.hpp"
-#include "tests/sim-server/send/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -51,22 +51,22 @@ void run(const std::filesystem::path& path, const RunAs& as) {
 }
 
 TEST(EventLog, TwoRunsAtOtherTimesAndPacesAreByteIdentical) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   run(folder / "a.osc", {.unix_origin = 1.7e9, .pace = 1.0});
   run(folder / "b.osc", {.unix_origin = 1.9e9 + 0.123456, .pace = 0.1});
   run(folder / "c.osc", {.unix_origin = 1.9e9, .pace = 3.0});  // behind: every event is overdue
-  const auto bytes = test::read_file(folder / "a.osc");
+  const auto bytes = tests::read_file(folder / "a.osc");
   EXPECT_GT(bytes.size(), 3000U);
-  EXPECT_EQ(bytes, test::read_file(folder / "b.osc"));
-  EXPECT_EQ(bytes, test::read_file(folder / "c.osc"));
+  EXPECT_EQ(bytes, tests::read_file(folder / "b.osc"));
+  EXPECT_EQ(bytes, tests::read_file(folder / "c.osc"));
 }
 
 TEST(EventLog, HasForcesAtTheirFramesAndTheSameEvents) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   run(folder / "plain.osc", {.lead = 0.015});
   run(folder / "forces.osc", {.lead = 0.015, .forces = true});
   run(folder / "again.osc", {.unix_origin = 1.9e9, .pace = 3.0, .lead = 0.015, .forces = true});
-  EXPECT_EQ(test::read_file(folder / "forces.osc"), test::read_file(folder / "again.osc"));
+  EXPECT_EQ(tests::read_file(folder / "forces.osc"), tests::read_file(folder / "again.osc"));
   std::vector<protocol::LogEntry> events;
   std::vector<double> forces;
   for (const protocol::LogEntry& entry : protocol::read_log(folder / "forces.osc")) {
@@ -92,7 +92,7 @@ TEST(EventLog, HasForcesAtTheirFramesAndTheSameEvents) {
 }
 
 TEST(EventLog, AnotherSeedIsAnotherSession) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   std::set<std::int32_t> sessions;
   for (int seed = -2; seed < 10; ++seed) {
     run(folder / "log.osc", {.seed = seed});
@@ -104,7 +104,7 @@ TEST(EventLog, AnotherSeedIsAnotherSession) {
 
 TEST(EventLog, TellsEachEventOnceAtItsSimulatedMoment) {
   for (const double lead : {0.0, 0.005}) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     run(folder / "log.osc", {.lead = lead});
     const auto entries = protocol::read_log(folder / "log.osc");
     std::size_t impacts = 0;
@@ -131,7 +131,7 @@ TEST(EventLog, TellsEachEventOnceAtItsSimulatedMoment) {
 }
 
 TEST(EventLog, ClosesWithAFrameAtTheEnd) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   run(folder / "log.osc", {});
   const auto entries = protocol::read_log(folder / "log.osc");
   EXPECT_NEAR(entries.back().seconds, kEnd, 1.0e-9);
@@ -140,7 +140,7 @@ TEST(EventLog, ClosesWithAFrameAtTheEnd) {
 }
 
 TEST(EventLog, TheEndIsNotBeforeTheLastSound) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   Targets nobody({});
   protocol::UdpSocket socket{protocol::Endpoint{}};
   protocol::LogWriter log(folder / "log.osc");
@@ -151,7 +151,7 @@ TEST(EventLog, TheEndIsNotBeforeTheLastSound) {
 }
 
 TEST(EventLog, AnEventThatSoundsSoonerThanAnEarlierFramesEventIsNotHeldBack) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   Targets nobody({});
   protocol::UdpSocket socket{protocol::Endpoint{}};
   protocol::LogWriter log(folder / "log.osc");

@@ -15,8 +15,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/sim-server/send/temporary_folder.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -141,12 +141,12 @@ TEST(Report, ADeviceWithAStrangeNameIsStillJson) {
 }
 
 TEST(Report, IsWrittenWholeAndReplacesAnOlderOne) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   auto report = example();
   write_report(folder / "r.json", report);
   report.particles = 1;
   write_report(folder / "r.json", report);
-  EXPECT_EQ(test::read_file(folder / "r.json"), to_json(report));
+  EXPECT_EQ(tests::read_file(folder / "r.json"), to_json(report));
   const auto begin = std::filesystem::directory_iterator(folder.path());
   EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator()), 1) << "no draft is left";
 }
@@ -161,7 +161,7 @@ std::string refusal(const std::filesystem::path& path) {
 }
 
 TEST(Report, RefusalsNameThePathAndTheCause) {
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const auto nowhere = folder / "no" / "such" / "r.json";
   EXPECT_THAT(refusal(nowhere), HasSubstr(nowhere.string()));
   EXPECT_THAT(refusal(nowhere), HasSubstr("No such file"));
@@ -172,7 +172,7 @@ TEST(Report, RefusalsNameThePathAndTheCause) {
 // would cost the machine a link and not its device.
 TEST(Report, ADeviceIsWrittenInPlaceAndItsErrorTold) {
   if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const auto link = folder / "full";
   std::filesystem::create_symlink("/dev/full", link);
   EXPECT_THAT(refusal(link), HasSubstr("No space left"));

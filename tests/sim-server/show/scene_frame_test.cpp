@@ -3,23 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/solver_choice.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::sim {
 namespace {
 
 TEST(SceneFrame, TellsOfEveryShippedScene) {
-  int scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(
-           std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/scenes")) {
-    if (entry.path().extension() != ".yaml") continue;
-    ++scenes;
-    const Scene scene = read_scene(entry.path());
+  const std::vector<std::string> names = tests::scene_names();
+  for (const std::string& name : names) {
+    const Scene scene = read_scene(tests::scene_file(name));
     const auto json = nlohmann::json::parse(describe_for_viewers(scene, 123, 0.02));
     EXPECT_EQ(json.at("scene"), scene.name);
     EXPECT_EQ(json.at("particles"), 123);
@@ -38,7 +35,7 @@ TEST(SceneFrame, TellsOfEveryShippedScene) {
       }
     }
   }
-  EXPECT_GE(scenes, 9);
+  EXPECT_GE(names.size(), 9U);
 }
 
 TEST(SceneFrame, IsJsonBehindTheHead) {

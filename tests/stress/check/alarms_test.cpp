@@ -11,13 +11,13 @@
 namespace splash::stress {
 namespace {
 
-class Alarms : public testing::TestWithParam<Water> {};
+class Alarms : public testing::TestWithParam<sim::PressureKind> {};
 
 TEST_P(Alarms, AreNotRaisedByAnyBuiltInScene) {
   sim::Device device;
   Endurance coarse;
   coarse.coarser = 2.0;
-  coarse.solver = GetParam().solver;
+  coarse.solver = GetParam();
   const std::vector<std::string> scenes = built_in_scenes();
   ASSERT_GE(scenes.size(), 7U);
   for (const std::string& name : scenes) {
@@ -29,8 +29,8 @@ TEST_P(Alarms, AreNotRaisedByAnyBuiltInScene) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Waters, Alarms, testing::ValuesIn(all_waters()),
-                         [](const auto& water) { return name_of(water.param); });
+INSTANTIATE_TEST_SUITE_P(Waters, Alarms, testing::ValuesIn(kBothSolvers),
+                         [](const auto& solver) { return sim::name_of(solver.param); });
 
 }  // namespace
 }  // namespace splash::stress

@@ -4,7 +4,8 @@
 #include "tests/stress/endurance.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::stress {
 namespace {
@@ -13,15 +14,13 @@ TEST(Endurance, TwentyThousandStepsLoseNothingAndKeepTheirMemory) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers keep what is freed: memory grows with them";
 #endif
-  const std::filesystem::path out =
-      std::filesystem::temp_directory_path() / ("splash-endurance-" + std::to_string(getpid()));
+  const tests::TemporaryFolder out;
   Endurance wanted;
   wanted.scenes = {"bucket"};
   wanted.steps = 20'000;
   wanted.coarser = 2.0;
   sim::Device device;
-  EXPECT_EQ(endure(device, wanted, out), 0) << "see its lines above";
-  std::filesystem::remove_all(out);
+  EXPECT_EQ(endure(device, wanted, out.path()), 0) << "see its lines above";
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 /// Steps short enough that nothing jumps, however fast.
 constexpr double kShort = 0.35;
 
-class Faults : public testing::TestWithParam<Water> {
+class Faults : public testing::TestWithParam<sim::PressureKind> {
  protected:
   sim::Device device_;
   sim::Simulation simulation_{device_, still_scene(GetParam(), kShort), {}};
@@ -169,8 +169,8 @@ TEST_P(Faults, ThatStayStopTheWaterAroundThemAndAtLastTakeItToItsBeginning) {
   EXPECT_EQ(of_water(anew.velocity), of_water(first.velocity));
 }
 
-INSTANTIATE_TEST_SUITE_P(Waters, Faults, testing::ValuesIn(all_waters()),
-                         [](const auto& water) { return name_of(water.param); });
+INSTANTIATE_TEST_SUITE_P(Waters, Faults, testing::ValuesIn(kBothSolvers),
+                         [](const auto& solver) { return sim::name_of(solver.param); });
 
 }  // namespace
 }  // namespace splash::stress

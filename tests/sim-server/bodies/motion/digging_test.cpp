@@ -4,15 +4,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
-#include <system_error>
 
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/scene/shape.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -43,20 +41,12 @@ class PushOff {
       }
       text << '\n';
     }
-    std::ofstream(path_) << text.str();
+    folder_.write("push-off.trc", text.str());
   }
-  ~PushOff() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  PushOff(const PushOff&) = delete;
-  PushOff& operator=(const PushOff&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  [[nodiscard]] std::filesystem::path path() const { return folder_ / "push-off.trc"; }
 
  private:
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("push-off-" + std::to_string(getpid()) + ".trc");
+  tests::TemporaryFolder folder_;
 };
 
 Scene scene_with(const std::string& body) {

@@ -5,10 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program/config.hpp"
+#include <filesystem>
+#include <sstream>
+#include <string>
+
 #include "sim-server/bodies/motion/live_motion.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "tests/sim-server/bodies/motion/marker_text.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -27,13 +31,29 @@ BodySettings body(MotionKind kind) {
 }
 
 std::string refusal(const BodySettings& settings, const std::filesystem::path& tracker = {}) {
-  try {
-    static_cast<void>(make_motion(settings, tracker));
-    return "";
-  } catch (const program::ConfigError& error) {
-    return error.what();
-  }
+  return tests::refusal([&] { return make_motion(settings, tracker); });
 }
+
+/// A TRC file of a body that stands: four markers 0.02 s apart, data from line 6 on. In the fourth
+/// frame and after it all of them are `jump` metres higher.
+class MarkerText {
+ public:
+  MarkerText(const std::string& names, int frames, double jump) {
+    std::ostringstream text;
+    text << "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n50\t"
+         << frames << "\t4\tm\nFrame#\tTime\t" << names << "\n\t\tX1\tY1\tZ1\n";
+    for (int k = 0; k < frames; ++k) {
+      const double y = k < 3 ? 0.0 : jump;
+      text << k + 1 << '\t' << 0.02 * k << "\t0\t" << y << "\t0\t0.2\t" << y << "\t0\t0.1\t" << y
+           << "\t0.1\t0\t0\t0\n";
+    }
+    folder_.write("markers.trc", text.str());
+  }
+  [[nodiscard]] std::filesystem::path path() const { return folder_ / "markers.trc"; }
+
+ private:
+  tests::TemporaryFolder folder_;
+};
 
 TEST(MakeMotion, FixedBodiesStay) {
   const auto motion = make_motion(body(MotionKind::fixed), {});
@@ -91,7 +111,7 @@ TEST(MakeMotion, MarkersComeFromTheTrackersFile) {
 }
 
 TEST(MakeMotion, OfTwoMarkersOfOneNameNoneIsTaken) {
-  const test::MarkerText text("Heel\t\t\tToe\t\t\tSide\t\t\tToe", 3, 0.3);
+  const MarkerText text("Heel\t\t\tToe\t\t\tSide\t\t\tToe", 3, 0.3);
   BodySettings settings = body(MotionKind::trc);
   settings.motion.markers = {"Heel", "Toe", "Side"};
   EXPECT_THAT(refusal(settings, text.path()), HasSubstr("more than one marker 'Toe'"));
@@ -101,8 +121,8 @@ TEST(MakeMotion, MarkersThatNoBodyCanFollowAreToldByTheirLines) {
   BodySettings settings = body(MotionKind::trc);
   settings.motion.markers = {"Heel", "Toe", "Side"};
   const std::string names = "Heel\t\t\tToe\t\t\tSide\t\t\tSide.Mean";
-  EXPECT_EQ(refusal(settings, test::MarkerText(names, 5, 0.3).path()), "");
-  const test::MarkerText text(names, 5, 0.5);
+  EXPECT_EQ(refusal(settings, MarkerText(names, 5, 0.3).path()), "");
+  const MarkerText text(names, 5, 0.5);
   EXPECT_THAT(refusal(settings, text.path()),
               HasSubstr(text.path().string() + ":9:1: error: body 'probe': 0.5 m in 0.02 s is 25 "
                                                "m/s, beyond the limit of 20: its markers in one of "

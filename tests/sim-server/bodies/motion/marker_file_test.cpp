@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // TRC files: units, axes, gaps and times as documented; mistakes refused with line and column.
 #include "sim-server/bodies/motion/marker_file.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "program/config.hpp"
 
 namespace splash::sim {
 namespace {
@@ -91,12 +90,8 @@ struct Mistake {
 class MarkerFileMistake : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(MarkerFileMistake, IsRefused) {
-  try {
-    static_cast<void>(parse_markers(GetParam().text, "a.trc"));
-    FAIL() << "accepted";
-  } catch (const program::ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("a.trc:" + GetParam().message));
-  }
+  EXPECT_THAT(tests::refusal([] { return parse_markers(GetParam().text, "a.trc"); }),
+              ::testing::HasSubstr("a.trc:" + GetParam().message));
 }
 
 std::string changed(const std::string& from, const std::string& to) {

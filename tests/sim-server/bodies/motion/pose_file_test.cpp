@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "program/config.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace splash::sim {
 namespace {
@@ -34,12 +35,8 @@ struct Mistake {
 class PoseFileMistake : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(PoseFileMistake, IsRefused) {
-  try {
-    static_cast<void>(parse_poses(GetParam().text, "hand.csv"));
-    FAIL() << "accepted";
-  } catch (const program::ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("hand.csv:" + GetParam().message));
-  }
+  EXPECT_THAT(tests::refusal([] { return parse_poses(GetParam().text, "hand.csv"); }),
+              ::testing::HasSubstr("hand.csv:" + GetParam().message));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which compiled programs a start trusts.
+// Which compiled programs a start trusts, and what it takes out of PoCL's cache.
 #include "sim-server/device/cache.hpp"
 
 #include <gtest/gtest.h>
@@ -7,22 +7,27 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Seal : public ::testing::Test {
+/// A cache that holds what a test writes.
+class Cache : public ::testing::Test {
  protected:
-  ~Seal() override { fs::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) const { cache_.write(name, text); }
+  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(folder_ / name); }
 
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-  }
+  tests::TemporaryFolder cache_;
+  fs::path folder_ = cache_.path();
+};
+
+class Seal : public Cache {
+ protected:
   /// Three programs, sealed; then a simulator adds a kernel to the second and a fourth program.
   void fill() const {
     for (const char* program : {"AB/CD", "AB/EF", "ZZ/YY"}) {
@@ -33,9 +38,6 @@ class Seal : public ::testing::Test {
     write("AB/EF/reduce_stats/1-1-1/reduce_stats.so", "machine code");
     write("GH/IJ/program.bc", "code");
   }
-  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(folder_ / name); }
-
-  fs::path folder_ = fs::path(::testing::TempDir()) / ("splash-seal-" + std::to_string(getpid()));
 };
 
 TEST_F(Seal, OfAWholeCacheRemovesNothing) {
@@ -139,7 +141,6 @@ TEST_F(Seal, SeesEveryChangeOfALongFile) {
 }
 
 TEST_F(Seal, MarksItsWorkWhileItLasts) {
-  fs::create_directories(folder_);
   const std::string mark = "splash-at-work-" + std::to_string(getpid());
   {
     const CacheSeal seal(folder_);
@@ -157,6 +158,44 @@ TEST_F(Seal, LeavesWhatIsNotPoclsAlone) {
   EXPECT_TRUE(has("notes.txt"));
   EXPECT_TRUE(has("ab/cd/file"));
   EXPECT_EQ(remove_damaged_programs(folder_ / "nowhere"), 0);
+}
+
+class Leftovers : public Cache {
+ protected:
+  void write(const std::string& name, std::chrono::hours ago = std::chrono::hours{0}) const {
+    Cache::write(name, "code");
+    fs::last_write_time(folder_ / name, fs::file_time_type::clock::now() - ago);
+  }
+};
+
+TEST_F(Leftovers, AreProgramsThatNobodyAskedForInAMonth) {
+  constexpr std::chrono::hours kDay{24};
+  write("AB/CD/program.bc", 400 * kDay);
+  write("AB/CD/last_accessed", 29 * kDay);
+  write("AB/EF/program.bc", 31 * kDay);
+  write("AB/EF/last_accessed", 31 * kDay);
+  write("GH/IJ/program.bc");
+  EXPECT_EQ(remove_leftovers(folder_), 1);
+  EXPECT_TRUE(has("AB/CD/program.bc")) << "old, and used";
+  EXPECT_FALSE(has("AB/EF"));
+  EXPECT_TRUE(has("GH/IJ/program.bc")) << "new, and not marked yet";
+  EXPECT_EQ(remove_leftovers(folder_), 0);
+}
+
+TEST_F(Leftovers, AreDraftsOfEveryStart) {
+  write("tempfile_a1B2c3");
+  write("tempfile_d4E5f6");
+  write("AB/CD/program.bc");
+  write("notes.txt", std::chrono::hours{10'000});
+  EXPECT_EQ(remove_leftovers(folder_), 0);
+  EXPECT_FALSE(has("tempfile_a1B2c3"));
+  EXPECT_FALSE(has("tempfile_d4E5f6"));
+  EXPECT_TRUE(has("AB/CD/program.bc"));
+  EXPECT_TRUE(has("notes.txt")) << "not PoCL's";
+}
+
+TEST_F(Leftovers, OfAFolderThatIsNotThereAreNone) {
+  EXPECT_EQ(remove_leftovers(folder_ / "nowhere"), 0);
 }
 
 }  // namespace

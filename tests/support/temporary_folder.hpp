@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder of its own for one test, gone afterwards.
+// A folder of its own for one test, gone afterwards; a file as a whole.
 #pragma once
 
 #include <cstdlib>
@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <string>
 
-namespace splash::test {
+namespace splash::tests {
 
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "splash-send-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "splash-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder " + name);
     path_ = name;
   }
@@ -28,6 +28,12 @@ class TemporaryFolder {
     return path_ / name;
   }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// A file in it, in folders that need not be there yet.
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return path_ / name;
+  }
 
  private:
   std::filesystem::path path_;
@@ -38,4 +44,4 @@ inline std::string read_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace splash::test
+}  // namespace splash::tests
