@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "synth-server/output/band_filter.hpp"
+#include "synth-server/output/biquad.hpp"
 #include "synth-server/output/equaliser.hpp"
 #include "synth-server/output/limiter.hpp"
 #include "synth-server/output/rig.hpp"

@@ -9,7 +9,6 @@
 
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/render/audibility.hpp"
-#include "synth-server/sound/sound_reader.hpp"
 #include "synth-server/sound/sound_rows.hpp"
 
 namespace splash::synth {

@@ -18,7 +18,6 @@
 #include "synth-server/play/live_tone.hpp"
 #include "synth-server/play/meter.hpp"
 #include "synth-server/play/sample_clock.hpp"
-#include "synth-server/play/schedule.hpp"
 #include "synth-server/play/track.hpp"
 #include "synth-server/render/counters.hpp"
 #include "synth-server/render/engine.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 
 namespace splash::synth {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 
 namespace splash::synth {
 namespace {

@@ -10,7 +10,6 @@
 #include <limits>
 #include <vector>
 
-#include "synth-server/voices/paper_bubble.hpp"
 #include "synth-server/voices/physical_bubble.hpp"
 
 namespace splash::synth {
