@@ -2,15 +2,14 @@
 #include "pd-patches/event_list.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
 #include <variant>
 
+#include "program/text.hpp"
 #include "protocol/address.hpp"
 
 namespace splash::pd {
@@ -57,9 +56,7 @@ void print(std::ostream& out, const protocol::Argument& argument) {
   if (const auto* number = std::get_if<std::int32_t>(&argument)) out << ' ' << *number;
   const auto* value = std::get_if<float>(&argument);
   if (value == nullptr) return;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), " %.9g", static_cast<double>(*value));
-  out << text.data();
+  out << program::format(" %.9g", static_cast<double>(*value));
 }
 
 /// The kind and its numbers, but for the moment; optional ones where all of them are known.
@@ -92,9 +89,7 @@ EventListReport write_event_list(const std::vector<protocol::LogEntry>& log, dou
     // Pd holds a delta as a float: what it rounds away, the next delta makes good.
     const auto delta = static_cast<float>(std::max(0.0, due - pd_now));
     pd_now += static_cast<double>(delta);
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(delta));
-    out << text.data();
+    out << program::format("%.9g", static_cast<double>(delta));
     print(out, start.event);
     out << ";\n";
     ++report.events;

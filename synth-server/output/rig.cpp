@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include "program/text.hpp"
 
 namespace splash::synth {
 namespace {
@@ -19,10 +20,8 @@ constexpr double kLeastRatio = 1.05;
 
 [[noreturn]] void refuse(const Output& output, const std::string& key, double value,
                          const std::string& rule) {
-  std::array<char, 32> number{};
-  std::snprintf(number.data(), number.size(), "%g", value);
-  throw std::invalid_argument("output '" + output.name + "': " + key + " = " + number.data() +
-                              ": " + rule);
+  throw std::invalid_argument("output '" + output.name + "': " + key + " = " +
+                              program::format("%g", value) + ": " + rule);
 }
 
 void check_tiles(const Output& output) {
