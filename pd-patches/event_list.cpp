@@ -2,7 +2,6 @@
 #include "pd-patches/event_list.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
@@ -15,22 +14,10 @@
 namespace splash::pd {
 namespace {
 
-constexpr double kLongest = 7.0 * 24.0 * 3600.0;  // [s]
-
 struct Start {
   protocol::Event event;
   std::int64_t sample = 0;
 };
-
-/// The rounding of synth-server/replay/replay.
-std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
-  const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
-  if (!(start <= kLongest)) {
-    throw std::invalid_argument("event log: an event at " + std::to_string(start) +
-                                " s; a log may last 7 days");
-  }
-  return std::max<std::int64_t>(0, std::llround(start * sample_rate));
-}
 
 std::vector<Start> collect(const std::vector<protocol::LogEntry>& log, double sample_rate,
                            EventListReport& report) {
@@ -43,7 +30,7 @@ std::vector<Start> collect(const std::vector<protocol::LogEntry>& log, double sa
         continue;
       }
       const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
-      starts.push_back({*event, start_sample(entry.seconds, offset, sample_rate)});
+      starts.push_back({*event, protocol::start_sample(entry.seconds, offset, sample_rate)});
     }
   }
   std::stable_sort(starts.begin(), starts.end(),

@@ -60,14 +60,13 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
 /// Before anything is made of it: from the log's beginning to its last event all is rendered.
 void require_renderable(const std::filesystem::path& path,
                         const std::vector<protocol::LogEntry>& log) {
-  constexpr double kLongest = 7 * 24 * 3600.0;  // [s]
-  if (log.empty() || log.back().seconds <= kLongest) return;
+  if (log.empty() || log.back().seconds <= protocol::kLongestLog) return;
   throw program::Failure(
       program::kExitData,
       "event log '" + path.string() +
           program::format("': its last packet is at %.0f s; at most a week (%.0f s) is rendered, "
                           "from the log's beginning",
-                          log.back().seconds, kLongest));
+                          log.back().seconds, protocol::kLongestLog));
 }
 
 }  // namespace
