@@ -2,36 +2,22 @@
 #include "pd-patches/event_list.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
 #include <variant>
 
+#include "program/text.hpp"
 #include "protocol/address.hpp"
 
 namespace splash::pd {
 namespace {
 
-constexpr double kLongest = 7.0 * 24.0 * 3600.0;  // [s]
-
 struct Start {
   protocol::Event event;
   std::int64_t sample = 0;
 };
-
-/// The rounding of synth-server/replay/replay.
-std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
-  const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
-  if (!(start <= kLongest)) {
-    throw std::invalid_argument("event log: an event at " + std::to_string(start) +
-                                " s; a log may last 7 days");
-  }
-  return std::max<std::int64_t>(0, std::llround(start * sample_rate));
-}
 
 std::vector<Start> collect(const std::vector<protocol::LogEntry>& log, double sample_rate,
                            EventListReport& report) {
@@ -44,7 +30,7 @@ std::vector<Start> collect(const std::vector<protocol::LogEntry>& log, double sa
         continue;
       }
       const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
-      starts.push_back({*event, start_sample(entry.seconds, offset, sample_rate)});
+      starts.push_back({*event, protocol::start_sample(entry.seconds, offset, sample_rate)});
     }
   }
   std::stable_sort(starts.begin(), starts.end(),
@@ -57,9 +43,7 @@ void print(std::ostream& out, const protocol::Argument& argument) {
   if (const auto* number = std::get_if<std::int32_t>(&argument)) out << ' ' << *number;
   const auto* value = std::get_if<float>(&argument);
   if (value == nullptr) return;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), " %.9g", static_cast<double>(*value));
-  out << text.data();
+  out << program::format(" %.9g", static_cast<double>(*value));
 }
 
 /// The kind and its numbers, but for the moment; optional ones where all of them are known.
@@ -92,9 +76,7 @@ EventListReport write_event_list(const std::vector<protocol::LogEntry>& log, dou
     // Pd holds a delta as a float: what it rounds away, the next delta makes good.
     const auto delta = static_cast<float>(std::max(0.0, due - pd_now));
     pd_now += static_cast<double>(delta);
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(delta));
-    out << text.data();
+    out << program::format("%.9g", static_cast<double>(delta));
     print(out, start.event);
     out << ";\n";
     ++report.events;

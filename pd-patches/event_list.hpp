@@ -19,7 +19,8 @@ struct EventListReport {
 };
 
 /// Writes the events of `log` in the order of their samples at `sample_rate` [Hz, 8000 to 384000].
-/// Throws std::invalid_argument on another rate, and when an event lies beyond 7 days.
+/// Throws std::invalid_argument on another rate, and program::DataError when an event lies beyond
+/// 7 days.
 EventListReport write_event_list(const std::vector<protocol::LogEntry>& log, double sample_rate,
                                  std::ostream& out);
 

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Rows of a configuration as a Markdown table.
 #include <cmath>
-#include <cstdio>
 
 #include "program/config.hpp"
+#include "program/text.hpp"
 
 namespace splash::program {
 namespace {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
+  return format("%.10g", value);
 }
 
 std::string range_of(const Row& row) {

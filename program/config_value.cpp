@@ -5,7 +5,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "program/text.hpp"
@@ -116,9 +115,7 @@ using Kind = ConfigTree::Kind;
 namespace {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
+  return format("%.10g", value);
 }
 
 std::string with_unit(const std::string& text, const Row& row) {

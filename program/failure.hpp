@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Errors that end the program. Each kind is a class of its own with one exit code, which tells
-// scripts what was wrong: where an error is caught never changes what it is reported as.
+// Errors that end the program, and how they do. Each kind is a class of its own with one exit code,
+// which tells scripts what was wrong: where an error is caught never changes what it is reported
+// as.
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -49,5 +51,9 @@ auto failing_with(ExitCode code, Action&& action) {
     throw Failure(code, error.what());
   }
 }
+
+/// Calls `run` and returns the exit code of the program. An exception that ends it is printed to
+/// standard error: after the name `program`, unless its text begins with a file and a line.
+[[nodiscard]] int exit_code_of(const char* program, const std::function<void()>& run);
 
 }  // namespace splash::program

@@ -3,8 +3,8 @@
 #include "program/text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <cstdarg>
 #include <cstdio>
 
 namespace splash::program {
@@ -60,9 +60,8 @@ std::string printable(std::string_view text, std::size_t longest) {
   std::string out;
   while (!text.empty()) {
     const std::size_t length = printable_length(text);
-    std::array<char, 5> code{};
-    std::snprintf(code.data(), code.size(), "\\x%02x", at(text, 0));
-    const std::string_view shown = length > 0 ? text.substr(0, length) : code.data();
+    const std::string shown =
+        length > 0 ? std::string(text.substr(0, length)) : format("\\x%02x", at(text, 0));
     if (out.size() + shown.size() > longest) return out + "...";
     out += shown;
     text.remove_prefix(length > 0 ? length : 1);
@@ -83,6 +82,20 @@ void TextLimit::print(const std::string& line, double now,
   if (left_out_ > 0) print("(" + std::to_string(left_out_) + " lines too many were left out)");
   left_out_ = 0;
   print(line);
+}
+
+// NOLINTNEXTLINE(cert-dcl50-cpp): the compiler checks the arguments as it does printf's
+std::string format(const char* pattern, ...) {
+  std::va_list arguments;
+  std::va_list again;
+  va_start(arguments, pattern);
+  va_copy(again, arguments);
+  const int size = std::vsnprintf(nullptr, 0, pattern, arguments);
+  std::string text(static_cast<std::size_t>(std::max(size, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
+  va_end(arguments);
+  return text;
 }
 
 // Edit distance with swaps of neighbours (optimal string alignment; Damerau 1964).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text for people: fit for a terminal, not too much of it, and the name that was meant.
+// Text for people: of numbers, fit for a terminal, not too much of it, and the name that was meant.
 #pragma once
 
 #include <cstddef>
@@ -40,6 +40,9 @@ class TextLimit {
   double filled_ = 0.0;   ///< until then [s]
   std::uint64_t left_out_ = 0;
 };
+
+/// What printf prints of the same.
+[[nodiscard, gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
 
 // Finds the known name nearest to a mistyped one, for "did you mean ...?".
 

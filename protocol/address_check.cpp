@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Messages against the address table: types, counts and ranges.
 #include <algorithm>
-#include <cstdio>
 
+#include "program/text.hpp"
 #include "protocol/address.hpp"
 
 namespace splash::protocol {
@@ -33,9 +33,7 @@ std::size_t told_count(const Message& message, const AddressRow& row) {
 }
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
+  return program::format("%.9g", value);
 }
 
 std::string describe_range(const Argument& argument, const ArgumentRow& row) {

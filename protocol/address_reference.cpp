@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The address table as Markdown.
-#include <cstdio>
-
+#include "program/text.hpp"
 #include "protocol/address.hpp"
 
 namespace splash::protocol {
@@ -26,9 +25,7 @@ std::string_view name_of(Direction direction) {
 }
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
+  return program::format("%.10g", value);
 }
 
 std::string range_of(const ArgumentRow& row) {

@@ -2,7 +2,6 @@
 #include "protocol/control_port.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -193,17 +192,13 @@ std::string text_of(const std::string& value) {
 }
 
 std::string text_of(float value) {
-  char text[32];
   // Nine digits name each float and no other (IEEE 754-2008, 5.12.2).
-  std::snprintf(text, sizeof text, "%.9g", static_cast<double>(value));
-  return text;
+  return program::format("%.9g", static_cast<double>(value));
 }
 
 std::string text_of(TimeTag tag) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%08x.%08x", static_cast<unsigned>(tag.value >> 32U),
-                static_cast<unsigned>(tag.value & 0xffffffffU));
-  return text;
+  return program::format("%08x.%08x", static_cast<unsigned>(tag.value >> 32U),
+                         static_cast<unsigned>(tag.value & 0xffffffffU));
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "protocol/gate.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
-#include "protocol/rate_limit.hpp"
 #include "protocol/reply_budget.hpp"
 #include "protocol/udp_socket.hpp"
 

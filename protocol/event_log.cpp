@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <string>
 
 #include "program/failure.hpp"
@@ -109,6 +110,15 @@ void LogWriter::give_up() {
     std::filesystem::resize_file(path_, whole_bytes_, ignored);
   }
   throw error;
+}
+
+std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
+  const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
+  if (!(start <= kLongestLog)) {
+    throw program::DataError("event log: an event at " + std::to_string(start) +
+                             " s; a log may last 7 days");
+  }
+  return std::max<std::int64_t>(0, std::llround(start * sample_rate));
 }
 
 std::vector<LogEntry> read_log(const std::filesystem::path& path) {

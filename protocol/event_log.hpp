@@ -39,6 +39,13 @@ struct LogEntry {
   std::vector<Message> messages;
 };
 
+/// A log that speaks of later than this is broken, not long [s].
+inline constexpr double kLongestLog = 7.0 * 24.0 * 3600.0;
+
+/// The sample at which an event starts that lies so far behind its bundle's time. Throws
+/// program::DataError beyond kLongestLog.
+[[nodiscard]] std::int64_t start_sample(double seconds, float offset_ms, double sample_rate);
+
 /// Reads a whole log; every packet passes the gate. Throws program::DataError with the file, the
 /// byte offset and the reason.
 [[nodiscard]] std::vector<LogEntry> read_log(const std::filesystem::path& path);

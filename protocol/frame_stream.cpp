@@ -88,7 +88,6 @@ void FrameStream::offer(ViewFrame frame) {
     }
     note_wanted();
   }
-  ++offered_;
   (void)eventfd_write(wake_, 1);
 }
 

@@ -43,7 +43,6 @@ class FrameStream {
   [[nodiscard]] bool wanted() const noexcept { return wanted_.load(std::memory_order_acquire); }
   /// Sends the frame to all viewers that have asked for one.
   void offer(ViewFrame frame);
-  [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
   [[nodiscard]] std::size_t viewers() const noexcept { return viewers_count_; }
   /// The endpoint that viewers connect to.
   [[nodiscard]] Endpoint local() const noexcept { return local_; }
@@ -76,7 +75,6 @@ class FrameStream {
   bool warned_of_pause_ = false;  ///< the warning is printed once
   std::atomic<bool> ending_{false};
   std::atomic<bool> wanted_{false};
-  std::atomic<std::uint64_t> offered_{0};
   std::atomic<std::size_t> viewers_count_{0};
   std::mutex mutex_;
   std::vector<Viewer> viewers_;  ///< under mutex_

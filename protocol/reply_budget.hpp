@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Limits the replies to one datagram: together they never have more bytes than the datagram. The
-// address of a UDP sender may be forged, and larger replies would flood a host that never asked
-// (reflection attack).
+// How much and how often a host is answered.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/message.hpp"
 #include "protocol/udp_socket.hpp"
 
 namespace splash::protocol {
 
+/// Limits the replies to one datagram: together they never have more bytes than the datagram. The
+/// address of a UDP sender may be forged, and larger replies would flood a host that never asked
+/// (reflection attack).
 class ReplyBudget {
  public:
   /// `bytes`: the size of the datagram that came from `asker`. The program's own host (127.0.0.0/8)
@@ -51,5 +53,33 @@ inline constexpr std::size_t kFilledQuestion = 256;
 /// Returns `command` with text behind it, so that it has `bytes` on the wire or, where no text is
 /// so short, four more. Throws std::length_error when a message cannot be so long.
 [[nodiscard]] Message filled_up(Message command, std::size_t bytes);
+
+/// A token bucket for each peer: no peer draws more replies, or lines in the log, than a person or
+/// a clock needs, and one that floods takes none from the others.
+class RateLimit {
+ public:
+  /// The number of peers that are remembered; the one idle for longest is forgotten first.
+  static constexpr std::size_t kMaxPeers = 64;
+
+  /// `rate`: tokens per second in the long run [1/s]; `burst`: tokens at once after a rest.
+  RateLimit(double rate, double burst) noexcept : rate_(rate), burst_(burst) {}
+
+  /// Whether `peer` may have one more at `now` (monotonic [s]); takes a token when it may. On this
+  /// host each port is a peer. Another host is one peer, whatever ports its datagrams name: they
+  /// may be forged.
+  [[nodiscard]] bool allow(const Endpoint& peer, double now);
+
+ private:
+  struct Bucket {
+    Endpoint peer;
+    double tokens = 0.0;
+    double updated = 0.0;  ///< monotonic [s]
+  };
+  Bucket& bucket_of(const Endpoint& peer, double now);
+
+  double rate_;   ///< [1/s]
+  double burst_;  ///< [1]
+  std::vector<Bucket> buckets_;
+};
 
 }  // namespace splash::protocol

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace splash::protocol {
 namespace {
@@ -60,6 +61,21 @@ double unix_now() noexcept {
 double monotonic_now() noexcept {
   using std::chrono::duration;
   return duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+ClockReading read_clocks(const Clock& monotonic, const Clock& unix_time) {
+  constexpr int kReadings = 4;
+  ClockReading best;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kReadings; ++k) {
+    const double before = monotonic();
+    const double between = unix_time();
+    const double took = monotonic() - before;
+    if (took >= shortest) continue;
+    shortest = took;
+    best = {before + 0.5 * took, between};
+  }
+  return best;
 }
 
 }  // namespace splash::protocol

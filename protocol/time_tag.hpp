@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Converts OSC time tags (NTP: 32.32 fixed-point seconds since 1900) to and from seconds.
+// OSC time tags (NTP: 32.32 fixed-point seconds since 1900) to and from seconds, and the clocks.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 namespace splash::protocol {
 
@@ -29,5 +30,19 @@ inline constexpr double kNtpUnixOffset = 2208988800.0;
 [[nodiscard]] double unix_now() noexcept;
 /// The monotonic clock [s].
 [[nodiscard]] double monotonic_now() noexcept;
+
+/// Tells the time [s]; tests bring their own.
+using Clock = std::function<double()>;
+
+/// The monotonic and the system clock at one moment.
+struct ClockReading {
+  double monotonic = 0.0;  ///< [s]
+  double unix_time = 0.0;  ///< at the same moment [s]
+};
+
+/// A thread may be preempted between reading the one and the other; of several readings the one
+/// that took the shortest tells best.
+[[nodiscard]] ClockReading read_clocks(const Clock& monotonic = monotonic_now,
+                                       const Clock& unix_time = unix_now);
 
 }  // namespace splash::protocol

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "program/failure.hpp"
-#include "protocol/clock_reading.hpp"
 #include "protocol/gate.hpp"
+#include "protocol/time_tag.hpp"
 
 namespace splash::protocol {
 

@@ -12,7 +12,6 @@
 
 #include "program/config.hpp"
 #include "program/config_file.hpp"
-#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
 #include "program/terminal.hpp"

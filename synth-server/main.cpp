@@ -7,7 +7,6 @@
 #include <exception>
 
 #include "program/config_file.hpp"
-#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
 #include "program/terminal.hpp"

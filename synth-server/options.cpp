@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "program/command_line.hpp"
 #include "protocol/control.hpp"
@@ -171,16 +172,14 @@ void check(const Options& options) {
   if (!options.render.empty() && !options.record_events.empty()) {
     throw std::invalid_argument("--record-events is for live playing: --replay reads a log");
   }
-  std::error_code none;
-  if (!options.record_events.empty() &&
-      std::filesystem::equivalent(options.replay, options.record_events, none)) {
-    throw std::invalid_argument("--record-events would overwrite " + options.replay.string() +
-                                ", the log that --replay reads: name another file");
-  }
-  std::error_code missing;
-  if (!options.render.empty() &&
-      std::filesystem::equivalent(options.replay, options.render, missing)) {
-    throw std::invalid_argument("--render would overwrite " + options.replay.string() +
+  for (const auto& [option, written] : {std::pair("--record-events", &options.record_events),
+                                        std::pair("--render", &options.render)}) {
+    std::error_code missing;
+    if (written->empty() || !std::filesystem::equivalent(options.replay, *written, missing)) {
+      continue;
+    }
+    throw std::invalid_argument(std::string(option) + " would overwrite " +
+                                options.replay.string() +
                                 ", the log that --replay reads: name another file");
   }
 }

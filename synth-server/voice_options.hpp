@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "synth-server/render/engine.hpp"
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 
 // Its header takes seconds to compile, and only the command line needs it.
 namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name

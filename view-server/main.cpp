@@ -2,7 +2,6 @@
 // view-server: from the command line to an exit code.
 #include <cstdio>
 
-#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "program/service_notice.hpp"
 #include "view-server/announce.hpp"

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "protocol/limits.hpp"
-#include "protocol/rate_limit.hpp"
+#include "protocol/reply_budget.hpp"
 #include "protocol/udp_socket.hpp"
 #include "sim-server/send/targets.hpp"
 

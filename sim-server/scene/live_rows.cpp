@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -19,9 +18,7 @@ constexpr const char* kSection = "detect/";
 using Member = decltype(program::Field<DetectSettings>::member);
 
 std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value);
-  return buffer;
+  return program::format("%.6g", value);
 }
 
 template <class Value>

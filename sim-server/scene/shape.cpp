@@ -2,14 +2,13 @@
 #include "sim-server/scene/shape.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "program/text.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 
@@ -40,10 +39,8 @@ constexpr const char* kSizes[] = {SPLASH_BODY_FORMS(SPLASH_SIZES)};
 
 std::string wrong_diameters(const Shape& shape) {
   if (shape.size[0] == shape.size[1]) return {};
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "x and y are diameters and must be equal (got %g and %g)",
-                shape.size[0], shape.size[1]);
-  return text.data();
+  return program::format("x and y are diameters and must be equal (got %g and %g)", shape.size[0],
+                         shape.size[1]);
 }
 
 }  // namespace

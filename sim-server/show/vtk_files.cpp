@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/show/vtk_files.hpp"
 
-#include <array>
 #include <bit>
 #include <cerrno>
-#include <cstdio>
 #include <fstream>
 #include <vector>
 
 #include "program/files.hpp"
+#include "program/text.hpp"
 #include "sim-server/show/state_frame.hpp"
 
 namespace splash::sim {
@@ -51,12 +50,6 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!file) throw cannot_write(path);
 }
 
-std::string name_of(int file) {
-  std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "water-%06d.vtk", file);
-  return name.data();
-}
-
 }  // namespace
 
 std::string vtk_text(const ShownWater& water, double seconds) {
@@ -92,7 +85,7 @@ void VtkFiles::note(double seconds, Fluid& fluid) {
   next_ += kPeriod;
   if (next_ <= seconds) next_ = seconds + kPeriod;  // frames are longer than that
   read_water(fluid, water_);
-  const std::string name = name_of(files_++);
+  const std::string name = program::format("water-%06d.vtk", files_++);
   write(folder_ / name, vtk_text(water_, seconds));
   listed_ += (listed_.empty() ? "" : ",\n") + std::string("  {\"name\": \"") + name +
              "\", \"time\": " + std::to_string(seconds) + "}";

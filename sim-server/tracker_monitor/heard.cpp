@@ -2,8 +2,6 @@
 #include "sim-server/tracker_monitor/heard.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -37,12 +35,6 @@ std::string labels_of(const protocol::Message& message) {
   return labels;
 }
 
-std::string number(double value, const char* format) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
 std::string values_of(const protocol::Message& message) {
   std::string values = protocol::type_tags(message);
   for (const auto& argument : message.arguments) {
@@ -50,7 +42,7 @@ std::string values_of(const protocol::Message& message) {
     if (const auto* text = std::get_if<std::string>(&argument)) values += '"' + *text + '"';
     if (const auto* whole = std::get_if<std::int32_t>(&argument)) values += std::to_string(*whole);
     if (const auto* real = std::get_if<float>(&argument)) {
-      values += number(static_cast<double>(*real), "%.3f");
+      values += program::format("%.3f", static_cast<double>(*real));
     }
   }
   return values;
@@ -125,8 +117,8 @@ std::string Heard::report(double now) {
     text += key.address + "  from " +
             protocol::to_string({.address = key.host, .port = row.from_port}) + " at port " +
             std::to_string(key.port) + "  " +
-            number(static_cast<double>(std::exchange(row.count, 0)) / span, "%.1f/s") + "\n    " +
-            values_of(row.last) + '\n';
+            program::format("%.1f/s", static_cast<double>(std::exchange(row.count, 0)) / span) +
+            "\n    " + values_of(row.last) + '\n';
     if (!std::exchange(row.told, true)) text += indented(mapping_lines(row.last));
     bool& told = ways_[{key.host, key.port}];
     const std::string way = how_to_take(key.host, key.port);

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "program/command_line.hpp"
-#include "program/exit_code.hpp"
 #include "program/failure.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"

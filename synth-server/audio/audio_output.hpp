@@ -27,6 +27,20 @@ class BlockSource {
   ~BlockSource() = default;
 };
 
+/// A copy of the blocks that the device gets, for viewers; made only while there are any.
+class BlockTap {
+ public:
+  BlockTap() = default;
+  virtual ~BlockTap() = default;
+  BlockTap(const BlockTap&) = delete;
+  BlockTap& operator=(const BlockTap&) = delete;
+
+  /// From the audio thread: channels[c][i] leave the device from `time` on [s, monotonic]. Neither
+  /// waits nor allocates.
+  virtual void push(const float* const* channels, int frames, double time,
+                    double sample_rate) noexcept = 0;
+};
+
 /// What an open output really does, which may differ from what was asked.
 struct AudioFormat {
   std::string api;     ///< "jack", "alsa", "pulse", "null"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "protocol/time_tag.hpp"
-#include "synth-server/audio/port_names.hpp"
 #include "synth-server/audio/rtaudio_port.hpp"
 
 namespace splash::synth {
@@ -66,7 +65,7 @@ std::vector<std::size_t> places_of(const DeviceChoice& choice) {
 /// What the device calls them; by its number where it has no names and the order is not its own.
 std::vector<std::string> names_of(const DeviceDescription& device,
                                   const std::vector<std::size_t>& places, int opened) {
-  const std::vector<std::string> all = port_names(device.api, device.name, opened);
+  const std::vector<std::string> all = rtaudio_port::port_names(device.api, device.name, opened);
   std::vector<std::string> names;
   for (std::size_t c = 0; c < places.size(); ++c) {
     if (!all.empty()) {
@@ -161,7 +160,7 @@ struct RtAudioOutput::Stream {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (asked || std::chrono::steady_clock::now() < start + kSomeBlocks) continue;
       asked = true;
-      if (jack_knows(rtaudio_port::kClientName)) return;
+      if (rtaudio_port::jack_knows(rtaudio_port::kClientName)) return;
     }
   }
 

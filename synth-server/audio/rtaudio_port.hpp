@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The part of RtAudio we use, alike for 5.x (devices are indices, errors are exceptions) and 6.x
-// (devices are ids, errors are return codes).
+// (devices are ids, errors are return codes); and what it does not tell of JACK.
 #pragma once
 
 #include <RtAudio.h>
@@ -47,5 +47,14 @@ inline constexpr const char* kClientName = "synth-server";
 
 /// Stops without draining (RtAudio waits for ever for a dead JACK server to drain) and closes.
 void close(RtAudio& audio) noexcept;
+
+/// What a device calls the places its channels go to. JACK: the input ports of the client called
+/// `device`, in the order in which RtAudio connects to them. Empty when the API has no such names,
+/// or fewer than `channels`.
+[[nodiscard]] std::vector<std::string> port_names(const std::string& api, const std::string& device,
+                                                  int channels);
+
+/// Whether a JACK server is there that has ports of a client of this name.
+[[nodiscard]] bool jack_knows(const std::string& name);
 
 }  // namespace splash::synth::rtaudio_port

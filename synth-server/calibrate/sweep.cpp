@@ -2,14 +2,13 @@
 #include "synth-server/calibrate/sweep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
+#include "program/text.hpp"
 #include "synth-server/output/fade.hpp"
 #include "synth-server/output/output_guard.hpp"
 
@@ -175,9 +174,7 @@ std::string equaliser_text(const MeasuredResponse& response, const std::string& 
   const auto list = [](const std::vector<double>& numbers) {
     std::string text;
     for (const double number : numbers) {
-      std::array<char, 32> digits{};
-      std::snprintf(digits.data(), digits.size(), "%.1f", number);
-      text += (text.empty() ? "[" : ", ") + std::string(digits.data());
+      text += (text.empty() ? "[" : ", ") + program::format("%.1f", number);
     }
     return text + ']';
   };

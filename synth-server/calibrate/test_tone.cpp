@@ -6,7 +6,7 @@
 
 #include "program/failure.hpp"
 #include "synth-server/calibrate/tapped_output.hpp"
-#include "synth-server/play/test_tone.hpp"
+#include "synth-server/play/live_tone.hpp"
 #include "synth-server/serve/server_text.hpp"
 
 namespace splash::synth {

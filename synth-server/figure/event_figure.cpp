@@ -18,18 +18,6 @@ namespace {
 constexpr std::size_t kColumns = 1280;  // width of the plots in the picture [pixels]
 
 // Colours as in plunge_figure.cpp.
-constexpr std::string_view kSetup = R"gp(
-set terminal pngcairo size 1500,1060 enhanced font "DejaVu Sans,15" linewidth 1.4 \
-  background "#ffffff"
-set encoding utf8
-set minussign
-ink = "#30343b"
-set border 3 linecolor rgb ink linewidth 0.9
-set tics nomirror out scale 0.6 textcolor rgb ink
-set lmargin at screen 0.075
-set rmargin at screen 0.915
-)gp";
-
 constexpr std::string_view kPanels = R"gp(
 set multiplot
 set label 1 figure_title at screen 0.075, 0.965 left font "DejaVu Sans Bold,19" textcolor rgb ink
@@ -56,20 +44,16 @@ plot "bubble.dat" using 1:2 with points pointtype 7 pointsize 0.35 linecolor rgb
        title "cavities"
 unset logscale y
 unset key
+)gp";
+
+constexpr std::string_view kLevelPanel = R"gp(
 unset grid
 set tmargin at screen 0.455
 set bmargin at screen 0.085
-set border 15
-set format x "%g"
-set xlabel "time  [s]" offset 0,0.2 textcolor rgb ink
 set ylabel "channel" textcolor rgb ink
 set yrange [channels+0.5:0.5]
-set cbrange [top_db-range_db:top_db]
 set cblabel "level  [dB, full scale = 0]" offset 1,0 textcolor rgb ink
 set colorbox user origin screen 0.928,0.085 size screen 0.013,0.37 noborder
-set cbtics out scale 0.4
-set palette defined (0 "#000004", 1 "#2c115f", 2 "#721f81", 3 "#b73779", 4 "#f1605d", \
-  5 "#feb078", 6 "#fcfdbf")
 plot "levels.bin" binary array=(columns,channels) format="%float" origin=(0.5*dx,1) dx=dx dy=1 \
      using 1 with image notitle
 unset multiplot
@@ -170,8 +154,8 @@ void draw_events(const EventFigure& figure, const std::filesystem::path& png) {
       << "\nchannels = " << map.channels << "\ndx = " << duration / static_cast<double>(kColumns)
       << "\ntop_db = " << std::ceil(top / 5.0F) * 5.0F << "\nrange_db = " << figure.range_db
       << "\nimpact_step = " << impact_step << "\nset xrange [0:" << duration << "]\n"
-      << kSetup << "set output " << quoted(std::filesystem::absolute(png).string()) << '\n'
-      << kPanels;
+      << kCanvas << "set output " << quoted(std::filesystem::absolute(png).string()) << '\n'
+      << kPanels << kLevels << kLevelPanel;
   out.close();
   if (!out) throw std::runtime_error("cannot write " + script.string());
   run_gnuplot(script);

@@ -23,20 +23,11 @@ constexpr std::string_view kCaption =
 constexpr std::size_t kPlotColumns = 1280;  // width of the plots in the picture [pixels]
 
 // Colours that people with colour blindness tell apart: Okabe and Ito 2008.
-constexpr std::string_view kSetup = R"gp(
-set terminal pngcairo size 1500,1060 enhanced font "DejaVu Sans,15" linewidth 1.4 \
-  background "#ffffff"
-set encoding utf8
-set minussign
+constexpr std::string_view kColours = R"gp(
 impact_colour = "#d55e00"
 bubble_colour = "#0072b2"
 cavity_colour = "#009e73"
 played_colour = "#c3c8d0"
-ink = "#30343b"
-set border 3 linecolor rgb ink linewidth 0.9
-set tics nomirror out scale 0.6 textcolor rgb ink
-set lmargin at screen 0.075
-set rmargin at screen 0.915
 )gp";
 
 constexpr std::string_view kSignalPanel = R"gp(
@@ -66,7 +57,6 @@ plot "played.dat" using 1:(played ? $2 : 1/0):3 with filledcurves linecolor rgb 
      "bubble.dat" using 1:2 with lines linewidth 0.6 linecolor rgb bubble_colour notitle
 )gp";
 
-// The colour map is matplotlib's "magma" (CC0), seven points of it: even steps of brightness.
 constexpr std::string_view kSpectrogramPanel = R"gp(
 unset label
 unset key
@@ -75,19 +65,12 @@ set style fill solid 1
 set tmargin at screen 0.560
 set bmargin at screen 0.115
 set label 3 caption at screen 0.075, 0.022 left font ",13" textcolor rgb "#6b7280"
-set border 15
-set format x "%g"
-set xlabel "time  [s]" offset 0,0.2 textcolor rgb ink
 set ylabel "frequency  [Hz]" offset 0.2,0 textcolor rgb ink
 set yrange [log10(lowest):log10(highest)]
 set ytics ("10" 1, "20" log10(20), "50" log10(50), "100" 2, "200" log10(200), "500" log10(500), \
   "1000" 3, "2000" log10(2000), "5000" log10(5000), "10000" 4, "20000" log10(20000))
-set cbrange [top_db-range_db:top_db]
 set cblabel "level  [dB, full-scale sine = 0]" offset 1,0 textcolor rgb ink
 set colorbox user origin screen 0.928,0.115 size screen 0.013,0.445 noborder
-set cbtics out scale 0.4
-set palette defined (0 "#000004", 1 "#2c115f", 2 "#721f81", 3 "#b73779", 4 "#f1605d", \
-  5 "#feb078", 6 "#fcfdbf")
 plot "spectrogram.bin" binary array=(columns,rows) format="%float" \
      origin=(first_time,log10(lowest)) dx=dx dy=dy using 1 with image notitle
 )gp";
@@ -153,9 +136,9 @@ std::string variables(const Components& components, const FigureSettings& settin
 void write_script(const std::filesystem::path& script, const std::string& numbers,
                   const std::filesystem::path& png) {
   std::ofstream out(script);
-  out << numbers << kSetup << "set output " << quoted(png.string()) << '\n'
+  out << numbers << kCanvas << kColours << "set output " << quoted(png.string()) << '\n'
       << "set multiplot\n"
-      << kSignalPanel << kSpectrogramPanel << "unset multiplot\n";
+      << kSignalPanel << kLevels << kSpectrogramPanel << "unset multiplot\n";
   if (!out) throw std::runtime_error("cannot write " + script.string());
 }
 

@@ -55,7 +55,7 @@ struct Threshold {
                             ///< at this level [dB re full scale]
 };
 
-/// What a transducer bears for ever, see output/heat_budget.hpp.
+/// What a transducer bears for ever, see output/output_guard.hpp.
 struct Heat {
   double rms = 0.0;      ///< RMS value [full scale]; 0: not known, no budget
   double seconds = 5.0;  ///< thermal time constant [s]

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The rows of the rig file as Markdown tables, with their defaults.
-#include <array>
-#include <cstdio>
-
+#include "program/text.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/output/rig_rows.hpp"
 
@@ -12,9 +10,7 @@ namespace {
 using program::Row;
 
 std::string text_of(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
+  return program::format("%.6g", value);
 }
 std::string text_of(int value) {
   return std::to_string(value);

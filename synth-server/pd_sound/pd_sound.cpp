@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "program/text.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/render/audibility.hpp"
-#include "synth-server/sound/sound_reader.hpp"
 #include "synth-server/sound/sound_rows.hpp"
 
 namespace splash::synth {
@@ -52,9 +51,7 @@ std::vector<PdRow> with_levels(std::vector<PdRow> rows) {
 }
 
 std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.7g", value);
-  return text.data();
+  return program::format("%.7g", value);
 }
 
 /// A patch that is being written: boxes get their numbers in the order in which they come.

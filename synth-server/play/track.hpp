@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "synth-server/render/score.hpp"
+#include "synth-server/render/engine.hpp"
 
 namespace splash::synth {
 

@@ -95,7 +95,6 @@ std::optional<Intake::Timing> Intake::open_bundle(const protocol::Packet& packet
   const double moment = time_.monotonic_of(*packet.time);
   if (order != protocol::Arrival::reordered &&
       sender.clock.observe(moment - delay, arrival, time_.unix_of(arrival))) {
-    ++counters_.sender_steps;
     sender.pings = 0;
   }
   const double correction = sender.clock.correction(time_.unix_of(arrival));
@@ -215,7 +214,7 @@ void Intake::take_reply(const protocol::Message& message, const protocol::Endpoi
 
 void Intake::tick(double now) {
   if (senders_.expire(now)) ++counters_.departures;
-  if (time_.refresh()) ++counters_.clock_steps;
+  time_.refresh();
   control_.expire(now);
 }
 

@@ -28,11 +28,9 @@ struct IntakeCounters {
   protocol::ByKind<std::uint64_t> without_place{};  ///< same by kind
   std::uint64_t out_of_table = 0;                   ///< messages the address table refuses
   std::uint64_t forbidden = 0;                      ///< commands from hosts that are not allowed
-  std::uint64_t withheld = 0;      ///< replies over the limit or longer than their request
-  std::uint64_t clock_steps = 0;   ///< times this host's clock was set
-  std::uint64_t sender_steps = 0;  ///< times a sender's clock was set, or ours against it
-  std::uint64_t corrected = 0;     ///< bundles whose sender's clock was off
-  std::uint64_t departures = 0;    ///< times the last sender went silent or took its leave
+  std::uint64_t withheld = 0;    ///< replies over the limit or longer than their request
+  std::uint64_t corrected = 0;   ///< bundles whose sender's clock was off
+  std::uint64_t departures = 0;  ///< times the last sender went silent or took its leave
   std::array<std::uint64_t, static_cast<std::size_t>(protocol::Refusal::count_)> refusals{};
   SequenceTotals sequence;  ///< lost, duplicates, reordered: bundles
 };

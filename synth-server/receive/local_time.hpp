@@ -3,18 +3,14 @@
 // differ here by exactly what they differ on the wire; it is renewed when someone sets the clock.
 #pragma once
 
-#include <functional>
-
 #include "protocol/time_tag.hpp"
 
 namespace splash::synth {
 
 class LocalTime {
  public:
-  /// The two clocks [s]; tests bring their own.
-  using Clock = std::function<double()>;
-  explicit LocalTime(Clock unix_clock = protocol::unix_now,
-                     Clock monotonic_clock = protocol::monotonic_now);
+  explicit LocalTime(protocol::Clock unix_clock = protocol::unix_now,
+                     protocol::Clock monotonic_clock = protocol::monotonic_now);
 
   /// Monotonic moment of a time tag [s].
   [[nodiscard]] double monotonic_of(protocol::TimeTag tag) const noexcept;
@@ -24,15 +20,9 @@ class LocalTime {
   bool refresh();
 
  private:
-  struct Pair {
-    double unix_seconds = 0.0;
-    double monotonic = 0.0;
-  };
-  [[nodiscard]] Pair read() const;
-
-  Clock unix_clock_;
-  Clock monotonic_clock_;
-  Pair reference_;
+  protocol::Clock unix_clock_;
+  protocol::Clock monotonic_clock_;
+  protocol::ClockReading reference_;
   protocol::TimeTag reference_tag_;
 };
 

@@ -54,12 +54,10 @@ Crowd::Crowd(const Rig& rig, double sample_rate, std::uint64_t seed)
   }
   for (; bands_ < kBands && middle(bands_) * kEdge < kHighest * sample_rate; ++bands_) {
     const std::size_t b = bands_;
-    const double w = 2.0 * std::numbers::pi * middle(b) / sample_rate;
-    const double alpha = std::sin(w) / (2.0 * kQ);
-    const double a2 = (1.0 - alpha) / (1.0 + alpha);
-    a1_[b / 4][b % 4] = static_cast<float>(-2.0 * std::cos(w) / (1.0 + alpha));
-    a2_[b / 4][b % 4] = static_cast<float>(a2);
-    gain_[b / 4][b % 4] = static_cast<float>(std::sqrt((1.0 - a2) / 2.0));
+    const Resonator resonator(middle(b), kQ, sample_rate);
+    a1_[b / 4][b % 4] = static_cast<float>(resonator.a1());
+    a2_[b / 4][b % 4] = static_cast<float>(resonator.a2());
+    gain_[b / 4][b % 4] = static_cast<float>(resonator.gain());
     unit_[b / 4][b % 4] = static_cast<float>(1.0 / std::sqrt(variance(middle(b), sample_rate)));
   }
   tune(known_);

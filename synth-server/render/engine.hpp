@@ -3,8 +3,10 @@
 // no operating system, no allocation after construction, no lock, no exception.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "protocol/event.hpp"
 #include "synth-server/output/rig.hpp"
@@ -36,6 +38,18 @@ struct TimedPush {
   Push push;
   std::int64_t sample = 0;
 };
+
+/// What an engine is to play of a log, from the log's start; both in the order of their samples.
+struct Score {
+  std::vector<TimedEvent> events;
+  std::vector<TimedPush> pushes;
+};
+
+/// 0: there is nothing to play.
+[[nodiscard]] inline std::int64_t last_sample(const Score& score) noexcept {
+  const std::int64_t event = score.events.empty() ? 0 : score.events.back().sample;
+  return score.pushes.empty() ? event : std::max(event, score.pushes.back().sample);
+}
 
 /// Is told of each event at the sample at which it starts, and of each push at the beginning of the
 /// cell in which it acts, from the rendering thread.

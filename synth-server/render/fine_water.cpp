@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
+#include "synth-server/voices/resonator.hpp"
 
 namespace splash::synth {
 namespace {
@@ -58,13 +59,10 @@ FineWater::FineWater(const Rig& rig, double sample_rate, std::uint64_t seed)
   }
   const double q = 1.0 / (std::exp2(1.0 / 6.0) - std::exp2(-1.0 / 6.0));
   for (std::size_t b = 0; b < kFineBands; ++b) {
-    const double frequency = std::min(fine_frequency(b), 0.45 * sample_rate);
-    const double w = 2.0 * std::numbers::pi * frequency / sample_rate;
-    const double alpha = std::sin(w) / (2.0 * q);
-    const double a2 = (1.0 - alpha) / (1.0 + alpha);
-    a1_[b / 4][b % 4] = static_cast<float>(-2.0 * std::cos(w) / (1.0 + alpha));
-    a2_[b / 4][b % 4] = static_cast<float>(a2);
-    gain_[b / 4][b % 4] = static_cast<float>(std::sqrt((1.0 - a2) / 2.0));
+    const Resonator resonator(std::min(fine_frequency(b), 0.45 * sample_rate), q, sample_rate);
+    a1_[b / 4][b % 4] = static_cast<float>(resonator.a1());
+    a2_[b / 4][b % 4] = static_cast<float>(resonator.a2());
+    gain_[b / 4][b % 4] = static_cast<float>(resonator.gain());
   }
 }
 

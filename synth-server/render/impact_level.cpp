@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "synth-server/render/audibility.hpp"
-#include "synth-server/voices/impact_envelope.hpp"
 #include "synth-server/voices/impact_voice.hpp"
 
 namespace splash::synth {

@@ -7,27 +7,15 @@
 #include <string>
 #include <utility>
 
-#include "program/failure.hpp"
 #include "protocol/force_changes.hpp"
 #include "synth-server/output/fade.hpp"
 
 namespace splash::synth {
 namespace {
 
-/// A log that speaks of later than this is broken, not long [s].
-constexpr double kLongest = 7.0 * 24.0 * 3600.0;
 /// What rings out is looked at so often [s].
 constexpr double kStep = 0.1;
 constexpr float kSilent = 1e-7F;  ///< -140 dB of full scale
-
-std::int64_t start_sample(double seconds, float offset_ms, double sample_rate) {
-  const double start = seconds + static_cast<double>(offset_ms) * 1e-3;
-  if (!(start <= kLongest)) {
-    throw program::DataError("event log: an event at " + std::to_string(start) +
-                             " s; a log may last 7 days");
-  }
-  return std::max<std::int64_t>(0, std::llround(start * sample_rate));
-}
 
 /// Renders block after block, handing the engine its events and pushes as their samples come near.
 class Player {
@@ -95,7 +83,7 @@ Score score_of(const std::vector<protocol::LogEntry>& log, double sample_rate,
         entry.messages.empty() ? std::nullopt : protocol::to_frame(entry.messages.front());
     const std::int32_t session = frame ? frame->session : 0;
     const auto push = [&](const protocol::Push& found) {
-      score.pushes.push_back({found, start_sample(entry.seconds, 0.0F, sample_rate)});
+      score.pushes.push_back({found, protocol::start_sample(entry.seconds, 0.0F, sample_rate)});
     };
     for (const protocol::Message& message : entry.messages) {
       const std::optional<protocol::Event> event = protocol::to_event(message);
@@ -105,7 +93,8 @@ Score score_of(const std::vector<protocol::LogEntry>& log, double sample_rate,
         continue;
       }
       const float offset = std::visit([](const auto& kind) { return kind.offset_ms; }, *event);
-      score.events.push_back({*event, start_sample(entry.seconds, offset, sample_rate), session});
+      score.events.push_back(
+          {*event, protocol::start_sample(entry.seconds, offset, sample_rate), session});
     }
     for (const protocol::Push& found : forces.take(entry.messages, entry.seconds)) push(found);
   }

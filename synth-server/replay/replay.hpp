@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "protocol/event_log.hpp"
-#include "synth-server/render/score.hpp"
+#include "synth-server/render/engine.hpp"
 
 namespace splash::synth {
 

@@ -2,9 +2,7 @@
 #include "synth-server/serve/desk.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "program/text.hpp"
 #include "protocol/event.hpp"
@@ -100,9 +98,7 @@ ControlTargets targets_of(const Rig& rig, const Sound& sound) {
 }
 
 std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", value);
-  return text.data();
+  return program::format("%g", value);
 }
 
 }  // namespace

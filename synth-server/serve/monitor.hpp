@@ -13,8 +13,8 @@
 
 #include "protocol/frame.hpp"
 #include "protocol/frame_stream.hpp"
+#include "synth-server/audio/audio_output.hpp"
 #include "synth-server/output/rig.hpp"
-#include "synth-server/play/block_tap.hpp"
 #include "synth-server/serve/desk.hpp"
 
 namespace splash::synth {

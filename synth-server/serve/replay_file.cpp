@@ -6,6 +6,7 @@
 
 #include "program/failure.hpp"
 #include "program/files.hpp"
+#include "program/text.hpp"
 #include "protocol/event_log.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "synth-server/replay/replay.hpp"
@@ -59,14 +60,13 @@ void print(const ReplayReport& report, const std::filesystem::path& path, const 
 /// Before anything is made of it: from the log's beginning to its last event all is rendered.
 void require_renderable(const std::filesystem::path& path,
                         const std::vector<protocol::LogEntry>& log) {
-  constexpr double kLongest = 7 * 24 * 3600.0;  // [s]
-  if (log.empty() || log.back().seconds <= kLongest) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "its last packet is at %.0f s; at most a week (%.0f s) is rendered, from the log's "
-                "beginning",
-                log.back().seconds, kLongest);
-  throw program::Failure(program::kExitData, "event log '" + path.string() + "': " + text);
+  if (log.empty() || log.back().seconds <= protocol::kLongestLog) return;
+  throw program::Failure(
+      program::kExitData,
+      "event log '" + path.string() +
+          program::format("': its last packet is at %.0f s; at most a week (%.0f s) is rendered, "
+                          "from the log's beginning",
+                          log.back().seconds, protocol::kLongestLog));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "program/config_file.hpp"
 #include "program/failure.hpp"
+#include "program/text.hpp"
 #include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"
@@ -34,9 +35,7 @@ void log(const std::string& line) {
 
 /// As --middle takes it.
 std::string middle_text(const std::array<double, 3>& middle) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.6g,%.6g,%.6g", middle[0], middle[1], middle[2]);
-  return text;
+  return program::format("%.6g,%.6g,%.6g", middle[0], middle[1], middle[2]);
 }
 
 EngineSettings engine_settings(const Options& options, int sample_rate) {

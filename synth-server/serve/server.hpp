@@ -28,7 +28,7 @@
 #include "synth-server/serve/monitor.hpp"
 #include "synth-server/serve/output_choice.hpp"
 #include "synth-server/serve/server_text.hpp"
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 
 namespace splash::synth {
 

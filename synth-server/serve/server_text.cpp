@@ -2,8 +2,9 @@
 #include "synth-server/serve/server_text.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <sstream>
+
+#include "program/text.hpp"
 
 namespace splash::synth {
 namespace {
@@ -12,9 +13,7 @@ constexpr std::size_t kNamesPerLine = 6;
 constexpr std::size_t kPortsPerLine = 2;
 
 std::string decimal(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return program::format("%.*f", digits, value);
 }
 
 std::string percent(double part) {

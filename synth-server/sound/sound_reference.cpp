@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The rows of a sound as Markdown tables, with their defaults.
-#include <array>
-#include <cstdio>
-
-#include "synth-server/sound/sound_reader.hpp"
+#include "program/text.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 
 namespace splash::synth {
 namespace {
-
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
 
 /// `part`: whose numbers are the defaults.
 template <class Part>
@@ -22,7 +14,7 @@ std::string describe_fields(const std::vector<Field<Part>>& fields, const Part& 
   for (const Field<Part>& field : fields) {
     rows.push_back(field.row);
     const auto* number = std::get_if<double Part::*>(&field.member);
-    defaults.push_back(number == nullptr ? "" : text_of(part.**number));
+    defaults.push_back(number == nullptr ? "" : program::format("%.6g", part.**number));
   }
   return program::describe(rows, defaults);
 }

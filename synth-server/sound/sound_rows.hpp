@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Every number of a sound, a row each: the reader, the error texts and the manual come from them.
+// Every number of a sound, a row each: the error texts and the manual come from them, and the
+// reader of a file.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,5 +31,13 @@ template <class Part>
 [[nodiscard]] const double& number_of(const Part& part, const Field<Part>& field) {
   return part.*std::get<double Part::*>(field.member);
 }
+
+/// A YAML file as a sound. Keys that are missing take the paper's values. Throws
+/// program::ConfigError with file, line and column.
+[[nodiscard]] NamedSound read_sound(const std::filesystem::path& path);
+[[nodiscard]] NamedSound parse_sound(const std::string& text, const std::string& file_name);
+
+/// All keys as Markdown tables: the reference in configs/sounds/README.md.
+[[nodiscard]] std::string describe_sound_keys();
 
 }  // namespace splash::synth

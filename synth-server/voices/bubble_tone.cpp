@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "synth-server/voices/paper_bubble.hpp"
 #include "synth-server/voices/physical_bubble.hpp"
 
 namespace splash::synth {

@@ -19,6 +19,11 @@ class Resonator {
     return out;
   }
 
+  // Its coefficients, for those that play many side by side.
+  [[nodiscard]] double gain() const noexcept { return gain_; }
+  [[nodiscard]] double a1() const noexcept { return a1_; }
+  [[nodiscard]] double a2() const noexcept { return a2_; }
+
   /// |H| at `frequency` [Hz].
   [[nodiscard]] double response(double frequency, double sample_rate) const noexcept;
 

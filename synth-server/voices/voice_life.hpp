@@ -20,11 +20,6 @@ struct VoiceLife {
   std::int64_t fold = 0;       ///< sample at which the pitch reaches Nyquist
   std::int64_t breaks = kNever;  ///< sample at which it begins to fade within kBreakFade
   bool kept = false;             ///< a cavity: not told to make room, however quiet
-
-  /// Natural logarithm of the amplitude `t` seconds after the start [ln m].
-  [[nodiscard]] double log_amplitude_at(double t) const noexcept {
-    return t > hold ? log_amplitude - decay * (t - hold) : log_amplitude;
-  }
 };
 
 }  // namespace splash::synth

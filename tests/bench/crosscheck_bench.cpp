@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "synth-server/output/band_filter.hpp"
+#include "synth-server/output/biquad.hpp"
 #include "tests/bench/plot.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/pd-patches/rendering.hpp"

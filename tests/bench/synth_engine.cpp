@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "synth-server/render/routing.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "synth-server/voices/cloud.hpp"
-#include "synth-server/voices/paper_bubble.hpp"
 #include "tests/bench/synth_timing.hpp"
 
 namespace splash::bench {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "tests/bench/synth_peers.hpp"
 #include "tests/bench/synth_timing.hpp"
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "synth-server/figure/wav_reader.hpp"
-#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "tests/support/child_process.hpp"
 
 namespace splash::bench {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <vector>
 
-#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "tests/bench/synth_peers.hpp"
 #include "tests/bench/synth_timing.hpp"
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "program/failure.hpp"
+
 namespace splash::pd {
 namespace {
 
@@ -68,7 +70,7 @@ TEST(EventList, RefusesALogOfMoreThanAWeek) {
   std::ostringstream text;
   const std::vector<LogEntry> log = {
       {8.0 * 86400.0, {to_message(Bubble{1, -1, 0.01F, 0.1F, {}, 0.0F})}}};
-  EXPECT_THROW(write_event_list(log, 48000.0, text), std::invalid_argument);
+  EXPECT_THROW(write_event_list(log, 48000.0, text), program::DataError);
 }
 
 }  // namespace

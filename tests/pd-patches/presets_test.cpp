@@ -11,7 +11,7 @@
 #include <iterator>
 
 #include "synth-server/pd_sound/pd_sound.hpp"
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 #include "tests/pd-patches/rendering.hpp"
 
 namespace splash::pd {

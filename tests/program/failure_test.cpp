@@ -9,7 +9,6 @@
 #include <type_traits>
 
 #include "program/config.hpp"
-#include "program/exit_code.hpp"
 #include "program/files.hpp"
 
 namespace splash::program {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "protocol/clock_reading.hpp"
+#include "protocol/time_tag.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A burst, then the rate; peers do not share; new ports and hosts do not mint tokens for ever.
-#include "protocol/rate_limit.hpp"
+#include "protocol/reply_budget.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/clock_reading.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"
 

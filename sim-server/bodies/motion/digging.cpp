@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <vector>
 
+#include "program/text.hpp"
 #include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -22,12 +22,6 @@ struct Side {
   double offset = 0.0;  ///< [m]
   std::string name;
 };
-
-std::string number(const char* format, double value) {
-  std::array<char, 32> text = {};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 std::vector<Side> sides_of(const Scene& scene, bool sole) {
   const Tank& tank = scene.tank;
@@ -46,8 +40,8 @@ std::vector<Side> sides_of(const Scene& scene, bool sole) {
       Side side;
       side.normal[axis] = sign;
       side.offset = sign * place;
-      side.name =
-          std::string("through the wall at ") + kAxes[axis] + " = " + number("%g", place) + " m";
+      side.name = std::string("through the wall at ") + kAxes[axis] + " = " +
+                  program::format("%g", place) + " m";
       sides.push_back(side);
     }
   }
@@ -87,17 +81,18 @@ std::string notice(const Scene& scene, std::size_t b, const std::filesystem::pat
   const Digging digging = deepest_digging(scene, b, tracker);
   const double allowed = particle_spacing(scene);
   if (digging.depth <= allowed) return {};
-  std::string text = "'" + body.name + "' goes " + number("%.0f", 1e3 * digging.depth) + " mm " +
-                     digging.solid + " at " + number("%.2f", digging.seconds) + " s";
+  std::string text = "'" + body.name + "' goes " + program::format("%.0f", 1e3 * digging.depth) +
+                     " mm " + digging.solid + " at " + program::format("%.2f", digging.seconds) +
+                     " s";
   const bool is_sole = body.motion.sole && digging.solid == "below the floor";
   if (!is_sole) return text + ", and throws the water about there (a smaller size or another way)";
   text += std::string(", with its ") + (digging.point[0] > 0.0 ? "toe" : "heel") +
-          ", and throws the water about: a box " + number("%g", body.shape.size[0]) +
+          ", and throws the water about: a box " + program::format("%g", body.shape.size[0]) +
           " m long does not fit these markers";
   const Fit fit = fitting_length(scene, b, tracker);
   if (fit.depth > allowed) return text;
-  return text + "; one of " + number("%g", fit.length) + " m goes " +
-         number("%.0f", 1e3 * fit.depth) + " mm below it at most (shape.size)";
+  return text + "; one of " + program::format("%g", fit.length) + " m goes " +
+         program::format("%.0f", 1e3 * fit.depth) + " mm below it at most (shape.size)";
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "synth-server/output/rig_reader.hpp"
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 

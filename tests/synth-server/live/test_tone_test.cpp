@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "synth-server/output/rig_reader.hpp"
-#include "synth-server/play/test_tone.hpp"
+#include "synth-server/play/live_tone.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
 

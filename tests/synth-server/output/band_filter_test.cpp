@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a band lets through, measured with sines: -3 dB at its ends, 24 dB per octave outside.
-#include "synth-server/output/band_filter.hpp"
+#include "synth-server/output/biquad.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "synth-server/play/schedule.hpp"
+#include "synth-server/play/sample_clock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "synth-server/render/voice_span.hpp"
-#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 
 namespace splash::synth {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-#include "synth-server/output/band_filter.hpp"
+#include "synth-server/output/biquad.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-#include "synth-server/voices/paper_bubble.hpp"
+#include "synth-server/voices/bubble_tone.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {

@@ -18,7 +18,7 @@
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/render/engine.hpp"
 #include "synth-server/replay/replay.hpp"
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 #include "tests/synth-server/sound/sensation_level.hpp"
 
 namespace splash::synth {

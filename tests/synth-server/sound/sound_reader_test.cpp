@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sounds as files: the shipped ones, what is left out, and what is wrong with its place.
-#include "synth-server/sound/sound_reader.hpp"
+#include "synth-server/sound/sound_rows.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,6 @@
 
 #include "synth-server/voices/bubble_tone.hpp"
 #include "synth-server/voices/pack_kernels.hpp"
-#include "synth-server/voices/paper_bubble.hpp"
 
 namespace splash::synth {
 namespace {

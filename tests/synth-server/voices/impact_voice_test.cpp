@@ -167,7 +167,7 @@ TEST(ImpactLife, EndsWhereTheEnvelopeMeetsTheFloor) {
   const VoiceLife life = impact_life({}, 1e-3, kRate, 1e-8);
   const double end = static_cast<double>(life.length) / kRate;
   EXPECT_NEAR(1e-3 * impact_envelope({}, end), 1e-8, 1e-11);
-  EXPECT_NEAR(std::exp(life.log_amplitude_at(end)), 1e-8, 1e-11);
+  EXPECT_NEAR(std::exp(life.log_amplitude - life.decay * (end - life.hold)), 1e-8, 1e-11);
   const auto out = burst(1e-3, 5, static_cast<int>(life.length), 64);
   EXPECT_LT(std::abs(out.back()), 1e-7);
   EXPECT_EQ(impact_life({}, 0.0, kRate, 1e-8).length, 0) << "an impact without speed is none";

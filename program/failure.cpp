@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "program/exit_code.hpp"
+#include "program/failure.hpp"
 
 #include <csignal>
 #include <iostream>
