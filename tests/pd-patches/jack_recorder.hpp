@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/pd-patches/float_wav.hpp"
+#include "tests/pd-patches/rendering.hpp"
 
 namespace splash::pd {
 
