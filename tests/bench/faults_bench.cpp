@@ -17,6 +17,7 @@
 #include "tests/bench/report.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/synth-server/live/jack_capture.hpp"
 #include "tests/system/kills.hpp"
 

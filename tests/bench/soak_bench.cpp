@@ -16,6 +16,7 @@
 #include "tests/support/lossy_relay.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "protocol/udp_socket.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/view/chromium.hpp"
 
 namespace {

@@ -11,9 +11,9 @@
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {

@@ -12,8 +12,8 @@
 #include "protocol/frame.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/frame_viewer.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {

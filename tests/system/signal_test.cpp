@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "protocol/event_log.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -118,16 +118,11 @@ void close_terminal(const Arguments& program) {
   terminal.wait_for_end();
 }
 
-bool appears(const std::string& path) {
-  for (double waited = 0.0; waited < kTimeout && !fs::exists(path); waited += 0.05) sleep(0.05);
-  return fs::exists(path);
-}
-
 TEST_F(Signals, ATerminalThatClosesEndsItsProgramInPeace) {
   if (!fs::exists("/usr/bin/script")) GTEST_SKIP() << "there is no /usr/bin/script";
   const std::string report = file("terminal.json");
   close_terminal(command("sim-server", simulator({"--listen", "127.0.0.1:0", "--report", report})));
-  EXPECT_TRUE(appears(report));
+  EXPECT_TRUE(eventually([&] { return fs::exists(report); }, kTimeout));
 }
 
 TEST_F(Signals, AReaderThatGoesAwayEndsNothing) {
@@ -136,7 +131,7 @@ TEST_F(Signals, AReaderThatGoesAwayEndsNothing) {
                       "--scene", simulator()[1], "--listen", "127.0.0.1:0", "--duration", "1",
                       "--faster-than-real-time", "--report", report});
   EXPECT_EQ(shell.wait_for_end(), 0);
-  EXPECT_TRUE(appears(report)) << shell.output();
+  EXPECT_TRUE(eventually([&] { return fs::exists(report); }, kTimeout)) << shell.output();
 }
 
 }  // namespace

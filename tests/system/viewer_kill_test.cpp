@@ -15,9 +15,9 @@
 #include <string>
 
 #include "protocol/time_tag.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::tests {
 namespace {

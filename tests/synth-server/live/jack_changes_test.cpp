@@ -102,14 +102,6 @@ struct Slow final : BlockSource {
   std::atomic<bool> left{false};
 };
 
-bool comes_true(const std::atomic<bool>& flag) {
-  const double limit = protocol::monotonic_now() + kTimeout;
-  while (!flag && protocol::monotonic_now() < limit) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return flag;
-}
-
 /// libjack cancels the thread that renders, wherever it is, and RtAudio closes the stream, whatever
 /// its owner does.
 TEST(JackChanges, ToNothingWhileABlockIsRenderedAreSurvived) {
@@ -119,12 +111,12 @@ TEST(JackChanges, ToNothingWhileABlockIsRenderedAreSurvived) {
   {
     RtAudioOutput output({"jack", "system", 2, 0, kPeriod});
     output.start(source);
-    EXPECT_TRUE(comes_true(source.entered));
+    EXPECT_TRUE(eventually([&] { return source.entered.load(); }));
     server->kill();
     sleep(0.5);
     EXPECT_FALSE(source.left);
     source.go = true;
-    EXPECT_TRUE(comes_true(source.left));
+    EXPECT_TRUE(eventually([&] { return source.left.load(); }));
   }
   server = std::make_unique<JackServer>(name, 2, kPeriod);  // one that ends well leaves no trace
 }
