@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <regex>
-#include <sstream>
 
 #include "protocol/address.hpp"
 #include "protocol/control.hpp"
@@ -17,6 +15,7 @@
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/network/on_two_hosts.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -24,8 +23,8 @@ namespace splash::network {
 namespace {
 
 using protocol::Message;
-using tests::eventually;
 using testing::HasSubstr;
+using tests::eventually;
 
 constexpr std::size_t kHeaders = 28;  // of IPv4 and UDP [bytes]
 constexpr double kPrompt = 0.05;      // for one reply more than expected [s]
@@ -170,13 +169,11 @@ TEST_F(OnTwoHosts, NoReplyOfThePdPatchIsLongerThanItsRequest) {
 
 /// The lines of protocol/README.md that ask a synth on 192.168.0.20, for ours.
 std::string example_of_the_readme() {
-  std::ifstream file(std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md");
-  std::stringstream text;
-  text << file.rdbuf();
-  const auto begin = text.str().find("exec 3<>/dev/udp/192.168.0.20");
-  const auto end = text.str().find("```", begin);
+  const std::string text = tests::text_of(std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md");
+  const auto begin = text.find("exec 3<>/dev/udp/192.168.0.20");
+  const auto end = text.find("```", begin);
   if (end == std::string::npos) return {};
-  return std::regex_replace(text.str().substr(begin, end - begin), std::regex("192\\.168\\.0\\.20"),
+  return std::regex_replace(text.substr(begin, end - begin), std::regex("192\\.168\\.0\\.20"),
                             "10.77.0.2");
 }
 

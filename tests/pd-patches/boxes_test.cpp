@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
+
+#include "tests/support/text_of.hpp"
 
 namespace splash::pd {
 namespace {
@@ -106,9 +106,7 @@ TEST(Boxes, DoNotLieOverEachOther) {
   const auto folder = std::filesystem::path(SPLASH_SOURCE_DIR) / "pd-patches";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".pd") continue;
-    std::ifstream file(entry.path());
-    const std::string patch((std::istreambuf_iterator<char>(file)), {});
-    const std::vector<Box> all = boxes_of(patch);
+    const std::vector<Box> all = boxes_of(tests::text_of(entry.path()));
     boxes += all.size();
     EXPECT_THAT(overlaps(all), testing::IsEmpty()) << entry.path().filename();
   }

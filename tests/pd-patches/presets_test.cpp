@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "synth-server/pd_sound/pd_sound.hpp"
 #include "synth-server/sound/sound_reader.hpp"
 #include "tests/pd-patches/rendering.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::pd {
 namespace {
@@ -154,9 +153,8 @@ TEST(Presets, MakeImpactsAsStrongAsTheSynthDoes) {
 
 TEST(Presets, ThePatchesAreThoseOfTheRows) {
   for (const auto& [name, text] : synth::pd_sound(kSource / "configs")) {
-    std::ifstream file(kSource / "pd-patches" / name);
-    const std::string committed((std::istreambuf_iterator<char>(file)), {});
-    EXPECT_EQ(committed, text) << "ninja pd-sound && bin/pd-sound configs pd-patches";
+    EXPECT_EQ(tests::text_of(kSource / "pd-patches" / name), text)
+        << "ninja pd-sound && bin/pd-sound configs pd-patches";
   }
 }
 

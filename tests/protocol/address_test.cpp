@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "protocol/limits.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::protocol {
 namespace {
@@ -124,18 +123,15 @@ TEST(Violation, SaysWhatIsAllowed) {
 
 TEST(Readme, HoldsTheReferenceAsThePrograms) {
   const std::string path = std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md";
-  std::ifstream file(path);
-  ASSERT_TRUE(file) << path;
-  std::stringstream text;
-  text << file.rdbuf();
+  const std::string text = tests::text_of(path);
   const std::string begin = "<!-- begin: protocol-reference -->\n";
   const std::string end = "<!-- end: protocol-reference -->\n";
-  const auto from = text.str().find(begin);
-  const auto to = text.str().find(end);
+  const auto from = text.find(begin);
+  const auto to = text.find(end);
   ASSERT_NE(from, std::string::npos);
   ASSERT_NE(to, std::string::npos);
   const auto start = from + begin.size();
-  EXPECT_EQ(text.str().substr(start, to - start), "\n" + address_reference() + "\n")
+  EXPECT_EQ(text.substr(start, to - start), "\n" + address_reference() + "\n")
       << "run protocol-reference and put its output between the markers of " << path;
 }
 

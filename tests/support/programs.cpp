@@ -62,6 +62,12 @@ Ended run_program(const std::string& name, const Arguments& arguments, double se
   return {code, process.output()};
 }
 
+Ended run_shell(const std::string& line, double seconds) {
+  ChildProcess shell({"/bin/sh", "-c", line});
+  const int code = shell.wait_for_end(seconds);
+  return {code, shell.output()};
+}
+
 Daemon::Daemon(const std::string& name, const Arguments& arguments,
                const ChildProcess::Environment& environment)
     : process_(command(name, on_some_port(arguments)), environment),

@@ -29,6 +29,9 @@ struct Ended {
                                 double seconds = 120.0,
                                 const ChildProcess::Environment& environment = {});
 
+/// Runs a command as a user would type it.
+[[nodiscard]] Ended run_shell(const std::string& line, double seconds = 120.0);
+
 /// A program that says "listening: host:port", with the end of a socket to talk to it.
 class Daemon {
  public:

@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::tests {
 namespace {
@@ -63,8 +62,7 @@ TEST(Examples, AnotherFeelsTheHandsBuoyancy) {
 
 /// The README's block of Python, at another port.
 std::string readme_example(int port) {
-  std::ifstream file(kSource + "/README.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = text_of(kSource + "/README.md");
   const std::string fence = "```python\n";
   const std::size_t begin = text.find(fence) + fence.size();
   std::string code = text.substr(begin, text.find("```", begin) - begin);

@@ -6,11 +6,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "protocol/event_log.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -43,8 +43,7 @@ TEST(Exit, ARecordingThatMovesNothingIsAMistake) {
 // Minutes of silence would look like a hang.
 TEST(Exit, SaysWhatTakesLongBeforeItBegins) {
   const SmallScene small("{kind: fixed}");
-  std::ifstream file(small.path());
-  std::string text(std::istreambuf_iterator<char>(file), {});
+  std::string text = text_of(small.path());
   text.replace(text.find("1400"), 4, "400000");
   text.replace(text.find("    motion"), std::string::npos, "    rest: {position: [0, 0, 0.4]}\n");
   std::ofstream(small.path()) << text;
@@ -194,8 +193,7 @@ TEST(Exit, ALogOfMoreThanAWeekIsNotRendered) {
       "synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", log, "--render", wav});
   EXPECT_EQ(code, 65) << text;
   EXPECT_THAT(text, AllOf(HasSubstr(log), HasSubstr("4000000000 s"), HasSubstr("604800 s")));
-  std::ifstream kept(wav);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "as it was");
+  EXPECT_EQ(text_of(wav), "as it was");
   std::filesystem::remove(log);
   std::filesystem::remove(wav);
 }

@@ -10,13 +10,14 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/text_of.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::tests {
 namespace {
@@ -112,11 +113,10 @@ TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
   Terminal terminal("play --out '" + folder.string() + "'");
   ASSERT_TRUE(terminal.wait_for_text("Open http://")) << terminal.text();
   ASSERT_TRUE(terminal.wait_for_text("Ctrl-C ends all")) << terminal.text();
-  const auto log = [&] {
-    std::ifstream file(folder / "sim.log");
-    return std::string(std::istreambuf_iterator<char>(file), {});
+  const auto progress = [&] {
+    return text_of(folder / "sim.log").find("real time x") != std::string::npos;
   };
-  while (log().find("real time x") == std::string::npos) usleep(100'000);
+  EXPECT_TRUE(eventually(progress, 60.0, 0.1));
   terminal.press_ctrl_c();
   EXPECT_EQ(terminal.wait_for_end(), 130) << terminal.text();
 
@@ -138,8 +138,7 @@ TEST(LauncherDemo, LeavesSoundLogFiguresAndPicture) {
   const Recording wav = read_recording((folder / "demo.wav").string());
   ASSERT_EQ(wav.channels.size(), 2U);
   EXPECT_GT(peak(wav.channels[0]), 0.01F) << "a hand was heard";
-  std::ifstream png(folder / "demo.png", std::ios::binary);
-  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(png), {}), testing::StartsWith("\x89PNG"));
+  EXPECT_THAT(text_of(folder / "demo.png"), testing::StartsWith("\x89PNG"));
   std::set<std::string> left;
   for (const auto& entry : fs::directory_iterator(folder)) {
     left.insert(entry.path().filename().string());

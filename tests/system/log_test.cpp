@@ -6,21 +6,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class Log : public testing::Test {
  protected:
@@ -65,16 +59,16 @@ class Log : public testing::Test {
 };
 
 TEST_F(Log, SameSeedWritesTheSameBytes) {
-  const std::string first = bytes_of(record("first.osc"));
+  const std::string first = text_of(record("first.osc"));
   EXPECT_GT(first.size(), 1000U);
-  EXPECT_EQ(first, bytes_of(record("second.osc")));
-  EXPECT_NE(first, bytes_of(record("other.osc", 2))) << "another seed, another log";
+  EXPECT_EQ(first, text_of(record("second.osc")));
+  EXPECT_NE(first, text_of(record("other.osc", 2))) << "another seed, another log";
 }
 
 TEST_F(Log, OneProcessorTellsTheSameAsAll) {
-  const std::string all = bytes_of(record("all.osc"));
+  const std::string all = text_of(record("all.osc"));
   // By the names that PoCL 3 and its successors know.
-  const std::string one = bytes_of(
+  const std::string one = text_of(
       record("one.osc", 1, {{"POCL_MAX_PTHREAD_COUNT", "1"}, {"POCL_CPU_MAX_CU_COUNT", "1"}}));
   EXPECT_THAT(told(), testing::HasSubstr("(CPU, 1 compute units"));
   EXPECT_GT(all.size(), 1000U);
@@ -85,7 +79,7 @@ TEST_F(Log, ReplayedTwiceGivesTheSameBits) {
   const std::string log = record("replayed.osc");
   const std::string first = render(log, "first.wav");
   EXPECT_GT(peak(read_recording(first).channels.at(0)), 0.001F) << "something is heard";
-  EXPECT_EQ(bytes_of(first), bytes_of(render(log, "second.wav")));
+  EXPECT_EQ(text_of(first), text_of(render(log, "second.wav")));
 }
 
 /// An OSC number, most significant byte first.
@@ -101,7 +95,7 @@ TEST_F(Log, HasTheFramingOfScoreFiles) {
   const std::string log = record("framed.osc");
   EXPECT_GT(protocol::read_log(log).size(), 10U) << "each packet passed the gate";
   // Once more by hand, as scsynth reads it: a length, a bundle of that length, times that rise.
-  const std::string bytes = bytes_of(log);
+  const std::string bytes = text_of(log);
   std::uint64_t last = 0;
   std::size_t bundles = 0;
   for (std::size_t at = 0; at < bytes.size(); ++bundles) {

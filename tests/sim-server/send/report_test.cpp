@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tests/sim-server/send/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::sim {
 namespace {
@@ -122,7 +123,7 @@ TEST(Report, IsWrittenWholeAndReplacesAnOlderOne) {
   write_report(folder / "r.json", report);
   report.particles = 1;
   write_report(folder / "r.json", report);
-  EXPECT_EQ(test::read_file(folder / "r.json"), to_json(report));
+  EXPECT_EQ(tests::text_of(folder / "r.json"), to_json(report));
   const auto begin = std::filesystem::directory_iterator(folder.path());
   EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator()), 1) << "no draft is left";
 }

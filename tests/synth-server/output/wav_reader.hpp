@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tests/support/text_of.hpp"
 
 namespace splash::synth {
 
@@ -26,8 +26,7 @@ struct WavContent {
 };
 
 inline WavContent read_wav(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  const std::string bytes = tests::text_of(path);
   const auto number = [&](std::size_t at, std::size_t size) {
     std::uint32_t value = 0;
     if (at + size > bytes.size()) throw std::runtime_error("WAV: truncated");
