@@ -12,7 +12,6 @@
 
 #include "protocol/event_log.hpp"
 #include "protocol/status.hpp"
-#include "tests/protocol/killers.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
 
@@ -227,34 +226,6 @@ TEST_F(LiveNull, FadesOutWhenItIsTerminated) {
     step = std::max(step, std::abs(left[i] - left[i - 1]));
   }
   EXPECT_LT(step, 0.02F * loudest);
-}
-
-TEST_F(LiveNull, OutlivesKillersAndAnswersControl) {
-  Synth synth(arguments());
-  std::uint64_t deadly = 0;
-  for (const protocol::test::Killer& killer : protocol::test::killers()) {
-    if (killer.why == protocol::Refusal::none) continue;
-    synth.send(killer.bytes);
-    ++deadly;
-  }
-  synth.send(protocol::encode(TimeTag{1}, {frame(1, 0), bubble(1)}));
-  synth.send(protocol::encode(TimeTag{1}, {frame(1, 0), bubble(1)}));
-  synth.send(protocol::encode(TimeTag{1}, {frame(1, 5), bubble(2)}));
-  EXPECT_EQ(synth.ask({"/sync", {9}}, "/synced"), (Message{"/synced", {9}}));
-  sleep(0.3);
-  const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
-  ASSERT_TRUE(status);
-  EXPECT_EQ(status->refused, deadly);
-  EXPECT_EQ(status->events, 2U);
-  EXPECT_EQ(status->duplicates, 1U);
-  EXPECT_EQ(status->lost, 4U);
-  EXPECT_EQ(status->sample_rate, 48000.0F);
-  EXPECT_EQ(synth.ask({"/version", {}}, "/version.reply").arguments.size(), 6U);
-  EXPECT_EQ(synth.ask({"/wat", {}}, "/fail").address, "/fail");
-  EXPECT_EQ(synth.ask({"/ping", {TimeTag{99}}}, "/pong").arguments.size(), 3U);
-  EXPECT_TRUE(synth.process().running());
-  EXPECT_EQ(synth.ask({"/quit", {}}, "/done").address, "/done");
-  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
 }
 
 TEST_F(LiveNull, IsSilentUntilItIsUnmutedAndShowsItsLevel) {
