@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the simulator ends when something is wrong: the code for scripts, the words for people. The
-// synth's own endings are in tests/synth-server/live.
+// How the programs end when something is wrong: the code for scripts, the words for people. What
+// the synth alone does is in tests/synth-server/live.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,6 +62,11 @@ TEST(Exit, MissingFilesAreNamed) {
   EXPECT_THAT(run_program("synth-server", {"--rig", "nowhere"}).text,
               HasSubstr("no such file in " + std::filesystem::current_path().string()))
       << "which folder was meant";
+  const auto log =
+      run_program("synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", "/nowhere/a.osc",
+                                   "--render", temporary_path("a.wav")});
+  EXPECT_EQ(log.code, 66);
+  EXPECT_THAT(log.text, HasSubstr("/nowhere/a.osc"));
 }
 
 TEST(Exit, MissingRecordingsAreNamed) {
