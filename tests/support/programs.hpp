@@ -41,6 +41,8 @@ class Daemon {
 
   ChildProcess& process() noexcept { return process_; }
   [[nodiscard]] protocol::Endpoint endpoint() const noexcept { return endpoint_; }
+  /// Where it lets viewers in, when it was started with --show.
+  [[nodiscard]] protocol::Endpoint viewers();
   void send(const std::vector<std::byte>& bytes) { socket_.send_to(endpoint_, bytes); }
   /// Sends a command and returns the first reply at `address`; empty when there is none.
   protocol::Message ask(const protocol::Message& command, const std::string& address);

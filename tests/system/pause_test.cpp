@@ -28,11 +28,7 @@ struct Shown {
 class Watched {
  public:
   Watched() : simulator_({"--scene", scene_.path(), "--show", "127.0.0.1:0"}) {
-    EXPECT_TRUE(simulator_.process().wait_for_text("viewers: "));
-    const std::string text = simulator_.process().output();
-    const auto begin = text.find("viewers: ") + 9;
-    viewer_ = std::make_unique<FrameViewer>(
-        protocol::parse_endpoint(text.substr(begin, text.find('\n', begin) - begin), 0));
+    viewer_ = std::make_unique<FrameViewer>(simulator_.viewers());
     static_cast<void>(viewer_->read());  // the scene
   }
   Shown look() const {
