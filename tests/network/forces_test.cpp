@@ -15,7 +15,7 @@
 
 #include "protocol/event_log.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/network/on_two_hosts.hpp"
+#include "tests/network/two_hosts.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {

@@ -14,7 +14,7 @@
 #include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/network/on_two_hosts.hpp"
+#include "tests/network/two_hosts.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"

@@ -17,7 +17,7 @@
 #include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/network/on_two_hosts.hpp"
+#include "tests/network/two_hosts.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {
