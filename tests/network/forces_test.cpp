@@ -52,12 +52,6 @@ Moments moments_of(const std::string& path) {
   return moments;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Median of how much later those of `played` are than those of `meant` [s].
 template <class Key>
 double later(const std::map<Key, double>& played, const std::map<Key, double>& meant) {

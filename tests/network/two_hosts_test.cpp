@@ -53,12 +53,6 @@ Heard listen(protocol::UdpSocket& socket) {
   return heard;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Hosts that do not exist. Kernels whose sending buffers hold no more than what waits for the
 /// address of one of them bear only one.
 Arguments dead_hosts() {

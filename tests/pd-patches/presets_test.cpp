@@ -54,13 +54,9 @@ void compare(const std::vector<protocol::LogEntry>& log, const synth::EngineSett
              const std::vector<std::string>& messages) {
   const Channels synth = render_with_synth(log, kTiles, kFrames, settings);
   const Channels pd = render_with_pd(log, kTiles, kFrames, messages);
-  float peak = 0.0F;
-  for (const auto& channel : synth) {
-    for (const float s : channel) peak = std::max(peak, std::abs(s));
-  }
-  ASSERT_GT(peak, 0.01F);
-  const double level =
-      decibels(largest_difference(pd, synth, 0, kFrames) / static_cast<double>(peak));
+  const double peak = loudest(synth);
+  ASSERT_GT(peak, 0.01);
+  const double level = decibels(largest_difference(pd, synth, 0, kFrames) / peak);
   std::cout << messages.front() << ": " << level << " dB re the peak\n";
   EXPECT_LT(level, kTolerance);
 }
