@@ -113,16 +113,5 @@ TEST(Boxes, DoNotLieOverEachOther) {
   EXPECT_GT(boxes, 500U);
 }
 
-TEST(Boxes, TheTestSeesThem) {
-  const auto count = [](const std::string& patch) { return overlaps(boxes_of(patch)).size(); };
-  EXPECT_EQ(count("#X obj 20 20 + 1;\n#X obj 20 50 + 2;\n"), 0U);
-  EXPECT_EQ(count("#X obj 20 20 + 1;\n#X obj 20 30 + 2;\n"), 1U);
-  EXPECT_EQ(count("#X obj 20 20 expr \\$f1 \\; \\$f1*2 \\; 3;\n#X obj 20 50 + 2;\n"), 1U);
-  EXPECT_EQ(count("#X text 20 20 " + std::string(50, 'a') + ' ' + std::string(50, 'b') +
-                  ";\n#X obj 20 40 + 2;\n"),
-            1U);
-  EXPECT_EQ(count("#X floatatom 20 20 8 0 0 0 - - - 0;\n#X obj 60 20 + 2;\n"), 1U);
-}
-
 }  // namespace
 }  // namespace splash::pd

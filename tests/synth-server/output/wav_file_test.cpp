@@ -184,13 +184,7 @@ TEST_F(Wav, BecomesRf64BeyondTheLimitOfRiff) {
   }
 }
 
-TEST_F(Wav, LimitIsThatOfThe32BitsOfRiff) {
-  WavFile file(path_, 1, 48000);
-  write(file, 1, 0, 10);
-  file.close();
-  EXPECT_FALSE(read_wav(path_).rf64);
-  static_assert(WavFile::kRiffLimit < 0xFFFFFFFF, "that value means RF64");
-}
+static_assert(WavFile::kRiffLimit < 0xFFFFFFFF, "that value means RF64");
 
 TEST_F(Wav, RefusesImpossibleChannels) {
   EXPECT_THROW(WavFile(path_, 0, 48000), std::invalid_argument);

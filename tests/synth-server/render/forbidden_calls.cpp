@@ -127,14 +127,14 @@ namespace splash::synth {
 namespace {
 
 thread_local volatile char dispatch = 0;  // SYSCALL_DISPATCH_FILTER_ALLOW; 1: BLOCK
-thread_local volatile int first_call = -1;
+thread_local volatile bool called = false;
 
 #ifdef SPLASH_CATCHES_SYSTEM_CALLS
 
 /// Notes the call, lets all further ones pass, and makes this one in the thread's name.
 void on_system_call(int /*signal*/, siginfo_t* info, void* context) {
   dispatch = 0;
-  first_call = info->si_syscall;
+  called = true;
   const int error = errno;
   auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   const long result =
@@ -175,7 +175,7 @@ bool SystemCallScope::works() noexcept {
 }
 
 SystemCallScope::SystemCallScope() noexcept {
-  first_call = -1;
+  called = false;
   if (!works() || !watch(true)) return;
   dispatch = 1;  // from here on
 }
@@ -186,10 +186,7 @@ SystemCallScope::~SystemCallScope() {
 }
 
 bool SystemCallScope::any() noexcept {
-  return first_call >= 0;
-}
-int SystemCallScope::first() noexcept {
-  return first_call;
+  return called;
 }
 
 ForbiddenCalls& ForbiddenCalls::operator+=(const ForbiddenCalls& other) noexcept {

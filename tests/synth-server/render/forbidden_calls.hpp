@@ -21,8 +21,6 @@ class SystemCallScope {
 
   /// Whether there was any since the scope began: the first one ends the watch.
   [[nodiscard]] static bool any() noexcept;
-  /// Its number, -1 without one: see <sys/syscall.h>.
-  [[nodiscard]] static int first() noexcept;
   /// False where the kernel or the processor cannot do it: then none is ever seen.
   [[nodiscard]] static bool works() noexcept;
 };
