@@ -28,13 +28,15 @@ using testing::HasSubstr;
 /// The launcher in a terminal of its own, over programs that are built.
 class Terminal {
  public:
-  explicit Terminal(const std::string& arguments) : tools_(temporary_path("launcher-tools")) {
+  /// `environment`: "NAME=VALUE", for the launcher.
+  explicit Terminal(const std::string& arguments, const std::string& environment = "")
+      : tools_(temporary_path("launcher-tools")) {
     fs::create_directories(tools_);
     std::ofstream(tools_ / "cmake") << "#!/bin/sh\n";
     fs::permissions(tools_ / "cmake", fs::perms::owner_all);
-    const std::string line = "PATH='" + tools_.string() + "':$PATH exec " + SPLASH_SOURCE_DIR +
-                             "/splash --no-install --build-dir '" + SPLASH_BINARY_DIR + "/..' " +
-                             arguments;
+    const std::string line = environment + " PATH='" + tools_.string() + "':$PATH exec " +
+                             SPLASH_SOURCE_DIR + "/splash --no-install --build-dir '" +
+                             SPLASH_BINARY_DIR + "/..' " + arguments;
     child_ = forkpty(&master_, nullptr, nullptr, nullptr);
     if (child_ == 0) {
       execl("/bin/bash", "bash", "-c", line.c_str(), static_cast<char*>(nullptr));
@@ -132,7 +134,7 @@ TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
 // The picture is of the recording, and what it is drawn from is cleared away.
 TEST(LauncherDemo, LeavesSoundLogFiguresAndPicture) {
   const fs::path folder = temporary_path("demo");
-  Terminal terminal("demo --out '" + folder.string() + "'");
+  Terminal terminal("demo --out '" + folder.string() + "'", "SPLASH_DEMO_SECONDS=4");
   EXPECT_EQ(terminal.wait_for_end(), 0) << terminal.text();
   EXPECT_THAT(terminal.text(), HasSubstr("a picture of demo.wav"));
   const Recording wav = read_recording((folder / "demo.wav").string());

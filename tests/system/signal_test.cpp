@@ -11,6 +11,7 @@
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -72,13 +73,14 @@ TEST_F(Signals, TheSecondEndsAtOnce) {
 TEST_F(Signals, HangupBeginsTheLogAnewThatWasMovedAway) {
   const std::string log = file("a.osc");
   Simulator daemon(simulator({"--record", log}));
-  ASSERT_TRUE(daemon.process().wait_for_text("real time x", kTimeout));
+  const auto has_bundles = [&] { return text_of(log).size() > 200; };
+  ASSERT_TRUE(eventually(has_bundles, kTimeout));
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for_text("a.osc is still there: move it away", kTimeout));
   fs::rename(log, file("first.osc"));
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for_text("began " + log + " anew", kTimeout));
-  sleep(1.5);
+  ASSERT_TRUE(eventually(has_bundles, kTimeout));
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
   const auto first = protocol::read_log(file("first.osc"));
