@@ -134,17 +134,20 @@ Kills kill_synths(int rounds, std::mt19937& random, const Progress& progress) {
   const SmallScene scene(plunging());
   const protocol::Endpoint port = free_endpoint();
   Simulator simulator(simulator_to(scene, port));
+  std::unique_ptr<Synth> next;
   for (int k = 0; k < rounds; ++k) {
+    if (next) {
+      next->process().signal(SIGKILL);
+      next->process().wait_for_end();
+    }
     const Arguments synth = synth_on(protocol::to_string(port));
     live_and_die(command("synth-server", synth), random);
     const double start = protocol::monotonic_now();
-    Synth next(synth);
-    judge(simulator, await_event(next, 0, start, kills), kills);
-    next.process().signal(SIGKILL);
-    next.process().wait_for_end();
+    next = std::make_unique<Synth>(synth);
+    judge(simulator, await_event(*next, 0, start, kills), kills);
     progress(k + 1);
   }
-  end_in_peace(simulator, kills);
+  end_in_peace(simulator, kills);  // the last synth tells it what was lost
   if (simulator.process().output().find(", lost 0,") == std::string::npos) {
     kills.complaints.push_back("it lost events:\n" + simulator.process().output());
   }
