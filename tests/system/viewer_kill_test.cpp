@@ -18,13 +18,13 @@
 namespace splash::tests {
 namespace {
 
-/// One event of each kind, in a frame of its own.
+/// One event of each kind, in a frame of its own; no limiter acts.
 std::vector<protocol::Message> events(int number) {
   return {protocol::to_message(protocol::Frame{77, number, number, 0.0F}),
-          protocol::to_message(protocol::Bubble{3 * number, 0, 0.02F, 0.05F, {}, 0.0F}),
+          protocol::to_message(protocol::Bubble{3 * number, 0, 0.02F, 0.03F, {}, 0.0F}),
           protocol::to_message(
-              protocol::Impact{3 * number + 1, 0, 2.0F, 1.5F, {0.3F, 0.0F, 0.0F}, 7.0F}),
-          protocol::to_message(protocol::Cavity{3 * number + 2, 0, 0.03F, 0.1F, {}, 0.0F})};
+              protocol::Impact{3 * number + 1, 0, 2.0F, 1.0F, {0.3F, 0.0F, 0.0F}, 7.0F}),
+          protocol::to_message(protocol::Cavity{3 * number + 2, 0, 0.03F, 0.03F, {}, 0.0F})};
 }
 
 // What the synth says that it started gives the same samples where nobody has ever looked, whenever
