@@ -15,10 +15,11 @@
 
 #include "protocol/time_tag.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/support/jack.hpp"
 #include "tests/support/median.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
-#include "tests/synth-server/live/jack_capture.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/kills.hpp"
 
 namespace {
@@ -66,8 +67,7 @@ struct JackDeaths {
 
 JackDeaths kill_jack(int rounds) {
   JackDeaths deaths;
-  const std::string name = "splash-faults-" + std::to_string(getpid());
-  auto server = std::make_unique<synth::JackServer>(name, 36, 256);
+  auto server = std::make_unique<JackServer>("faults", JackServer::Settings{36, 256});
   Synth synth({"--rig", rig_path("tiles36.yaml"), "--api", "jack"});
   const Progress progress = counter("jackd killed", rounds);
   for (int k = 1; k <= rounds; ++k) {
@@ -77,7 +77,7 @@ JackDeaths kill_jack(int rounds) {
     const double before = cpu_seconds(synth.process().id());
     sleep(1.0);
     deaths.waited.push_back(cpu_seconds(synth.process().id()) - before);
-    server = std::make_unique<synth::JackServer>(name, 36, 256);
+    server = std::make_unique<JackServer>("faults", JackServer::Settings{36, 256});
     deaths.back.push_back(wait_for(synth.process(), "'system' plays", k));
     progress(k);
   }

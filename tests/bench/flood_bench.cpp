@@ -20,6 +20,7 @@
 #include "tests/bench/report.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/synth-server/receive/queue_run.hpp"
 
 namespace {

@@ -23,7 +23,7 @@
 #include "tests/bench/plot.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/support/child_process.hpp"
-#include "tests/support/process_use.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace {
 

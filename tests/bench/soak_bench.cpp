@@ -2,25 +2,123 @@
 // Both real programs in real time for as long as one likes, scene after scene on its rig, over a
 // network that loses datagrams, with a kill of one of them now and then: memory, missed heartbeats,
 // lost bundles and exits, a line every half minute and a verdict at the end.
+#include <poll.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <random>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
+#include "protocol/udp_socket.hpp"
 #include "tests/bench/report.hpp"
-#include "tests/support/lossy_relay.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace {
 
 using namespace splash;
 using namespace splash::tests;
+
+/// A bad network between two real programs: what comes for the one is passed on, and what it
+/// answers goes back, but for a share of the datagrams.
+class LossyRelay {
+ public:
+  /// `loss`: share of the datagrams in either direction that never arrive [1].
+  LossyRelay(const protocol::Endpoint& target, double loss, unsigned seed);
+
+  /// Where to send what is for the target.
+  [[nodiscard]] protocol::Endpoint local() const noexcept { return front_.local(); }
+  /// Datagrams for the target that did not arrive.
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+
+ private:
+  /// Who has sent something, and the socket that speaks for it to the target.
+  struct Line {
+    protocol::Endpoint peer;
+    protocol::UdpSocket socket;
+  };
+
+  void run(const std::stop_token& stop);
+  void pass_on();
+  void pass_back(Line& line);
+  [[nodiscard]] Line& line_of(const protocol::Endpoint& peer);
+
+  protocol::Endpoint target_;
+  std::bernoulli_distribution loses_;
+  std::mt19937 random_;
+  std::atomic<std::uint64_t> lost_ = 0;
+  protocol::UdpSocket front_;
+  std::vector<Line> lines_;
+  std::jthread thread_;
+};
+
+constexpr std::size_t kMostLines = 32;  ///< the oldest goes: programs that were killed
+constexpr int kLook = 100;              ///< until the thread looks whether it shall end [ms]
+
+using Datagram = std::array<std::byte, 2048>;  ///< ours have 1472 bytes at most
+
+LossyRelay::LossyRelay(const protocol::Endpoint& target, double loss, unsigned seed)
+    : target_(target),
+      loses_(loss),
+      random_(seed),
+      front_({INADDR_LOOPBACK, 0}),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+void LossyRelay::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::vector<pollfd> waiting = {{front_.descriptor(), POLLIN, 0}};
+    for (const Line& line : lines_) waiting.push_back({line.socket.descriptor(), POLLIN, 0});
+    if (poll(waiting.data(), waiting.size(), kLook) <= 0) continue;
+    for (std::size_t k = 1; k < waiting.size(); ++k) {
+      if (waiting[k].revents != 0) pass_back(lines_[k - 1]);
+    }
+    if (waiting.front().revents != 0) pass_on();
+  }
+}
+
+void LossyRelay::pass_on() {
+  Datagram buffer{};
+  const auto received = front_.receive(buffer.data(), buffer.size(), 0.0);
+  if (!received) return;
+  Line& line = line_of(received->from);
+  if (loses_(random_)) {
+    ++lost_;
+    return;
+  }
+  line.socket.send_to(target_,
+                      protocol::Bytes(buffer).first(std::min(received->size, buffer.size())));
+}
+
+void LossyRelay::pass_back(Line& line) {
+  Datagram buffer{};
+  const auto received = line.socket.receive(buffer.data(), buffer.size(), 0.0);
+  if (!received || loses_(random_)) return;
+  front_.send_to(line.peer, protocol::Bytes(buffer).first(std::min(received->size, buffer.size())));
+}
+
+LossyRelay::Line& LossyRelay::line_of(const protocol::Endpoint& peer) {
+  const auto known = std::find_if(lines_.begin(), lines_.end(),
+                                  [&](const Line& line) { return line.peer == peer; });
+  if (known != lines_.end()) return *known;
+  if (lines_.size() == kMostLines) {
+    // Sockets cannot be assigned: the others move into a new list.
+    std::vector<Line> younger;
+    for (std::size_t k = 1; k < lines_.size(); ++k) younger.push_back(std::move(lines_[k]));
+    lines_.swap(younger);
+  }
+  lines_.push_back({peer, protocol::UdpSocket({INADDR_LOOPBACK, 0})});
+  return lines_.back();
+}
 
 struct Settings {
   double minutes = 30.0;

@@ -16,6 +16,7 @@
 #include "tests/support/median.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/view/chromium.hpp"
 
 namespace {
@@ -31,13 +32,6 @@ struct Settings {
   bool blind = false;  ///< nothing is drawn: the way of a state to the page alone
 };
 
-std::string shown_at(ChildProcess& process) {
-  if (!process.wait_for_text("viewers: ")) throw std::runtime_error(process.output());
-  const std::string said = process.output();
-  const auto begin = said.find("viewers: ") + 9;
-  return said.substr(begin, said.find('\n', begin) - begin);
-}
-
 /// Graphics have nothing to do, all else goes its usual way.
 constexpr const char* kBlind = "WebGL2RenderingContext.prototype.drawArrays = () => {};";
 
@@ -45,10 +39,10 @@ void look(const std::string& scene, const Settings& settings) {
   Synth synth({"--rig", "stereo", "--device", "null", "--show", "127.0.0.1:0"});
   Simulator simulator({"--scene", scene, "--show", "127.0.0.1:0", "--target",
                        protocol::to_string(synth.endpoint())});
-  Daemon view("view-server",
-              {"--sim", protocol::to_string(simulator.endpoint()), "--synth",
-               protocol::to_string(synth.endpoint()), "--sim-show", shown_at(simulator.process()),
-               "--synth-show", shown_at(synth.process())});
+  Daemon view("view-server", {"--sim", protocol::to_string(simulator.endpoint()), "--synth",
+                              protocol::to_string(synth.endpoint()), "--sim-show",
+                              protocol::to_string(simulator.viewers()), "--synth-show",
+                              protocol::to_string(synth.viewers())});
   Chromium browser(settings.window, "swiftshader-webgl");
   if (settings.blind) {
     browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", kBlind}});

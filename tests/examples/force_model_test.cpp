@@ -329,17 +329,5 @@ TEST(ForceModel, GivesADeviceNoEnergyInCircles) {
   }
 }
 
-TEST(ForceModel, WithoutItsProtectionADeviceGainsEnergy) {
-  double most = 0.0;
-  for (const double factor : {1.0, 0.3}) {
-    for (const double hertz : {0.25, 0.5, 1.0}) {
-      const Outcome run = push_in_and_out(plain(), factor, hertz);
-      std::printf("unprotected x %.1f, %.2f Hz: gained %.3f mJ\n", factor, hertz, 1e3 * run.gained);
-      most = std::max(most, run.gained);
-    }
-  }
-  EXPECT_GT(most, 10.0e-3);
-}
-
 }  // namespace
 }  // namespace splash_force

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::tests {
 namespace {
@@ -27,14 +27,9 @@ namespace fs = std::filesystem;
 const std::string kSource = SPLASH_SOURCE_DIR;
 constexpr double kLowest = 0.65 - 0.003 * 99;  ///< where the page moves the hand to [m]
 
-std::string read(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// The first block in a language below a heading of the page.
 std::string block(const std::string& heading, const std::string& language) {
-  const std::string page = read(kSource + "/examples/README.md");
+  const std::string page = text_of(kSource + "/examples/README.md");
   const std::size_t below = page.find("\n## " + heading + "\n");
   const std::string fence = "```" + language + "\n";
   const std::size_t found = page.find(fence, below);
@@ -73,7 +68,7 @@ std::optional<Program> make(const std::string& heading, const std::string& langu
   Program program;
   if (language == "pd") {
     const std::string patch = heading.starts_with("Hear") ? "hear" : "move";
-    const std::string text = read(kSource + "/examples/pd/" + patch + ".pd");
+    const std::string text = text_of(kSource + "/examples/pd/" + patch + ".pd");
     if (text.empty()) return std::nullopt;
     program.arguments = {"pd", "-nogui", "-noprefs", "-noaudio",
                          write(program, patch + ".pd", at_port(text, port))};

@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include "protocol/event_log.hpp"
 #include "protocol/message.hpp"
 #include "tests/figure/wav_text.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::synth {
 namespace {
@@ -52,8 +51,7 @@ TEST(EventFigure, DrawsALogAndItsChannels) {
                  testing::riff(testing::chunk("fmt ", testing::format(3, 4, 8000, 32)) +
                                testing::chunk("data", testing::floats(frames))));
   draw_events({folder / "some.osc", folder / "some.wav", "four \"tiles\""}, folder / "a.png");
-  std::ifstream in(folder / "a.png", std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string bytes = tests::text_of(folder / "a.png");
   EXPECT_THAT(bytes, StartsWith("\x89PNG"));
   EXPECT_GT(bytes.size(), 20'000U) << "an empty frame is smaller";
   std::filesystem::remove_all(folder);

@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "synth-server/figure/gnuplot.hpp"
 #include "tests/figure/wav_text.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::synth {
 namespace {
@@ -30,17 +29,12 @@ Components decaying_sines() {
   return components;
 }
 
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 TEST(PlungeFigure, DrawsAPngOfTheStatedSize) {
   const std::filesystem::path folder = testing::fresh_folder("plunge-figure");
   FigureSettings settings;
   settings.title = "a \"quoted\" title with a \\backslash";
   draw_plunge(decaying_sines(), settings, folder / "a.png");
-  const std::string bytes = read_bytes(folder / "a.png");
+  const std::string bytes = tests::text_of(folder / "a.png");
   EXPECT_THAT(bytes, StartsWith("\x89PNG"));
   ASSERT_GT(bytes.size(), 20000U);  // an empty frame is smaller
   EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\x05\xDC\0\0\x04\x24", 8));  // 1500 x 1060
@@ -51,7 +45,7 @@ TEST(PlungeFigure, SilenceIsDrawnToo) {
   const std::filesystem::path folder = testing::fresh_folder("plunge-silence");
   const std::vector<float> silence(4000, 0.0F);
   draw_plunge({8000.0, 0.0, 1, silence, silence, silence}, {}, folder / "a.png");
-  EXPECT_THAT(read_bytes(folder / "a.png"), StartsWith("\x89PNG"));
+  EXPECT_THAT(tests::text_of(folder / "a.png"), StartsWith("\x89PNG"));
   std::filesystem::remove_all(folder);
 }
 
@@ -83,6 +77,34 @@ TEST(Gnuplot, ScratchFolderIsRemoved) {
     EXPECT_TRUE(std::filesystem::exists(path / "a"));
   }
   EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Envelope, NoPeakIsLost) {
+  std::vector<float> signal(10007, 0.0F);
+  signal[5003] = 0.9F;
+  signal[10006] = -0.4F;
+  const auto extents = envelope(signal, 1000.0, 50);
+  ASSERT_EQ(extents.size(), 50U);
+  float highest = 0.0F;
+  double when = 0.0;
+  for (const Extent& extent : extents) {
+    if (extent.highest > highest) {
+      highest = extent.highest;
+      when = extent.time;
+    }
+  }
+  EXPECT_EQ(highest, 0.9F);
+  EXPECT_NEAR(when, 5.003, 0.11);  // half a column, and the shared sample
+  EXPECT_EQ(extents.back().lowest, -0.4F);
+}
+
+TEST(Envelope, ShortSignalsKeepTheirSamples) {
+  const auto extents = envelope(std::vector<float>{0.25F, 0.5F, -0.5F}, 10.0, 100);
+  ASSERT_EQ(extents.size(), 3U);
+  EXPECT_DOUBLE_EQ(extents[1].time, 0.1);
+  EXPECT_EQ(extents[2].lowest, -0.5F);
+  EXPECT_EQ(extents[2].highest, -0.5F);
+  EXPECT_TRUE(envelope(std::vector<float>{}, 10.0, 100).empty());
 }
 
 }  // namespace

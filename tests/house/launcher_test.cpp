@@ -7,9 +7,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
-#include "tests/house/shell.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::house {
 namespace {
@@ -41,17 +41,13 @@ class Launcher : public testing::Test {
     std::ofstream(folder_ / "installed") << dpkg_lines;
   }
 
-  CommandResult launch(const std::string& arguments) const {
-    return run_command("PATH='" + folder_.string() + "':$PATH " + SPLASH_SOURCE_DIR + "/splash " +
-                       arguments + " --build-dir '" + build().string() + "'");
+  tests::Ended launch(const std::string& arguments) const {
+    return tests::run_shell("PATH='" + folder_.string() + "':$PATH " + SPLASH_SOURCE_DIR +
+                            "/splash " + arguments + " --build-dir '" + build().string() + "'");
   }
   fs::path build() const { return folder_ / "build"; }
 
-  static std::string text_of(const fs::path& path) {
-    std::ifstream in(path);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
-  std::string apt_calls() const { return text_of(folder_ / "apt"); }
+  std::string apt_calls() const { return tests::text_of(folder_ / "apt"); }
   fs::path synth_call() const { return folder_ / "synth-call"; }
 
  private:
@@ -60,29 +56,29 @@ class Launcher : public testing::Test {
 };
 
 TEST_F(Launcher, NamesWhatIsMissingAndWhyAndStopsWhenTold) {
-  const CommandResult result = launch("build --no-install");
-  EXPECT_EQ(result.exit_code, 69);
-  EXPECT_THAT(result.output,
+  const tests::Ended result = launch("build --no-install");
+  EXPECT_EQ(result.code, 69);
+  EXPECT_THAT(result.text,
               AllOf(HasSubstr("liblo-dev             sim-server sends OSC with it"),
                     HasSubstr("--no-install was given"),
                     HasSubstr("apt-get install --no-install-recommends cmake ninja-build")));
-  EXPECT_THAT(result.output, Not(HasSubstr("clang-tidy")));
+  EXPECT_THAT(result.text, Not(HasSubstr("clang-tidy")));
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
 TEST_F(Launcher, TestsNeedMorePackages) {
   EXPECT_THAT(
-      launch("test --no-install").output,
+      launch("test --no-install").text,
       AllOf(HasSubstr("libgtest-dev"), HasSubstr("liblo-dev"), Not(HasSubstr("clang-tidy"))));
-  EXPECT_THAT(launch("test --analysis --no-install").output,
+  EXPECT_THAT(launch("test --analysis --no-install").text,
               AllOf(HasSubstr("libgtest-dev"), HasSubstr("clang-tidy"), HasSubstr("cppcheck")));
 }
 
 TEST_F(Launcher, InstallsOnlyWhatIsMissing) {
   pretend_installed("ii cmake\nii liblo-dev\nrc ninja-build\nhi pkg-config\n");
-  const CommandResult result = launch("build");
-  EXPECT_EQ(result.exit_code, 69);  // apt-get gave up
-  EXPECT_THAT(result.output, HasSubstr("apt could not install the packages"));
+  const tests::Ended result = launch("build");
+  EXPECT_EQ(result.code, 69);  // apt-get gave up
+  EXPECT_THAT(result.text, HasSubstr("apt could not install the packages"));
   const std::string calls = apt_calls();
   EXPECT_THAT(calls, AllOf(HasSubstr("update"), HasSubstr("install -y"), HasSubstr("ninja-build"),
                            HasSubstr("pocl-opencl-icd")));
@@ -106,19 +102,19 @@ LOG
     [ ! -e "$2/faulty" ] || echo "SUMMARY: ThreadSanitizer: a race" >"$reports.program.1"
     echo "WARNING: ASan is ignoring a request" >"$reports.program.2"
     echo "100% tests passed, 0 tests failed out of 2")");
-  const CommandResult sound = launch("test --preset tsan");
-  EXPECT_EQ(sound.exit_code, 0) << sound.output;
-  EXPECT_THAT(sound.output, AllOf(HasSubstr("skipped: room/Some.Case: no such thing here\n"),
-                                  HasSubstr("skipped: other_test: it replaces malloc\n"),
-                                  HasSubstr("\n0 reports of sanitizers\n4 tests run, 0 failed")));
+  const tests::Ended sound = launch("test --preset tsan");
+  EXPECT_EQ(sound.code, 0) << sound.text;
+  EXPECT_THAT(sound.text, AllOf(HasSubstr("skipped: room/Some.Case: no such thing here\n"),
+                                HasSubstr("skipped: other_test: it replaces malloc\n"),
+                                HasSubstr("\n0 reports of sanitizers\n4 tests run, 0 failed")));
   write_program("build/faulty", "");
-  const CommandResult faulty = launch("test --preset tsan");
-  EXPECT_EQ(faulty.exit_code, 1);
-  EXPECT_THAT(faulty.output,
+  const tests::Ended faulty = launch("test --preset tsan");
+  EXPECT_EQ(faulty.code, 1);
+  EXPECT_THAT(faulty.text,
               AllOf(HasSubstr("/report.program.1:\nSUMMARY: ThreadSanitizer: a race\n"),
                     HasSubstr("\n1 reports of sanitizers\n")));
   fs::remove(build() / "faulty");
-  EXPECT_THAT(launch("test").output, Not(HasSubstr("of sanitizers")));
+  EXPECT_THAT(launch("test").text, Not(HasSubstr("of sanitizers")));
 }
 
 TEST_F(Launcher, RunsUnitsThenProgramsThenWhatIsSlow) {
@@ -134,36 +130,36 @@ TEST_F(Launcher, RunsUnitsThenProgramsThenWhatIsSlow) {
       " 2/2 Test #8: room/Other.Case ...   Passed   19.99 sec\n--label-regex ^live$\n";
   const std::string unmarked =
       "\ntook over 20 s, mark it SLOW unless kernels were compiled: room/Some.Case\n";
-  const std::string all = launch("test").output;
+  const std::string all = launch("test").text;
   EXPECT_THAT(all, AllOf(HasSubstr(quick), HasSubstr(unmarked), Not(HasSubstr("Other.Case\n"))));
   EXPECT_THAT(all, Not(HasSubstr("--label-regex ^(slow")));
-  EXPECT_EQ(text_of(synth_call()), "-DSPLASH_SLOW=\n");
+  EXPECT_EQ(tests::text_of(synth_call()), "-DSPLASH_SLOW=\n");
   EXPECT_THAT(
-      launch("test --slow").output,
+      launch("test --slow").text,
       AllOf(HasSubstr(quick), HasSubstr("\n--label-regex ^(slow)$\n"), Not(HasSubstr(unmarked))));
-  EXPECT_THAT(launch("test --long").output, HasSubstr("\n--label-regex ^(slow|long)$\n"));
-  EXPECT_THAT(launch("test --filter Some").output,
+  EXPECT_THAT(launch("test --long").text, HasSubstr("\n--label-regex ^(slow|long)$\n"));
+  EXPECT_THAT(launch("test --filter Some").text,
               AllOf(HasSubstr("--tests-regex Some\n"), Not(HasSubstr("--label"))));
-  EXPECT_EQ(text_of(synth_call()),
+  EXPECT_EQ(tests::text_of(synth_call()),
             "-DSPLASH_SLOW=\n-DSPLASH_SLOW=1\n-DSPLASH_SLOW=1\n-DSPLASH_SLOW=1\n");
 }
 
 TEST_F(Launcher, AnswersWrongUseWithWhatIsRight) {
-  const CommandResult command = launch("dmeo");
-  EXPECT_EQ(command.exit_code, 64);
-  EXPECT_THAT(command.output, AllOf(HasSubstr("dmeo"),
-                                    HasSubstr("there are demo, run, play, listen, service, test")));
-  EXPECT_EQ(launch("demo --no-instal").exit_code, 64);
-  EXPECT_EQ(run_command(std::string(SPLASH_SOURCE_DIR) + "/splash test --filter").exit_code, 64);
-  EXPECT_EQ(launch("run").exit_code, 64);
-  EXPECT_EQ(launch("demo --duration 4").exit_code, 64) << "the demo has its own";
+  const tests::Ended command = launch("dmeo");
+  EXPECT_EQ(command.code, 64);
+  EXPECT_THAT(command.text, AllOf(HasSubstr("dmeo"),
+                                  HasSubstr("there are demo, run, play, listen, service, test")));
+  EXPECT_EQ(launch("demo --no-instal").code, 64);
+  EXPECT_EQ(tests::run_shell(std::string(SPLASH_SOURCE_DIR) + "/splash test --filter").code, 64);
+  EXPECT_EQ(launch("run").code, 64);
+  EXPECT_EQ(launch("demo --duration 4").code, 64) << "the demo has its own";
 }
 
 TEST_F(Launcher, ChecksNamesBeforeAnythingIsInstalledOrBuilt) {
   const auto suggests = [this](const std::string& arguments, int code, const std::string& name) {
-    const CommandResult result = launch(arguments);
-    EXPECT_EQ(result.exit_code, code) << arguments;
-    EXPECT_THAT(result.output, HasSubstr("did you mean " + name + "?")) << arguments;
+    const tests::Ended result = launch(arguments);
+    EXPECT_EQ(result.code, code) << arguments;
+    EXPECT_THAT(result.text, HasSubstr("did you mean " + name + "?")) << arguments;
   };
   suggests("dmeo", 64, "demo");
   suggests("run poool", 66, "pool");
@@ -171,11 +167,11 @@ TEST_F(Launcher, ChecksNamesBeforeAnythingIsInstalledOrBuilt) {
   suggests("demo --rig stero", 66, "stereo");
   suggests("service baisn", 66, "basin");
   suggests("bench fauts", 66, "faults");
-  EXPECT_THAT(launch("run aquarium").output,
+  EXPECT_THAT(launch("run aquarium").text,
               AllOf(HasSubstr("there are: basin beach"), Not(HasSubstr("did you mean"))));
-  const CommandResult benches = launch("bench");
-  EXPECT_EQ(benches.exit_code, 0);
-  EXPECT_THAT(benches.output, HasSubstr(" faults "));
+  const tests::Ended benches = launch("bench");
+  EXPECT_EQ(benches.code, 0);
+  EXPECT_THAT(benches.text, HasSubstr(" faults "));
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
@@ -186,31 +182,31 @@ TEST_F(Launcher, TellsTheSynthWhereTheScenesMiddleLies) {
                 "case \"$*\" in *--check*) echo 'middle  0.915,0.5,0.25';; esac");
   write_program("build/bin/synth-server",
                 "echo \"$@\" >'" + synth_call().string() + "'; echo 'listening: here'; sleep 60");
-  const CommandResult right = launch("run pool --out '" + (build() / "out").string() + "'");
-  EXPECT_EQ(right.exit_code, 0) << right.output;
-  EXPECT_THAT(text_of(synth_call()), HasSubstr("/stereo.yaml --sound "));
-  EXPECT_THAT(text_of(synth_call()), HasSubstr("/calibrated.yaml --listen 127.0.0.1:573"));
-  EXPECT_THAT(text_of(synth_call()), HasSubstr(" --middle=0.915,0.5,0.25\n"));
+  const tests::Ended right = launch("run pool --out '" + (build() / "out").string() + "'");
+  EXPECT_EQ(right.code, 0) << right.text;
+  EXPECT_THAT(tests::text_of(synth_call()), HasSubstr("/stereo.yaml --sound "));
+  EXPECT_THAT(tests::text_of(synth_call()), HasSubstr("/calibrated.yaml --listen 127.0.0.1:573"));
+  EXPECT_THAT(tests::text_of(synth_call()), HasSubstr(" --middle=0.915,0.5,0.25\n"));
 
   fs::remove(synth_call());
   write_program("build/bin/sim-server", "echo 'pool.yaml:3:1: wrong' >&2; exit 78");
-  const CommandResult wrong = launch("run pool --out '" + (build() / "out").string() + "'");
-  EXPECT_EQ(wrong.exit_code, 78);
-  EXPECT_THAT(wrong.output, HasSubstr("pool.yaml:3:1: wrong"));
+  const tests::Ended wrong = launch("run pool --out '" + (build() / "out").string() + "'");
+  EXPECT_EQ(wrong.code, 78);
+  EXPECT_THAT(wrong.text, HasSubstr("pool.yaml:3:1: wrong"));
   EXPECT_FALSE(fs::exists(synth_call())) << "a wrong scene is told before anything starts";
 }
 
 TEST_F(Launcher, HelpAndVersionNeedNothing) {
-  EXPECT_EQ(launch("--help").exit_code, 0);
-  EXPECT_THAT(launch("--version").output, HasSubstr("splash 0."));
+  EXPECT_EQ(launch("--help").code, 0);
+  EXPECT_THAT(launch("--version").text, HasSubstr("splash 0."));
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
 TEST_F(Launcher, HelpOnACommandListsWhatThereIs) {
   for (const char* line : {"run --help", "help run", "run pool -h"}) {
-    const CommandResult help = launch(line);
-    EXPECT_EQ(help.exit_code, 0) << line;
-    EXPECT_THAT(help.output,
+    const tests::Ended help = launch(line);
+    EXPECT_EQ(help.code, 0) << line;
+    EXPECT_THAT(help.text,
                 AllOf(HasSubstr("./splash run SCENE"),
                       testing::ContainsRegex("\n  pool +two feet step in place in 20 cm of water"),
                       testing::ContainsRegex("\n  tiles36 +floor of 6 x 6 tiles"),
@@ -218,30 +214,30 @@ TEST_F(Launcher, HelpOnACommandListsWhatThereIs) {
                       HasSubstr("Behind -- stands whatever else sim-server takes")))
         << line;
   }
-  EXPECT_THAT(launch("demo --help").output,
+  EXPECT_THAT(launch("demo --help").text,
               AllOf(HasSubstr("  stereo "), HasSubstr("--out DIR"), Not(HasSubstr("  pool "))));
-  EXPECT_THAT(launch("bench --help").output,
+  EXPECT_THAT(launch("bench --help").text,
               testing::ContainsRegex("\n  validation +Runs the validation cases"));
-  EXPECT_THAT(launch("help test").output, HasSubstr("--filter REGEX"));
+  EXPECT_THAT(launch("help test").text, HasSubstr("--filter REGEX"));
   for (const char* name :
        {"demo", "run", "service", "test", "bench", "build", "bundle", "clean", "help"}) {
-    EXPECT_THAT(launch(std::string(name) + " --help").output, HasSubstr(name)) << name;
-    EXPECT_EQ(launch(std::string("help ") + name).exit_code, 0) << name;
+    EXPECT_THAT(launch(std::string(name) + " --help").text, HasSubstr(name)) << name;
+    EXPECT_EQ(launch(std::string("help ") + name).code, 0) << name;
   }
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
 TEST_F(Launcher, WordsThatAreNoCommandsGetTheNearestOne) {
-  EXPECT_THAT(launch("help rnu").output, HasSubstr("did you mean run?"));
-  EXPECT_THAT(launch("list").output, AllOf(HasSubstr("./splash help run lists the scenes"),
-                                           Not(HasSubstr("did you mean test"))));
-  const CommandResult option = launch("run pool --durtion 5");
-  EXPECT_EQ(option.exit_code, 64);
-  EXPECT_THAT(option.output, HasSubstr("did you mean --duration?"));
-  const CommandResult foreign = launch("test --rig stereo");
-  EXPECT_EQ(foreign.exit_code, 64);
-  EXPECT_THAT(foreign.output, HasSubstr("--rig is for demo, run, play, service"));
-  EXPECT_THAT(launch("test --out x").output, HasSubstr("--out is for demo, run, play, bundle"));
+  EXPECT_THAT(launch("help rnu").text, HasSubstr("did you mean run?"));
+  EXPECT_THAT(launch("list").text, AllOf(HasSubstr("./splash help run lists the scenes"),
+                                         Not(HasSubstr("did you mean test"))));
+  const tests::Ended option = launch("run pool --durtion 5");
+  EXPECT_EQ(option.code, 64);
+  EXPECT_THAT(option.text, HasSubstr("did you mean --duration?"));
+  const tests::Ended foreign = launch("test --rig stereo");
+  EXPECT_EQ(foreign.code, 64);
+  EXPECT_THAT(foreign.text, HasSubstr("--rig is for demo, run, play, service"));
+  EXPECT_THAT(launch("test --out x").text, HasSubstr("--out is for demo, run, play, bundle"));
 }
 
 }  // namespace

@@ -4,34 +4,26 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "tests/bench/tables.hpp"
-#include "tests/house/shell.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::house {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// What it says itself and what it leaves to docs/running.md.
 std::string readme() {
   const fs::path root = SPLASH_SOURCE_DIR;
-  return read_text(root / "README.md") + read_text(root / "docs/running.md");
+  return tests::text_of(root / "README.md") + tests::text_of(root / "docs/running.md");
 }
 
 std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
@@ -69,16 +61,17 @@ std::vector<std::string> missing_from(const std::set<std::string>& wanted,
 
 void expect_options_known(const std::string& program) {
   const std::string help =
-      run_command(std::string(SPLASH_BINARY_DIR) + "/" + program + " --help").output;
+      tests::run_shell(std::string(SPLASH_BINARY_DIR) + "/" + program + " --help").text;
   ASSERT_THAT(help, HasSubstr("--help")) << program << " is not built";
   EXPECT_THAT(missing_from(options_given_to(program, readme()), options_in(help)), IsEmpty());
 }
 
 TEST(Readme, LauncherKnowsItsCommandsAndOptions) {
   const std::string launcher = std::string(SPLASH_SOURCE_DIR) + "/splash";
-  const std::string help = run_command(launcher + " --help; for command in run test bundle; do " +
-                                       launcher + " help $command; done")
-                               .output;
+  const std::string help =
+      tests::run_shell(launcher + " --help; for command in run test bundle; do " + launcher +
+                       " help $command; done")
+          .text;
   static const std::regex kCommand(R"(\./splash ([a-z]+))");
   const std::set<std::string> told = matches(readme(), kCommand);
   EXPECT_THAT(told, Contains("demo"));
@@ -112,22 +105,13 @@ TEST(Docs, AreWrittenByBenchmarksThatExist) {
   static const std::regex kBench(R"(\./splash bench ([a-z]+))");
   const fs::path root = SPLASH_SOURCE_DIR;
   for (const char* doc : {"performance.md", "accuracy.md", "robustness.md"}) {
-    const std::set<std::string> named = matches(read_text(root / "docs" / doc), kBench);
+    const std::set<std::string> named = matches(tests::text_of(root / "docs" / doc), kBench);
     EXPECT_FALSE(named.empty()) << doc;
     for (const std::string& name : named) {
-      const std::string source = read_text(root / "tests/bench" / (name + "_bench.cpp"));
+      const std::string source = tests::text_of(root / "tests/bench" / (name + "_bench.cpp"));
       EXPECT_THAT(source, HasSubstr("\"" + std::string(doc) + '"')) << doc << ": bench " << name;
     }
   }
-}
-
-TEST(Docs, KeepTheSectionsOfOtherBenchmarks) {
-  const std::string one = bench::with_section("# Figures\n", "one", "1\n");
-  EXPECT_EQ(one, "# Figures\n\n<!-- bench one -->\n1\n<!-- end of bench one -->\n");
-  const std::string two = bench::with_section(one, "two", "2\n");
-  EXPECT_EQ(bench::with_section(bench::with_section(two, "one", "3\n"), "one", "1\n"), two);
-  EXPECT_THAT(bench::with_section(two, "one", "3\n"),
-              AllOf(HasSubstr("\n3\n"), HasSubstr("\n2\n")));
 }
 
 TEST(Readme, TreeNamesEveryRoom) {

@@ -6,10 +6,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 
-#include "tests/house/shell.hpp"
+#include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::house {
 namespace {
@@ -17,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 /// A home of its own, and a cmake that builds nothing. Paths with characters that mean something to
 /// the shell, to sed or to systemd.
@@ -47,11 +42,11 @@ class Service : public testing::Test {
     fs::permissions(path, fs::perms::owner_all);
   }
   [[nodiscard]] fs::path build() const { return folder_ / "a & 100% b"; }
-  [[nodiscard]] CommandResult launch(const std::string& arguments) const {
-    return run_command("XDG_CONFIG_HOME='" + folder_.string() + "' PATH='" +
-                       (folder_ / "tools").string() + "':$PATH " + SPLASH_SOURCE_DIR +
-                       "/splash service " + arguments + " --no-install --build-dir '" +
-                       build().string() + "'");
+  [[nodiscard]] tests::Ended launch(const std::string& arguments) const {
+    return tests::run_shell("XDG_CONFIG_HOME='" + folder_.string() + "' PATH='" +
+                            (folder_ / "tools").string() + "':$PATH " + SPLASH_SOURCE_DIR +
+                            "/splash service " + arguments + " --no-install --build-dir '" +
+                            build().string() + "'");
   }
   [[nodiscard]] fs::path own(const std::string& kind) const { return folder_ / "splash" / kind; }
   [[nodiscard]] fs::path unit(const std::string& name) const {
@@ -64,12 +59,12 @@ class Service : public testing::Test {
 };
 
 TEST_F(Service, HasThisTreesPaths) {
-  const CommandResult result = launch("pool --rig tiles36");
-  ASSERT_EQ(result.exit_code, 0) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("systemctl --user enable --now splash-sim"));
-  const std::string sim = read_text(unit("splash-sim"));
-  const std::string synth = read_text(unit("splash-synth"));
-  const std::string view = read_text(unit("splash-view"));
+  const tests::Ended result = launch("pool --rig tiles36");
+  ASSERT_EQ(result.code, 0) << result.text;
+  EXPECT_THAT(result.text, HasSubstr("systemctl --user enable --now splash-sim"));
+  const std::string sim = tests::text_of(unit("splash-sim"));
+  const std::string synth = tests::text_of(unit("splash-synth"));
+  const std::string view = tests::text_of(unit("splash-view"));
   EXPECT_THAT(view, HasSubstr("/a & 100%% b/bin/view-server\" --listen 127.0.0.1:8080 "));
   const std::string configs = std::string(SPLASH_SOURCE_DIR) + "/configs/";
   EXPECT_THAT(sim, HasSubstr("/a & 100%% b/bin/sim-server\" --scene \"" + configs +
@@ -109,18 +104,18 @@ TEST_F(Service, KnowsWhereTheOtherProgramIs) {
 }
 
 TEST_F(Service, IsWhatSystemdTakes) {
-  if (run_command("systemd-analyze --version").exit_code != 0) {
+  if (tests::run_shell("systemd-analyze --version").code != 0) {
     GTEST_SKIP() << "there is no systemd-analyze";
   }
-  ASSERT_EQ(launch("basin").exit_code, 0);
+  ASSERT_EQ(launch("basin").code, 0);
   const std::string verify =
       "XDG_RUNTIME_DIR='" + build().string() + "' systemd-analyze verify --user --man=no '";
-  const CommandResult right =
-      run_command(verify + unit("splash-sim").string() + "' '" + unit("splash-synth").string() +
-                  "' '" + unit("splash-view").string() + "' 2>&1");
-  EXPECT_THAT(right.output, Not(HasSubstr("splash-")));
+  const tests::Ended right = tests::run_shell(verify + unit("splash-sim").string() + "' '" +
+                                              unit("splash-synth").string() + "' '" +
+                                              unit("splash-view").string() + "' 2>&1");
+  EXPECT_THAT(right.text, Not(HasSubstr("splash-")));
   std::ofstream(unit("splash-sim"), std::ios::app) << "[Service]\nWatchdogSecs=3\n";
-  EXPECT_THAT(run_command(verify + unit("splash-sim").string() + "' 2>&1").output,
+  EXPECT_THAT(tests::run_shell(verify + unit("splash-sim").string() + "' 2>&1").text,
               HasSubstr("WatchdogSecs"))
       << "it does look";
 }
@@ -130,23 +125,25 @@ TEST_F(Service, FindsOnesOwnScenesAndRigsByName) {
   fs::create_directories(own("rigs"));
   std::ofstream(own("scenes") / "pond.yaml") << "name: pond\ndescription: frogs\n";
   std::ofstream(own("rigs") / "stereo.yaml") << "name: mine\n";
-  ASSERT_EQ(launch("pond --rig stereo").exit_code, 0);
-  EXPECT_THAT(read_text(unit("splash-sim")), HasSubstr((own("scenes") / "pond.yaml").string()));
-  EXPECT_THAT(read_text(unit("splash-synth")), HasSubstr((own("rigs") / "stereo.yaml").string()));
-  EXPECT_THAT(launch("--help").output, testing::ContainsRegex("\n  pond +frogs\n"));
+  ASSERT_EQ(launch("pond --rig stereo").code, 0);
+  EXPECT_THAT(tests::text_of(unit("splash-sim")),
+              HasSubstr((own("scenes") / "pond.yaml").string()));
+  EXPECT_THAT(tests::text_of(unit("splash-synth")),
+              HasSubstr((own("rigs") / "stereo.yaml").string()));
+  EXPECT_THAT(launch("--help").text, testing::ContainsRegex("\n  pond +frogs\n"));
 }
 
 TEST_F(Service, KnowsItsScenesAndRigs) {
-  EXPECT_EQ(launch("puddle").exit_code, 66);
-  EXPECT_EQ(launch("pool --rig trumpet").exit_code, 66);
-  EXPECT_EQ(launch("pool --sound brass").exit_code, 66);
+  EXPECT_EQ(launch("puddle").code, 66);
+  EXPECT_EQ(launch("pool --rig trumpet").code, 66);
+  EXPECT_EQ(launch("pool --sound brass").code, 66);
 }
 
 /// The numbers in docs/running.md, the units and the header are the same.
 TEST(ExitCodes, AreToldAsTheyAre) {
   const fs::path root = SPLASH_SOURCE_DIR;
-  const std::string header = read_text(root / "program" / "failure.hpp");
-  const std::string readme = read_text(root / "docs/running.md");
+  const std::string header = tests::text_of(root / "program" / "failure.hpp");
+  const std::string readme = tests::text_of(root / "docs/running.md");
   static const std::regex kCode(R"(kExit\w+ = (\d+),)");
   int codes = 0;
   for (std::sregex_iterator it(header.begin(), header.end(), kCode), end; it != end; ++it) {

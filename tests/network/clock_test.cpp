@@ -3,12 +3,116 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "tests/network/clock_run.hpp"
+#include "protocol/udp_socket.hpp"
+#include "synth-server/play/player.hpp"
+#include "tests/network/clock.hpp"
+#include "tests/network/impaired_link.hpp"
+#include "tests/network/sim_side.hpp"
+#include "tests/network/synth_side.hpp"
 
 namespace splash::network {
 namespace {
+
+/// Error of a host's clock at a true time since the start [s].
+using ClockError = std::function<double(double)>;
+
+struct Clocks {
+  ClockError simulator = [](double) { return 0.0; };
+  ClockError synth = [](double) { return 0.0; };
+  bool same_host = false;
+  bool answers_pings = true;  ///< a simulator of another make may not
+};
+
+struct Sounded {
+  double at = 0.0;     ///< true time at which the event was handed over [s]
+  double error = 0.0;  ///< by how much its moment is off, positive: it sounds late [s]
+};
+
+struct ClockReport {
+  std::vector<Sounded> events;
+  synth::PlayerCounters player;
+
+  /// Largest magnitude of the error in [from, to) [s].
+  [[nodiscard]] double worst(double from, double to) const {
+    double worst = 0.0;
+    for (const auto& [at, error] : events) {
+      if (at >= from && at < to) worst = std::max(worst, std::abs(error));
+    }
+    return worst;
+  }
+};
+
+constexpr int kTicksPerFrame = 4;
+constexpr int kJitterTicks = 2;
+constexpr protocol::Endpoint kSameHost{INADDR_LOOPBACK, 57300};
+constexpr protocol::Endpoint kOtherHost{0x0A000005, 57300};
+
+class Run {
+ public:
+  explicit Run(const Clocks& clocks)
+      : clocks_(clocks), from_(clocks.same_host ? kSameHost : kOtherHost) {}
+
+  ClockReport run(double seconds) {
+    while (now() < seconds) step();
+    ClockReport report;
+    for (const Played& played : synth_.played()) {
+      report.events.push_back({seconds_at(played.tick),
+                               played.moment - kStart - seconds_at(1) * moments_.at(played.id)});
+    }
+    report.player = synth_.player();
+    return report;
+  }
+
+ private:
+  [[nodiscard]] double now() const { return seconds_at(synth_.tick()); }
+
+  void step() {
+    const int tick = synth_.tick();
+    std::vector<sim::TimedEvent> events;
+    if (tick % kTicksPerFrame == 0) {
+      const double moment = tick + 1.25 + id_ % 7;
+      moments_[++id_] = moment;
+      events.push_back({protocol::Bubble{id_, -1, 0.004F, 0.05F, {}, 0.0F}, moment * kTick});
+    }
+    for (const Datagram& said : sim_.say(now(), std::move(events))) to_synth_.send(said, tick);
+    for (const Datagram& ping : to_sim_.arrivals(tick)) {
+      const auto message = protocol::decode(ping).packet.messages.at(0);
+      to_synth_.send(protocol::encode(sim_.answer(message)), tick);
+    }
+    for (const Datagram& datagram : to_synth_.arrivals(tick)) synth_.receive(datagram, from_);
+    for (const synth::Reply& reply : synth_.take_replies()) {
+      if (clocks_.answers_pings) to_sim_.send(protocol::encode(reply.message), tick);
+    }
+    synth_.play();
+  }
+
+  static Impairments travelling() {
+    Impairments impairments;
+    impairments.jitter = kJitterTicks;
+    return impairments;
+  }
+
+  Clocks clocks_;
+  protocol::Endpoint from_;
+  ImpairedLink to_synth_{travelling(), 1};
+  ImpairedLink to_sim_{travelling(), 2};
+  std::int32_t id_ = 0;
+  std::map<std::int32_t, double> moments_;  ///< of all events [ticks]
+  SynthSide synth_{[this] { return kUnix + now() + clocks_.synth(now()); }};
+  SimSide sim_{[this] { return kUnix + now() + clocks_.simulator(now()); }};
+};
+
+/// A steady stream, each event up to 40 ms ahead, over a network that takes 5 to 16 ms.
+ClockReport run_clocks(const Clocks& clocks, double seconds) {
+  return Run(clocks).run(seconds);
+}
 
 constexpr double kEnd = 16.0;      // of a run [s]
 constexpr double kStep = 6.001;    // when a clock is set [s]

@@ -25,11 +25,19 @@ TEST(LiveKillers, LeaveBothProgramsAtWork) {
     simulator.send(killer.bytes);
     deadly += killer.why == protocol::Refusal::none ? 0U : 1U;
   }
+  for (const int sequence : {0, 0, 5}) {
+    synth.send(
+        protocol::encode(protocol::kImmediately,
+                         {protocol::to_message(protocol::Frame{1, sequence, sequence, 0.0F}),
+                          protocol::to_message(protocol::Bubble{1, 0, 0.01F, 0.05F, {}, 0.0F})}));
+  }
   EXPECT_EQ(synth.ask({"/sync", {7}}, "/synced"), (Message{"/synced", {7}}));
   EXPECT_EQ(simulator.ask({"/sync", {7}}, "/synced"), (Message{"/synced", {7}}));
   const auto heard = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->refused, deadly + 1) << "and an address that it does not know";
+  EXPECT_EQ(heard->duplicates, 1U);
+  EXPECT_EQ(heard->lost, 4U);
   const auto told = protocol::to_sim_status(simulator.ask({"/status", {}}, "/status.reply"));
   ASSERT_TRUE(told);
   EXPECT_EQ(told->refused, deadly + 1);

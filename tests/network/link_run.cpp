@@ -1,16 +1,91 @@
 // SPDX-License-Identifier: MIT
 #include "tests/network/link_run.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
 
+#include "protocol/message.hpp"
 #include "tests/network/clock.hpp"
-#include "tests/network/ledger.hpp"
+#include "tests/network/impaired_link.hpp"
 #include "tests/network/sim_side.hpp"
 #include "tests/network/synth_side.hpp"
 
 namespace splash::network {
 namespace {
+
+/// What a receiver must count, worked out from all that went into the link and came out of it: with
+/// every datagram in sight and no window to forget them, so by other means than the receiver's.
+class Ledger {
+ public:
+  /// `latency`: of the synth; `window`: later than this an event is not played [s].
+  Ledger(double latency, double window) : latency_(latency), window_(window) {}
+
+  /// The event will sound at `moment`, in ticks.
+  void note_event(std::int32_t id, double moment) { moments_[id] = moment; }
+  void note_arrival(const Datagram& datagram, int tick);
+
+  std::uint64_t bundles = 0;     ///< that came at least once
+  std::uint64_t duplicates = 0;  ///< copies beyond the first
+  std::uint64_t reordered = 0;   ///< that came behind a later one
+  std::uint64_t late = 0;        ///< events past their moment, within the window
+  std::uint64_t too_late = 0;    ///< events past the window
+  std::set<std::int32_t> heard;  ///< events that came
+
+  /// Bundles between the first heard and the newest that never came.
+  [[nodiscard]] std::uint64_t lost() const;
+  [[nodiscard]] std::uint64_t events() const { return heard.size(); }
+
+ private:
+  void judge(std::int32_t id, int tick);
+
+  double latency_;
+  double window_;
+  std::map<std::int32_t, double> moments_;  ///< of all events [ticks]
+  std::set<std::int32_t> sequences_;        ///< heard
+  std::int32_t first_ = -1;
+  std::int32_t newest_ = -1;
+};
+
+void Ledger::note_arrival(const Datagram& datagram, int tick) {
+  const auto packet = protocol::decode(datagram).packet;
+  const auto frame = protocol::to_frame(packet.messages.at(0));
+  if (!frame) throw std::logic_error("a bundle without a frame");
+  const std::int32_t sequence = frame->sequence;
+  if (!sequences_.insert(sequence).second) {
+    ++duplicates;
+    return;
+  }
+  ++bundles;
+  if (first_ < 0) first_ = sequence;
+  if (sequence < newest_) ++reordered;
+  newest_ = std::max(newest_, sequence);
+  for (const auto& message : packet.messages) {
+    const auto event = protocol::to_event(message);
+    if (event) judge(std::visit([](const auto& one) { return one.id; }, *event), tick);
+  }
+}
+
+/// The block that is asked for at `tick` is the first that can still hold the event.
+void Ledger::judge(std::int32_t id, int tick) {
+  heard.insert(id);
+  const double behind = (tick - moments_.at(id)) * kTick - latency_;
+  if (behind > window_) {
+    ++too_late;
+  } else if (behind > 0.0) {
+    ++late;
+  }
+}
+
+std::uint64_t Ledger::lost() const {
+  if (first_ < 0) return 0;
+  const auto came = std::distance(sequences_.upper_bound(first_), sequences_.end());
+  return static_cast<std::uint64_t>(newest_ - first_ - static_cast<std::int32_t>(came));
+}
 
 constexpr int kTalking = 40 * kTicksPerSecond;
 constexpr int kOutageFrom = 10 * kTicksPerSecond;

@@ -4,13 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <regex>
-#include <sstream>
-#include <thread>
 
 #include "protocol/address.hpp"
 #include "protocol/control.hpp"
@@ -18,7 +14,9 @@
 #include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/network/on_two_hosts.hpp"
+#include "tests/network/two_hosts.hpp"
+#include "tests/support/text_of.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {
@@ -26,6 +24,7 @@ namespace {
 
 using protocol::Message;
 using testing::HasSubstr;
+using tests::eventually;
 
 constexpr std::size_t kHeaders = 28;  // of IPv4 and UDP [bytes]
 constexpr double kPrompt = 0.05;      // for one reply more than expected [s]
@@ -53,15 +52,7 @@ std::vector<std::byte> bundle_of(const Message& message) {
                           std::vector<Message>(std::min(room, protocol::kMaxMessages), message));
 }
 
-template <class Condition>
-bool soon(const Condition& condition) {
-  const double end = protocol::monotonic_now() + 20.0;
-  while (!condition()) {
-    if (protocol::monotonic_now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(120));  // ten questions a second at most
-  }
-  return true;
-}
+constexpr double kPause = 0.12;  ///< ten questions a second at most [s]
 
 struct Drawn {
   std::size_t bytes = 0;      ///< of all replies, without headers
@@ -163,7 +154,8 @@ TEST_F(OnTwoHosts, NoReplyOfThePdPatchIsLongerThanItsRequest) {
             protocol::parse_endpoint("10.77.0.2:57310", 0));
   const Message status{"/status", {}};
   const auto bare = protocol::encode(status);
-  ASSERT_TRUE(soon([&] { return home.drawn_by(bare).bytes == 116; })) << pd.output();
+  ASSERT_TRUE(eventually([&] { return home.drawn_by(bare).bytes == 116; }, 20.0, kPause))
+      << pd.output();
   EXPECT_EQ(afar.drawn_by(bare).datagrams, 0U);
   EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 112))).datagrams, 0U);
   EXPECT_EQ(afar.drawn_by(protocol::encode(protocol::filled_up(status, 116)), 1).bytes, 116U);
@@ -177,13 +169,11 @@ TEST_F(OnTwoHosts, NoReplyOfThePdPatchIsLongerThanItsRequest) {
 
 /// The lines of protocol/README.md that ask a synth on 192.168.0.20, for ours.
 std::string example_of_the_readme() {
-  std::ifstream file(std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md");
-  std::stringstream text;
-  text << file.rdbuf();
-  const auto begin = text.str().find("exec 3<>/dev/udp/192.168.0.20");
-  const auto end = text.str().find("```", begin);
+  const std::string text = tests::text_of(std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md");
+  const auto begin = text.find("exec 3<>/dev/udp/192.168.0.20");
+  const auto end = text.find("```", begin);
   if (end == std::string::npos) return {};
-  return std::regex_replace(text.str().substr(begin, end - begin), std::regex("192\\.168\\.0\\.20"),
+  return std::regex_replace(text.substr(begin, end - begin), std::regex("192\\.168\\.0\\.20"),
                             "10.77.0.2");
 }
 
@@ -227,19 +217,21 @@ TEST_F(OnTwoHosts, NobodyOutsideCanForgeAProgramsOwnHost) {
   // Without it the first forged datagram would ask for the other host's Ethernet address in the
   // name of 127.0.0.1, which is not answered, so that none would cross the cable.
   hosts_.socket_on(kSimHost, "10.77.0.1:0").send_to(there, garbage);
-  ASSERT_TRUE(soon([&] { return refused() == 1; })) << "an honest datagram arrives";
+  ASSERT_TRUE(eventually([&] { return refused() == 1; }, 20.0, kPause))
+      << "an honest datagram arrives";
   constexpr std::uint64_t kForged = 5;
   const auto before = hosts_.received_on(kSynthHost);
   for (std::uint64_t i = 0; i < kForged; ++i) {
     hosts_.send_forged(kSimHost, {INADDR_LOOPBACK, 9}, there, garbage);
   }
-  EXPECT_TRUE(soon([&] { return hosts_.received_on(kSynthHost) >= before + kForged; }))
+  EXPECT_TRUE(
+      eventually([&] { return hosts_.received_on(kSynthHost) >= before + kForged; }, 20.0, kPause))
       << "they do cross the cable";
   EXPECT_EQ(refused(), 1U);
   for (std::uint64_t i = 0; i < kForged; ++i) {
     hosts_.send_forged(kSimHost, protocol::parse_endpoint("10.77.0.9:9", 0), there, garbage);
   }
-  EXPECT_TRUE(soon([&] { return refused() == 1 + kForged; }))
+  EXPECT_TRUE(eventually([&] { return refused() == 1 + kForged; }, 20.0, kPause))
       << "a forged address of the network does";
 }
 

@@ -3,13 +3,19 @@
 // rights of an administrator and the program `ip`; says so where it has not.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "protocol/message.hpp"
 #include "protocol/udp_socket.hpp"
+#include "tests/support/programs.hpp"
 
 namespace splash::network {
 
@@ -41,5 +47,49 @@ class TwoHosts {
   [[nodiscard]] std::string name(int host) const;
   std::string why_not_;
 };
+
+inline constexpr int kSimHost = 0;
+inline constexpr int kSynthHost = 1;
+
+/// Skips its tests, with the reason, where there are no network namespaces.
+class OnTwoHosts : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!hosts_.why_not().empty()) {
+      GTEST_SKIP() << "no network namespaces here (they need root and iproute2): "
+                   << hosts_.why_not();
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<tests::ChildProcess> start(
+      int host, const std::string& program, const tests::Arguments& arguments) const {
+    return std::make_unique<tests::ChildProcess>(
+        hosts_.command_on(host, tests::command(program, arguments)));
+  }
+  [[nodiscard]] std::unique_ptr<tests::ChildProcess> start_synth(
+      const tests::Arguments& more) const {
+    tests::Arguments arguments{"--rig", tests::rig_path("stereo.yaml"), "--device", "null"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    auto synth = start(kSynthHost, "synth-server", arguments);
+    EXPECT_TRUE(synth->wait_for_text("listening: ")) << synth->output();
+    return synth;
+  }
+  static protocol::Message answer_to(const protocol::Message& question, protocol::UdpSocket& socket,
+                                     const std::string& to, double limits) {
+    socket.send_to(protocol::parse_endpoint(to, 0), protocol::encode(question));
+    std::array<std::byte, 2048> buffer{};
+    const auto received = socket.receive(buffer.data(), buffer.size(), limits);
+    if (!received) return {"no answer", {}};
+    return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);
+  }
+
+  TwoHosts hosts_;
+};
+
+[[nodiscard]] inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 }  // namespace splash::network

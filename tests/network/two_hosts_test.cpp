@@ -17,7 +17,7 @@
 #include "protocol/reply_budget.hpp"
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/network/on_two_hosts.hpp"
+#include "tests/network/two_hosts.hpp"
 #include "tests/support/median.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -70,7 +70,7 @@ TEST_F(OnTwoHosts, EachReceiverGetsEveryEventWhateverTheOthersDo) {
   auto synth = start_synth({"--listen", "10.77.0.2:57310", "--allow", "10.77.0.1"});
   protocol::UdpSocket receiver = hosts_.socket_on(kSynthHost, "10.77.0.2:57311");
   const tests::SmallScene scene(tests::plunging());
-  Arguments arguments{"--scene",  scene.path(),     "--duration",  "4",        "--report",
+  Arguments arguments{"--scene",  scene.path(),     "--duration",  "2.5",      "--report",
                       report,     "--target",       "10.77.0.2:9", "--target", "10.77.0.2:57310",
                       "--target", "10.77.0.2:57311"};
   for (const std::string& word : dead_hosts()) arguments.push_back(word);

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
+
+#include "tests/support/text_of.hpp"
 
 namespace splash::pd {
 namespace {
@@ -106,24 +106,11 @@ TEST(Boxes, DoNotLieOverEachOther) {
   const auto folder = std::filesystem::path(SPLASH_SOURCE_DIR) / "pd-patches";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".pd") continue;
-    std::ifstream file(entry.path());
-    const std::string patch((std::istreambuf_iterator<char>(file)), {});
-    const std::vector<Box> all = boxes_of(patch);
+    const std::vector<Box> all = boxes_of(tests::text_of(entry.path()));
     boxes += all.size();
     EXPECT_THAT(overlaps(all), testing::IsEmpty()) << entry.path().filename();
   }
   EXPECT_GT(boxes, 500U);
-}
-
-TEST(Boxes, TheTestSeesThem) {
-  const auto count = [](const std::string& patch) { return overlaps(boxes_of(patch)).size(); };
-  EXPECT_EQ(count("#X obj 20 20 + 1;\n#X obj 20 50 + 2;\n"), 0U);
-  EXPECT_EQ(count("#X obj 20 20 + 1;\n#X obj 20 30 + 2;\n"), 1U);
-  EXPECT_EQ(count("#X obj 20 20 expr \\$f1 \\; \\$f1*2 \\; 3;\n#X obj 20 50 + 2;\n"), 1U);
-  EXPECT_EQ(count("#X text 20 20 " + std::string(50, 'a') + ' ' + std::string(50, 'b') +
-                  ";\n#X obj 20 40 + 2;\n"),
-            1U);
-  EXPECT_EQ(count("#X floatatom 20 20 8 0 0 0 - - - 0;\n#X obj 60 20 + 2;\n"), 1U);
 }
 
 }  // namespace

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "tests/pd-patches/live_pd.hpp"
 
-#include <unistd.h>
-
 #include <array>
-#include <chrono>
 #include <stdexcept>
-#include <thread>
+
+#include "tests/support/waiting.hpp"
 
 namespace splash::pd {
 namespace {
 
 constexpr double kTimeout = 60.0;    ///< to come up on a busy machine [s]
 constexpr double kRecording = 30.0;  ///< longest [s]
-
-void pause(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
 
 /// A port that is free now. Between this and pd's bind another program may take it; then pd does
 /// not answer, and the test says so.
@@ -27,30 +21,14 @@ protocol::Endpoint free_endpoint() {
 }  // namespace
 
 LivePd::LivePd()
-    : socket_({INADDR_LOOPBACK, 0}),
-      patch_(free_endpoint()),
-      server_("splash-pd-" + std::to_string(getpid())) {
-  start_jack();
+    : jack_("pd", {.channels = kTiles36,
+                   .period = kPeriod,
+                   .rate = static_cast<int>(kRate),
+                   .waits = false}),
+      recorder_(kTiles36, kRecording),
+      socket_({INADDR_LOOPBACK, 0}),
+      patch_(free_endpoint()) {
   start_pd();
-}
-
-void LivePd::start_jack() {
-  jackd_ = std::make_unique<tests::ChildProcess>(
-      std::vector<std::string>{"jackd", "--no-realtime", "-n", server_, "-d", "dummy", "-C", "0",
-                               "-P", std::to_string(kTiles36), "-r",
-                               std::to_string(static_cast<int>(kRate)), "-p",
-                               std::to_string(kPeriod)},
-      tests::ChildProcess::Environment{{"JACK_NO_AUDIO_RESERVATION", "1"}});
-  const double deadline = protocol::monotonic_now() + kTimeout;
-  while (recorder_ == nullptr) {
-    try {
-      recorder_ = std::make_unique<JackRecorder>(server_, kTiles36, kRecording);
-    } catch (const std::runtime_error& error) {
-      if (jackd_->wait(0.2) || protocol::monotonic_now() > deadline) {
-        throw std::runtime_error(std::string(error.what()) + ": " + jackd_->output());
-      }
-    }
-  }
 }
 
 void LivePd::start_pd() {
@@ -66,16 +44,14 @@ void LivePd::start_pd() {
                                "-audiobuf",    "10",
                                "-open",        patch,
                                "-send",        "splash-port " + std::to_string(patch_.port),
-                               "-send",        "splash-gain 1"},
-      tests::ChildProcess::Environment{{"JACK_NO_AUDIO_RESERVATION", "1"},
-                                       {"JACK_DEFAULT_SERVER", server_}});
+                               "-send",        "splash-gain 1"});
   const double deadline = protocol::monotonic_now() + kTimeout;
-  while (!recorder_->connect("splash-pd:output_") || !status(0.2)) {
+  while (!recorder_.connect("splash-pd:output_", 1) || !status(0.2)) {
     if (pd_->wait(0.05) || protocol::monotonic_now() > deadline) {
-      throw std::runtime_error("pd does not come up: " + pd_->output() + jackd_->output());
+      throw std::runtime_error("pd does not come up: " + pd_->output() + jack_.output());
     }
   }
-  pause(0.2);  // splash-gain has reached 1
+  tests::sleep(0.2);  // splash-gain has reached 1
 }
 
 void LivePd::send(const std::vector<std::byte>& packet) {

@@ -8,9 +8,9 @@
 #include "protocol/message.hpp"
 #include "protocol/status.hpp"
 #include "protocol/udp_socket.hpp"
-#include "tests/pd-patches/jack_recorder.hpp"
 #include "tests/pd-patches/rendering.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/jack.hpp"
 
 namespace splash::pd {
 
@@ -31,18 +31,16 @@ class LivePd {
                                                      const std::string& answer, double seconds);
   /// The same of /status.
   [[nodiscard]] std::optional<protocol::SynthStatus> status(double seconds);
-  [[nodiscard]] JackRecorder& recorder() { return *recorder_; }
+  [[nodiscard]] tests::JackCapture& recorder() { return recorder_; }
   [[nodiscard]] std::string output() const { return pd_->output(); }
 
  private:
-  void start_jack();
   void start_pd();
 
+  tests::JackServer jack_;
+  tests::JackCapture recorder_;
   protocol::UdpSocket socket_;
   protocol::Endpoint patch_;
-  std::string server_;
-  std::unique_ptr<tests::ChildProcess> jackd_;
-  std::unique_ptr<JackRecorder> recorder_;
   std::unique_ptr<tests::ChildProcess> pd_;
 };
 

@@ -129,7 +129,7 @@ struct Recital {
 
 /// Whether the JACK callbacks came in time around an event: where they did not, neither the
 /// recorder's clock nor pd's can be relied on.
-bool kept_time(const JackRecorder& recorder, double moment, std::int64_t start) {
+bool kept_time(const tests::JackCapture& recorder, double moment, std::int64_t start) {
   constexpr double kTolerated = 0.0015;  // [s]
   const double heard = recorder.time_of(start);
   return std::abs(heard - moment) < 0.2 &&

@@ -12,6 +12,7 @@
 #include "protocol/message.hpp"
 #include "tests/pd-patches/rendering.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/recording.hpp"
 
 namespace splash::pd {
 namespace {
@@ -30,12 +31,6 @@ std::size_t channel_of(int column, int row) {
 
 protocol::Bubble bubble(float radius, float epsilon, const protocol::Vec3& place) {
   return {1, -1, radius, epsilon, place, 0.0F};
-}
-
-double peak(const std::vector<float>& channel) {
-  float largest = 0.0F;
-  for (const float sample : channel) largest = std::max(largest, std::abs(sample));
-  return static_cast<double>(largest);
 }
 
 struct Size {
@@ -96,7 +91,7 @@ TEST(Offline, OnsetsAreOnTheSample) {
       EXPECT_EQ(first_beyond(pd[c], 1e-12), samples[k] + 1) << "event " << k;
       EXPECT_EQ(first_beyond(synth[c], 1e-12), samples[k] + 1) << "event " << k;
     } else {  // same waveform: both leave nil on the same sample; Pd's sine of nil is at -117 dB
-      const double level = 1e-4 * peak(synth[c]);
+      const double level = 1e-4 * static_cast<double>(tests::peak(synth[c]));
       EXPECT_EQ(first_beyond(pd[c], level), first_beyond(synth[c], level)) << "event " << k;
       EXPECT_GT(first_beyond(pd[c], level), samples[k]);
       EXPECT_LT(first_beyond(pd[c], level), samples[k] + 24);
@@ -141,7 +136,7 @@ TEST(Offline, CavitiesFadeAfterTheirLife) {
   // Broken by 0.1 + 0.1372 + 0.05 s, but for what the band's filter still swings.
   const auto loudest = [&](const Channels& all, std::size_t channel) {
     const std::vector<float>& one = all[channel];
-    return peak({one.begin() + 16800, one.begin() + 19000});
+    return static_cast<double>(tests::peak(one, 16800, 19000));
   };
   for (const Channels& all : {pd, synth}) {
     EXPECT_LT(loudest(all, channel_of(0, 0)), 0.05 * loudest(all, channel_of(0, 5)));

@@ -6,25 +6,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 
 #include "protocol/event.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::pd {
 namespace {
 
 const std::filesystem::path kFolder = std::filesystem::path(SPLASH_SOURCE_DIR) / "pd-patches";
-
-std::string read(const std::filesystem::path& path) {
-  const std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::vector<std::filesystem::path> patches() {
   std::vector<std::filesystem::path> found;
@@ -56,7 +49,7 @@ std::set<std::string> used_abstractions(const std::string& text) {
 TEST(Patches, RouteEachKindOfEvent) {
   int routes = 0;
   for (const char* file : {"splash-events.pd", "offline.pd", "offline-stereo.pd"}) {
-    std::istringstream text(read(kFolder / file));
+    std::istringstream text(tests::text_of(kFolder / file));
     for (std::string line; std::getline(text, line);) {
       if (line.find(" route ") == std::string::npos || line.find(" impact ") == std::string::npos)
         continue;
@@ -73,7 +66,7 @@ TEST(Patches, RouteEachKindOfEvent) {
 TEST(PatchText, EveryAbstractionIsThere) {
   std::size_t uses = 0;
   for (const auto& patch : patches()) {
-    for (const std::string& name : used_abstractions(read(patch))) {
+    for (const std::string& name : used_abstractions(tests::text_of(patch))) {
       ++uses;
       EXPECT_TRUE(std::filesystem::exists(kFolder / (name + ".pd")))
           << patch.filename() << " needs " << name << ".pd";
@@ -85,7 +78,7 @@ TEST(PatchText, EveryAbstractionIsThere) {
 TEST(PatchText, EveryPatchStatesItsLicence) {
   EXPECT_GT(patches().size(), 20U);
   for (const auto& patch : patches()) {
-    EXPECT_THAT(read(patch), testing::HasSubstr("SPDX-License-Identifier: MIT")) << patch;
+    EXPECT_THAT(tests::text_of(patch), testing::HasSubstr("SPDX-License-Identifier: MIT")) << patch;
   }
 }
 
@@ -94,7 +87,7 @@ TEST(PatchText, ArgumentsInExpressionsStandAlone) {
   static const std::regex kWrong(R"(\\\$f\d[^ ]*\\\$\d|\\\$\d[^ ]*\\\$(f?)\d)");
   std::size_t expressions = 0;
   for (const auto& patch : patches()) {
-    std::istringstream lines(read(patch));
+    std::istringstream lines(tests::text_of(patch));
     for (std::string line; std::getline(lines, line);) {
       if (line.find(" expr ") == std::string::npos) continue;
       ++expressions;
@@ -106,7 +99,8 @@ TEST(PatchText, ArgumentsInExpressionsStandAlone) {
 
 TEST(PatchText, NothingWritesFromAThread) {
   for (const auto& patch : patches()) {
-    EXPECT_FALSE(std::regex_search(read(patch), std::regex(R"(obj \d+ \d+ writesf~)"))) << patch;
+    EXPECT_FALSE(std::regex_search(tests::text_of(patch), std::regex(R"(obj \d+ \d+ writesf~)")))
+        << patch;
   }
 }
 

@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "synth-server/pd_sound/pd_sound.hpp"
 #include "synth-server/sound/sound_rows.hpp"
 #include "tests/pd-patches/rendering.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::pd {
 namespace {
@@ -55,13 +54,9 @@ void compare(const std::vector<protocol::LogEntry>& log, const synth::EngineSett
              const std::vector<std::string>& messages) {
   const Channels synth = render_with_synth(log, kTiles, kFrames, settings);
   const Channels pd = render_with_pd(log, kTiles, kFrames, messages);
-  float peak = 0.0F;
-  for (const auto& channel : synth) {
-    for (const float s : channel) peak = std::max(peak, std::abs(s));
-  }
-  ASSERT_GT(peak, 0.01F);
-  const double level =
-      decibels(largest_difference(pd, synth, 0, kFrames) / static_cast<double>(peak));
+  const double peak = loudest(synth);
+  ASSERT_GT(peak, 0.01);
+  const double level = decibels(largest_difference(pd, synth, 0, kFrames) / peak);
   std::cout << messages.front() << ": " << level << " dB re the peak\n";
   EXPECT_LT(level, kTolerance);
 }
@@ -154,9 +149,8 @@ TEST(Presets, MakeImpactsAsStrongAsTheSynthDoes) {
 
 TEST(Presets, ThePatchesAreThoseOfTheRows) {
   for (const auto& [name, text] : synth::pd_sound(kSource / "configs")) {
-    std::ifstream file(kSource / "pd-patches" / name);
-    const std::string committed((std::istreambuf_iterator<char>(file)), {});
-    EXPECT_EQ(committed, text) << "ninja pd-sound && bin/pd-sound configs pd-patches";
+    EXPECT_EQ(tests::text_of(kSource / "pd-patches" / name), text)
+        << "ninja pd-sound && bin/pd-sound configs pd-patches";
   }
 }
 

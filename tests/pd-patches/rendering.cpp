@@ -14,6 +14,7 @@
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay/replay.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/recording.hpp"
 
 namespace splash::pd {
 namespace {
@@ -69,7 +70,7 @@ Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPai
     throw std::runtime_error("pd ended with " + std::to_string(status.value_or(-1)) + ": " +
                              pd.output());
   }
-  return read_float_wav(wav).channels;
+  return tests::read_recording(wav.string()).channels;
 }
 
 Channels render_with_synth(const std::vector<protocol::LogEntry>& log, const RigPair& rig,

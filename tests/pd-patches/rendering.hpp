@@ -10,9 +10,11 @@
 #include "protocol/event_log.hpp"
 #include "synth-server/render/engine.hpp"
 #include "synth-server/voices/sound.hpp"
-#include "tests/pd-patches/float_wav.hpp"
 
 namespace splash::pd {
+
+/// Planar samples, one vector per channel.
+using Channels = std::vector<std::vector<float>>;
 
 inline constexpr double kRate = 48000.0;    ///< of all renderings [Hz]
 inline constexpr double kFullScale = 0.01;  ///< of the rigs: amplitude of sample value 1 [m]

@@ -43,22 +43,6 @@ TEST(Failure, EachKindHasItsExitCode) {
   EXPECT_EQ(exit_code_of("test", [] {}), kExitOk);
 }
 
-/// Writes with a device's help, and goes on without the file when that cannot be written.
-template <class Error>
-std::string written_with(const Error& error) {
-  try {
-    throw error;
-  } catch (const WriteError&) {
-    return "goes on without the file";
-  }
-}
-
-TEST(Failure, AnErrorOfTheDeviceIsNoFileThatCannotBeWritten) {
-  EXPECT_EQ(written_with(WriteError("cannot write", ENOSPC)), "goes on without the file");
-  EXPECT_THROW(written_with(StandInError("the kernels do not build")), StandInError);
-  EXPECT_THROW(written_with(LibraryError()), LibraryError);
-}
-
 TEST(FailingWith, ChangesTheNamedKindAlone) {
   const auto code_of = [](const std::function<void()>& run) {
     return exit_code_of("test", [&] { failing_with<std::runtime_error>(kExitData, run); });

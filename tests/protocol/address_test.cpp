@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "protocol/limits.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::protocol {
 namespace {
@@ -64,12 +63,20 @@ TEST(AddressTable, OneStepOutsideEachBoundIsAViolation) {
   int tried = 0;
   for (const auto& row : address_table()) {
     for (std::size_t i = 0; i < row.arguments.size(); ++i) {
-      if (row.arguments[i].type != 'f') continue;
+      const char type = row.arguments[i].type;
+      if (type != 'f' && type != 'i') continue;
       for (const bool largest : {false, true}) {
         auto message = example(row, largest);
-        const auto bound = std::get<float>(message.arguments[i]);
-        const float beyond = largest ? 1e30F : -1e30F;
-        message.arguments[i] = std::nextafter(bound, beyond);
+        if (type == 'f') {
+          const auto bound = std::get<float>(message.arguments[i]);
+          message.arguments[i] = std::nextafter(bound, largest ? 1e30F : -1e30F);
+        } else {
+          const std::int64_t bound = std::get<std::int32_t>(message.arguments[i]);
+          const std::int64_t beyond = bound + (largest ? 1 : -1);
+          const auto sent = static_cast<std::int32_t>(beyond);
+          if (sent != beyond) continue;  // every number is allowed
+          message.arguments[i] = sent;
+        }
         EXPECT_FALSE(conforms(message, row)) << row.address << ' ' << row.arguments[i].name;
         EXPECT_TRUE(violation(message)) << row.address << ' ' << row.arguments[i].name;
         ++tried;
@@ -124,18 +131,15 @@ TEST(Violation, SaysWhatIsAllowed) {
 
 TEST(Readme, HoldsTheReferenceAsThePrograms) {
   const std::string path = std::string(SPLASH_SOURCE_DIR) + "/protocol/README.md";
-  std::ifstream file(path);
-  ASSERT_TRUE(file) << path;
-  std::stringstream text;
-  text << file.rdbuf();
+  const std::string text = tests::text_of(path);
   const std::string begin = "<!-- begin: protocol-reference -->\n";
   const std::string end = "<!-- end: protocol-reference -->\n";
-  const auto from = text.str().find(begin);
-  const auto to = text.str().find(end);
+  const auto from = text.find(begin);
+  const auto to = text.find(end);
   ASSERT_NE(from, std::string::npos);
   ASSERT_NE(to, std::string::npos);
   const auto start = from + begin.size();
-  EXPECT_EQ(text.str().substr(start, to - start), "\n" + address_reference() + "\n")
+  EXPECT_EQ(text.substr(start, to - start), "\n" + address_reference() + "\n")
       << "run protocol-reference and put its output between the markers of " << path;
 }
 

@@ -6,31 +6,21 @@
 
 #include <array>
 #include <chrono>
-#include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "protocol/time_tag.hpp"
 #include "tests/support/frame_viewer.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::protocol::test {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::eventually;
 using tests::FrameViewer;
-
-constexpr double kTimeout = 5.0;  // [s]
-
-bool eventually(const std::function<bool()>& condition) {
-  const double end = monotonic_now() + kTimeout;
-  while (!condition()) {
-    if (monotonic_now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
 
 ViewFrame numbered(std::uint32_t number, std::size_t more = 0) {
   FrameWriter writer(kStateFrame, 0.5);

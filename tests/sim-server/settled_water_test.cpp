@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <filesystem>
+
 #include <limits>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::sim {
 namespace {
@@ -20,8 +22,6 @@ namespace fs = std::filesystem;
 
 /// Behind the mark: key, sum and size.
 constexpr std::size_t kMark = 23, kHeader = kMark + 24;
-
-using tests::read_file;
 
 class SettledWater : public ::testing::TestWithParam<const char*> {
  protected:
@@ -73,7 +73,7 @@ class SettledWater : public ::testing::TestWithParam<const char*> {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find(file_.string()), std::string::npos);
     }
-    EXPECT_TRUE(read_file(file_) == bytes) << "the file stays as it is: " << why;
+    EXPECT_TRUE(tests::text_of(file_) == bytes) << "the file stays as it is: " << why;
   }
 
   /// With the sum that suits its body, as a program that writes nonsense would leave it.
@@ -107,15 +107,15 @@ TEST_P(SettledWater, IsTheSameToTheBit) {
 
 TEST_P(SettledWater, OfAnotherSceneIsWrittenAnew) {
   static_cast<void>(start(0.15, file_));
-  const std::string before = read_file(file_);
+  const std::string before = tests::text_of(file_);
   EXPECT_FALSE(start(0.175, file_).took_up);
-  EXPECT_FALSE(read_file(file_) == before);
+  EXPECT_FALSE(tests::text_of(file_) == before);
   EXPECT_TRUE(start(0.175, file_).took_up);
 }
 
 TEST_P(SettledWater, IsRefusedWhenTheFileIsNotWhatItShouldBe) {
   static_cast<void>(start(0.15, file_));
-  const std::string sound = read_file(file_);
+  const std::string sound = tests::text_of(file_);
   ASSERT_EQ(sealed(sound), sound);
   expect_refused("", "no settled water");
   expect_refused("name: pool\n", "no settled water");

@@ -2,14 +2,316 @@
 #include "tests/supercollider/comparison.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
 
+#include "protocol/event_log.hpp"
 #include "synth-server/output/output_guard.hpp"
 #include "synth-server/replay/replay.hpp"
-#include "tests/supercollider/score.hpp"
+#include "tests/pd-patches/rendering.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/support/recording.hpp"
 
 namespace splash::supercollider {
 namespace {
+
+struct ScoreSettings {
+  double sample_rate = 48000.0;  ///< [Hz]
+  double gain = 1.0;             ///< from metres to full scale [1/m]
+  double highest = 750.0;        ///< bubbles born above this are left out [Hz]
+  std::int64_t frames = 48000;   ///< rendered
+};
+
+// A bubble as SuperCollider's server would play it, compiled by hand: the binary SynthDef format,
+// version 2 (SuperCollider's "Synth Definition File Format").
+
+enum Rate : int { kScalar = 0, kControl = 1, kAudio = 2 };
+/// Special indices of UnaryOpUGen and BinaryOpUGen.
+enum Operator : int {
+  kAdd = 0,
+  kMinus = 1,
+  kTimes = 2,
+  kMinimum = 12,
+  kMaximum = 13,
+  kNegate = 0,
+  kFraction = 10,
+  kExponential = 15,
+  kSine = 28
+};
+
+/// What goes into a unit generator: another's output, or a constant.
+struct Wire {
+  int ugen = -1;  ///< -1: a constant
+  int index = 0;  ///< of the output or of the constant
+};
+
+class Definition {
+ public:
+  Wire constant(float value) {
+    constants_.push_back(value);
+    return {-1, static_cast<int>(constants_.size()) - 1};
+  }
+  /// The parameters: the first unit generator.
+  void parameters(const std::vector<std::string>& names) {
+    names_ = names;
+    add("Control", kControl, {}, static_cast<int>(names.size()), 0);
+  }
+  [[nodiscard]] static Wire parameter(int index) { return {0, index}; }
+
+  Wire add(const std::string& name, Rate rate, const std::vector<Wire>& inputs, int outputs = 1,
+           int special = 0) {
+    text(ugens_, name);
+    number(ugens_, rate, 1);
+    number(ugens_, static_cast<std::int64_t>(inputs.size()), 4);
+    number(ugens_, outputs, 4);
+    number(ugens_, special, 2);
+    for (const Wire& wire : inputs) {
+      number(ugens_, wire.ugen, 4);
+      number(ugens_, wire.index, 4);
+    }
+    for (int k = 0; k < outputs; ++k) number(ugens_, rate, 1);
+    return {count_++, 0};
+  }
+  Wire unary(Operator op, Wire in) { return add("UnaryOpUGen", kAudio, {in}, 1, op); }
+  Wire binary(Operator op, Wire a, Wire b) { return add("BinaryOpUGen", kAudio, {a, b}, 1, op); }
+
+  [[nodiscard]] std::vector<std::byte> compiled(const std::string& name) const {
+    std::vector<std::byte> out;
+    for (const char letter : std::string("SCgf")) out.push_back(std::byte(letter));
+    number(out, 2, 4);  // version
+    number(out, 1, 2);  // definitions
+    text(out, name);
+    number(out, static_cast<std::int64_t>(constants_.size()), 4);
+    for (const float value : constants_) number(out, std::bit_cast<std::int32_t>(value), 4);
+    number(out, static_cast<std::int64_t>(names_.size()), 4);
+    for (std::size_t k = 0; k < names_.size(); ++k) number(out, 0, 4);  // defaults
+    number(out, static_cast<std::int64_t>(names_.size()), 4);
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      text(out, names_[k]);
+      number(out, static_cast<std::int64_t>(k), 4);
+    }
+    number(out, count_, 4);
+    out.insert(out.end(), ugens_.begin(), ugens_.end());
+    number(out, 0, 2);  // variants
+    return out;
+  }
+
+ private:
+  /// Big-endian.
+  static void number(std::vector<std::byte>& out, std::int64_t value, int bytes) {
+    for (int k = bytes - 1; k >= 0; --k) {
+      out.push_back(std::byte(static_cast<std::uint64_t>(value) >> (8 * k) & 0xFFU));
+    }
+  }
+  /// A Pascal string.
+  static void text(std::vector<std::byte>& out, const std::string& value) {
+    out.push_back(std::byte(value.size()));
+    for (const char letter : value) out.push_back(std::byte(letter));
+  }
+
+  std::vector<float> constants_;
+  std::vector<std::string> names_;
+  std::vector<std::byte> ugens_;
+  int count_ = 0;
+};
+
+/// "bubble" with the parameters amp, f0 [Hz], d [1/s], length [s], breaks [s]: on bus 0, from the
+/// sample its bundle names,
+///   amp exp(-d t) sin(2 pi f0 t (1 + 0.1 d t)),   paper section 5.2,
+/// with t from Sweep and the phase's whole cycles taken away before the sine; from `breaks` on it
+/// fades within 50 ms as synth-server's voices do.
+std::vector<std::byte> bubble_synthdef() {
+  constexpr int kAmp = 0;
+  constexpr int kFrequency = 1;
+  constexpr int kDamping = 2;
+  constexpr int kLength = 3;
+  constexpr int kBreaks = 4;
+  constexpr float kFreeSelf = 2.0F;  // what Line does when it is through
+  Definition def;
+  const Wire nil = def.constant(0.0F);
+  const Wire one = def.constant(1.0F);
+  def.parameters({"amp", "f0", "d", "length", "breaks"});
+  const Wire amp = Definition::parameter(kAmp);
+  const Wire f0 = Definition::parameter(kFrequency);
+  const Wire d = Definition::parameter(kDamping);
+  const Wire length = Definition::parameter(kLength);
+  const Wire breaks = Definition::parameter(kBreaks);
+  def.add("Line", kControl, {nil, one, length, def.constant(kFreeSelf)});
+  const Wire t = def.add("Sweep", kAudio, {nil, one});
+  const Wire decay = def.binary(kTimes, d, t);
+  const Wire chirp = def.binary(kAdd, one, def.binary(kTimes, def.constant(0.1F), decay));
+  const Wire cycles = def.binary(kTimes, def.binary(kTimes, f0, t), chirp);
+  const Wire angle = def.binary(kTimes, def.constant(2.0F * std::numbers::pi_v<float>),
+                                def.unary(kFraction, cycles));
+  const Wire envelope = def.unary(kExponential, def.unary(kNegate, decay));
+  const Wire tone = def.binary(kTimes, def.unary(kSine, angle), def.binary(kTimes, amp, envelope));
+  // From `breaks` on it fades within 50 ms: left^2 (3 - 2 left).
+  const Wire since = def.binary(kMinus, t, breaks);
+  const Wire falling = def.binary(kMinus, one, def.binary(kTimes, def.constant(20.0F), since));
+  const Wire left = def.binary(kMaximum, def.binary(kMinimum, falling, one), nil);
+  const Wire bend =
+      def.binary(kMinus, def.constant(3.0F), def.binary(kTimes, def.constant(2.0F), left));
+  const Wire fade = def.binary(kTimes, def.binary(kTimes, left, left), bend);
+  def.add("OffsetOut", kAudio, {nil, def.binary(kTimes, tone, fade)}, 0);
+  return def.compiled("bubble");
+}
+
+constexpr double kTimeout = 120.0;  ///< for one rendering on a busy machine [s]
+constexpr double kNever = 1e6;      ///< [s]
+constexpr double kFaintest = 1e-8;  ///< a voice ends at this [full scale]
+/// Of a sample: scsynth rounds to the nearest, but what lies on a block's edge it puts into the
+/// last sample of the block before.
+constexpr double kWithin = 0.25;
+
+/// The few kinds of OSC that a score needs.
+class Packet {
+ public:
+  void text(const std::string& value) {
+    bytes_ += value;
+    bytes_.append(4 - value.size() % 4, '\0');
+  }
+  void whole(std::int64_t value, int bytes = 4) {
+    for (int k = bytes - 1; k >= 0; --k) {
+      bytes_.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * k) & 0xFFU));
+    }
+  }
+  void real(double value) { whole(std::bit_cast<std::int32_t>(static_cast<float>(value))); }
+  void blob(const std::vector<std::byte>& value) {
+    whole(static_cast<std::int64_t>(value.size()));
+    for (const std::byte byte : value) bytes_.push_back(static_cast<char>(byte));
+    bytes_.append((4 - value.size() % 4) % 4, '\0');
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+struct Tone {
+  double radius = 0.0;   ///< [m]
+  double epsilon = 0.0;  ///< [1]
+  double life = 0.0;     ///< until it breaks, 0: never [s]
+};
+
+std::optional<Tone> tone_of(const protocol::Event& event) {
+  if (const auto* b = std::get_if<protocol::Bubble>(&event)) {
+    return Tone{static_cast<double>(b->radius), static_cast<double>(b->epsilon)};
+  }
+  if (const auto* c = std::get_if<protocol::Cavity>(&event)) {
+    return Tone{static_cast<double>(c->radius), static_cast<double>(c->epsilon),
+                static_cast<double>(c->life)};
+  }
+  return std::nullopt;
+}
+
+float offset_of(const protocol::Event& event) {
+  return std::visit([](const auto& e) { return e.offset_ms; }, event);
+}
+
+/// By their samples, in the log's order.
+std::multimap<std::int64_t, Tone> tones(const std::vector<protocol::LogEntry>& log,
+                                        const ScoreSettings& settings) {
+  std::multimap<std::int64_t, Tone> found;
+  for (const auto& entry : log) {
+    for (const auto& message : entry.messages) {
+      const auto event = protocol::to_event(message);
+      const auto tone = event ? tone_of(*event) : std::nullopt;
+      if (!tone || 3.0 / tone->radius > settings.highest) continue;
+      const double seconds = entry.seconds + 1e-3 * static_cast<double>(offset_of(*event));
+      found.emplace(std::llround(seconds * settings.sample_rate), *tone);
+    }
+  }
+  return found;
+}
+
+/// f0 r = 3 m/s and d = 0.13 / r + 0.0072 r^-1.5: paper, section 5.2.
+std::string new_bubble(const Tone& tone, double gain, double sample_rate) {
+  const double damping = 0.13 / tone.radius + 0.0072 * std::pow(tone.radius, -1.5);
+  const double amplitude = tone.epsilon * tone.radius * gain;
+  Packet message;
+  message.text("/s_new");
+  message.text(",siiisfsfsfsfsf");
+  message.text("bubble");
+  message.whole(-1);  // a number of scsynth's own
+  message.whole(1);   // at the end
+  message.whole(0);   // of the root group
+  const auto set = [&](const char* name, double value) {
+    message.text(name);
+    message.real(value);
+  };
+  set("amp", amplitude);
+  set("f0", 3.0 / tone.radius);
+  set("d", damping);
+  set("length", std::max(1e-3, std::log(amplitude / kFaintest) / damping));
+  set("breaks", tone.life > 0.0 ? std::round(tone.life * sample_rate) / sample_rate : kNever);
+  return message.bytes();
+}
+
+void write_bundle(std::ofstream& file, double seconds, const std::string& message) {
+  Packet bundle;
+  bundle.text("#bundle");
+  bundle.whole(static_cast<std::int64_t>(std::llround(seconds * 4294967296.0)), 8);
+  bundle.whole(static_cast<std::int64_t>(message.size()));
+  Packet size;
+  size.whole(static_cast<std::int64_t>(bundle.bytes().size() + message.size()));
+  file << size.bytes() << bundle.bytes() << message;
+}
+
+/// Writes each bubble and cavity of the log as /s_new at its sample; impacts are noise, which no
+/// two engines draw alike, and left out. The framing is the log's own: bundles, each behind its
+/// size, their time tags counting seconds from the start; only the messages change.
+void write_score(const std::vector<protocol::LogEntry>& log, const ScoreSettings& settings,
+                 const std::filesystem::path& path) {
+  std::ofstream file(path, std::ios::binary);
+  Packet definition;
+  definition.text("/d_recv");
+  definition.text(",b");
+  definition.blob(bubble_synthdef());
+  write_bundle(file, 0.0, definition.bytes());
+  for (const auto& [sample, tone] : tones(log, settings)) {
+    write_bundle(file, (static_cast<double>(sample) + kWithin) / settings.sample_rate,
+                 new_bubble(tone, settings.gain, settings.sample_rate));
+  }
+  Packet nothing;  // the rendering ends with the last bundle
+  nothing.text("/c_set");
+  nothing.text(",ii");
+  nothing.whole(0);
+  nothing.whole(0);
+  write_bundle(file, static_cast<double>(settings.frames) / settings.sample_rate, nothing.bytes());
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+/// Renders it with the real scsynth: one channel. Throws std::runtime_error with what it printed.
+std::vector<float> render_with_scsynth(const std::vector<protocol::LogEntry>& log,
+                                       const ScoreSettings& settings) {
+  const pd::ScratchFolder folder;
+  const auto score = folder.path() / "score.osc";
+  const auto wav = folder.path() / "out.wav";
+  write_score(log, settings, score);
+  tests::ChildProcess scsynth({"scsynth", "-V", "-1", "-N", score.string(), "_", wav.string(),
+                               std::to_string(std::llround(settings.sample_rate)), "WAV", "float",
+                               "-o", "1", "-i", "0", "-n", "65536", "-m", "262144"});
+  const auto status = scsynth.wait(kTimeout);
+  if (status != 0) {
+    throw std::runtime_error("scsynth ended with " + std::to_string(status.value_or(-1)) +
+                             (status == 127 ? " (apt-get install supercollider-server)" : "") +
+                             ": " + scsynth.output());
+  }
+  auto channel = tests::read_recording(wav.string()).channels.at(0);
+  channel.resize(static_cast<std::size_t>(settings.frames));
+  return channel;
+}
 
 constexpr double kRate = 48000.0;
 constexpr double kSoft = 0.1;  ///< a gain at which no scene comes near the ceiling [1/m]

@@ -3,11 +3,9 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace splash::tests {
@@ -30,10 +28,6 @@ double cpu_seconds(pid_t process) {
   for (std::string word; words >> word;) fields.push_back(word);
   return (std::stod(fields.at(11)) + std::stod(fields.at(12))) /
          static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
 }  // namespace splash::tests

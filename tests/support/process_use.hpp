@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What another process takes of the machine, and waiting while it does.
+// What another process takes of the machine.
 #pragma once
 
 #include <sys/types.h>
@@ -10,7 +10,5 @@ namespace splash::tests {
 [[nodiscard]] long resident(pid_t process);
 /// User and system time since its start [s]. Throws when there is no such process.
 [[nodiscard]] double cpu_seconds(pid_t process);
-
-void sleep(double seconds);
 
 }  // namespace splash::tests

@@ -23,9 +23,8 @@ Arguments on_some_port(Arguments arguments) {
   return arguments;
 }
 
-/// The endpoint that the program says it listens on.
-protocol::Endpoint announced(ChildProcess& process) {
-  const std::string label = "listening: ";
+/// The endpoint that the program prints behind `label`.
+protocol::Endpoint announced(ChildProcess& process, const std::string& label) {
   const double limit = protocol::monotonic_now() + 120.0;  // OpenCL compiles on a first start
   while (process.running() && protocol::monotonic_now() < limit) {
     if (!process.wait_for_text(label, 1.0)) continue;
@@ -35,7 +34,7 @@ protocol::Endpoint announced(ChildProcess& process) {
     if (end == std::string::npos) continue;
     return protocol::parse_endpoint(output.substr(start, end - start), 0);
   }
-  throw std::runtime_error("it never listened:\n" + process.output());
+  throw std::runtime_error("it never said '" + label + "':\n" + process.output());
 }
 
 }  // namespace
@@ -67,11 +66,19 @@ Ended run_program(const std::string& name, const Arguments& arguments, double se
   return run_command(command(name, arguments), seconds, environment);
 }
 
+Ended run_shell(const std::string& line, double seconds) {
+  return run_command({"/bin/sh", "-c", line}, seconds);
+}
+
 Daemon::Daemon(const std::string& name, const Arguments& arguments,
                const ChildProcess::Environment& environment)
     : process_(command(name, on_some_port(arguments)), environment),
-      endpoint_(announced(process_)),
+      endpoint_(announced(process_, "listening: ")),
       socket_(protocol::Endpoint{kOwnHost, 0}) {}
+
+protocol::Endpoint Daemon::viewers() {
+  return announced(process_, "viewers: ");
+}
 
 protocol::Message Daemon::ask(const protocol::Message& command, const std::string& address) {
   const double limit = protocol::monotonic_now() + 20.0;

@@ -32,6 +32,9 @@ struct Ended {
                                 double seconds = 120.0,
                                 const ChildProcess::Environment& environment = {});
 
+/// Runs a command as a user would type it.
+[[nodiscard]] Ended run_shell(const std::string& line, double seconds = 120.0);
+
 /// A program that says "listening: host:port", with the end of a socket to talk to it.
 class Daemon {
  public:
@@ -41,6 +44,8 @@ class Daemon {
 
   ChildProcess& process() noexcept { return process_; }
   [[nodiscard]] protocol::Endpoint endpoint() const noexcept { return endpoint_; }
+  /// Where it lets viewers in, when it was started with --show.
+  [[nodiscard]] protocol::Endpoint viewers();
   void send(const std::vector<std::byte>& bytes) { socket_.send_to(endpoint_, bytes); }
   /// Sends a command and returns the first reply at `address`; empty when there is none.
   protocol::Message ask(const protocol::Message& command, const std::string& address);

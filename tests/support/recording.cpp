@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "tests/support/text_of.hpp"
 
 namespace splash::tests {
 namespace {
@@ -22,8 +22,7 @@ std::uint32_t number(const std::string& bytes, std::size_t at, int size) {
 }  // namespace
 
 Recording read_recording(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = text_of(path);
   const std::size_t format = bytes.find("fmt ");
   const std::size_t data = bytes.find("data");
   if (format == std::string::npos || data == std::string::npos) {

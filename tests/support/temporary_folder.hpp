@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A folder of its own for one test, gone afterwards; a file as a whole.
+// A folder of its own for one test, gone afterwards.
 #pragma once
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -38,10 +37,5 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
-
-inline std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 }  // namespace splash::tests

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "protocol/control.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/notify_socket.hpp"
 #include "tests/system/small_scene.hpp"
 

@@ -6,10 +6,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::tests {
 namespace {
@@ -33,10 +33,6 @@ class Bundle : public testing::Test {
   static void write_program(const fs::path& file, const std::string& body) {
     write(file, "#!/bin/sh\n" + body + "\n");
     fs::permissions(file, fs::perms::owner_all);
-  }
-  static std::string text_of(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
   static Ended run(const Arguments& words, const ChildProcess::Environment& environment = {}) {
     return run_command(words, 300.0, environment);

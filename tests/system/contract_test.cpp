@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <regex>
@@ -16,6 +14,7 @@
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -32,8 +31,7 @@ struct Documented {
 
 /// The rows of commands: those whose types end with the filling.
 std::vector<Documented> documented_commands() {
-  std::ifstream file(source_folder() / "protocol/README.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = text_of(source_folder() / "protocol/README.md");
   const std::regex row(R"(\| `(/[^`]+)` \| `,[^`]*s\*` \| ([^|]+) \| ([^|]+) \|)");
   const std::regex promise("(?:nswered by|Asks for) (/[A-Za-z.]+)");
   std::vector<Documented> all;

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -50,8 +50,7 @@ class DeviceChoice : public testing::Test {
     return run_program("sim-server", arguments, 300.0, environment);
   }
   [[nodiscard]] std::string remembered() const {
-    std::ifstream file(remembered_);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return text_of(remembered_);
   }
 
   /// The grid's kernels, in the form for GPUs, take PoCL's compiler half a minute.

@@ -71,29 +71,27 @@ std::uint64_t events_of(const Json& report) {
          events.at("cavities").get<std::uint64_t>();
 }
 
-TEST_F(Events, SentAreReceived) {
-  Synth synth(silent_synth());
-  const Json report = run({synth.endpoint()});
+TEST_F(Events, EachOfTwoTargetsGetsAllAndTheReportStatesTheRun) {
+  Synth first(silent_synth());
+  Synth second(silent_synth());
+  const Json report = run({first.endpoint(), second.endpoint()});
   EXPECT_GE(report.at("events").at("impacts"), 2);
   EXPECT_GE(report.at("events").at("bubbles"), 10);
-  const auto status = status_of(synth);
-  EXPECT_EQ(status.events, events_of(report));
-  EXPECT_EQ(status.lost, 0U);
-  EXPECT_EQ(status.duplicates, 0U);
-  EXPECT_EQ(status.refused, 0U);
+  for (Synth* synth : {&first, &second}) {
+    const auto status = status_of(*synth);
+    EXPECT_EQ(status.events, events_of(report));
+    EXPECT_EQ(status.lost, 0U);
+    EXPECT_EQ(status.duplicates, 0U);
+    EXPECT_EQ(status.refused, 0U);
+  }
   EXPECT_EQ(events_in(log_), events_of(report)) << "the log has all that was sent, and no more";
   EXPECT_EQ(report.at("lost"), 0);
   EXPECT_EQ(report.at("invalid_events"), 0);
   EXPECT_EQ(report.at("send_failures"), 0);
   std::cout << "late: " << report.at("late") << " of " << events_of(report) << '\n';
-  synth.process().signal(SIGTERM);
-  EXPECT_EQ(synth.process().wait_for_end(), 0);
-  EXPECT_THAT(synth.process().output(), testing::HasSubstr("1 sessions"));
-}
-
-TEST_F(Events, ReportStatesTheRun) {
-  Synth synth(silent_synth());
-  const Json report = run({synth.endpoint()});
+  first.process().signal(SIGTERM);
+  EXPECT_EQ(first.process().wait_for_end(), 0);
+  EXPECT_THAT(first.process().output(), testing::HasSubstr("1 sessions"));
   for (const char* key :
        {"device", "scene", "particles", "steps", "frames", "simulated_seconds", "wall_seconds",
         "steps_per_second", "real_time_factor", "mean_density_error", "maximum_density_error",
@@ -206,20 +204,6 @@ TEST_F(Events, StatusIsThatOfTheReport) {
   expected.density_error = paused.density_error;
   EXPECT_EQ(protocol::to_text(protocol::to_message(paused)),
             protocol::to_text(protocol::to_message(expected)));
-}
-
-TEST_F(Events, EachOfTwoTargetsGetsAll) {
-  Synth first(silent_synth());
-  Synth second(silent_synth());
-  const Json report = run({first.endpoint(), second.endpoint()});
-  ASSERT_GT(events_of(report), 10U);
-  for (Synth* synth : {&first, &second}) {
-    const auto status = status_of(*synth);
-    EXPECT_EQ(status.events, events_of(report));
-    EXPECT_EQ(status.lost, 0U);
-    EXPECT_EQ(status.duplicates, 0U);
-  }
-  EXPECT_EQ(report.at("lost"), 0);
 }
 
 TEST_F(Events, ATargetThatIsNotThereIsUnknownNotZero) {

@@ -5,25 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <fstream>
-#include <iterator>
-#include <memory>
 #include <string>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::tests {
 namespace {
 
 using testing::ContainsRegex;
-using testing::HasSubstr;
 
 const std::string kSource = SPLASH_SOURCE_DIR;
-
-std::unique_ptr<Simulator> water_with_a_hand() {
-  return std::make_unique<Simulator>(
-      Arguments{"--scene", kSource + "/configs/scenes/hand.yaml", "--target", "127.0.0.1:9"});
-}
 
 /// An example at the simulator's port.
 Arguments example(const std::string& name, Simulator& simulator, const std::string& seconds) {
@@ -36,35 +28,9 @@ Arguments example(const std::string& name, Simulator& simulator, const std::stri
           seconds};
 }
 
-TEST(Examples, AHandThatOneMovesIsHeardByTheOther) {
-  const auto simulator = water_with_a_hand();
-  ASSERT_TRUE(simulator->process().wait_for_text("running")) << simulator->process().output();
-  ChildProcess listener(example("listen.py", *simulator, "60"));
-  ChildProcess sender(example("send_hand.py", *simulator, "60"));
-  EXPECT_TRUE(listener.wait_for_text("impact", 60.0)) << listener.output();
-  EXPECT_TRUE(listener.wait_for_text("bubble", 60.0)) << listener.output();
-  listener.signal(SIGINT);
-  EXPECT_EQ(listener.wait_for_end(), 0) << listener.output();
-  sender.signal(SIGINT);
-  EXPECT_EQ(sender.wait_for_end(), 0) << sender.output();
-  EXPECT_THAT(listener.output(),
-              ContainsRegex("impact +[0-9.]+ m/s   body 0 at \\([-0-9.]+, [-0-9.]+, 0.[45]"));
-}
-
-TEST(Examples, AnotherFeelsTheHandsBuoyancy) {
-  const auto simulator = water_with_a_hand();
-  ASSERT_TRUE(simulator->process().wait_for_text("running")) << simulator->process().output();
-  ChildProcess sender(example("send_hand.py", *simulator, "60"));
-  ChildProcess feeler(example("feel_force.py", *simulator, "60"));
-  EXPECT_TRUE(feeler.wait_for_text("N  ###", 60.0)) << feeler.output();
-  feeler.signal(SIGINT);
-  EXPECT_EQ(feeler.wait_for_end(), 0) << feeler.output();
-}
-
 /// The README's block of Python, at another port.
 std::string readme_example(int port) {
-  std::ifstream file(kSource + "/README.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = text_of(kSource + "/README.md");
   const std::string fence = "```python\n";
   const std::size_t begin = text.find(fence) + fence.size();
   std::string code = text.substr(begin, text.find("```", begin) - begin);
@@ -73,18 +39,33 @@ std::string readme_example(int port) {
   return at == std::string::npos ? "" : code.replace(at, usual.size(), std::to_string(port));
 }
 
-TEST(Examples, TheReadmesMovesABody) {
-  const auto simulator = water_with_a_hand();
-  ASSERT_TRUE(simulator->process().wait_for_text("running")) << simulator->process().output();
-  ChildProcess listener(example("listen.py", *simulator, "60"));
-  const std::string plunge =
-      "import time\n"
-      "for step in range(100):\n"
-      "    send_pose(0, 0.0, 0.0, 0.65 - 0.003 * step)\n"
-      "    time.sleep(0.01)\n";
-  ChildProcess sender({"python3", "-c", readme_example(simulator->endpoint().port) + plunge});
-  EXPECT_EQ(sender.wait_for_end(60.0), 0) << sender.output();
-  EXPECT_TRUE(listener.wait_for_text("impact", 60.0)) << simulator->process().output();
+TEST(Examples, AHandThatOneMovesIsHeardAndFeltByOthers) {
+  Simulator simulator(
+      {"--scene", kSource + "/configs/scenes/hand.yaml", "--target", "127.0.0.1:9"});
+  ASSERT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
+  {
+    ChildProcess listener(example("listen.py", simulator, "60"));
+    const std::string plunge =
+        "import time\n"
+        "for step in range(100):\n"
+        "    send_pose(0, 0.0, 0.0, 0.65 - 0.003 * step)\n"
+        "    time.sleep(0.01)\n";
+    ChildProcess sender({"python3", "-c", readme_example(simulator.endpoint().port) + plunge});
+    EXPECT_EQ(sender.wait_for_end(60.0), 0) << sender.output();
+    EXPECT_TRUE(listener.wait_for_text("impact", 60.0)) << simulator.process().output();
+  }
+  ChildProcess listener(example("listen.py", simulator, "60"));
+  ChildProcess sender(example("send_hand.py", simulator, "60"));
+  ChildProcess feeler(example("feel_force.py", simulator, "60"));
+  EXPECT_TRUE(listener.wait_for_text("impact", 60.0)) << listener.output();
+  EXPECT_TRUE(listener.wait_for_text("bubble", 60.0)) << listener.output();
+  EXPECT_TRUE(feeler.wait_for_text("N  ###", 60.0)) << feeler.output();
+  for (ChildProcess* one : {&listener, &sender, &feeler}) {
+    one->signal(SIGINT);
+    EXPECT_EQ(one->wait_for_end(), 0) << one->output();
+  }
+  EXPECT_THAT(listener.output(),
+              ContainsRegex("impact +[0-9.]+ m/s   body 0 at \\([-0-9.]+, [-0-9.]+, 0.[45]"));
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// How the simulator ends when something is wrong: the code for scripts, the words for people. The
-// synth's own endings are in tests/synth-server/live.
+// How the programs end when something is wrong: the code for scripts, the words for people. What
+// the synth alone does is in tests/synth-server/live.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "protocol/event_log.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -43,8 +43,7 @@ TEST(Exit, ARecordingThatMovesNothingIsAMistake) {
 // Minutes of silence would look like a hang.
 TEST(Exit, SaysWhatTakesLongBeforeItBegins) {
   const SmallScene small("{kind: fixed}");
-  std::ifstream file(small.path());
-  std::string text(std::istreambuf_iterator<char>(file), {});
+  std::string text = text_of(small.path());
   text.replace(text.find("1400"), 4, "400000");
   text.replace(text.find("    motion"), std::string::npos, "    rest: {position: [0, 0, 0.4]}\n");
   std::ofstream(small.path()) << text;
@@ -63,6 +62,11 @@ TEST(Exit, MissingFilesAreNamed) {
   EXPECT_THAT(run_program("synth-server", {"--rig", "nowhere"}).text,
               HasSubstr("no such file in " + std::filesystem::current_path().string()))
       << "which folder was meant";
+  const auto log =
+      run_program("synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", "/nowhere/a.osc",
+                                   "--render", temporary_path("a.wav")});
+  EXPECT_EQ(log.code, 66);
+  EXPECT_THAT(log.text, HasSubstr("/nowhere/a.osc"));
 }
 
 TEST(Exit, MissingRecordingsAreNamed) {
@@ -194,8 +198,7 @@ TEST(Exit, ALogOfMoreThanAWeekIsNotRendered) {
       "synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", log, "--render", wav});
   EXPECT_EQ(code, 65) << text;
   EXPECT_THAT(text, AllOf(HasSubstr(log), HasSubstr("4000000000 s"), HasSubstr("604800 s")));
-  std::ifstream kept(wav);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "as it was");
+  EXPECT_EQ(text_of(wav), "as it was");
   std::filesystem::remove(log);
   std::filesystem::remove(wav);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Five random kills of either program and both orders of starting; ./splash bench faults does more.
+// Three random kills of either program and both orders of starting; ./splash bench faults does
+// more.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@
 namespace splash::tests {
 namespace {
 
-constexpr int kRounds = 5;
+constexpr int kRounds = 3;
 
 void expect_all_well(const Kills& kills, int rounds) {
   EXPECT_EQ(kills.survived, rounds);

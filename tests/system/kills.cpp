@@ -11,9 +11,9 @@
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -42,16 +42,25 @@ protocol::Endpoint free_endpoint() {
   return protocol::UdpSocket({INADDR_LOOPBACK, 0}).local();
 }
 
-std::optional<std::uint64_t> events_of(Daemon& synth) {
-  const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
-  return status ? std::optional(status->events) : std::nullopt;
+protocol::SynthStatus status_of(Daemon& synth) {
+  return protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"))
+      .value_or(protocol::SynthStatus{});
 }
 
-/// Until the synth has taken more than `before`: how long after `start` that was [s].
-std::optional<double> await_event(Daemon& synth, std::uint64_t before, double start) {
+/// Until the synth has taken more than `before`: how long after `start` that was [s]. What was said
+/// before it came is nobody's loss.
+std::optional<double> await_event(Daemon& synth, std::uint64_t before, double start, Kills& kills) {
   while (protocol::monotonic_now() - start < kTimeout) {
-    if (events_of(synth).value_or(0) > before) return protocol::monotonic_now() - start;
-    sleep(0.11);  // it answers ten times a second at most
+    const protocol::SynthStatus status = status_of(synth);
+    if (status.events > before) {
+      const double seconds = protocol::monotonic_now() - start;
+      if (status.lost + status.duplicates + status.refused > 0) {
+        kills.complaints.push_back("it lost events, had them twice or refused some:\n" +
+                                   synth.process().output());
+      }
+      return seconds;
+    }
+    sleep(0.11);
   }
   return std::nullopt;
 }
@@ -105,9 +114,9 @@ Kills kill_simulators(int rounds, std::mt19937& random, const Progress& progress
     const Arguments simulator = simulator_to(scene, synth.endpoint());
     live_and_die(command("sim-server", simulator), random);
     const double start = protocol::monotonic_now();
-    const std::uint64_t before = events_of(synth).value_or(0);
+    const std::uint64_t before = status_of(synth).events;
     Simulator next(simulator);
-    judge(synth, await_event(synth, before, start), kills);
+    judge(synth, await_event(synth, before, start, kills), kills);
     next.process().signal(SIGKILL);
     next.process().wait_for_end();
     progress(k + 1);
@@ -125,17 +134,23 @@ Kills kill_synths(int rounds, std::mt19937& random, const Progress& progress) {
   const SmallScene scene(plunging());
   const protocol::Endpoint port = free_endpoint();
   Simulator simulator(simulator_to(scene, port));
+  std::unique_ptr<Synth> next;
   for (int k = 0; k < rounds; ++k) {
+    if (next) {
+      next->process().signal(SIGKILL);
+      next->process().wait_for_end();
+    }
     const Arguments synth = synth_on(protocol::to_string(port));
     live_and_die(command("synth-server", synth), random);
     const double start = protocol::monotonic_now();
-    Synth next(synth);
-    judge(simulator, await_event(next, 0, start), kills);
-    next.process().signal(SIGKILL);
-    next.process().wait_for_end();
+    next = std::make_unique<Synth>(synth);
+    judge(simulator, await_event(*next, 0, start, kills), kills);
     progress(k + 1);
   }
-  end_in_peace(simulator, kills);
+  end_in_peace(simulator, kills);  // the last synth tells it what was lost
+  if (simulator.process().output().find(", lost 0,") == std::string::npos) {
+    kills.complaints.push_back("it lost events:\n" + simulator.process().output());
+  }
   return kills;
 }
 
@@ -157,7 +172,7 @@ Kills start_in_any_order(int rounds, std::mt19937& random, const Progress& progr
     sleep(between(0.0, 1.0, random));
     const double start = protocol::monotonic_now();
     synth_first ? start_simulator() : start_synth();
-    judge(*simulator, await_event(*synth, 0, start), kills);
+    judge(*simulator, await_event(*synth, 0, start, kills), kills);
     end_in_peace(*simulator, kills);
     end_in_peace(*synth, kills);
     progress(k + 1);

@@ -10,13 +10,14 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/text_of.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::tests {
 namespace {
@@ -27,13 +28,15 @@ using testing::HasSubstr;
 /// The launcher in a terminal of its own, over programs that are built.
 class Terminal {
  public:
-  explicit Terminal(const std::string& arguments) : tools_(temporary_path("launcher-tools")) {
+  /// `environment`: "NAME=VALUE", for the launcher.
+  explicit Terminal(const std::string& arguments, const std::string& environment = "")
+      : tools_(temporary_path("launcher-tools")) {
     fs::create_directories(tools_);
     std::ofstream(tools_ / "cmake") << "#!/bin/sh\n";
     fs::permissions(tools_ / "cmake", fs::perms::owner_all);
-    const std::string line = "PATH='" + tools_.string() + "':$PATH exec " + SPLASH_SOURCE_DIR +
-                             "/splash --no-install --build-dir '" + SPLASH_BINARY_DIR + "/..' " +
-                             arguments;
+    const std::string line = environment + " PATH='" + tools_.string() + "':$PATH exec " +
+                             SPLASH_SOURCE_DIR + "/splash --no-install --build-dir '" +
+                             SPLASH_BINARY_DIR + "/..' " + arguments;
     child_ = forkpty(&master_, nullptr, nullptr, nullptr);
     if (child_ == 0) {
       execl("/bin/bash", "bash", "-c", line.c_str(), static_cast<char*>(nullptr));
@@ -112,11 +115,10 @@ TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
   Terminal terminal("play --out '" + folder.string() + "'");
   ASSERT_TRUE(terminal.wait_for_text("Open http://")) << terminal.text();
   ASSERT_TRUE(terminal.wait_for_text("Ctrl-C ends all")) << terminal.text();
-  const auto log = [&] {
-    std::ifstream file(folder / "sim.log");
-    return std::string(std::istreambuf_iterator<char>(file), {});
+  const auto progress = [&] {
+    return text_of(folder / "sim.log").find("real time x") != std::string::npos;
   };
-  while (log().find("real time x") == std::string::npos) usleep(100'000);
+  EXPECT_TRUE(eventually(progress, 60.0, 0.1));
   terminal.press_ctrl_c();
   EXPECT_EQ(terminal.wait_for_end(), 130) << terminal.text();
 
@@ -132,14 +134,13 @@ TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
 // The picture is of the recording, and what it is drawn from is cleared away.
 TEST(LauncherDemo, LeavesSoundLogFiguresAndPicture) {
   const fs::path folder = temporary_path("demo");
-  Terminal terminal("demo --out '" + folder.string() + "'");
+  Terminal terminal("demo --out '" + folder.string() + "'", "SPLASH_DEMO_SECONDS=4");
   EXPECT_EQ(terminal.wait_for_end(), 0) << terminal.text();
   EXPECT_THAT(terminal.text(), HasSubstr("a picture of demo.wav"));
   const Recording wav = read_recording((folder / "demo.wav").string());
   ASSERT_EQ(wav.channels.size(), 2U);
   EXPECT_GT(peak(wav.channels[0]), 0.01F) << "a hand was heard";
-  std::ifstream png(folder / "demo.png", std::ios::binary);
-  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(png), {}), testing::StartsWith("\x89PNG"));
+  EXPECT_THAT(text_of(folder / "demo.png"), testing::StartsWith("\x89PNG"));
   std::set<std::string> left;
   for (const auto& entry : fs::directory_iterator(folder)) {
     left.insert(entry.path().filename().string());

@@ -63,7 +63,7 @@ TEST(Param, AThresholdHoldsFromTheNextFrameOnAndIsTold) {
   const auto told = client.hear("/value", kTimeout);
   ASSERT_TRUE(told);
   EXPECT_EQ(*told, protocol::value_of(kRow, 10.0));
-  EXPECT_FALSE(client.hear("/impact", 3.0)) << "nothing is as fast";
+  EXPECT_FALSE(client.hear("/impact", 1.5)) << "nothing is as fast";
 
   EXPECT_EQ(simulator.ask({"/param", {kRow, 0.05F}}, "/value").address, "/value");
   EXPECT_TRUE(client.hear("/impact", kTimeout)) << "it is as before";

@@ -10,8 +10,8 @@
 #include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/frame_viewer.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -28,11 +28,7 @@ struct Shown {
 class Watched {
  public:
   Watched() : simulator_({"--scene", scene_.path(), "--show", "127.0.0.1:0"}) {
-    EXPECT_TRUE(simulator_.process().wait_for_text("viewers: "));
-    const std::string text = simulator_.process().output();
-    const auto begin = text.find("viewers: ") + 9;
-    viewer_ = std::make_unique<FrameViewer>(
-        protocol::parse_endpoint(text.substr(begin, text.find('\n', begin) - begin), 0));
+    viewer_ = std::make_unique<FrameViewer>(simulator_.viewers());
     static_cast<void>(viewer_->read());  // the scene
   }
   Shown look() const {
@@ -62,8 +58,11 @@ class Watched {
   std::unique_ptr<FrameViewer> viewer_;
 };
 
-TEST(Pause, TimeStandsStillAndGoesOnFromThere) {
+TEST(Pause, TimeStandsStillWhileTheSynthGoesOnSounding) {
   Watched watched;
+  protocol::UdpSocket synth(protocol::Endpoint{INADDR_LOOPBACK, 0});
+  synth.send_to(watched.simulator().endpoint(),
+                protocol::encode({"/notify", {1, std::string(64, 'x'), std::string(64, 'x')}}));
   for (int i = 0; i < 20; ++i) static_cast<void>(watched.look());
   watched.say({"/pause", {1}});
   sleep(0.3);
@@ -73,6 +72,16 @@ TEST(Pause, TimeStandsStillAndGoesOnFromThere) {
   EXPECT_EQ(later.seconds, paused.seconds);
   EXPECT_EQ(later.heights, paused.heights);
   EXPECT_GT(later.moment, paused.moment + 0.4) << "it is shown as of now";
+  std::vector<std::byte> bytes(2048);
+  while (synth.receive(bytes.data(), bytes.size(), 0.0)) {
+  }
+  for (int i = 0; i < 5; ++i) {  // a peer is gone after 0.3 s of silence
+    const auto got = synth.receive(bytes.data(), bytes.size(), 0.3);
+    ASSERT_TRUE(got) << i;
+    const auto read = protocol::decode(protocol::Bytes(bytes).first(got->size));
+    ASSERT_EQ(read.packet.messages.size(), 1U);
+    EXPECT_EQ(read.packet.messages[0].address, "/frame");
+  }
   const double resumed = protocol::monotonic_now();
   watched.say({"/pause", {0}});
   const Shown after = watched.look();
@@ -82,26 +91,6 @@ TEST(Pause, TimeStandsStillAndGoesOnFromThere) {
   double last = after.seconds;
   for (int i = 0; i < 50 && last < paused.seconds + 0.1; ++i) last = watched.look().seconds;
   EXPECT_GE(last, paused.seconds + 0.1);
-}
-
-TEST(Pause, TheSynthGoesOnSounding) {
-  protocol::UdpSocket synth(protocol::Endpoint{INADDR_LOOPBACK, 0});
-  Watched watched;
-  protocol::UdpSocket& ear = synth;
-  ear.send_to(watched.simulator().endpoint(),
-              protocol::encode({"/notify", {1, std::string(64, 'x'), std::string(64, 'x')}}));
-  watched.say({"/pause", {1}});
-  sleep(0.3);
-  std::vector<std::byte> bytes(2048);
-  while (ear.receive(bytes.data(), bytes.size(), 0.0)) {
-  }
-  for (int i = 0; i < 5; ++i) {  // a peer is gone after 0.3 s of silence
-    const auto got = ear.receive(bytes.data(), bytes.size(), 0.3);
-    ASSERT_TRUE(got) << i;
-    const auto read = protocol::decode(protocol::Bytes(bytes).first(got->size));
-    ASSERT_EQ(read.packet.messages.size(), 1U);
-    EXPECT_EQ(read.packet.messages[0].address, "/frame");
-  }
 }
 
 TEST(Reset, WaterAndBodiesAreAsTheyWereAtTheStart) {

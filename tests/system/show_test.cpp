@@ -12,8 +12,8 @@
 #include "protocol/frame.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/frame_viewer.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -23,14 +23,6 @@ using Json = nlohmann::json;
 using protocol::frame_kind;
 using protocol::frame_number;
 using protocol::ViewFrame;
-
-/// Where a program that was started with --show lets viewers in.
-protocol::Endpoint shown_at(ChildProcess& process) {
-  EXPECT_TRUE(process.wait_for_text("viewers: "));
-  const std::string text = process.output();
-  const auto begin = text.find("viewers: ") + 9;
-  return protocol::parse_endpoint(text.substr(begin, text.find('\n', begin) - begin), 0);
-}
 
 Json text_of(const ViewFrame& frame) {
   return Json::parse(reinterpret_cast<const char*>(&frame[16]),
@@ -50,7 +42,7 @@ TEST(Show, TheWaterIsWhereItIsAndTheBodyMoves) {
   const SmallScene scene(plunging());
   const std::string report = temporary_path("shown.json");
   Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
-  const protocol::Endpoint where = shown_at(simulator.process());
+  const protocol::Endpoint where = simulator.viewers();
   const FrameViewer viewer(where);
   const ViewFrame first = viewer.read();
   ASSERT_EQ(frame_kind(first.data()), protocol::kSceneFrame);
@@ -90,10 +82,10 @@ TEST(Show, NothingIsReadBackWhileNobodyAsks) {
   const SmallScene scene(plunging());
   const std::string report = temporary_path("unseen.json");
   Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
-  const FrameViewer idle(shown_at(simulator.process()));
+  const FrameViewer idle(simulator.viewers());
   EXPECT_EQ(frame_kind(idle.read().data()), protocol::kSceneFrame);
   {
-    const FrameViewer once(shown_at(simulator.process()));
+    const FrameViewer once(simulator.viewers());
     once.ask(500);
     EXPECT_FALSE(once.read().empty());
     EXPECT_FALSE(once.read().empty());
@@ -113,7 +105,7 @@ std::vector<std::byte> splash_now() {
 
 TEST(Show, LevelsAndSoundAreThoseOfTheDevice) {
   Synth synth({"--rig", rig_path("tiles36.yaml"), "--device", "null", "--show", "127.0.0.1:0"});
-  const protocol::Endpoint where = shown_at(synth.process());
+  const protocol::Endpoint where = synth.viewers();
   { const FrameViewer gone(where); }
   const FrameViewer viewer(where);
   const ViewFrame rig = viewer.read();

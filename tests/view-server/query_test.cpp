@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "protocol/address.hpp"
 #include "protocol/status.hpp"
+#include "tests/support/text_of.hpp"
 #include "view-server/admission.hpp"
 
 namespace splash::view {
@@ -138,8 +138,8 @@ TEST(Query, ABrokenRigSaysNothing) {
 // The page draws each kind by its address.
 TEST(Page, DrawsRingsForEachKindOfEvent) {
   for (const char* name : {"main.js", "rings.js"}) {
-    std::ifstream file(std::filesystem::path(SPLASH_SOURCE_DIR) / "view-server/page" / name);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string text =
+        tests::text_of(std::filesystem::path(SPLASH_SOURCE_DIR) / "view-server/page" / name);
     std::vector<int> lists;  // in which each kind stands
     for (const protocol::KindNames& kind : protocol::kKindNames) {
       const std::string entry = "'" + std::string(kind.address) + "': ";

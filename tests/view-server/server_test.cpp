@@ -5,7 +5,6 @@
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -23,6 +22,7 @@
 #include "protocol/frame_stream.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
+#include "tests/support/browser.hpp"
 #include "view-server/holds.hpp"
 
 namespace splash::view {
@@ -30,46 +30,8 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
-
-class Browser {
- public:
-  explicit Browser(const protocol::Endpoint& where) : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(where.address);
-    address.sin_port = htons(where.port);
-    EXPECT_EQ(connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  }
-  ~Browser() { close(descriptor_); }
-  Browser(const Browser&) = delete;
-  Browser& operator=(const Browser&) = delete;
-
-  bool say(const std::string& bytes) const {
-    return send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
-           static_cast<ssize_t>(bytes.size());
-  }
-  /// What comes until `text` did, or the end, or five seconds.
-  std::string hear(const std::string& text) {
-    pollfd readable{descriptor_, POLLIN, 0};
-    while (heard_.find(text) == std::string::npos && poll(&readable, 1, 5000) > 0) {
-      std::array<char, 65536> buffer;
-      const ssize_t count = recv(descriptor_, buffer.data(), buffer.size(), 0);
-      if (count <= 0) break;
-      heard_.append(buffer.data(), static_cast<std::size_t>(count));
-    }
-    return std::exchange(heard_, {});
-  }
-
- private:
-  int descriptor_;
-  std::string heard_;
-};
-
-std::string upgrade(const std::string& host, const std::string& origin) {
-  return "GET /view HTTP/1.1\r\nHost: " + host + "\r\nOrigin: " + origin +
-         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-}
+using tests::Browser;
+using tests::upgrade;
 
 /// A whole message of a client, its mask zero.
 std::string message(char opcode, const std::string& text) {
@@ -202,7 +164,7 @@ TEST_F(ViewServer, APageThatDoesNotReadHasOneStateWaiting) {
   EXPECT_GE(fetched, 1);
   EXPECT_LT(fetched, 10) << "what fits into the kernel's buffers, and one more";
   // It reads on: it gets a new one.
-  for (int i = 0; i < 1000 && !water_.wanted(); ++i) page->hear("never");
+  for (int i = 0; i < 1000 && !water_.wanted(); ++i) page->hear("never", 200);
   EXPECT_TRUE(water_.wanted());
 }
 

@@ -7,11 +7,10 @@
 #include <csignal>
 #include <filesystem>
 
-#include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/frame_viewer.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/view/stage.hpp"
 
 namespace splash::tests {
@@ -28,17 +27,6 @@ class Glance : public testing::Test {
 
 constexpr std::uint32_t kGrabbed = 4;
 
-/// Whether it becomes true in time, however slow the machine is.
-template <typename Condition>
-bool becomes(const Condition& condition) {
-  const double end = protocol::monotonic_now() + kTimeout;
-  while (protocol::monotonic_now() < end) {
-    if (condition()) return true;
-    sleep(0.02);
-  }
-  return false;
-}
-
 /// Whether a picture shows the second tile brighter while it sounds, again and again, since
 /// software may draw less than a picture in a tone's second.
 bool lights_a_tile(Stage& stage) {
@@ -49,7 +37,7 @@ bool lights_a_tile(Stage& stage) {
   browser.evaluate(
       "setInterval(() => [...document.querySelectorAll('#channels button')]"
       ".find((one) => one.textContent === '2').click(), 300)");
-  return becomes([&] { return stage.drawn(tile)[0][0].get<int>() > before + 20; });
+  return eventually([&] { return stage.drawn(tile)[0][0].get<int>() > before + 20; }, kTimeout);
 }
 
 /// Whether the mouse, which holds the disc, drags it into the water so that the page is told of an
@@ -102,15 +90,19 @@ TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
     return frame.size() > 56 + 28 + 4 &&
            (protocol::frame_number<std::uint32_t>(&frame[56 + 28]) & kGrabbed) != 0;
   };
-  EXPECT_TRUE(becomes(is_held));
+  EXPECT_TRUE(eventually(is_held, kTimeout));
   browser.kill();
-  EXPECT_TRUE(becomes([&] { return !is_held(); })) << "still grabbed, though the page is gone";
-  EXPECT_TRUE(becomes([&] {
-    viewer.ask();
-    const protocol::ViewFrame frame = viewer.read();
-    return frame.size() > 56 + 28 + 4 &&
-           std::abs(protocol::frame_number<float>(&frame[56 + 8]) - 0.35F) < 0.01F;
-  })) << "not back on its own way";
+  EXPECT_TRUE(eventually([&] { return !is_held(); }, kTimeout))
+      << "still grabbed, though the page is gone";
+  EXPECT_TRUE(eventually(
+      [&] {
+        viewer.ask();
+        const protocol::ViewFrame frame = viewer.read();
+        return frame.size() > 56 + 28 + 4 &&
+               std::abs(protocol::frame_number<float>(&frame[56 + 8]) - 0.35F) < 0.01F;
+      },
+      kTimeout))
+      << "not back on its own way";
 
   stage.synth().process().signal(SIGTERM);
   EXPECT_EQ(stage.synth().process().wait_for_end(), 0) << stage.synth().process().output();

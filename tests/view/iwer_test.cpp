@@ -6,11 +6,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "tests/support/child_process.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/view/stage.hpp"
 
 namespace splash::tests {
@@ -20,11 +19,6 @@ namespace fs = std::filesystem;
 using testing::IsEmpty;
 
 constexpr const char* kPackage = "iwer@2.5.0";
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// Its script, for browsers; empty: it cannot be had.
 std::string iwer() {

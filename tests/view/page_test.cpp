@@ -11,8 +11,8 @@
 #include "protocol/control.hpp"
 #include "sim-server/scene/live_rows.hpp"
 #include "tests/support/frame_viewer.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/view/stage.hpp"
 
 namespace splash::tests {
@@ -73,12 +73,13 @@ TEST_F(Page, ATapSoundsATileWhichIsLit) {
       .find((one) => one.textContent === '2').click(), 300);
   })js");
   Json lit;
-  for (int i = 0; i < 100; ++i) {
-    lit = stage.drawn(tiles);
-    if (lit[0][0].get<int>() > before[0][0].get<int>() + 20) break;
-    sleep(0.1);
-  }
-  EXPECT_GT(lit[0][0].get<int>(), before[0][0].get<int>() + 20) << lit << before;
+  EXPECT_TRUE(eventually(
+      [&] {
+        lit = stage.drawn(tiles);
+        return lit[0][0].get<int>() > before[0][0].get<int>() + 20;
+      },
+      kTimeout))
+      << lit << before;
   EXPECT_LT(lit[1][0].get<int>(), before[1][0].get<int>() + 12) << lit << before;
   EXPECT_TRUE(browser.wait_for("loudest[1] > 0.02", kTimeout)) << browser.evaluate("loudest");
   EXPECT_LT(browser.evaluate("loudest[2]"), 0.01);
@@ -146,14 +147,8 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
     return std::pair{protocol::frame_number<std::uint32_t>(&frame[56 + 28]),
                      protocol::frame_number<float>(&frame[56 + 8])};
   };
-  const auto becomes = [&](bool grabbed) {
-    for (int i = 0; i < 3000; ++i) {
-      if (((body().first & kGrabbed) != 0) == grabbed) return true;
-      sleep(0.02);
-    }
-    return false;
-  };
-  EXPECT_TRUE(becomes(true));
+  const auto is_grabbed = [&] { return (body().first & kGrabbed) != 0; };
+  EXPECT_TRUE(eventually(is_grabbed, kTimeout));
   const Drag drag = best_drag(browser, seen);
   EXPECT_GT(drag.speed, 0.6);
   EXPECT_LT(drag.speed, 1.5);
@@ -161,20 +156,20 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
   EXPECT_GT(drag.lag, -0.05) << "before the disc was there";
   RecordProperty("speed", std::to_string(drag.speed));
   RecordProperty("lag_ms", std::to_string(std::lround(1e3 * drag.lag)));
-  for (int i = 0; i < 3000 && body().second > 0.25F; ++i) sleep(0.02);
-  EXPECT_LT(body().second, 0.25F) << "held in the water";
+  EXPECT_TRUE(eventually([&] { return body().second < 0.25F; }, kTimeout)) << "held in the water";
   EXPECT_THAT(browser.errors(), IsEmpty());
   browser.kill();
-  EXPECT_TRUE(becomes(false)) << "still grabbed, though the page is gone";
-  for (int i = 0; i < 3000 && body().second < 0.34F; ++i) sleep(0.02);
-  EXPECT_NEAR(body().second, 0.35F, 0.01F) << "back on its own way";
+  EXPECT_TRUE(eventually([&] { return !is_grabbed(); }, kTimeout))
+      << "still grabbed, though the page is gone";
+  EXPECT_TRUE(eventually([&] { return std::abs(body().second - 0.35F) < 0.01F; }, kTimeout))
+      << "back on its own way";
   stage.synth().process().signal(SIGTERM);
   EXPECT_EQ(stage.synth().process().wait_for_end(), 0) << stage.synth().process().output();
-  float peak = 0.0F;
+  float loudest = 0.0F;
   for (const auto& channel : read_recording(wav).channels) {
-    for (const float sample : channel) peak = std::max(peak, std::abs(sample));
+    loudest = std::max(loudest, peak(channel));
   }
-  EXPECT_GT(peak, 1e-4F) << "nothing else sounded";
+  EXPECT_GT(loudest, 1e-4F) << "nothing else sounded";
   std::filesystem::remove(wav);
 }
 
@@ -249,15 +244,12 @@ TEST_F(Page, ItsPanelShapesTheDetection) {
   browser.evaluate("{ const input = " + slider +
                    ".querySelector('input'); input.value = 1000;"
                    " input.dispatchEvent(new Event('input')); }");
-  for (int i = 0; i < 600; ++i) {
-    if (stage.simulator().ask({"/param", {"detect/impact_speed"}}, "/value") ==
-        protocol::value_of("detect/impact_speed", 10.0)) {
-      break;
-    }
-    sleep(0.1);
-  }
-  EXPECT_EQ(stage.simulator().ask({"/param", {"detect/impact_speed"}}, "/value"),
-            protocol::value_of("detect/impact_speed", 10.0));
+  EXPECT_TRUE(eventually(
+      [&] {
+        return stage.simulator().ask({"/param", {"detect/impact_speed"}}, "/value") ==
+               protocol::value_of("detect/impact_speed", 10.0);
+      },
+      kTimeout, 0.1));
   // What somebody else sets is shown.
   static_cast<void>(stage.simulator().ask({"/param", {"detect/impact_speed", 0.0F}}, "/value"));
   EXPECT_TRUE(browser.wait_for(slider + ".querySelector('input').value === '0'", kTimeout));

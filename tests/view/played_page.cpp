@@ -10,7 +10,7 @@
 
 #include "protocol/limits.hpp"
 #include "protocol/time_tag.hpp"
-#include "tests/support/process_use.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::tests {
 namespace {

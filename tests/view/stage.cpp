@@ -24,14 +24,6 @@ outputs:
     ceiling: 0.9
 )";
 
-/// Where a program that was started with --show lets viewers in.
-std::string shown_at(ChildProcess& process) {
-  EXPECT_TRUE(process.wait_for_text("viewers: ")) << process.output();
-  const std::string text = process.output();
-  const auto begin = text.find("viewers: ") + 9;
-  return text.substr(begin, text.find('\n', begin) - begin);
-}
-
 }  // namespace
 
 Stage::Stage(const std::string& motion, const std::string& query, const std::string& window,
@@ -57,13 +49,13 @@ void Stage::start_synth(const std::string& listen, const std::string& show) {
   Arguments arguments = {"--rig", rig_, "--device", "null", "--listen", listen, "--show", show};
   if (!recording_.empty()) arguments.insert(arguments.end(), {"--record-audio", recording_});
   synth_ = std::make_unique<Synth>(arguments);
-  synth_show_ = shown_at(synth_->process());
+  synth_show_ = protocol::to_string(synth_->viewers());
 }
 
 void Stage::start_simulator(const std::string& listen, const std::string& show) {
   simulator_ = std::make_unique<Simulator>(Arguments{"--scene", scene_.path(), "--listen", listen,
                                                      "--show", show, "--target", at(*synth_)});
-  sim_show_ = shown_at(simulator_->process());
+  sim_show_ = protocol::to_string(simulator_->viewers());
 }
 
 void Stage::start_view(const std::string& listen) {

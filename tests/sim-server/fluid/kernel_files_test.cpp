@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "sim-server/device/kernel.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::sim {
 namespace {
@@ -38,8 +37,7 @@ void add_file(const std::string& name, std::set<std::string>& seen,
               std::vector<KernelSource>& sources) {
   static const std::regex kInclude(R"(\n#include "([^"]+)\")");
   if (!seen.insert(name).second) return;
-  std::ifstream in(root() / name);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = tests::text_of(root() / name);
   for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
     add_file((*it)[1].str(), seen, sources);
   }

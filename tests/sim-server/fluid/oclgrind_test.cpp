@@ -8,14 +8,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash {
 namespace {
@@ -137,8 +136,7 @@ TEST(OclgrindTable, HasEveryKernel) {
   const auto root = std::filesystem::path(SPLASH_SOURCE_DIR) / "sim-server";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     if (entry.path().extension() != ".cl") continue;
-    std::ifstream file(entry.path());
-    kernels.merge(found_in({std::istreambuf_iterator<char>(file), {}}, kKernel));
+    kernels.merge(found_in(splash::tests::text_of(entry.path()), kKernel));
   }
   EXPECT_GE(kernels.size(), 20U);
   EXPECT_EQ(kernels, watched);

@@ -5,17 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
+#include "tests/support/text_of.hpp"
 
 namespace splash::sim {
 namespace {
 
 TEST(SceneReference, StandsInTheReadme) {
   const std::string path = std::string(SPLASH_SOURCE_DIR) + "/configs/README.md";
-  std::ifstream file(path);
-  ASSERT_TRUE(file) << path;
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = tests::text_of(path);
   const std::string begin = "<!-- begin: scene-reference -->\n";
   const auto from = text.find(begin);
   const auto to = text.find("<!-- end: scene-reference -->\n");

@@ -8,13 +8,13 @@
 #include <chrono>
 #include <future>
 #include <string>
-#include <thread>
 
 #include "protocol/control.hpp"
 #include "protocol/reply_budget.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/sim-server/send/peer.hpp"
 #include "tests/support/own_address.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::sim {
 namespace {
@@ -28,9 +28,7 @@ class ClockAnswersTest : public testing::Test {
 
   /// The pongs counted once their thread, which counts after it has sent, got round to it.
   std::uint64_t answered() {
-    const double given_up = protocol::monotonic_now() + test::kTimeout;
-    while (answers.answered() == 0 && protocol::monotonic_now() < given_up)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    tests::eventually([&] { return answers.answered() > 0; }, test::kTimeout);
     return answers.answered();
   }
 };

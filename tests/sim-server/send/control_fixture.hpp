@@ -4,16 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "protocol/time_tag.hpp"
 #include "sim-server/listen/control.hpp"
 #include "tests/sim-server/send/peer.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::test {
 
@@ -68,11 +67,7 @@ class ControlFixture : public testing::Test {
   void settle() { ASSERT_EQ(ask({"/sync", {12345}}), (protocol::Message{"/synced", {12345}})); }
   /// For peers that get no replies: waits until the server has taken `packets` datagrams.
   void wait_for_packets(std::uint64_t packets) {
-    const double end = protocol::monotonic_now() + kTimeout;
-    while (server_->counts().packets < packets && protocol::monotonic_now() < end) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    ASSERT_GE(server_->counts().packets, packets);
+    ASSERT_TRUE(tests::eventually([&] { return server_->counts().packets >= packets; }, kTimeout));
   }
   std::vector<TakenPose> poses() {
     const std::lock_guard lock(mutex_);

@@ -14,6 +14,7 @@
 #include "sim-server/send/event_sender.hpp"
 #include "tests/sim-server/send/sample_events.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::sim {
 namespace {
@@ -55,10 +56,10 @@ TEST(EventLog, TwoRunsAtOtherTimesAndPacesAreByteIdentical) {
   run(folder / "a.osc", {.unix_origin = 1.7e9, .pace = 1.0});
   run(folder / "b.osc", {.unix_origin = 1.9e9 + 0.123456, .pace = 0.1});
   run(folder / "c.osc", {.unix_origin = 1.9e9, .pace = 3.0});  // behind: every event is overdue
-  const auto bytes = tests::read_file(folder / "a.osc");
+  const auto bytes = tests::text_of(folder / "a.osc");
   EXPECT_GT(bytes.size(), 3000U);
-  EXPECT_EQ(bytes, tests::read_file(folder / "b.osc"));
-  EXPECT_EQ(bytes, tests::read_file(folder / "c.osc"));
+  EXPECT_EQ(bytes, tests::text_of(folder / "b.osc"));
+  EXPECT_EQ(bytes, tests::text_of(folder / "c.osc"));
 }
 
 TEST(EventLog, HasForcesAtTheirFramesAndTheSameEvents) {
@@ -66,7 +67,7 @@ TEST(EventLog, HasForcesAtTheirFramesAndTheSameEvents) {
   run(folder / "plain.osc", {.lead = 0.015});
   run(folder / "forces.osc", {.lead = 0.015, .forces = true});
   run(folder / "again.osc", {.unix_origin = 1.9e9, .pace = 3.0, .lead = 0.015, .forces = true});
-  EXPECT_EQ(tests::read_file(folder / "forces.osc"), tests::read_file(folder / "again.osc"));
+  EXPECT_EQ(tests::text_of(folder / "forces.osc"), tests::text_of(folder / "again.osc"));
   std::vector<protocol::LogEntry> events;
   std::vector<double> forces;
   for (const protocol::LogEntry& entry : protocol::read_log(folder / "forces.osc")) {

@@ -17,6 +17,7 @@
 
 #include "tests/support/source_folder.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::sim {
 namespace {
@@ -146,7 +147,7 @@ TEST(Report, IsWrittenWholeAndReplacesAnOlderOne) {
   write_report(folder / "r.json", report);
   report.particles = 1;
   write_report(folder / "r.json", report);
-  EXPECT_EQ(tests::read_file(folder / "r.json"), to_json(report));
+  EXPECT_EQ(tests::text_of(folder / "r.json"), to_json(report));
   const auto begin = std::filesystem::directory_iterator(folder.path());
   EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator()), 1) << "no draft is left";
 }

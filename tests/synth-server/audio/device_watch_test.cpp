@@ -10,6 +10,7 @@
 
 #include "synth-server/audio/device_choice.hpp"
 #include "synth-server/audio/null_output.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
@@ -77,14 +78,6 @@ class DeviceWatchTest : public testing::Test {
         },
         adapt_, WatchSettings{milliseconds(5), limits, milliseconds(20)});
   }
-  static bool wait_for(const std::function<bool()>& condition) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > limit) return false;
-      std::this_thread::sleep_for(milliseconds(1));
-    }
-    return true;
-  }
   std::vector<std::string> lines() {
     const std::lock_guard lock(mutex_);
     return lines_;
@@ -104,17 +97,18 @@ class DeviceWatchTest : public testing::Test {
 TEST_F(DeviceWatchTest, ReplacesADeadDeviceByTheNullClockAndTakesItBack) {
   present_ = false;
   const auto output = watch(std::make_unique<FakeDevice>(first_), "");
-  ASSERT_TRUE(wait_for([&] { return source_.blocks > 5; }));
+  ASSERT_TRUE(tests::eventually([&] { return source_.blocks > 5; }));
   first_.dead = true;
-  ASSERT_TRUE(wait_for([&] { return output->losses() == 1; }));
-  ASSERT_TRUE(wait_for([&] { return output->format().api == "null"; }));
+  ASSERT_TRUE(tests::eventually([&] { return output->losses() == 1; }));
+  ASSERT_TRUE(tests::eventually([&] { return output->format().api == "null"; }));
   EXPECT_EQ(first_.alive, 0) << "the dead object is gone before anything else plays";
   const int blocks = source_.blocks;
-  EXPECT_TRUE(wait_for([&] { return source_.blocks > blocks + 5; })) << "the clock goes on";
-  EXPECT_TRUE(wait_for([&] { return attempts_ > 3; }));
+  EXPECT_TRUE(tests::eventually([&] { return source_.blocks > blocks + 5; }))
+      << "the clock goes on";
+  EXPECT_TRUE(tests::eventually([&] { return attempts_ > 3; }));
   present_ = true;
-  ASSERT_TRUE(wait_for([&] { return output->format().api == "fake"; }));
-  EXPECT_TRUE(wait_for([&] { return source_.restarts == 3; }));
+  ASSERT_TRUE(tests::eventually([&] { return output->format().api == "fake"; }));
+  EXPECT_TRUE(tests::eventually([&] { return source_.restarts == 3; }));
   EXPECT_EQ(output->losses(), 1U);
   EXPECT_FALSE(source_.overlapped);
   EXPECT_EQ(lines().size(), 3U) << "lost, refused (once, not at each attempt), plays";
@@ -130,7 +124,7 @@ TEST_F(DeviceWatchTest, GivesUpADeviceThatRaces) {
       std::this_thread::sleep_for(milliseconds(10));
     }
   });
-  EXPECT_TRUE(wait_for([&] { return output->losses() == 1; }));
+  EXPECT_TRUE(tests::eventually([&] { return output->losses() == 1; }));
   racing = false;
   racer.join();
 }
@@ -138,21 +132,21 @@ TEST_F(DeviceWatchTest, GivesUpADeviceThatRaces) {
 TEST_F(DeviceWatchTest, TakesADeviceThatAppearsLater) {
   present_ = false;
   const auto output = watch(std::make_unique<NullOutput>(2, 48000, 64), "no card");
-  ASSERT_TRUE(wait_for([&] { return attempts_ > 2; }));
+  ASSERT_TRUE(tests::eventually([&] { return attempts_ > 2; }));
   EXPECT_TRUE(lines().empty()) << "what is known is not said again";
   present_ = true;
-  EXPECT_TRUE(wait_for([&] { return output->format().api == "fake"; }));
+  EXPECT_TRUE(tests::eventually([&] { return output->format().api == "fake"; }));
   EXPECT_EQ(output->losses(), 0U);
 }
 
 TEST_F(DeviceWatchTest, RefusesAnotherRate) {
   rate_ = 44100;
   const auto output = watch(std::make_unique<NullOutput>(2, 48000, 64), "no card");
-  ASSERT_TRUE(wait_for([&] { return !lines().empty(); }));
+  ASSERT_TRUE(tests::eventually([&] { return !lines().empty(); }));
   EXPECT_THAT(lines().front(), testing::HasSubstr("44100"));
   EXPECT_EQ(output->format().api, "null");
   const int blocks = source_.blocks;
-  EXPECT_TRUE(wait_for([&] { return source_.blocks > blocks; }));
+  EXPECT_TRUE(tests::eventually([&] { return source_.blocks > blocks; }));
 }
 
 TEST_F(DeviceWatchTest, AdaptsToAnotherRateWhileNothingRenders) {
@@ -164,11 +158,11 @@ TEST_F(DeviceWatchTest, AdaptsToAnotherRateWhileNothingRenders) {
   };
   rate_ = 44100;
   const auto output = watch(std::make_unique<NullOutput>(2, 48000, 64), "no card");
-  ASSERT_TRUE(wait_for([&] { return other.blocks > 5; }));
+  ASSERT_TRUE(tests::eventually([&] { return other.blocks > 5; }));
   EXPECT_EQ(asked_for, 44100);
   const int before = source_.blocks;
   next_.dead = true;  // lost again: what stands in runs at the new rate
-  ASSERT_TRUE(wait_for([&] { return output->losses() == 1; }));
+  ASSERT_TRUE(tests::eventually([&] { return output->losses() == 1; }));
   EXPECT_EQ(output->format().sample_rate, 44100);
   EXPECT_EQ(source_.blocks, before) << "the old source is not called any more";
 }

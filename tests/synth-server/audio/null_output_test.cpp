@@ -8,6 +8,8 @@
 #include <cmath>
 #include <thread>
 
+#include "tests/support/waiting.hpp"
+
 namespace splash::synth {
 namespace {
 
@@ -28,19 +30,12 @@ struct Listener final : BlockSource {
   std::atomic<int> blocks{0};
 };
 
-void wait_for_blocks(const Listener& listener, int blocks) {
-  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (listener.blocks < blocks && std::chrono::steady_clock::now() < limit) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-}
-
 TEST(NullOutput, AsksAtTheRateOfADeviceAndExactly) {
   NullOutput output(3, 48000, 256);
   Listener listener;
   const auto start = std::chrono::steady_clock::now();
   output.start(listener);
-  wait_for_blocks(listener, 100);
+  ASSERT_TRUE(tests::eventually([&] { return listener.blocks >= 100; }));
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   output.stop();
@@ -56,7 +51,7 @@ TEST(NullOutput, CatchesUpAfterAStall) {
   Listener listener;
   listener.stall_at = 10;
   output.start(listener);
-  wait_for_blocks(listener, 60);
+  ASSERT_TRUE(tests::eventually([&] { return listener.blocks >= 60; }));
   output.stop();
   EXPECT_GE(listener.blocks, 60);
   EXPECT_LT(listener.worst, 1e-9);
@@ -66,13 +61,13 @@ TEST(NullOutput, StopsAndStartsAgain) {
   NullOutput output(3, 48000, 64);
   Listener listener;
   output.start(listener);
-  wait_for_blocks(listener, 2);
+  ASSERT_TRUE(tests::eventually([&] { return listener.blocks >= 2; }));
   output.stop();
   const int blocks = listener.blocks;
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(listener.blocks, blocks) << "nothing is called after stop()";
   output.start(listener);
-  wait_for_blocks(listener, blocks + 2);
+  ASSERT_TRUE(tests::eventually([&] { return listener.blocks >= blocks + 2; }));
   output.stop();
   EXPECT_EQ(listener.restarts, 2);
 }

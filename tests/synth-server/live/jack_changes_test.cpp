@@ -3,39 +3,33 @@
 // says of its ports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <thread>
 
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
 #include "synth-server/audio/rtaudio_output.hpp"
+#include "tests/support/jack.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
-#include "tests/synth-server/live/jack_capture.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
 
+using tests::eventually;
+using tests::JackCapture;
+using tests::JackServer;
 using tests::rig_path;
+using tests::sleep;
 
 constexpr int kPeriod = 512;
 constexpr double kTimeout = 30.0;  ///< [s]
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
-std::string server_name(const std::string& name) {
-  return "splash-" + name + "-" + std::to_string(getpid());
-}
 
 tests::Arguments arguments() {
   return {"--rig", rig_path("shoes.yaml"), "--api", "jack"};
@@ -47,7 +41,7 @@ void expect_both_shoes(tests::Synth& synth) {
   for (int k = 0; k < 23; ++k) {  // the gate opens slowly
     const protocol::Bubble bubble{k, k < 15 ? 0 : 1, 0.02F, 0.1F, {0.0F, 0.0F, 0.0F}, 0.0F};
     synth.send(protocol::encode(protocol::to_message(bubble)));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    sleep(0.1);
   }
   ASSERT_TRUE(capture.wait(kTimeout)) << synth.process().output();
   const auto& channels = capture.channels();
@@ -58,7 +52,7 @@ void expect_both_shoes(tests::Synth& synth) {
 }
 
 TEST(JackChanges, OfThePeriodAreFollowed) {
-  const JackServer server(server_name("period"), 4, kPeriod);
+  const JackServer server("period", {4, kPeriod});
   tests::Synth synth(arguments());
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("blocks of 512"));
   JackServer::set_period(1024);  // more than it had: what was made for 512 is too small
@@ -72,11 +66,10 @@ TEST(JackChanges, OfThePeriodAreFollowed) {
 }
 
 TEST(JackChanges, OfTheRateAreFollowed) {
-  const std::string name = server_name("rate");
-  auto server = std::make_unique<JackServer>(name, 4, kPeriod);
+  auto server = std::make_unique<JackServer>("rate", JackServer::Settings{4, kPeriod});
   tests::Synth synth(arguments());
   server->kill();
-  server = std::make_unique<JackServer>(name, 4, kPeriod, 44100);
+  server = std::make_unique<JackServer>("rate", JackServer::Settings{4, kPeriod, 44100});
   ASSERT_TRUE(synth.process().wait_for_text("plays, blocks of 512 at 44100 Hz", kTimeout))
       << synth.process().output();
   const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
@@ -102,35 +95,27 @@ struct Slow final : BlockSource {
   std::atomic<bool> left{false};
 };
 
-bool comes_true(const std::atomic<bool>& flag) {
-  const double limit = protocol::monotonic_now() + kTimeout;
-  while (!flag && protocol::monotonic_now() < limit) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return flag;
-}
-
 /// libjack cancels the thread that renders, wherever it is, and RtAudio closes the stream, whatever
 /// its owner does.
 TEST(JackChanges, ToNothingWhileABlockIsRenderedAreSurvived) {
-  const std::string name = server_name("midblock");
-  auto server = std::make_unique<JackServer>(name, 2, kPeriod);
+  auto server = std::make_unique<JackServer>("midblock", JackServer::Settings{2, kPeriod});
   Slow source;
   {
     RtAudioOutput output({"jack", "system", 2, 0, kPeriod});
     output.start(source);
-    EXPECT_TRUE(comes_true(source.entered));
+    EXPECT_TRUE(eventually([&] { return source.entered.load(); }));
     server->kill();
     sleep(0.5);
     EXPECT_FALSE(source.left);
     source.go = true;
-    EXPECT_TRUE(comes_true(source.left));
+    EXPECT_TRUE(eventually([&] { return source.left.load(); }));
   }
-  server = std::make_unique<JackServer>(name, 2, kPeriod);  // one that ends well leaves no trace
+  server = std::make_unique<JackServer>(
+      "midblock", JackServer::Settings{2, kPeriod});  // one that ends well leaves no trace
 }
 
 TEST(JackPorts, AreNamedInTheChannelMap) {
-  const JackServer server(server_name("ports"), 6, kPeriod);
+  const JackServer server("ports", {6, kPeriod});
   tests::Synth synth(arguments());
   EXPECT_THAT(synth.process().output(),
               testing::HasSubstr("1 left shoe/heel -> system:playback_1, "
@@ -147,7 +132,7 @@ TEST(JackPorts, AreNamedInTheChannelMap) {
 }
 
 TEST(JackPorts, AreThoseThatTheRigNames) {
-  const JackServer server(server_name("named"), 6, kPeriod);
+  const JackServer server("named", {6, kPeriod});
   const std::string rig = tests::temporary_path("named.yaml");
   std::ofstream(rig)
       << "name: named\noutputs:\n  - name: shoe\n    kind: worn\n    parts: [heel, toe]\n"

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 // On time over JACK: events start within one sample of their tags, as the device's clock has them.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
-#include <thread>
 
+#include "tests/support/jack.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
-#include "tests/synth-server/live/jack_capture.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
@@ -39,8 +36,8 @@ std::vector<int> distances() {
 
 /// First samples of the events; empty when the server was late or not all were heard.
 std::vector<std::int64_t> take(tests::Synth& synth) {
-  JackCapture capture("synth-server", 2, kTake);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  tests::JackCapture capture("synth-server", 2, kTake);
+  tests::sleep(0.2);
   const int before = capture.xruns();
   const TimeTag first = protocol::to_time_tag(protocol::unix_now() + 0.3);
   int id = 0;
@@ -66,9 +63,9 @@ std::vector<std::int64_t> take(tests::Synth& synth) {
 /// How far at most an event of the best take started from its tag [samples], all alike left aside;
 /// -1: each take had xruns. No further takes once it is one.
 std::int64_t farthest_from_tags(int period) {
-  const JackServer server("splash-time-" + std::to_string(getpid()), 2, period);
+  const tests::JackServer server("time", {2, period});
   tests::Synth synth({"--rig", tests::rig_path("stereo.yaml"), "--api", "jack"});
-  std::this_thread::sleep_for(std::chrono::duration<double>(kSettling));
+  tests::sleep(kSettling);
   const std::vector<int> wanted = distances();
   std::int64_t best = -1;
   for (int k = 0; k < kMostTakes && (best < 0 || best > 1); ++k) {

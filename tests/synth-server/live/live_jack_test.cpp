@@ -3,27 +3,28 @@
 // live is what the offline rendering of the same events says, and a server's death is survived.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <csignal>
-#include <thread>
 
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/replay/replay.hpp"
+#include "tests/support/jack.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
-#include "tests/synth-server/live/jack_capture.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
 
 using protocol::Message;
+using tests::JackCapture;
+using tests::JackServer;
 using tests::onset;
 using tests::peak;
 using tests::rig_path;
+using tests::sleep;
 
 constexpr int kChannels = 36;
 /// The dummy driver has no interrupt, only sleep: a long period makes it steady [frames].
@@ -33,10 +34,6 @@ constexpr int kLongPeriod = 8192;
 constexpr double kOpening = 2.2;  ///< the engine opens slowly at its start [s]
 constexpr double kTake = 2.5;     ///< [s]
 constexpr int kMostTakes = 8;
-
-void sleep(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
 
 /// All at the same moment, so that the rate a live clock estimates does not matter: a bubble over
 /// tile 0, a bubble over tile 35, an impact over tile 14, each alone in its corner of the floor.
@@ -65,10 +62,6 @@ std::vector<std::vector<float>> rendered_offline() {
 
 std::vector<std::string> arguments() {
   return {"--rig", rig_path("tiles36.yaml"), "--api", "jack"};
-}
-
-std::string server_name(const std::string& name) {
-  return "splash-" + name + "-" + std::to_string(getpid());
 }
 
 /// Records one take of the events; unless `torn` will do, empty when samples are missing because
@@ -101,7 +94,7 @@ float loudest_of(const std::vector<std::vector<float>>& channels) {
 
 /// The first take in which no samples are missing; empty without any.
 std::vector<std::vector<float>> whole_take(int period) {
-  const JackServer server(server_name("channels"), kChannels, period);
+  const JackServer server("channels", {kChannels, period});
   tests::Synth synth(arguments());
   EXPECT_THAT(synth.process().output(),
               testing::HasSubstr("output: jack device 'system', 36 channels at 48000 Hz"));
@@ -142,7 +135,7 @@ TEST(LiveJack, PlaysEachChannelAsTheOfflineRendering) {
 }
 
 TEST(LiveJack, NamesTheDevicesWhenItIsAskedForAnother) {
-  const JackServer server(server_name("names"), kChannels, kPeriod);
+  const JackServer server("names", {kChannels, kPeriod});
   const auto [code, list] = tests::run_program("synth-server", {"--list-devices"});
   EXPECT_EQ(code, 0);
   EXPECT_THAT(list, testing::HasSubstr("jack: 'system', 36 outputs, prefers 48000 Hz"));
@@ -154,14 +147,14 @@ TEST(LiveJack, NamesTheDevicesWhenItIsAskedForAnother) {
 }
 
 TEST(LiveJack, SaysThatADeviceHasTooFewChannels) {
-  const JackServer server(server_name("few"), 2, kPeriod);
+  const JackServer server("few", {2, kPeriod});
   tests::Synth synth(arguments());
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("has 2 output channels"));
   EXPECT_THAT(synth.process().output(), testing::HasSubstr("output: none"));
 }
 
 TEST(LiveJack, SaysThatTheServerHasAnotherRate) {
-  const JackServer server(server_name("rate"), 2, kPeriod);
+  const JackServer server("rate", {2, kPeriod});
   const auto [code, text] = tests::run_program(
       "synth-server", {"--rig", rig_path("stereo.yaml"), "--listen", "127.0.0.1:0", "--api", "jack",
                        "--sample-rate", "44100", "--duration", "0.2"});
@@ -171,8 +164,7 @@ TEST(LiveJack, SaysThatTheServerHasAnotherRate) {
 }
 
 TEST(LiveJack, WithoutAServerSaysWhatToStart) {
-  const tests::ChildProcess::Environment nowhere = {
-      {"JACK_DEFAULT_SERVER", server_name("nowhere")}};
+  const tests::ChildProcess::Environment nowhere = {{"JACK_DEFAULT_SERVER", "splash-nowhere"}};
   const auto list =
       tests::run_program("synth-server", {"--list-devices", "--api", "jack"}, 60.0, nowhere);
   EXPECT_EQ(list.code, 0);
@@ -190,8 +182,7 @@ TEST(LiveJack, WithoutAServerSaysWhatToStart) {
 }
 
 TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
-  const std::string name = server_name("death");
-  auto server = std::make_unique<JackServer>(name, kChannels, kPeriod);
+  auto server = std::make_unique<JackServer>("death", JackServer::Settings{kChannels, kPeriod});
   tests::Synth synth(arguments());
   sleep(0.5);
   server->kill();
@@ -201,7 +192,7 @@ TEST(LiveJack, SurvivesTheDeathOfItsServerAndPlaysAgain) {
       << synth.process().output();
   ASSERT_TRUE(synth.process().running());
   EXPECT_EQ(synth.ask({"/sync", {1}}, "/synced").address, "/synced") << "it still answers";
-  server = std::make_unique<JackServer>(name, kChannels, kPeriod);
+  server = std::make_unique<JackServer>("death", JackServer::Settings{kChannels, kPeriod});
   ASSERT_TRUE(synth.process().wait_for_text("'system' plays", 20.0)) << synth.process().output();
   sleep(kOpening);
   float heard = 0.0F;

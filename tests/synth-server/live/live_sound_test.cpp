@@ -3,15 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 
-#include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
@@ -44,11 +42,7 @@ class LiveSound : public testing::Test {
   }
   /// Waits until the number is that.
   static void expect_value(tests::Synth& synth, const std::string& name, float wanted) {
-    const double limit = protocol::monotonic_now() + 20.0;
-    while (value(synth, name) != wanted && protocol::monotonic_now() < limit) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(150));  // ten replies a second
-    }
-    EXPECT_EQ(value(synth, name), wanted) << name;
+    EXPECT_TRUE(tests::eventually([&] { return value(synth, name) == wanted; }, 20.0, 0.1)) << name;
   }
 
   std::filesystem::path config_ = tests::temporary_path("config");
@@ -67,7 +61,6 @@ TEST_F(LiveSound, IsSetAndPresetAndReadAgain) {
   const Message refused = synth.ask(set("impact/q", 99.0F), "/fail");
   EXPECT_THAT(std::get<std::string>(refused.arguments.at(1)), HasSubstr("allowed 0.6 to 50"));
 
-  std::this_thread::sleep_for(std::chrono::seconds(1));  // ten replies a second
   EXPECT_EQ(synth.ask(preset("dull"), "/done").address, "/done");
   EXPECT_EQ(value(synth, "impact/frequency"), 90.0F);
   EXPECT_EQ(value(synth, "rig/hand/gain_db"), -6.0F) << "levels stay";
@@ -79,11 +72,10 @@ TEST_F(LiveSound, IsSetAndPresetAndReadAgain) {
   expect_value(synth, "impact/q", 8.0F);
   write(file_, "name: mine\nimpact: {q: 800}\n");
   synth.process().signal(SIGHUP);
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_TRUE(synth.process().wait_for_text(file_ + ":2:13: error: key 'impact.q'"));
   EXPECT_EQ(value(synth, "impact/q"), 8.0F) << "a wrong file changes nothing";
   synth.process().signal(SIGTERM);
   ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
-  EXPECT_THAT(synth.process().output(), HasSubstr(file_ + ":2:13: error: key 'impact.q'"));
 }
 
 TEST_F(LiveSound, ClientsAreToldOfEachChange) {

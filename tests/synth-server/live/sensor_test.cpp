@@ -4,21 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <jack/jack.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "protocol/time_tag.hpp"
 #include "synth-server/output/biquad.hpp"
 #include "synth-server/output/rig_reader.hpp"
+#include "tests/support/jack.hpp"
 #include "tests/support/programs.hpp"
-#include "tests/synth-server/live/jack_capture.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
@@ -58,7 +56,7 @@ class Cord {
       if (connects(from, jack_port_name(in_)) && connects(jack_port_name(out_), to)) {
         return true;
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      tests::sleep(0.005);
     }
     return false;
   }
@@ -96,10 +94,6 @@ double true_level(double middle) {
   return 10.0 * std::log10(power);
 }
 
-std::string server_name() {
-  return "splash-sensor-" + std::to_string(getpid());
-}
-
 /// What the program prints, once it was given no samples too late.
 std::string measured() {
   std::string text;
@@ -118,7 +112,7 @@ std::string measured() {
 }
 
 TEST(Sensor, MeasuresAKnownFilterThroughTheDevice) {
-  const JackServer server(server_name(), 3, kPeriod, 48000, 2);
+  const tests::JackServer server("sensor", {3, kPeriod, 48000, 2});
   const std::string text = measured();
   EXPECT_THAT(text, testing::HasSubstr("heard by input 2"));
   const auto lines = text.find("    equalisers:");
@@ -137,7 +131,7 @@ TEST(Sensor, MeasuresAKnownFilterThroughTheDevice) {
 }
 
 TEST(Sensor, ThatIsNotThereIsRefused) {
-  const JackServer server(server_name(), 3, kPeriod, 48000, 2);
+  const tests::JackServer server("sensor", {3, kPeriod, 48000, 2});
   const auto [code, text] =
       tests::run_program("synth-server", {"--rig", tests::rig_path("handheld+stereo.yaml"), "--api",
                                           "jack", "--sweep", "1", "--sensor", "3"});

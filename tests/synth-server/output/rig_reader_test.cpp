@@ -5,10 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "program/config.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::synth {
 namespace {
@@ -205,8 +203,8 @@ TEST(RigKeys, AreDescribedWithUnitsDefaultsAndSources) {
 }
 
 TEST(RigKeys, AreWhatTheReadmeOfTheRigsSays) {
-  std::ifstream file(std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/rigs/README.md");
-  const std::string readme((std::istreambuf_iterator<char>(file)), {});
+  const std::string readme =
+      tests::text_of(std::filesystem::path(SPLASH_SOURCE_DIR) / "configs/rigs/README.md");
   EXPECT_THAT(readme, HasSubstr(describe_rig_keys()))
       << "put the output of rig-reference behind the README's text";
 }

@@ -5,18 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
-#include <functional>
 #include <random>
 
 #include "protocol/time_tag.hpp"
 #include "tests/protocol/killers.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
 
 using protocol::Endpoint;
 using protocol::Message;
+using tests::eventually;
 
 constexpr Endpoint kAnyPort{INADDR_LOOPBACK, 0};
 
@@ -28,14 +28,6 @@ class ReceiverTest : public testing::Test {
 
   void send(const std::vector<std::byte>& bytes) { socket_.send_to(receiver_.local(), bytes); }
 
-  static bool wait_for(const std::function<bool()>& condition) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > limit) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return true;
-  }
   /// The next datagram that comes to us.
   Message reply() {
     std::vector<std::byte> buffer(2048);
@@ -64,7 +56,7 @@ TEST_F(ReceiverTest, OutlivesEveryKillerAndCountsIt) {
     ++expected.refusals[static_cast<std::size_t>(killer.why)];
     send(protocol::encode(bubble(1)));
   }
-  ASSERT_TRUE(wait_for([&] { return receiver_.counters().datagrams == 2 * all.size(); }));
+  ASSERT_TRUE(eventually([&] { return receiver_.counters().datagrams == 2 * all.size(); }));
   const IntakeCounters counters = receiver_.counters();
   expected.refusals[0] = 0;  // accepted
   EXPECT_EQ(counters.refusals, expected.refusals) << "each by its reason";
@@ -88,7 +80,7 @@ TEST_F(ReceiverTest, PicksTheEventsOutOfAFlood) {
     }
     send(protocol::encode(bubble(burst)));
     sent += 101;
-    ASSERT_TRUE(wait_for([&] { return receiver_.counters().datagrams == sent; }));
+    ASSERT_TRUE(eventually([&] { return receiver_.counters().datagrams == sent; }));
   }
   EXPECT_EQ(receiver_.counters().events, 20U);
 }
@@ -106,7 +98,7 @@ TEST_F(ReceiverTest, DumpsPacketsWhenAsked) {
   send(protocol::encode(Message{"/dumpOSC", {3}}));
   ASSERT_EQ(reply().address, "/done");
   send(protocol::encode(bubble(1)));
-  EXPECT_TRUE(wait_for([&] { return lines_ == 2; })) << "in both forms";
+  EXPECT_TRUE(eventually([&] { return lines_ == 2; })) << "in both forms";
 }
 
 }  // namespace

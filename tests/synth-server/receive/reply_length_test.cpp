@@ -4,15 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <mutex>
-#include <thread>
 
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/reply_budget.hpp"
 #include "synth-server/receive/receiver.hpp"
 #include "tests/support/own_address.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::synth {
 namespace {
@@ -146,9 +145,7 @@ TEST(SynthTells, WhoseQuestionWasTooShortABoundedNumberOfTimes) {
     const double start = protocol::monotonic_now();
     for (std::uint64_t i = 1; i <= 100; ++i) {
       asker.send_to(receiver.local(), protocol::encode(Message{"/status", {}}));
-      while (receiver.counters().withheld < i && protocol::monotonic_now() < start + 20.0) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      }
+      ASSERT_TRUE(tests::eventually([&] { return receiver.counters().withheld >= i; }));
     }
     EXPECT_EQ(receiver.counters().withheld, 100U);
     const std::lock_guard lock(mutex);

@@ -80,12 +80,6 @@ double level_db(const std::vector<float>& samples, int third, std::size_t from) 
   return 10.0 * std::log10(sum);
 }
 
-double energy(const std::vector<float>& samples) {
-  double sum = 0.0;
-  for (const float s : samples) sum += static_cast<double>(s) * static_cast<double>(s);
-  return sum;
-}
-
 TEST(Crowd, IsAsLoudInEachThirdOfAnOctaveAsWithAVoiceEach) {
   constexpr int kSeconds = 6;
   for (const double rate : {5000.0, 10000.0, 20000.0, 40000.0}) {

@@ -34,13 +34,20 @@ TEST_P(AnyBlocks, AreFiniteBoundedAndSoundTheSame) {
       read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/" + GetParam().rig + ".yaml");
   auto settings = file_settings();
   settings.sample_rate = GetParam().rate;
+  settings.max_voices = 200;  // some have to be stolen
+  settings.max_block = 8192;
   const auto events = splashes(800, 6000);  // louder than the ceiling, on few channels
+  EngineCounters counters;
   const auto rendered = [&](const std::vector<int>& blocks) {
     Engine engine(rig, settings);
     for (const TimedEvent& event : events) EXPECT_TRUE(engine.schedule(event));
-    return render(engine, 8192, blocks);
+    Channels out = render(engine, 8192, blocks);
+    counters = engine.counters();
+    return out;
   };
-  const Channels whole = rendered({4096});
+  const Channels whole = rendered({8192});
+  const EngineCounters first = counters;
+  EXPECT_GT(first.stolen, 0U);
   double loudest = 0.0;
   for (const auto& channel : whole) {
     for (const float sample : channel) {
@@ -51,8 +58,11 @@ TEST_P(AnyBlocks, AreFiniteBoundedAndSoundTheSame) {
   EXPECT_LE(loudest, rig.outputs[0].ceiling);
   EXPECT_GT(loudest, 0.1) << "too quiet to prove anything";
   for (const std::vector<int>& blocks :
-       std::vector<std::vector<int>>{{1}, {2, 3}, {16}, {100}, {128}, {333, 4096}, {1024}}) {
+       std::vector<std::vector<int>>{{1}, {2, 3}, {16}, {100}, {128}, {333, 4096}, {4096}}) {
     EXPECT_EQ(rendered(blocks), whole) << "first block of " << blocks.front();
+    EXPECT_EQ(counters.stolen, first.stolen);
+    EXPECT_EQ(counters.dropped_pool, first.dropped_pool);
+    EXPECT_EQ(counters.channels_skipped, first.channels_skipped);
   }
 }
 

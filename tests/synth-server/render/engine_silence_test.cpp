@@ -19,12 +19,6 @@ double largest_step(const std::vector<float>& out, float before) {
   return most;
 }
 
-double peak(const std::vector<float>& out) {
-  double most = 0.0;
-  for (const float v : out) most = std::max(most, std::abs(static_cast<double>(v)));
-  return most;
-}
-
 /// A cavity of 5 cm: 60 Hz and 0.5 of full scale. Its sine's largest step is 2 pi 60 / 48000 of
 /// that.
 constexpr double kSineStep = 0.5 * 2.0 * 3.1416 * 60.0 / 48000.0;
@@ -37,7 +31,7 @@ TEST(StartRamp, OpensDuringTwoSeconds) {
   for (int i = 0; i < 8; ++i) engine.schedule({cavity(0.03F), i * 12000});
   const auto out = render(engine, 96000 + 24000).front();
   const auto level = [&](int from) {
-    return peak({out.begin() + from, out.begin() + from + 12000});
+    return loudest({out.begin() + from, out.begin() + from + 12000});
   };
   EXPECT_LT(level(0), 0.2 * level(60000));
   EXPECT_LT(level(36000), level(84000));
@@ -52,11 +46,11 @@ TEST(Silence, FadesOutIn20MillisecondsWithoutAClickAndComesBack) {
   const auto fading = render(engine, 961).front();
   EXPECT_TRUE(engine.silenced());
   EXPECT_LT(largest_step(fading, before.back()), 1.5 * kSineStep);
-  EXPECT_EQ(peak(render(engine, 480).front()), 0.0);
+  EXPECT_EQ(loudest(render(engine, 480).front()), 0.0);
   engine.silence(false);
   const auto back = render(engine, 1500).front();
   EXPECT_LT(largest_step(back, 0.0F), 1.5 * kSineStep);
-  EXPECT_GT(peak(back), 0.1);
+  EXPECT_GT(loudest(back), 0.1);
   EXPECT_FALSE(engine.silenced());
 }
 
@@ -73,7 +67,7 @@ TEST(Clear, DropsWhatWaitsAndFadesWhatSounds) {
   EXPECT_LT(largest_step(fading, before.back()), kSineStep + 0.5 * 1.5 / 240.0);
   EXPECT_EQ(engine.counters().voices, 0U);
   render(engine, 48000);  // the 1 Hz high-pass swings out
-  EXPECT_LT(peak(render(engine, 96000).front()), 0.01);
+  EXPECT_LT(loudest(render(engine, 96000).front()), 0.01);
   engine.schedule({bubble(0.005F), engine.clock()});
   render(engine, 100);
   EXPECT_EQ(engine.counters().voices, 1U) << "events after clear() play";

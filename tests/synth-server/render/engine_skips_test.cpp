@@ -15,12 +15,6 @@
 namespace splash::synth {
 namespace {
 
-double peak(const std::vector<float>& out) {
-  double most = 0.0;
-  for (const float v : out) most = std::max(most, std::abs(static_cast<double>(v)));
-  return most;
-}
-
 TEST(Engine, SkipsSilentChannelsWithoutChangingASample) {
   const TimedEvent events[] = {{bubble(0.006F, 0.05F, {0.2F, 0.2F, 0.0F}), 1000},
                                {impact(1.0F, 1, {1.5F, 1.5F, 0.0F}), 90000}};
@@ -78,12 +72,12 @@ TEST(Skips, OfBubblesAboveTheBandCostNothingThatTheBandWouldHaveLetThrough) {
     Engine diligent(floor_rig(), settings);
     skipping.schedule({bubble(radius, 0.1F, {0.15F, 0.15F, 0.0F}), 0});
     diligent.schedule({bubble(radius, 0.1F, {0.15F, 0.15F, 0.0F}), 0});
-    EXPECT_EQ(peak(render(skipping, 4800)[0]), 0.0);
+    EXPECT_EQ(loudest(render(skipping, 4800)[0]), 0.0);
     EXPECT_EQ(skipping.counters().dropped_band, 1U);
     EXPECT_EQ(diligent.counters().dropped_band, 0U);
     const double amplitude = 0.1 * static_cast<double>(radius) / 0.01;
     const double octaves = std::log2(3.0 / static_cast<double>(radius) / 750.0);
-    const double heard = peak(render(diligent, 4800)[0]);
+    const double heard = loudest(render(diligent, 4800)[0]);
     EXPECT_LT(heard, amplitude * std::pow(10.0, (-3.0 - 9.0 * octaves) / 20.0)) << radius;
     EXPECT_GT(heard, 0.0);
   }
@@ -105,14 +99,6 @@ std::vector<float> difference(const std::vector<float>& a, const std::vector<flo
   std::vector<float> out(a.size());
   for (std::size_t n = 0; n < a.size(); ++n) out[n] = a[n] - b[n];
   return out;
-}
-
-double energy(const std::vector<float>& x, std::size_t from, std::size_t to) {
-  double sum = 0.0;
-  for (std::size_t n = from; n < to; ++n) {
-    sum += static_cast<double>(x[n]) * static_cast<double>(x[n]);
-  }
-  return sum;
 }
 
 struct Felt {
@@ -163,7 +149,7 @@ TEST_P(UnfeltVoices, StayBelowTheThresholdOfTouch) {
   double nearest_db = -200.0;
   for (const std::size_t tile : {0U, 14U, 21U, 35U}) {
     const auto left_out = difference(diligent[tile], skipping[tile]);
-    ASSERT_GT(energy(left_out, 0, left_out.size()), 0.0);
+    ASSERT_GT(energy(left_out), 0.0);
     for (std::size_t from = 0; from + 4800 <= left_out.size(); from += 2400) {
       for (double f = 25.0; f < 750.0; f *= 1.26) {
         const double limit_db = GetParam().level_db + touch_threshold_db(f);

@@ -76,33 +76,6 @@ TEST(Engine, FadesACavityAfterItsLife) {
   EXPECT_LT(left_energy, 1e-4 * energy);  // half a second after its start
 }
 
-TEST(Engine, GivesTheSameBitsInAnyBlocks) {
-  const auto events = splashes(1500, 20000);
-  auto settings = file_settings();
-  settings.max_voices = 200;  // some have to be stolen
-  settings.max_block = 65536;
-  Channels reference;
-  EngineCounters first;
-  for (const std::vector<int>& blocks : std::vector<std::vector<int>>{
-           {24000}, {1}, {37}, {64}, {63, 65, 2}, {512}, {4096, 1, 1000}}) {
-    Engine engine(floor_rig(), settings);
-    for (const TimedEvent& event : events) ASSERT_TRUE(engine.schedule(event));
-    const auto out = render(engine, 24000, blocks);
-    const auto counters = engine.counters();
-    if (reference.empty()) {
-      reference = out;
-      first = counters;
-      EXPECT_GT(counters.stolen, 100U);
-      EXPECT_GT(counters.dropped_band, 100U);
-      continue;
-    }
-    EXPECT_EQ(out, reference) << "first block of " << blocks.front();
-    EXPECT_EQ(counters.stolen, first.stolen);
-    EXPECT_EQ(counters.dropped_pool, first.dropped_pool);
-    EXPECT_EQ(counters.channels_skipped, first.channels_skipped);
-  }
-}
-
 TEST(Engine, ComponentsAddUpToTheWhole) {
   const auto events = splashes(60, 20000);
   const auto render_of = [&](unsigned components) {

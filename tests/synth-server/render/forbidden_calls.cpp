@@ -4,14 +4,21 @@
 #include <dlfcn.h>
 #include <poll.h>
 #include <pthread.h>
+#include <sys/prctl.h>
 #include <sys/select.h>
+#include <ucontext.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <ctime>
 #include <ostream>
 #include <typeinfo>
+
+#if defined(__x86_64__) && defined(PR_SET_SYSCALL_USER_DISPATCH)
+#define SPLASH_CATCHES_SYSTEM_CALLS
+#endif
 
 namespace {
 
@@ -117,6 +124,70 @@ ssize_t write(int file, const void* data, std::size_t size) {
 }
 
 namespace splash::synth {
+namespace {
+
+thread_local volatile char dispatch = 0;  // SYSCALL_DISPATCH_FILTER_ALLOW; 1: BLOCK
+thread_local volatile bool called = false;
+
+#ifdef SPLASH_CATCHES_SYSTEM_CALLS
+
+/// Notes the call, lets all further ones pass, and makes this one in the thread's name.
+void on_system_call(int /*signal*/, siginfo_t* info, void* context) {
+  dispatch = 0;
+  called = true;
+  const int error = errno;
+  auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
+  const long result =
+      syscall(info->si_syscall, registers[REG_RDI], registers[REG_RSI], registers[REG_RDX],
+              registers[REG_R10], registers[REG_R8], registers[REG_R9]);
+  registers[REG_RAX] = result == -1 ? -errno : result;
+  errno = error;
+}
+
+bool watch(bool on) noexcept {
+  return prctl(PR_SET_SYSCALL_USER_DISPATCH, on ? PR_SYS_DISPATCH_ON : PR_SYS_DISPATCH_OFF, 0UL,
+               0UL, on ? &dispatch : nullptr) == 0;
+}
+
+bool install() noexcept {
+  struct sigaction action {};
+  action.sa_sigaction = on_system_call;
+  action.sa_flags = SA_SIGINFO;
+  return sigaction(SIGSYS, &action, nullptr) == 0 && watch(true) && watch(false);
+}
+
+#else
+
+bool watch(bool /*on*/) noexcept {
+  return false;
+}
+bool install() noexcept {
+  return false;
+}
+
+#endif
+
+}  // namespace
+
+bool SystemCallScope::works() noexcept {
+  static const bool kInstalled = install();
+  return kInstalled;
+}
+
+SystemCallScope::SystemCallScope() noexcept {
+  called = false;
+  if (!works() || !watch(true)) return;
+  dispatch = 1;  // from here on
+}
+
+SystemCallScope::~SystemCallScope() {
+  dispatch = 0;
+  if (works()) watch(false);
+}
+
+bool SystemCallScope::any() noexcept {
+  return called;
+}
 
 ForbiddenCalls& ForbiddenCalls::operator+=(const ForbiddenCalls& other) noexcept {
   allocations += other.allocations;

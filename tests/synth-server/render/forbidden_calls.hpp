@@ -1,14 +1,29 @@
 // SPDX-License-Identifier: MIT
 // Counts what a real-time thread must not do. GCC 12 has no RealtimeSanitizer: forbidden_calls.cpp
 // puts itself in front of malloc, its kin, the locks, the functions that wait and what throws, for
-// the program that links it; the kernel tells of every system call (system_calls.hpp).
+// the program that links it; the kernel tells of every system call.
 #pragma once
 
 #include <iosfwd>
 
-#include "tests/synth-server/render/system_calls.hpp"
-
 namespace splash::synth {
+
+/// Catches a thread that enters the kernel, whatever it does there: sleeps, waits for a lock,
+/// reads, writes. No function needs to be known for it: Linux itself hands each system call of the
+/// thread to us (syscall user dispatch, since 5.11). System calls of this thread are caught while
+/// one lives.
+class SystemCallScope {
+ public:
+  SystemCallScope() noexcept;
+  ~SystemCallScope();
+  SystemCallScope(const SystemCallScope&) = delete;
+  SystemCallScope& operator=(const SystemCallScope&) = delete;
+
+  /// Whether there was any since the scope began: the first one ends the watch.
+  [[nodiscard]] static bool any() noexcept;
+  /// False where the kernel or the processor cannot do it: then none is ever seen.
+  [[nodiscard]] static bool works() noexcept;
+};
 
 struct ForbiddenCalls {
   int allocations = 0;   ///< frees included

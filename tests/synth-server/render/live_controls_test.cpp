@@ -56,14 +56,6 @@ std::size_t number_of(const Change& change) {
 const std::size_t kCavityGain = number_of([](Sound& s) { s.cavity.gain_db = 1.0; });
 const std::size_t kImpactFrequency = number_of([](Sound& s) { s.impact.frequency = 1.0; });
 
-double loudest(const std::vector<float>& signal, std::size_t from = 0) {
-  double most = 0.0;
-  for (std::size_t i = from; i < signal.size(); ++i) {
-    most = std::max(most, std::abs(static_cast<double>(signal[i])));
-  }
-  return most;
-}
-
 /// Largest change of slope from sample to sample: what a click is.
 double bend(const std::vector<float>& s) {
   double most = 0.0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -104,6 +105,22 @@ inline std::vector<TimedEvent> splashes(int count, std::int64_t samples) {
     }
   }
   return events;
+}
+
+/// The largest magnitude from sample `from` on.
+inline double loudest(const std::vector<float>& signal, std::size_t from = 0) {
+  double most = 0.0;
+  for (std::size_t n = from; n < signal.size(); ++n) {
+    most = std::max(most, std::abs(static_cast<double>(signal[n])));
+  }
+  return most;
+}
+
+/// The sum of the squares.
+inline double energy(const std::vector<float>& signal) {
+  double sum = 0.0;
+  for (const float s : signal) sum += static_cast<double>(s) * static_cast<double>(s);
+  return sum;
 }
 
 }  // namespace splash::synth

@@ -23,12 +23,6 @@ EngineSettings foot_settings(double texture, double wash) {
   return settings;
 }
 
-double energy(const std::vector<float>& samples) {
-  double sum = 0.0;
-  for (const float s : samples) sum += static_cast<double>(s) * static_cast<double>(s);
-  return sum;
-}
-
 /// Mean over many, as noise has it.
 double energy_of(const protocol::Event& event, const EngineSettings& settings) {
   constexpr int kTimes = 40;

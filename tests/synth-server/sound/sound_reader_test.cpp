@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
+
+#include "tests/support/text_of.hpp"
 
 namespace splash::synth {
 namespace {
@@ -122,9 +122,7 @@ TEST_P(BrokenSound, IsAnsweredWithItsPlaceAndTheReason) {
 }
 
 TEST(SoundKeys, AreWhatTheReadmeOfTheSoundsSays) {
-  std::ifstream file(kFolder / "README.md");
-  const std::string readme((std::istreambuf_iterator<char>(file)), {});
-  EXPECT_THAT(readme, HasSubstr(describe_sound_keys()))
+  EXPECT_THAT(tests::text_of(kFolder / "README.md"), HasSubstr(describe_sound_keys()))
       << "put the output of sound-reference behind the README's text";
 }
 
