@@ -85,21 +85,21 @@ TEST_F(Service, HasThisTreesPaths) {
 }
 
 TEST_F(Service, KnowsWhereTheOtherProgramIs) {
-  const CommandResult result = launch("pool --hosts 192.168.0.10,192.168.0.20");
-  ASSERT_EQ(result.exit_code, 0) << result.output;
-  EXPECT_THAT(result.output, testing::ContainsRegex("splash-synth .*# on 192.168.0.20\n"));
-  const std::string sim = read_text(unit("splash-sim"));
+  const tests::Ended result = launch("pool --hosts 192.168.0.10,192.168.0.20");
+  ASSERT_EQ(result.code, 0) << result.text;
+  EXPECT_THAT(result.text, testing::ContainsRegex("splash-synth .*# on 192.168.0.20\n"));
+  const std::string sim = tests::text_of(unit("splash-sim"));
   EXPECT_THAT(sim, HasSubstr(" --listen 0.0.0.0:57300 --allow 192.168.0.20 "
                              "--target 192.168.0.20:57310 --show 0.0.0.0:57301 --quiet\n"));
   EXPECT_THAT(sim, Not(HasSubstr("splash-synth"))) << "this host has none to start";
-  EXPECT_THAT(read_text(unit("splash-synth")),
+  EXPECT_THAT(tests::text_of(unit("splash-synth")),
               HasSubstr(" --listen 0.0.0.0:57310 --allow 192.168.0.10 "
                         "--forces 192.168.0.10:57300 --show 0.0.0.0:57311\n"));
-  EXPECT_THAT(read_text(unit("splash-view")),
+  EXPECT_THAT(tests::text_of(unit("splash-view")),
               HasSubstr(" --sim 127.0.0.1:57300 --synth 192.168.0.20:57310 "
                         "--sim-show 127.0.0.1:57301 --synth-show 192.168.0.20:57311\n"));
   for (const char* wrong : {"--hosts 192.168.0.10", "--hosts a,b", "pool", "-- --allow 1.2.3.4"}) {
-    EXPECT_EQ(launch(std::string("pool ") + wrong).exit_code, 64) << wrong;
+    EXPECT_EQ(launch(std::string("pool ") + wrong).code, 64) << wrong;
   }
 }
 

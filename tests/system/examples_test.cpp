@@ -7,7 +7,9 @@
 #include <csignal>
 #include <string>
 
+#include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::tests {
@@ -66,6 +68,38 @@ TEST(Examples, AHandThatOneMovesIsHeardAndFeltByOthers) {
   }
   EXPECT_THAT(listener.output(),
               ContainsRegex("impact +[0-9.]+ m/s   body 0 at \\([-0-9.]+, [-0-9.]+, 0.[45]"));
+}
+
+TEST(Examples, ALogBecomesATable) {
+  const TemporaryFolder folder;
+  {
+    protocol::LogWriter log(folder / "run.osc");
+    const protocol::Message frame = to_message(protocol::Frame{.session = 1});
+    log.append(0.5,
+               {frame, to_message(protocol::Event(protocol::Impact{.id = 3,
+                                                                   .speed = 1.5F,
+                                                                   .approach = 1.25F,
+                                                                   .position = {0.5F, 0.0F, 0.25F},
+                                                                   .offset_ms = 20.0F,
+                                                                   .momentum = 2.0F}))});
+    log.append(
+        2.0,
+        {frame, to_message(protocol::Event(protocol::Bubble{.radius = 0.005F, .position = {}})),
+         to_message(
+             protocol::Event(protocol::Cavity{.radius = 0.03125F, .position = {}, .life = 0.5F}))});
+  }
+  const Arguments program{"python3", "-B", kSource + "/examples/python/log_to_csv.py"};
+  Arguments line = program;
+  line.push_back(folder / "run.osc");
+  const Ended ended = run_command(line, 60.0);
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.text,
+            "seconds,event,id,body,x,y,z,speed,approach,momentum,rise,radius,epsilon,life\r\n"
+            "0.52,impact,3,0,0.5,0,0.25,1.5,1.25,2,0,,,\r\n"
+            "2,bubble,0,-1,0,0,0,,,,,0.005,0,\r\n"
+            "2,cavity,0,-1,0,0,0,,,,,0.03125,0.1,0.5\r\n");
+  line.back() = kSource + "/README.md";
+  EXPECT_THAT(run_command(line, 60.0).text, testing::HasSubstr("byte 0: this is no bundle"));
 }
 
 }  // namespace
