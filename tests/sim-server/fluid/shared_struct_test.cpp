@@ -20,7 +20,6 @@
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/pocket.h"
-#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/tank_turn.h"
 
 namespace splash::sim {

@@ -10,8 +10,8 @@
 #include "sim-server/fluid/pressure/grid_projected/air_pockets.hpp"
 #include "sim-server/fluid/pressure/grid_projected/coupling.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
-#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 
 namespace splash::sim {
