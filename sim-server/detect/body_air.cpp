@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sim-server/fluid/air/images.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <span>
 
+#include "sim-server/scene/rotation.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr auto kNoParticle = std::numeric_limits<std::uint32_t>::max();
 
 template <class Found>
 Vector3 place_of(const Found& found) {
-  return {static_cast<double>(found.x), static_cast<double>(found.y), static_cast<double>(found.z)};
+  return vector(found.x, found.y, found.z);
 }
 
 }  // namespace
@@ -261,8 +263,7 @@ void Bubbles::renew(double time) {
   std::vector<bool> lives(pool_.size(), false);
   for (const BubbleState& state : states_) {
     PoolBubble& bubble = pool_[static_cast<std::size_t>(state.id)];
-    bubble.position = {static_cast<double>(state.x), static_cast<double>(state.y),
-                       static_cast<double>(state.z)};
+    bubble.position = place_of(state);
     // One bubble at the very rim of the support gives a colour of 1e-7: that is null.
     lives[static_cast<std::size_t>(state.id)] =
         state.colour > 1e-6F && state.upward >= 0.0F && time - bubble.born <= settings_.bubble_life;

@@ -13,7 +13,6 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/device.hpp"
-#include "sim-server/device/opencl.hpp"
 #include "sim-server/device/shared_struct.h"
 
 namespace splash::sim {

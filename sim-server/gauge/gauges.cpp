@@ -9,7 +9,7 @@
 #include <span>
 
 #include "sim-server/bodies/skin.hpp"
-#include "sim-server/fluid/air/images.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/gauge/balance.hpp"
 #include "sim-server/gauge/body_push.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/gauge/wall_push.hpp"
 
+#include "sim-server/scene/rotation.hpp"
+
 namespace splash::sim {
 namespace kernels {
 std::vector<KernelSource> gauge();
@@ -26,14 +28,8 @@ std::vector<Vector3> WallPush::read(Fluid& fluid, const Step& step) {
                       {"piston", static_cast<float>(step.piston)},
                       {"push", push_}});
   const auto stride = static_cast<std::size_t>(fluid.params().capacity);
-  const std::vector<float> parts = push_.read(fluid.device(), 3 * stride);
-  std::vector<Vector3> push(static_cast<std::size_t>(fluid.params().count));
-  for (std::size_t i = 0; i < push.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      push[i][axis] = static_cast<double>(parts[axis * stride + i]);
-    }
-  }
-  return push;
+  return as_vectors(push_.read(fluid.device(), 3 * stride), stride,
+                    static_cast<std::size_t>(fluid.params().count));
 }
 
 }  // namespace splash::sim

@@ -7,17 +7,6 @@ namespace splash::sim {
 
 namespace {
 
-std::vector<Vector3> as_vectors(const std::vector<float>& parts, std::size_t count,
-                                std::size_t stride) {
-  std::vector<Vector3> all(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      all[i][axis] = static_cast<double>(parts[axis * stride + i]);
-    }
-  }
-  return all;
-}
-
 void read_images(Fluid& fluid, WaterState& water) {
   const std::size_t count = water.position.size();
   water.image.assign(count, 1.0);
@@ -27,9 +16,7 @@ void read_images(Fluid& fluid, WaterState& water) {
   const std::vector<float> parts = fluid.body_images().read(fluid.device(), 4 * stride);
   for (std::size_t i = 0; i < count; ++i) {
     water.image[i] = static_cast<double>(parts[i]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      water.slope[i][axis] = static_cast<double>(parts[(axis + 1) * stride + i]);
-    }
+    water.slope[i] = vector_at(parts, stride, stride + i);
   }
 }
 
@@ -72,8 +59,8 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   const auto stride = static_cast<std::size_t>(p.capacity);
   const std::size_t count = snapshot.id.size();
   WaterState water;
-  water.position = as_vectors(snapshot.position, count, stride);
-  water.velocity = as_vectors(snapshot.velocity, count, stride);
+  water.position = as_vectors(snapshot.position, stride, count);
+  water.velocity = as_vectors(snapshot.velocity, stride, count);
   if (pressures) read_pressures(fluid, water);
   water.mass = static_cast<double>(p.mass);
   water.spacing = static_cast<double>(p.spacing);
@@ -87,12 +74,9 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   water.viscous = static_cast<double>(p.viscous);
   water.artificial = static_cast<double>(p.artificial);
   water.point_weight = static_cast<double>(p.layer_weight) / water.spacing;
-  water.gravity = {static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
-                   static_cast<double>(p.gravity_z)};
-  water.pull = {static_cast<double>(p.pull_x), static_cast<double>(p.pull_y),
-                static_cast<double>(p.pull_z)};
-  water.pull_centre = {static_cast<double>(p.centre_x), static_cast<double>(p.centre_y),
-                       static_cast<double>(p.centre_z)};
+  water.gravity = vector(p.gravity_x, p.gravity_y, p.gravity_z);
+  water.pull = vector(p.pull_x, p.pull_y, p.pull_z);
+  water.pull_centre = vector(p.centre_x, p.centre_y, p.centre_z);
   return water;
 }
 

@@ -6,6 +6,9 @@
 
 namespace splash::sim {
 
+/// The surface of the particles is this rough: nearer, body and water touch [spacings].
+inline constexpr double kSurfaceRoughness = 0.1;
+
 inline constexpr int kParticlesMin = 100;
 inline constexpr int kParticlesMax = 4'000'000;
 

@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Unit quaternions as rotations, and their logarithm: the few formulas every moving body needs.
+// Vectors, unit quaternions as rotations, and their logarithm: the few formulas every moving body
+// needs.
 #pragma once
+
+#include <cstddef>
+#include <vector>
 
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
+
+/// Three numbers of single precision, as kernels have them.
+[[nodiscard]] inline Vector3 vector(float x, float y, float z) noexcept {
+  return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+}
+
+/// The one of number `i` in an array with x, y and z parts `stride` apart.
+[[nodiscard]] inline Vector3 vector_at(const std::vector<float>& parts, std::size_t stride,
+                                       std::size_t i) {
+  return vector(parts[i], parts[stride + i], parts[2 * stride + i]);
+}
+/// The first `count` of them.
+[[nodiscard]] std::vector<Vector3> as_vectors(const std::vector<float>& parts, std::size_t stride,
+                                              std::size_t count);
 
 [[nodiscard]] inline Vector3 operator+(const Vector3& a, const Vector3& b) noexcept {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};

@@ -88,13 +88,7 @@ std::vector<Vector3> read_places(Fluid& fluid) {
   const auto stride = static_cast<std::size_t>(fluid.params().capacity);
   const std::vector<float> parts =
       fluid.particles().position.read(fluid.device(), 2 * stride + count);
-  std::vector<Vector3> places(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      places[i][axis] = static_cast<double>(parts[axis * stride + i]);
-    }
-  }
-  return places;
+  return as_vectors(parts, stride, count);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 
 namespace splash::sim {
 

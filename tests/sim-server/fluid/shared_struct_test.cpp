@@ -15,7 +15,6 @@
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/health/health_record.h"
-#include "sim-server/fluid/health/stats_part.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"

@@ -101,18 +101,11 @@ std::vector<Press> GridSolids::press(Device& device, std::size_t bodies) const {
   const std::vector<int> owner = owner_.read(device, cells);
   const std::array<std::size_t, 3> step = {1, static_cast<std::size_t>(l.row),
                                            static_cast<std::size_t>(l.layer)};
-  const Vector3 lower = {static_cast<double>(g.x), static_cast<double>(g.y),
-                         static_cast<double>(g.z)};
-  const Vector3 edge = {static_cast<double>(g.hx), static_cast<double>(g.hy),
-                        static_cast<double>(g.hz)};
-  const Vector3 gravity = {static_cast<double>(params_.gravity_x),
-                           static_cast<double>(params_.gravity_y),
-                           static_cast<double>(params_.gravity_z)};
-  const Vector3 pull = {static_cast<double>(params_.pull_x), static_cast<double>(params_.pull_y),
-                        static_cast<double>(params_.pull_z)};
-  const Vector3 centre = {static_cast<double>(params_.centre_x),
-                          static_cast<double>(params_.centre_y),
-                          static_cast<double>(params_.centre_z)};
+  const Vector3 lower = vector(g.x, g.y, g.z);
+  const Vector3 edge = vector(g.hx, g.hy, g.hz);
+  const Vector3 gravity = vector(params_.gravity_x, params_.gravity_y, params_.gravity_z);
+  const Vector3 pull = vector(params_.pull_x, params_.pull_y, params_.pull_z);
+  const Vector3 centre = vector(params_.centre_x, params_.centre_y, params_.centre_z);
   const double volume = edge[0] * edge[1] * edge[2];
   const auto middle_of = [&](std::size_t c, std::size_t axis, std::size_t side) {
     const std::array<std::size_t, 3> at = {c % step[2] % step[1], c % step[2] / step[1],
