@@ -13,7 +13,7 @@
 #include <string>
 
 #include "protocol/event.hpp"
-#include "sim-server/gauge/gauge_file.hpp"
+#include "sim-server/gauge/gauges.hpp"
 #include "sim-server/listen/clock_answers.hpp"
 #include "sim-server/listen/control.hpp"
 #include "sim-server/options.hpp"

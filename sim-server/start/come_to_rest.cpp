@@ -10,7 +10,7 @@
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/step_policy.hpp"
-#include "sim-server/simulation/recovery/step_fault.hpp"
+#include "sim-server/simulation/recovery/recovery.hpp"
 #include "sim-server/start/settle.hpp"
 
 namespace splash::sim {

@@ -9,7 +9,6 @@
 #include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/bodies/motion/tied_motion.hpp"
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/scene/flow.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
