@@ -183,7 +183,7 @@ kernel void hold_out(constant FluidParams* p, constant BodyShape* shapes, global
 double held(Device& device) {
   if (device.lanes() == 1) return 0.0;
   constexpr int kTimes = 1024;
-  std::vector<KernelSource> sources = fluid_sources();
+  std::vector<KernelSource> sources = kernels::fluid();
   sources.push_back({"tests/bench/hold_out", kHold});
   Kernel hold_out(build_program(device, sources, kernel_defines({})), "hold_out", 1);
   FluidParams p = {};

@@ -143,8 +143,8 @@ const std::vector<Member> kMembers = {
 std::vector<KernelSource> shared_headers() {
   std::vector<KernelSource> headers;
   std::set<std::string> seen;
-  for (const auto& program : {fluid_sources(), free_body_sources(), stats_sources(),
-                              grid_projected_sources(), tank_turn_sources(), kernels::detect()}) {
+  for (const auto& program : {kernels::fluid(), kernels::free_bodies(), kernels::stats(),
+                              kernels::grid_projected(), kernels::tank_turn(), kernels::detect()}) {
     for (const KernelSource& source : program) {
       if (source.text.find("SPLASH_SHARED_STRUCT(") == std::string::npos) continue;
       if (seen.insert(source.name).second) headers.push_back(source);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim-server/fluid/fluid.hpp"
+
 namespace splash::sim {
 namespace {
 
@@ -131,5 +133,9 @@ MacFields::MacFields(Device& device, const FluidParams& params)
       wet(device, room),
       air(device, room),
       carried(device, 3 * static_cast<std::size_t>(params.capacity)) {}
+
+std::array<KernelArg, 2> MacFields::args(const Fluid& fluid) const {
+  return {{{"p", fluid.params_buffer()}, {"g", on_device}}};
+}
 
 }  // namespace splash::sim

@@ -3,9 +3,11 @@
 // the stages of a step share.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "sim-server/device/buffer.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
@@ -21,8 +23,13 @@ inline constexpr double kMacCell = 2.0;
 /// Room for an array over all levels, and for vectors that are read past its end.
 [[nodiscard]] std::size_t mac_room(const MacGrid& grid);
 
+class Fluid;
+
 struct MacFields {
   MacFields(Device& device, const FluidParams& params);
+
+  /// For kernels: the fluid's parameters, and the grid.
+  [[nodiscard]] std::array<KernelArg, 2> args(const Fluid& fluid) const;
 
   MacGrid grid;
   std::size_t cells;    ///< inside, and one more along each axis

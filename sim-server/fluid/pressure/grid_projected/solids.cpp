@@ -32,17 +32,14 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
 void GridSolids::place(Fluid& fluid, const Step& step) {
   if (!any_) return;
   cl::CommandQueue& queue = fluid.device().queue();
-  const Buffer<FluidParams>& params = fluid.params_buffer();
   const Boundary& boundary = fluid.boundary();
   cut_cells_.run(queue, fields_.vectors,
-                 {{"p", params},
-                  {"g", fields_.on_device},
-                  {"piston", as_float(step.piston)},
+                 {{"piston", as_float(step.piston)},
                   {"lower", volume_},
                   {"upper", upper_},
                   {"room", space_},
                   {"owner", owner_}},
-                 boundary.outlines(), boundary.bodies_at(step));
+                 boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
   see_room_.run(queue, fields_.vectors,
                 {{"g", fields_.on_device},
                  {"lower", volume_},
@@ -51,17 +48,14 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                  {"owner", owner_},
                  {"seen", seen_space_}});
   find_clear_.run(queue, fields_.vectors,
-                  {{"p", params},
-                   {"g", fields_.on_device},
-                   {"cell_start", fluid.grid().cell_start()},
+                  {{"cell_start", fluid.grid().cell_start()},
                    {"position", fluid.particles().position},
                    {"seen", seen_space_},
                    {"owner", owner_},
                    {"clear", clear_}},
-                  boundary.outlines(), boundary.bodies_at(step));
-  open_faces_.run(
-      queue, fields_.vectors,
-      {{"p", params}, {"g", fields_.on_device}, {"upper", upper_}, {"volume", volume_}});
+                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
+  open_faces_.run(queue, fields_.vectors, {{"upper", upper_}, {"volume", volume_}},
+                  fields_.args(fluid));
   fill_beside_solids_.run(queue, fields_.vectors,
                           {{"g", fields_.on_device},
                            {"volume", volume_},
@@ -71,16 +65,14 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                            {"fill", fields_.fill},
                            {"filled", filled_}});
   open_areas_.run(queue, fields_.vectors,
-                  {{"p", params},
-                   {"g", fields_.on_device},
-                   {"piston", as_float(step.piston)},
+                  {{"piston", as_float(step.piston)},
                    {"owner", owner_},
                    {"fill", filled_},
                    {"volume", volume_},
                    {"gap", gap_},
                    {"held", upper_},
                    {"excess", excess_}},
-                  boundary.outlines(), boundary.bodies_at(step));
+                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
   params_ = fluid.params();
   dt_ = step.dt;
 }
