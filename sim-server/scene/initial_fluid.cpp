@@ -52,10 +52,7 @@ class Solids {
 
   /// `bodies`: those that may be there.
   [[nodiscard]] bool at(const Vector3& x, const std::vector<std::size_t>& bodies) const {
-    const Tank& tank = scene_.tank;
-    if (x[0] < tank.lower[0] || x[0] > tank.upper[0]) return true;
-    if (x[1] < tank.lower[1] || x[1] > tank.upper[1]) return true;
-    if (x[2] < floor_height(scene_, x[0])) return true;
+    if (is_outside(scene_, x)) return true;
     return std::any_of(bodies.begin(), bodies.end(), [&](std::size_t b) {
       return is_inside(scene_.bodies[b].shape, in_body(b, x));
     });

@@ -3,6 +3,7 @@
 // needs.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -45,6 +46,28 @@ namespace splash::sim {
 }
 
 [[nodiscard]] double length(const Vector3& a) noexcept;
+
+/// The box from `lower` to `upper` grows until `x` is in it.
+inline void grow_box(const Vector3& x, Vector3& lower, Vector3& upper) noexcept {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lower[axis] = std::min(lower[axis], x[axis]);
+    upper[axis] = std::max(upper[axis], x[axis]);
+  }
+}
+
+/// By how much `field` grows along each axis, from a `step` before a place to a step beyond.
+template <class Field>
+[[nodiscard]] Vector3 differences(const Field& field, const Vector3& place, double step) {
+  Vector3 all = {0.0, 0.0, 0.0};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vector3 ahead = place;
+    Vector3 behind = place;
+    ahead[axis] += step;
+    behind[axis] -= step;
+    all[axis] = field(ahead) - field(behind);
+  }
+  return all;
+}
 
 /// First `b`, then `a`.
 [[nodiscard]] Quaternion compose(const Quaternion& a, const Quaternion& b) noexcept;

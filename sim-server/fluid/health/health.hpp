@@ -112,7 +112,6 @@ class Health {
   [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t step,
                                                    std::optional<std::uint32_t> before) const;
 
-  int particles_ = 0;
   std::size_t parts_ = 1;  ///< of the particles, looked at side by side
   FaultSet checks_ = kAllFaults;
   bool fast_ = false;

@@ -74,12 +74,7 @@ constexpr double kMargin = 3.0;  ///< of the field, beyond the reach of a partic
 
 void find_box(MeshSolid& solid) {
   solid.lower = solid.upper = solid.surface.vertices.front();
-  for (const Vector3& x : solid.surface.vertices) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      solid.lower[axis] = std::min(solid.lower[axis], x[axis]);
-      solid.upper[axis] = std::max(solid.upper[axis], x[axis]);
-    }
-  }
+  for (const Vector3& x : solid.surface.vertices) grow_box(x, solid.lower, solid.upper);
 }
 
 program::ConfigError wrong(const MeshSolid& solid, const std::string& reason) {

@@ -131,7 +131,7 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(Touch, u, v, w),
     MEMBERS_3(Touch, water_u, water_v, water_w),
     MEMBERS_3(Touch, nx, ny, nz),
-    MEMBERS_3(Touch, ahead, all_colour, unused),
+    MEMBERS_2(Touch, ahead, all_colour),
 };
 
 #undef MEMBER
