@@ -12,8 +12,8 @@
 
 #define SOLVED 1e-4f  // what may be left of the demand [1]
 
-// The rows of a pocket of air (pocket.h) are one unknown: gives each of its cells the mean of all of
-// them. With one work-item alone: the barriers that many need keep PoCL's compiler for minutes.
+// The rows of a pocket of air (pocket.h) are one unknown: gives each of its cells the mean of all.
+// With one work-item alone: the barriers that many need keep PoCL's compiler for minutes.
 static void pool(global const AirPockets* all, global const int* list, global float* field) {
 #if TEAM == 1
   for (int k = 0; HAS_POCKETS && k < all->count; ++k) {
