@@ -23,9 +23,6 @@ constexpr double kRest = 1.0;
 }  // namespace
 
 BodyState state_of(const BodyStep& step) noexcept {
-  const auto vector = [](float x, float y, float z) -> Vector3 {
-    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-  };
   const Quaternion q = {static_cast<double>(step.qx), static_cast<double>(step.qy),
                         static_cast<double>(step.qz), static_cast<double>(step.qw)};
   return {vector(step.px, step.py, step.pz), unit(q), vector(step.vx, step.vy, step.vz),

@@ -3,13 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace splash::sim {
 namespace {
-
-/// Folds read without asking how many there are.
-constexpr std::size_t kFoldsAtOnce = 128;
 
 /// Particles within an eddy's width tell its energy from their mean motion [spacings].
 constexpr double kLeastWidth = 2.0;
@@ -40,10 +36,8 @@ double eddy_width(const DetectSettings& settings, double spacing) {
 
 AirFolds::AirFolds(Fluid& fluid, const cl::Program& program)
     : fluid_(fluid),
-      count_(fluid.device(), 1),
       folds_(fluid.device(),
              static_cast<std::size_t>(fluid.params().count / SPLASH_FOLDS_APART + 1)),
-      read_(static_cast<std::size_t>(fluid.params().count / SPLASH_FOLDS_APART + 1)),
       fold_air_(program, "fold_air") {}
 
 void AirFolds::enqueue(const Step& step, const DetectSettings& settings, int phase) {
@@ -53,8 +47,8 @@ void AirFolds::enqueue(const Step& step, const DetectSettings& settings, int pha
   const FluidParams& p = fluid_.params();
   const Boundary& boundary = fluid_.boundary();
   const double width = eddy_width(settings, static_cast<double>(p.spacing));
-  count_.enqueue_clear(fluid_.device());
-  fold_air_.run(fluid_.device().queue(), read_.size(),
+  folds_.enqueue_clear(fluid_.device());
+  fold_air_.run(fluid_.device().queue(), folds_.room(),
                 {{"p", fluid_.params_buffer()},
                  {"cell_start", fluid_.grid().cell_start()},
                  {"position", fluid_.particles().position},
@@ -65,31 +59,8 @@ void AirFolds::enqueue(const Step& step, const DetectSettings& settings, int pha
                  {"reach", as_float(width)},
                  {"least", as_float(1.5 * settings.bubble_onset * settings.bubble_onset)},
                  {"factor", as_float(factor_of(settings, p, width))},
-                 {"phase", phase},
-                 {"room", static_cast<int>(read_.size())},
-                 {"counts", count_},
-                 {"out", folds_}},
-                boundary.matter());
-}
-
-void AirFolds::enqueue_read() {
-  if (!looks_) return;
-  count_.enqueue_read(fluid_.device(), found_);
-  folds_.enqueue_read(fluid_.device(),
-                      std::span(read_).first(std::min(kFoldsAtOnce, read_.size())));
-}
-
-std::vector<AirFold> AirFolds::read() {
-  const auto found = static_cast<std::size_t>(found_.front());
-  if (found > kFoldsAtOnce) {
-    folds_.read(fluid_.device(), std::span(read_).subspan(kFoldsAtOnce, found - kFoldsAtOnce),
-                kFoldsAtOnce);
-  }
-  std::vector<AirFold> folds(read_.begin(), read_.begin() + static_cast<std::ptrdiff_t>(found));
-  // Atomics give no order: particles do.
-  std::sort(folds.begin(), folds.end(),
-            [](const AirFold& a, const AirFold& b) { return a.id < b.id; });
-  return folds;
+                 {"phase", phase}},
+                folds_.args(), boundary.matter());
 }
 
 }  // namespace splash::sim

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim-server/detect/bubble_state.h"
+#include "sim-server/detect/counted_list.hpp"
 #include "sim-server/fluid/fluid.hpp"
 
 namespace splash::sim {
@@ -22,22 +23,21 @@ class AirFolds {
   /// particles are looked at, from 0 on.
   void enqueue(const Step& step, const DetectSettings& settings, int phase);
   /// After a frame's last kernel.
-  void enqueue_read();
+  void enqueue_read() {
+    if (looks_) folds_.enqueue_read(fluid_.device());
+  }
   /// Instead of both, where nothing is fast.
   void skip() noexcept {
     looks_ = false;
-    found_.front() = 0;
+    folds_.skip();
   }
   /// What was found, once the queue is finished, in the order of the particles' ids.
-  [[nodiscard]] std::vector<AirFold> read();
+  [[nodiscard]] std::vector<AirFold> read() { return folds_.read(fluid_.device()); }
 
  private:
   Fluid& fluid_;
-  Buffer<int> count_;
-  Buffer<AirFold> folds_;
+  CountedList<AirFold> folds_;
   bool looks_ = false;
-  std::vector<int> found_ = {0};
-  std::vector<AirFold> read_;
   Kernel fold_air_;
 };
 

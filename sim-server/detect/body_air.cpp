@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sim-server/fluid/air/images.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -78,10 +78,7 @@ BodyExtent BodyAir::extent_of(std::size_t body, const BodyState& state) const {
   double shown = 0.0;
   for (const SkinPoint& point : skin_[body]) {
     const Vector3 place = state.position + rotate(state.rotation, point.place);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      extent.lower[axis] = std::min(extent.lower[axis], place[axis]);
-      extent.upper[axis] = std::max(extent.upper[axis], place[axis]);
-    }
+    grow_box(place, extent.lower, extent.upper);
     const double part =
         point.area * std::max(dot(rotate(state.rotation, point.normal), extent.along), 0.0);
     shown += part;
@@ -164,10 +161,7 @@ bool BodyAir::is_solid(const Vector3& place) const {
 /// The air within 2 R of the body and of where it came from, below `level`.
 AirCells BodyAir::fill(std::size_t body, const Vector3& from, double level) const {
   BodyExtent extent = extents_[body];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    extent.lower[axis] = std::min(extent.lower[axis], from[axis]);
-    extent.upper[axis] = std::max(extent.upper[axis], from[axis]);
-  }
+  grow_box(from, extent.lower, extent.upper);
   Box box = around(extent, tank_, spacing_);
   box.upper[2] = level;
   box.lower[2] = std::min(box.lower[2], level - spacing_);

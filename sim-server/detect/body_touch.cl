@@ -101,6 +101,6 @@ kernel void touch_water(constant FluidParams* p, global const int* cell_start,
   const Touch touch = {colour * sum, gradient * total(gx), gradient * total(gy),
                        gradient * total(gz), x, y, z, motion.x, motion.y, motion.z,
                        share * total(u), share * total(v), share * total(w), normal.x, normal.y,
-                       normal.z, ahead, colour * total(all), {0.0f, 0.0f}};
+                       normal.z, ahead, colour * total(all)};
   out[s] = touch;
 }

@@ -7,18 +7,17 @@
 #include <numeric>
 #include <span>
 
+#include "sim-server/scene/rotation.hpp"
+
 namespace splash::sim {
 namespace {
-
-/// Spawns read without asking how many there are: more in one frame are rare.
-constexpr std::size_t kReadAtOnce = 128;
 
 /// Of the draws that a frame makes as a whole.
 constexpr auto kNoParticle = std::numeric_limits<std::uint32_t>::max();
 
 template <class Found>
 Vector3 place_of(const Found& found) {
-  return {static_cast<double>(found.x), static_cast<double>(found.y), static_cast<double>(found.z)};
+  return vector(found.x, found.y, found.z);
 }
 
 }  // namespace
@@ -30,10 +29,7 @@ Bubbles::Bubbles(Fluid& fluid, const cl::Program& program, const DetectSettings&
       seed_(static_cast<std::uint32_t>(seed)),
       room_(room),
       budget_(settings.bubbles_per_second),
-      spawn_count_(fluid.device(), 1),
-      spawn_count_read_(1),
-      spawns_read_(static_cast<std::size_t>(fluid.params().count)),
-      spawns_(fluid.device(), spawns_read_.size()),
+      spawns_(fluid.device(), static_cast<std::size_t>(fluid.params().count)),
       points_(fluid.device(), room),
       sorted_(fluid.device(), room),
       grid_(fluid.device(), program, fluid.params(), room,
@@ -82,9 +78,7 @@ void Bubbles::enqueue(const Step& step, double frame) {
 void Bubbles::enqueue_read() {
   Device& device = fluid_.device();
   if (looked_) {
-    spawn_count_.enqueue_read(device, spawn_count_read_);
-    spawns_.enqueue_read(device,
-                         std::span(spawns_read_).first(std::min(kReadAtOnce, spawns_read_.size())));
+    spawns_.enqueue_read(device);
     if (folds_) folds_->enqueue_read();
   }
   states_.resize(static_cast<std::size_t>(carried_));
@@ -97,14 +91,14 @@ void Bubbles::skip() {
   carried_ = 0;
   states_.clear();
   spawned_.clear();
-  spawn_count_read_.front() = 0;
+  spawns_.skip();
   if (folds_) folds_->skip();
 }
 
 void Bubbles::look_for_spawns(const Step& step) {
   Device& device = fluid_.device();
   looked_ = true;
-  spawn_count_.enqueue_clear(device);
+  spawns_.enqueue_clear(device);
   // The threshold is in units of the gradient at a flat surface; its outermost particles, half a
   // spacing below, see 0.65 of that (the planar marginal there over the one at the centre).
   const Boundary& boundary = fluid_.boundary();
@@ -121,11 +115,8 @@ void Bubbles::look_for_spawns(const Step& step) {
                       {"piston", as_float(step.piston)},
                       {"least_speed", as_float(settings_.bubble_speed)},
                       {"least_gradient", as_float(settings_.bubble_gradient)},
-                      {"room", static_cast<int>(spawns_read_.size())},
-                      {"memory", memory_},
-                      {"counts", spawn_count_},
-                      {"out", spawns_}},
-                     boundary.matter(), boundary.bodies_at(step));
+                      {"memory", memory_}},
+                     spawns_.args(), boundary.matter(), boundary.bodies_at(step));
 }
 
 void Bubbles::carry(const Step& step, double frame) {
@@ -146,20 +137,6 @@ void Bubbles::carry(const Step& step, double frame) {
                      boundary.matter(), boundary.bodies_at(step));
 }
 
-std::vector<Spawn> Bubbles::read_spawns() {
-  const auto found = static_cast<std::size_t>(spawn_count_read_.front());
-  if (found > kReadAtOnce) {
-    spawns_.read(fluid_.device(), std::span(spawns_read_).subspan(kReadAtOnce, found - kReadAtOnce),
-                 kReadAtOnce);
-  }
-  std::vector<Spawn> spawns(spawns_read_.begin(),
-                            spawns_read_.begin() + static_cast<std::ptrdiff_t>(found));
-  // Atomics give no order: particles do.
-  std::sort(spawns.begin(), spawns.end(),
-            [](const Spawn& a, const Spawn& b) { return a.id < b.id; });
-  return spawns;
-}
-
 DetectedBubble Bubbles::draw_bubble(int particle, const Vector3& place, const Draws& draws,
                                     double least, double most) const {
   DetectedBubble bubble;
@@ -173,7 +150,7 @@ DetectedBubble Bubbles::draw_bubble(int particle, const Vector3& place, const Dr
 
 std::vector<DetectedBubble> Bubbles::collect(double time, double frame, std::uint32_t step,
                                              const WakeAir& wakes) {
-  const std::vector<Spawn> spawns = read_spawns();
+  const std::vector<Spawn> spawns = spawns_.read(fluid_.device());
   spawned_.clear();
   for (const Spawn& spawn : spawns) spawned_.push_back(place_of(spawn));
   if (!folds_) return tell_spawns(spawns, time, frame, step);
@@ -261,8 +238,7 @@ void Bubbles::renew(double time) {
   std::vector<bool> lives(pool_.size(), false);
   for (const BubbleState& state : states_) {
     PoolBubble& bubble = pool_[static_cast<std::size_t>(state.id)];
-    bubble.position = {static_cast<double>(state.x), static_cast<double>(state.y),
-                       static_cast<double>(state.z)};
+    bubble.position = place_of(state);
     // One bubble at the very rim of the support gives a colour of 1e-7: that is null.
     lives[static_cast<std::size_t>(state.id)] =
         state.colour > 1e-6F && state.upward >= 0.0F && time - bubble.born <= settings_.bubble_life;

@@ -12,6 +12,7 @@
 #include "sim-server/detect/air_folds.hpp"
 #include "sim-server/detect/bubble_draw.hpp"
 #include "sim-server/detect/bubble_state.h"
+#include "sim-server/detect/counted_list.hpp"
 #include "sim-server/detect/detection.hpp"
 #include "sim-server/detect/wake_air.hpp"
 #include "sim-server/fluid/fluid.hpp"
@@ -81,7 +82,6 @@ class Bubbles {
   void upload();
   void look_for_spawns(const Step& step);
   void carry(const Step& step, double frame);
-  [[nodiscard]] std::vector<Spawn> read_spawns();
   /// Of a radius from `least` to `most` [m].
   [[nodiscard]] DetectedBubble draw_bubble(int particle, const Vector3& place, const Draws& draws,
                                            double least, double most) const;
@@ -115,11 +115,8 @@ class Bubbles {
   std::uint32_t drawn_ = 0;  ///< bubbles from it so far
 
   Buffer<float> memory_;
-  Buffer<int> spawn_count_;
-  std::vector<int> spawn_count_read_;
-  std::vector<Spawn> spawns_read_;
+  CountedList<Spawn> spawns_;
   std::vector<float> uploaded_;  ///< kept until the queue has read it
-  Buffer<Spawn> spawns_;
   PointArrays points_;
   PointArrays sorted_;
   NeighbourGrid grid_;

@@ -129,10 +129,8 @@ void Detector::enqueue_contacts(const Step& step) {
                         {"position", fluid_.particles().position},
                         {"density", fluid_.water_density()},
                         {"count", count},
-                        {"bodies", fluid_.boundary().steps()},
-                        {"first_body", step.first_body},
-                        {"body_count", fluid_.boundary().body_count()},
-                        {"mean", mean_density_}});
+                        {"mean", mean_density_}},
+                       fluid_.boundary().bodies_at(step));
   touch_water_.run(fluid_.device().queue(), points_.size(),
                    {{"p", fluid_.params_buffer()},
                     {"cell_start", fluid_.grid().cell_start()},
@@ -143,10 +141,9 @@ void Detector::enqueue_contacts(const Step& step) {
                     {"skin", skin_},
                     {"facing", facing_},
                     {"owner", owner_},
-                    {"bodies", fluid_.boundary().steps()},
-                    {"first_body", step.first_body},
                     {"piston", static_cast<float>(step.piston)},
-                    {"out", touches_}});
+                    {"out", touches_}},
+                   fluid_.boundary().steps_at(step));
 }
 
 void Detector::forget() {

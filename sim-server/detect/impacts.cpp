@@ -8,9 +8,8 @@
 
 #include "sim-server/detect/added_mass.hpp"
 #include "sim-server/detect/cavity_laws.hpp"
-#include "sim-server/detect/touch_vectors.hpp"
+#include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "sim-server/scene/surface_roughness.hpp"
 
 namespace splash::sim {
 namespace {

@@ -21,6 +21,7 @@
 #include "sim-server/detect/detection.hpp"
 #include "sim-server/detect/surface_distance.hpp"
 #include "sim-server/detect/touch.h"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 
@@ -30,6 +31,31 @@ struct SurfacePoint {
   double area = 0.0;  ///< of the skin that it stands for [m2]
   Touch touch = {};
 };
+
+// What a point of the skin sees, as vectors in double precision.
+
+/// Unit vector into the water.
+inline Vector3 into_water(const Touch& touch) {
+  const Vector3 g = vector(touch.gx, touch.gy, touch.gz);
+  const double size = length(g);
+  return size > 0.0 ? (1.0 / size) * g : Vector3{0.0, 0.0, -1.0};
+}
+
+inline Vector3 velocity_of(const Touch& touch) {
+  return vector(touch.u, touch.v, touch.w);
+}
+
+inline Vector3 water_velocity_of(const Touch& touch) {
+  return vector(touch.water_u, touch.water_v, touch.water_w);
+}
+
+inline Vector3 position_of(const Touch& touch) {
+  return vector(touch.x, touch.y, touch.z);
+}
+
+inline Vector3 normal_of(const Touch& touch) {
+  return vector(touch.nx, touch.ny, touch.nz);
+}
 
 /// Farther from the surface than this, the colour is too faint to tell how far [spacings].
 inline constexpr double kSpacingsSeen = 1.2;

@@ -18,9 +18,8 @@ typedef struct {
   float nx, ny, nz;                 // unit vector out of the body
   float ahead;                      // matter some way along it: 1 in water without end [1]
   float all_colour;                 // c_f of all particles, spray and films among them [1]
-  float unused[2];
 } Touch;
-SPLASH_SHARED_STRUCT(Touch, 80)
+SPLASH_SHARED_STRUCT(Touch, 72)
 
 #ifdef __cplusplus
 }  // namespace splash::sim

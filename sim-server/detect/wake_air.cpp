@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sim-server/detect/cavity_laws.hpp"
-#include "sim-server/detect/touch_vectors.hpp"
+#include "sim-server/detect/impacts.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {

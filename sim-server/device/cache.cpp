@@ -211,15 +211,15 @@ void to_disk(const fs::path& path) {
   close(file);
 }
 
-/// Takes the marks of simulators that died; whether there was any.
-bool clear_marks(const fs::path& folder) {
-  std::vector<fs::path> marks;
+/// Takes the files whose names begin so; whether there was any.
+bool remove_all_named(const fs::path& folder, std::string_view beginning) {
+  std::vector<fs::path> found;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().filename().string().starts_with(kMark)) marks.push_back(entry.path());
+    if (entry.path().filename().string().starts_with(beginning)) found.push_back(entry.path());
   }
-  for (const fs::path& mark : marks) fs::remove(mark, ignored);
-  return !marks.empty();
+  for (const fs::path& file : found) fs::remove(file, ignored);
+  return !found.empty();
 }
 
 /// `seal` has the same files of `program` with the same contents, or, when what is in no seal is
@@ -241,7 +241,8 @@ bool is_whole(const Sums& found, const Sums& seal, const fs::path& program, bool
 
 int remove_damaged_programs(const fs::path& folder) {
   const Sums seal = read_seal(folder);
-  const bool trusting = !clear_marks(folder) && !seal_is_lost(folder, seal);
+  // A mark that is left is of a simulator that died.
+  const bool trusting = !remove_all_named(folder, kMark) && !seal_is_lost(folder, seal);
   int removed = 0;
   for (const fs::path& program : programs_in(folder)) {
     const auto found = sums_of(folder, program);
@@ -337,19 +338,10 @@ fs::file_time_type last_use(const fs::path& program) {
   return fs::last_write_time(program, ignored);
 }
 
-void remove_drafts(const fs::path& folder) {
-  std::vector<fs::path> drafts;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().filename().string().starts_with(kDraft)) drafts.push_back(entry.path());
-  }
-  for (const fs::path& draft : drafts) fs::remove(draft, ignored);
-}
-
 }  // namespace
 
 int remove_leftovers(const fs::path& folder) {
-  remove_drafts(folder);
+  remove_all_named(folder, kDraft);
   const auto oldest = fs::file_time_type::clock::now() - kProgramKept;
   int removed = 0;
   for (const fs::path& program : programs_in(folder)) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "sim-server/device/opencl.hpp"
+#include "sim-server/device/device.hpp"
 
 namespace splash::sim {
 namespace {

@@ -13,7 +13,6 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/device.hpp"
-#include "sim-server/device/opencl.hpp"
 #include "sim-server/device/shared_struct.h"
 
 namespace splash::sim {
@@ -98,20 +97,6 @@ class Kernel {
     launch(queue, teams);
   }
 
-  /// The same by position, unchecked.
-  template <class... Args>
-  void run(cl::CommandQueue& queue, std::size_t count, const Args&... args) {
-    if (count == 0) return;
-    set_by_position(args...);
-    launch(queue, (count + group_ - 1) / group_);
-  }
-  template <class... Args>
-  void run_teams(cl::CommandQueue& queue, std::size_t teams, const Args&... args) {
-    if (teams == 0) return;
-    set_by_position(args...);
-    launch(queue, teams);
-  }
-
   [[nodiscard]] const std::vector<KernelParameter>& parameters() const noexcept {
     return parameters_;
   }
@@ -138,12 +123,6 @@ class Kernel {
     set(std::span<const KernelArg>(args.begin(), args.size()));
     (set(std::span<const KernelArg>(more)), ...);
     if (is_new_ || place_ != bindings_.size()) check_complete();
-  }
-  template <class... Args>
-  void set_by_position(const Args&... args) {
-    settings_.assign(settings_.size(), {});
-    cl_uint index = 0;
-    (kernel_.setArg(index++, args), ...);
   }
   void set(std::span<const KernelArg> args);
   [[nodiscard]] bool is_written(const std::string& name, const std::string& type) const;

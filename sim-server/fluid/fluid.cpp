@@ -52,8 +52,8 @@ void Fluid::load_particles(const std::vector<Vector3>& particles, bool near_bodi
 
 void Fluid::build_kernels(const std::vector<BoundaryPoint>& boundary, const Outlines& outlines) {
   const std::vector<std::string> defines = kernel_defines(parts_);
-  const cl::Program program = build_program(device_, fluid_sources(), defines);
-  const cl::Program guard = build_program(device_, stats_sources(), defines);
+  const cl::Program program = build_program(device_, kernels::fluid(), defines);
+  const cl::Program guard = build_program(device_, kernels::stats(), defines);
   const auto particles = static_cast<std::size_t>(params_.count);
   const Profile& profile = device_.profile();
   grid_ = NeighbourGrid(device_, program, params_, particles, profile.sort_chunks);

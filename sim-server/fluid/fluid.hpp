@@ -10,7 +10,7 @@
 #include "sim-server/fluid/boundary/boundary.hpp"
 #include "sim-server/fluid/free_bodies/free_bodies.hpp"
 #include "sim-server/fluid/health/health.hpp"
-#include "sim-server/fluid/health/stats_part.h"
+#include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
@@ -18,7 +18,8 @@
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 #include "sim-server/fluid/pressure/tank_turn.hpp"
 #include "sim-server/fluid/sleep/sleep.hpp"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 
@@ -47,6 +48,11 @@ struct Snapshot {
   std::vector<float> velocity;
   std::vector<int> id;
   std::vector<float> peak_density;  ///< densest since torn (pressure/state_equation.h) [kg/m3]
+
+  /// The place of number `i` [m].
+  [[nodiscard]] Vector3 place(std::size_t i) const {
+    return vector_at(position, position.size() / 3, i);
+  }
 };
 
 /// Everything is enqueued on the device's in-order queue; only stats, snapshot and restore wait

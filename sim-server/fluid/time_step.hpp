@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
-// How long a step may be: the sound, the fastest thing, the strongest push and the viscosity each
-// set a limit.
+// One step of a frame, and how long it may be: the sound, the fastest thing, the strongest push and
+// the viscosity each set a limit.
 #pragma once
 
 #include "sim-server/fluid/params/fluid_params.h"
 
 namespace splash::sim {
+
+/// One step of a frame.
+struct Step {
+  double dt = 0.0;            ///< [s]
+  double piston = 0.0;        ///< offset of the wave maker [m]
+  double piston_speed = 0.0;  ///< [m/s]
+  int first_body = 0;         ///< where this step's bodies begin among those of the frame
+  bool opens_frame = false;   ///< first of a frame: what wakes and what sleeps is looked at anew
+};
 
 /// Largest step that is used [s]. Of the weakly compressible solver:
 ///   acoustic  dt <= C H / (c0 + v)        C of the smoothing kernel, below where still water

@@ -37,15 +37,8 @@ double distance_to_body(const Surfaces& surfaces, std::size_t body, const Vector
 /// Away from the body: the gradient of the distance.
 Vector3 normal_of_body(const Surfaces& surfaces, std::size_t body, const Vector3& place,
                        double step) {
-  Vector3 slope = {0.0, 0.0, 0.0};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vector3 before = place;
-    Vector3 behind = place;
-    before[axis] += step;
-    behind[axis] -= step;
-    slope[axis] =
-        distance_to_body(surfaces, body, before) - distance_to_body(surfaces, body, behind);
-  }
+  const auto distance = [&](const Vector3& x) { return distance_to_body(surfaces, body, x); };
+  const Vector3 slope = differences(distance, place, step);
   return (1.0 / std::max(length(slope), std::numeric_limits<double>::min())) * slope;
 }
 

@@ -49,14 +49,8 @@ double gap_at(const Solids& solids, std::size_t body, const Vector3& place) {
 /// By differences over `step` [m].
 template <class Distance>
 Vector3 normal_of(const Distance& distance, const Vector3& place, double step) {
-  Vector3 slope = {0.0, 0.0, 0.0};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vector3 ahead = place;
-    Vector3 behind = place;
-    ahead[axis] += step;
-    behind[axis] -= step;
-    slope[axis] = (distance(ahead) - distance(behind)) / (2.0 * step);
-  }
+  Vector3 slope = differences(distance, place, step);
+  for (double& x : slope) x /= 2.0 * step;
   return slope;
 }
 

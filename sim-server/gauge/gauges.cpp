@@ -2,26 +2,33 @@
 #include "sim-server/gauge/gauges.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "program/failure.hpp"
+#include "program/files.hpp"
 #include "sim-server/bodies/skin.hpp"
-#include "sim-server/fluid/air/images.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/gauge/balance.hpp"
 #include "sim-server/gauge/body_push.hpp"
 #include "sim-server/gauge/face.hpp"
 #include "sim-server/gauge/film_force.hpp"
 #include "sim-server/gauge/sensors.hpp"
 #include "sim-server/gauge/thrust.hpp"
+#include "sim-server/gauge/water_state.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 
 namespace splash::sim {
+namespace kernels {
+std::vector<KernelSource> gauge();
+}  // namespace kernels
 
 namespace {
 
@@ -149,7 +156,35 @@ void add_cavity(const GaugeSettings& probe, double seconds, const Scene& scene,
   append(row, std::array{cavity.open, cavity.enclosed, cavity.pocket});
 }
 
+const Scene& with_probes(const Scene& scene) {
+  if (!scene.gauges.probes.empty()) return scene;
+  throw program::Failure(program::kExitConfig,
+                         "the scene " + scene.name +
+                             " names no gauges; add 'gauges:' with 'probes:' to it "
+                             "(configs/README.md) or leave out --gauges");
+}
+
+program::WriteError cannot_write(const std::filesystem::path& path) {
+  return {"cannot write gauges to " + path.string(), errno};
+}
+
 }  // namespace
+
+WallPush::WallPush(Fluid& fluid)
+    : push_by_walls_(build_program(fluid.device(), kernels::gauge(), {}), "push_by_walls"),
+      push_(fluid.device(), 3 * static_cast<std::size_t>(fluid.params().capacity)) {}
+
+std::vector<Vector3> WallPush::read(Fluid& fluid, const Step& step) {
+  push_by_walls_.run(fluid.device().queue(), fluid.groups(),
+                     {{"p", fluid.params_buffer()},
+                      {"position", fluid.particles().position},
+                      {"pressure_term", fluid.pressure_term()},
+                      {"piston", static_cast<float>(step.piston)},
+                      {"push", push_}});
+  const auto stride = static_cast<std::size_t>(fluid.params().capacity);
+  return as_vectors(push_.read(fluid.device(), 3 * stride), stride,
+                    static_cast<std::size_t>(fluid.params().count));
+}
 
 Gauges::Gauges(const Scene& scene) : scene_(scene), columns_({"time"}) {
   for (const GaugeSettings& probe : scene_.gauges.probes) {
@@ -240,6 +275,32 @@ void Gauges::add(const GaugeSettings& probe, double seconds, const WaterState& w
       add_cavity(probe, seconds, scene_, water, bodies, row);
       break;
   }
+}
+
+template <class Values>
+void GaugeFile::write(const Values& values) {
+  const char* separator = "";
+  for (const auto& value : values) out_ << std::exchange(separator, ",") << value;
+  out_ << std::endl;  // so that what follows is lines, whoever reads along
+  if (!out_) throw cannot_write(path_);
+}
+
+GaugeFile::GaugeFile(const std::filesystem::path& path, const Scene& scene)
+    : path_(path), gauges_(with_probes(scene)) {
+  reopen();
+}
+
+void GaugeFile::reopen() {
+  errno = 0;
+  out_ = std::ofstream(path_);
+  out_.precision(9);
+  write(gauges_.columns());
+}
+
+void GaugeFile::note(double seconds, Fluid& fluid, const Bodies& bodies) {
+  if (!gauges_.is_due(seconds)) return;
+  errno = 0;
+  write(gauges_.read(seconds, fluid, bodies));
 }
 
 }  // namespace splash::sim

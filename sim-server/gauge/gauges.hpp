@@ -1,18 +1,38 @@
 // SPDX-License-Identifier: MIT
-// All gauges of a scene: which numbers they give, and reading them off the fluid.
+// The gauges of a scene, and the file that they are written to.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sim-server/bodies/body_steps.hpp"
+#include "sim-server/device/buffer.hpp"
+#include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/fluid.hpp"
-#include "sim-server/gauge/wall_push.hpp"
 #include "sim-server/gauge/water_state.hpp"
 
 namespace splash::sim {
 
+/// What the tank's walls do to the water: the forces that sensors in walls feel, computed on the
+/// device by the formula that moves the particles.
+class WallPush {
+ public:
+  /// Builds the kernel; throws std::runtime_error for the device.
+  explicit WallPush(Fluid& fluid);
+
+  /// On each particle, in the fluid's order [m/s2]; waits. The fluid is prepared, with walls where
+  /// `step` has them.
+  [[nodiscard]] std::vector<Vector3> read(Fluid& fluid, const Step& step);
+
+ private:
+  Kernel push_by_walls_;
+  Buffer<float> push_;
+};
+
+/// All gauges of a scene: which numbers they give, and reading them off the fluid.
 class Gauges {
  public:
   /// `scene` has at least one probe.
@@ -38,6 +58,28 @@ class Gauges {
   bool pressures_ = false;
   std::optional<WallPush> wall_push_;  ///< from the first pressure that is read
   double next_ = 0.0;                  ///< when the next sample is due [s]
+};
+
+/// Gauges written to a CSV file, a line per sample.
+class GaugeFile {
+ public:
+  /// Opens the file and writes the columns' names. Throws std::invalid_argument when the scene
+  /// names no gauges, program::WriteError when the file cannot be written.
+  GaugeFile(const std::filesystem::path& path, const Scene& scene);
+
+  /// Writes a sample if one is due at `seconds`, the end of a frame. Throws program::WriteError.
+  void note(double seconds, Fluid& fluid, const Bodies& bodies);
+  /// Begins a new file at the same path, with the columns' names. Throws program::WriteError.
+  void reopen();
+
+ private:
+  /// A line.
+  template <class Values>
+  void write(const Values& values);
+
+  std::filesystem::path path_;
+  Gauges gauges_;
+  std::ofstream out_;
 };
 
 }  // namespace splash::sim

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/gauge/water_state.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
-
 namespace {
-
-std::vector<Vector3> as_vectors(const std::vector<float>& parts, std::size_t count,
-                                std::size_t stride) {
-  std::vector<Vector3> all(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      all[i][axis] = static_cast<double>(parts[axis * stride + i]);
-    }
-  }
-  return all;
-}
 
 void read_images(Fluid& fluid, WaterState& water) {
   const std::size_t count = water.position.size();
@@ -27,9 +18,7 @@ void read_images(Fluid& fluid, WaterState& water) {
   const std::vector<float> parts = fluid.body_images().read(fluid.device(), 4 * stride);
   for (std::size_t i = 0; i < count; ++i) {
     water.image[i] = static_cast<double>(parts[i]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      water.slope[i][axis] = static_cast<double>(parts[(axis + 1) * stride + i]);
-    }
+    water.slope[i] = vector_at(parts, stride, stride + i);
   }
 }
 
@@ -46,6 +35,8 @@ void read_pressures(Fluid& fluid, WaterState& water) {
   }
   read_images(fluid, water);
 }
+
+constexpr auto kStretchStiffness = static_cast<double>(SPLASH_STRETCH_STIFFNESS);
 
 }  // namespace
 
@@ -72,8 +63,8 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   const auto stride = static_cast<std::size_t>(p.capacity);
   const std::size_t count = snapshot.id.size();
   WaterState water;
-  water.position = as_vectors(snapshot.position, count, stride);
-  water.velocity = as_vectors(snapshot.velocity, count, stride);
+  water.position = as_vectors(snapshot.position, stride, count);
+  water.velocity = as_vectors(snapshot.velocity, stride, count);
   if (pressures) read_pressures(fluid, water);
   water.mass = static_cast<double>(p.mass);
   water.spacing = static_cast<double>(p.spacing);
@@ -87,13 +78,60 @@ WaterState read_water(Fluid& fluid, bool pressures) {
   water.viscous = static_cast<double>(p.viscous);
   water.artificial = static_cast<double>(p.artificial);
   water.point_weight = static_cast<double>(p.layer_weight) / water.spacing;
-  water.gravity = {static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
-                   static_cast<double>(p.gravity_z)};
-  water.pull = {static_cast<double>(p.pull_x), static_cast<double>(p.pull_y),
-                static_cast<double>(p.pull_z)};
-  water.pull_centre = {static_cast<double>(p.centre_x), static_cast<double>(p.centre_y),
-                       static_cast<double>(p.centre_z)};
+  water.gravity = vector(p.gravity_x, p.gravity_y, p.gravity_z);
+  water.pull = vector(p.pull_x, p.pull_y, p.pull_z);
+  water.pull_centre = vector(p.centre_x, p.centre_y, p.centre_z);
   return water;
+}
+
+double compression_energy(const WaterState& water, double density, double peak) {
+  const double sound2 = water.sound_speed * water.sound_speed;
+  const double stretch = std::max(peak - density, 0.0) / water.rest_density;
+  if (density <= water.rest_density) return 0.5 * kStretchStiffness * sound2 * stretch * stretch;
+  const double push = water.rest_density / density - 1.0;
+  // ln(rho/rho0) = -log1p(push): no difference of numbers close to one.
+  return sound2 * (push - std::log1p(push));
+}
+
+Energies energies(const WaterState& water) {
+  Energies sum;
+  for (std::size_t i = 0; i < water.position.size(); ++i) {
+    sum.kinetic += 0.5 * water.mass * dot(water.velocity[i], water.velocity[i]);
+    sum.potential +=
+        water.mass * water.potential_at(water.position[i] - water.lag * water.velocity[i]);
+    sum.compression +=
+        water.mass * compression_energy(water, water.density[i], water.peak_density[i]);
+  }
+  return sum;
+}
+
+Momentum momentum(const WaterState& water) {
+  Momentum result;
+  double square = 0.0;
+  for (const Vector3& v : water.velocity) {
+    result.sum = result.sum + water.mass * v;
+    square += dot(v, v);
+    result.fastest = std::max(result.fastest, length(v));
+  }
+  result.rms =
+      std::sqrt(square / std::max<double>(1.0, static_cast<double>(water.velocity.size())));
+  return result;
+}
+
+Spread spread(const WaterState& water) {
+  Spread result;
+  if (water.position.empty()) return result;
+  const double share = 1.0 / static_cast<double>(water.position.size());
+  for (const Vector3& x : water.position) result.centre = result.centre + share * x;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double square = 0.0;
+    for (const Vector3& x : water.position) {
+      const double from = x[axis] - result.centre[axis];
+      square += from * from;
+    }
+    result.deviation[axis] = std::sqrt(share * square);
+  }
+  return result;
 }
 
 }  // namespace splash::sim

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The water at one instant, copied from the device into double precision: what gauges look at.
+// The water at one instant, copied from the device into double precision: what gauges look at; and
+// sums over all of it: energies, momentum, where it is and how fast.
 #pragma once
 
 #include <vector>
@@ -18,7 +19,7 @@ struct WaterState {
   std::vector<double> pressure;      ///< [Pa]
   std::vector<double> image;         ///< R of fluid/boundary/body_image.h; near bodies [1]
   std::vector<Vector3> slope;        ///< grad R; near bodies [1/m]
-  std::vector<Vector3> wall_push;    ///< what the walls do to each (wall_push.hpp) [m/s2]
+  std::vector<Vector3> wall_push;    ///< what the walls do to each (gauges.hpp) [m/s2]
   std::vector<Press> press;  ///< on each body, by the solver's own pressures; empty: by these
 
   double mass = 0.0;          ///< of one particle [kg]
@@ -45,5 +46,33 @@ struct WaterState {
 /// Reads the fluid's state and waits for it; `pressures`: density, pressure and image, too, which
 /// must be those of the state (Fluid::prepare makes them so).
 [[nodiscard]] WaterState read_water(Fluid& fluid, bool pressures);
+
+struct Energies {
+  double kinetic = 0.0;      ///< sum m v^2 / 2 [J]
+  double potential = 0.0;    ///< -sum m g.x at the moment of the velocities, 0 at the origin [J]
+  double compression = 0.0;  ///< sum m e, see compression_energy [J]
+  [[nodiscard]] double total() const { return kinetic + potential + compression; }
+};
+
+struct Momentum {
+  Vector3 sum = {0.0, 0.0, 0.0};  ///< sum m v [kg m/s]
+  double fastest = 0.0;           ///< [m/s]
+  double rms = 0.0;               ///< sqrt(mean v^2) [m/s]
+};
+
+struct Spread {
+  Vector3 centre = {0.0, 0.0, 0.0};     ///< of mass [m]
+  Vector3 deviation = {0.0, 0.0, 0.0};  ///< sqrt(mean (x - centre)^2) per axis [m]
+};
+
+/// Energy stored in water of this density and peak density, per mass [J/kg]: the integral of p /
+/// rho^2 with the p of fluid/pressure/state_equation.h, c0^2 (ln(rho/rho0) + rho0/rho - 1) of what
+/// is compressed and b c0^2 (peak - rho)^2 / (2 rho0^2) of what is stretched.
+[[nodiscard]] double compression_energy(const WaterState& water, double density, double peak);
+
+/// `water` has densities.
+[[nodiscard]] Energies energies(const WaterState& water);
+[[nodiscard]] Momentum momentum(const WaterState& water);
+[[nodiscard]] Spread spread(const WaterState& water);
 
 }  // namespace splash::sim

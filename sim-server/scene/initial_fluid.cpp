@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "sim-server/scene/lattice.hpp"
@@ -13,7 +14,6 @@
 #include "sim-server/scene/support_state.hpp"
 
 namespace splash::sim {
-
 namespace {
 
 /// Places in a cell, in its edges, that tell how much of it is water: a lattice of rank one whose
@@ -52,10 +52,7 @@ class Solids {
 
   /// `bodies`: those that may be there.
   [[nodiscard]] bool at(const Vector3& x, const std::vector<std::size_t>& bodies) const {
-    const Tank& tank = scene_.tank;
-    if (x[0] < tank.lower[0] || x[0] > tank.upper[0]) return true;
-    if (x[1] < tank.lower[1] || x[1] > tank.upper[1]) return true;
-    if (x[2] < floor_height(scene_, x[0])) return true;
+    if (is_outside(scene_, x)) return true;
     return std::any_of(bodies.begin(), bodies.end(), [&](std::size_t b) {
       return is_inside(scene_.bodies[b].shape, in_body(b, x));
     });
@@ -223,6 +220,33 @@ class Filling {
   bool hangs_ = false;
 };
 
+using std::numbers::pi;
+
+Vector3 standing_wave(const Scene& scene, const Vector3& place) {
+  const Vector3 size = scene.tank.upper - scene.tank.lower;
+  const Vector3 x = place - scene.tank.lower;
+  const Vector3& g = scene.fluid.gravity;
+  const double k = scene.flow.mode * pi / size[0];
+  const double depth = water_depth(scene);
+  const double omega = std::sqrt(std::hypot(g[0], g[1], g[2]) * k * std::tanh(k * depth));
+  // cosh(kz) / sinh(kH) and sinh(kz) / sinh(kH), of which a short wave in deep water overflows
+  // both.
+  const double scale = scene.flow.amplitude * omega * std::exp(k * (x[2] - depth)) /
+                       (1.0 - std::exp(-2.0 * k * depth));
+  const double below = std::exp(-2.0 * k * x[2]);
+  return {-scale * (1.0 + below) * std::sin(k * x[0]), 0.0,
+          scale * (1.0 - below) * std::cos(k * x[0])};
+}
+
+Vector3 vortex(const Scene& scene, const Vector3& place) {
+  const Vector3 size = scene.tank.upper - scene.tank.lower;
+  const Vector3 x = place - scene.tank.lower;
+  const double kx = pi / size[0];
+  const double ky = pi / size[1];
+  return {scene.flow.speed * std::sin(kx * x[0]) * std::cos(ky * x[1]),
+          -scene.flow.speed * kx / ky * std::cos(kx * x[0]) * std::sin(ky * x[1]), 0.0};
+}
+
 }  // namespace
 
 bool is_filled(const WaterBlock& block, const Vector3& place) {
@@ -257,6 +281,24 @@ std::vector<Vector3> initial_particles(const Scene& scene) {
 
 std::vector<Vector3> initial_particles(const Scene& scene, std::span<const Keyframe> poses) {
   return initial_water(scene, poses, scene_sound_speed(scene)).particles;
+}
+
+Vector3 initial_velocity(const Scene& scene, const Vector3& place) {
+  const Flow& flow = scene.flow;
+  switch (flow.kind) {
+    case FlowKind::uniform:
+      return flow.velocity;
+    case FlowKind::strain:
+      return {flow.rate * (place[0] - flow.centre[0]), 0.0,
+              -flow.rate * (place[2] - flow.centre[2])};
+    case FlowKind::standing_wave:
+      return standing_wave(scene, place);
+    case FlowKind::vortex:
+      return vortex(scene, place);
+    case FlowKind::none:
+      break;
+  }
+  return {0.0, 0.0, 0.0};
 }
 
 }  // namespace splash::sim

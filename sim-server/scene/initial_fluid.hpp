@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the water's particles are before anything moves.
+// Where the water's particles are before anything moves, and how they begin to: flows with a closed
+// form, free of divergence.
 #pragma once
 
 #include <span>
@@ -44,5 +45,16 @@ struct InitialWater {
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene);
 [[nodiscard]] std::vector<Vector3> initial_particles(const Scene& scene,
                                                      std::span<const Keyframe> poses);
+
+/// Velocity at `place` of the scene's flow [m/s]; nothing without one.
+///   uniform        velocity
+///   strain         rate (x - cx, 0, cz - z)
+///   standing_wave  of wave number k = mode pi / L in water of depth H, at its flat moment
+///                  (Airy; Lamb, Hydrodynamics, article 228), x and z from the tank's lower corner:
+///                  u = -a omega cosh(kz) / sinh(kH) sin(kx),
+///                  w = a omega sinh(kz) / sinh(kH) cos(kx), omega^2 = g k tanh(kH)
+///   vortex         the Taylor-Green cell (Taylor & Green 1937) between walls that do not rub:
+///                  u = U sin(pi x / Lx) cos(pi y / Ly), v = -U Ly/Lx cos(pi x / Lx) sin(pi y / Ly)
+[[nodiscard]] Vector3 initial_velocity(const Scene& scene, const Vector3& place);
 
 }  // namespace splash::sim

@@ -89,6 +89,13 @@ double floor_height(const Scene& scene, double x) {
   return scene.tank.lower[2] + scene.slope.gradient * std::max(0.0, x - scene.slope.foot);
 }
 
+bool is_outside(const Scene& scene, const Vector3& x) {
+  const Tank& tank = scene.tank;
+  if (x[0] < tank.lower[0] || x[0] > tank.upper[0]) return true;
+  if (x[1] < tank.lower[1] || x[1] > tank.upper[1]) return true;
+  return x[2] < floor_height(scene, x[0]);
+}
+
 double water_volume(const Scene& scene) {
   double volume = 0.0;
   for (const auto& block : scene.water) volume += block_volume(scene, block);

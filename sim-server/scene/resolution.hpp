@@ -6,11 +6,16 @@
 
 namespace splash::sim {
 
+/// The surface of the particles is this rough: nearer, body and water touch [spacings].
+inline constexpr double kSurfaceRoughness = 0.1;
+
 inline constexpr int kParticlesMin = 100;
 inline constexpr int kParticlesMax = 4'000'000;
 
 /// Height of the floor at `x`, slope included [m].
 [[nodiscard]] double floor_height(const Scene& scene, double x);
+/// Whether `x` is beyond a side of the tank or below its floor.
+[[nodiscard]] bool is_outside(const Scene& scene, const Vector3& x);
 /// Water at rest above the floor and the slope, bodies not subtracted [m3].
 [[nodiscard]] double water_volume(const Scene& scene);
 /// As given, or such that the wanted number of particles fills the water [m].

@@ -5,6 +5,13 @@
 
 namespace splash::sim {
 
+std::vector<Vector3> as_vectors(const std::vector<float>& parts, std::size_t stride,
+                                std::size_t count) {
+  std::vector<Vector3> all(count);
+  for (std::size_t i = 0; i < count; ++i) all[i] = vector_at(parts, stride, i);
+  return all;
+}
+
 double length(const Vector3& a) noexcept {
   return std::hypot(a[0], a[1], a[2]);
 }

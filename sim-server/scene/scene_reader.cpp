@@ -20,7 +20,6 @@
 #include "sim-server/scene/scene_table.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/solver_choice.hpp"
-#include "sim-server/scene/surface_roughness.hpp"
 
 namespace splash::sim {
 

@@ -16,13 +16,6 @@ namespace {
 /// Cells that are looked at beyond the outermost water.
 constexpr double kMargin = 4.0;
 
-bool is_outside(const Scene& scene, const Vector3& x) {
-  const Tank& tank = scene.tank;
-  if (x[0] < tank.lower[0] || x[0] > tank.upper[0]) return true;
-  if (x[1] < tank.lower[1] || x[1] > tank.upper[1]) return true;
-  return x[2] < floor_height(scene, x[0]);
-}
-
 bool is_gate_between(const Gate& gate, const Vector3& a, const Vector3& b) {
   return gate.present && (a[0] < gate.x) != (b[0] < gate.x);
 }

@@ -36,10 +36,9 @@ struct SendCounts {
   std::uint64_t bundles = 0;  ///< with events; a frame may take several
   std::uint64_t heartbeats = 0;
   protocol::ByKind<std::uint64_t> events;
-  std::uint64_t invalid = 0;      ///< events outside the address table's ranges, not sent
-  std::uint64_t overdue = 0;      ///< events whose moment had passed when they were sent
-  double most_overdue = 0.0;      ///< the longest such delay [s]
-  std::uint64_t clock_jumps = 0;  ///< times the system clock was set back
+  std::uint64_t invalid = 0;  ///< events outside the address table's ranges, not sent
+  std::uint64_t overdue = 0;  ///< events whose moment had passed when they were sent
+  double most_overdue = 0.0;  ///< the longest such delay [s]
 };
 
 /// A bundle is stamped T = max(last T, now, min(earliest moment, frame + lead)). So no tag is

@@ -39,7 +39,6 @@ void Pacer::start(double seconds) {
 }
 
 void Pacer::wait_until(double seconds) {
-  ++counts_.frames;
   if (!settings_.real_time) {
     start(seconds);  // simulated time is wherever the computation is
     return;
@@ -53,7 +52,6 @@ void Pacer::wait_until(double seconds) {
   counts_.most_behind = std::max(counts_.most_behind, behind);
   if (behind > settings_.slip_limit) {
     origin_ += behind;
-    ++counts_.slips;
     counts_.slipped += behind;
   }
 }

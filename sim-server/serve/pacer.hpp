@@ -26,11 +26,9 @@ struct PacerSettings {
 };
 
 struct PacerCounts {
-  std::uint64_t frames = 0;
   std::uint64_t behind = 0;  ///< frames that were ready later than their moment plus the grace
   double most_behind = 0.0;  ///< the latest frame [s]
-  std::uint64_t slips = 0;
-  double slipped = 0.0;  ///< simulated time is this much later than it would be [s]
+  double slipped = 0.0;      ///< simulated time is this much later than it would be [s]
 };
 
 class Pacer {

@@ -2,16 +2,21 @@
 #include "sim-server/serve/pose_intake.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 
 #include "sim-server/bodies/motion/floor_motion.hpp"
-#include "sim-server/serve/place_notice.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 namespace {
 
-constexpr double kLinePeriod = 1.0;  ///< between two lines on refused poses [s]
+/// Senders are remembered for so long, to be told of when they come back [s]; so many at most: some
+/// programs send each pose from another port.
+constexpr double kRemembered = 5.0;
+constexpr std::size_t kMost = 16;
+constexpr double kLinePeriod = 1.0;  ///< between two lines of a kind [s]
 
 /// TUIO sources whose senders are remembered: as many as its reader knows.
 constexpr std::size_t kMostSources = 16;
@@ -42,7 +47,84 @@ bool is_no_pose(PoseRefusal refusal) {
          refusal == PoseRefusal::too_far;
 }
 
+/// A hand beside the tank is nothing to wonder at: not within the tank's largest edge of it, nor
+/// within this [m].
+constexpr double kBeside = 2.0;
+/// But nobody reaches so far below the floor that the water stands on [m].
+constexpr double kBelow = 0.25;
+
+std::string length_text(double metres) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), metres < 10.0 ? "%.2f m" : "%.1f m", metres);
+  return text.data();
+}
+
+/// What is said of a body that poses put where no water can be meant: the sender's unit, axes or
+/// origin are likely to be others than the scene's. "39.4 m outside of the tank" or "0.85 m below
+/// the tank's floor"; empty: the place [m] is none to wonder at.
+std::optional<std::string> far_off(const Tank& tank, const Vector3& place) {
+  const double below = tank.lower[2] - place[2];
+  double edge = kBeside;
+  Vector3 outside = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    edge = std::max(edge, tank.upper[i] - tank.lower[i]);
+    outside[i] = std::max({tank.lower[i] - place[i], place[i] - tank.upper[i], 0.0});
+  }
+  if (length(outside) > edge) return length_text(length(outside)) + " outside of the tank";
+  if (below > kBelow) return length_text(below) + " below the tank's floor";
+  return std::nullopt;
+}
+
+/// "0.30 1.20 -0.85 m".
+std::string in_metres(const Vector3& place) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "%.2f %.2f %.2f m", place[0], place[1], place[2]);
+  return text.data();
+}
+
 }  // namespace
+
+bool PoseSenders::lets(const protocol::Endpoint& from, double now) const {
+  const auto sends = [&](const Sender& sender) { return now - sender.heard <= ends_; };
+  const auto own = std::find_if(senders_.begin(), senders_.end(),
+                                [&](const Sender& sender) { return sender.from == from; });
+  if (own == senders_.end() || !sends(*own)) return true;
+  return std::none_of(senders_.begin(), senders_.end(), [&](const Sender& other) {
+    return sends(other) && other.began > own->began;
+  });
+}
+
+std::optional<protocol::Endpoint> PoseSenders::hear(const protocol::Endpoint& from, double now) {
+  std::erase_if(senders_, [now](const Sender& sender) { return now - sender.heard > kRemembered; });
+  const auto own = std::find_if(senders_.begin(), senders_.end(),
+                                [&](const Sender& sender) { return sender.from == from; });
+  if (own == senders_.end()) {
+    if (senders_.size() == kMost) {
+      senders_.erase(
+          std::min_element(senders_.begin(), senders_.end(),
+                           [](const Sender& a, const Sender& b) { return a.heard < b.heard; }));
+    }
+    senders_.push_back({from, now, now});
+    return std::nullopt;
+  }
+  if (now - own->heard > ends_) own->began = now;
+  own->heard = now;
+  const bool is_told = followed_ == from || own->told == followed_ || now < next_line_;
+  if (!followed_ || is_told) return std::nullopt;
+  own->told = followed_;
+  next_line_ = now + kLinePeriod;
+  return followed_;
+}
+
+double PoseSenders::heard() const {
+  double last = -std::numeric_limits<double>::infinity();
+  for (const Sender& sender : senders_) last = std::max(last, sender.heard);
+  return last;
+}
+
+void PoseSenders::forget(const protocol::Endpoint& from) {
+  std::erase_if(senders_, [&](const Sender& sender) { return sender.from == from; });
+}
 
 PoseRefusal PoseIntake::give(std::int32_t body, const Vector3& position, const Quaternion& rotation,
                              const PoseMoment& moment) {

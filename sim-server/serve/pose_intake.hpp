@@ -9,23 +9,64 @@
 #include <bitset>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "protocol/event.hpp"
 #include "protocol/message.hpp"
+#include "protocol/udp_socket.hpp"
 #include "sim-server/bodies/motion/pose_refusal.hpp"
 #include "sim-server/bodies/motion/pressure_feet.hpp"
 #include "sim-server/bodies/motion/tracker_map.hpp"
 #include "sim-server/bodies/motion/tuio_feet.hpp"
 #include "sim-server/listen/control.hpp"
-#include "sim-server/serve/pose_senders.hpp"
 #include "sim-server/serve/report.hpp"
 #include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
+
+/// A sender of poses that says nothing for longer than this has ended [s].
+inline constexpr double kSenderEnds = 0.5;
+/// The same of a floor, of which nobody may touch anything for a while [s].
+inline constexpr double kFloorEnds = 3.0;
+
+/// The senders of one body's poses, or of one floor. Of those that send, the one that began last is
+/// followed. What sends again after a silence begins anew.
+class PoseSenders {
+ public:
+  /// `ends`: the silence after which a sender has ended [s].
+  explicit PoseSenders(double ends = kSenderEnds) : ends_(ends) {}
+
+  /// Whether a pose that `from` sends at `now` [s] moves the body: no other sender began later.
+  [[nodiscard]] bool lets(const protocol::Endpoint& from, double now) const;
+  /// A pose of `from` came. Returns whom the body follows in its place, the first time that these
+  /// two are seen to send at once; empty: nobody, or that was told.
+  std::optional<protocol::Endpoint> hear(const protocol::Endpoint& from, double now);
+  /// Whose last pose the body followed; empty: it takes none.
+  void follow(const std::optional<protocol::Endpoint>& followed) { followed_ = followed; }
+  [[nodiscard]] bool is_followed() const noexcept { return followed_.has_value(); }
+  /// When any of them sent last [s].
+  [[nodiscard]] double heard() const;
+  [[nodiscard]] bool are_silent(double now) const { return now - heard() > ends_; }
+  /// Until `from` sends again the others have the body; then it begins anew.
+  void forget(const protocol::Endpoint& from);
+
+ private:
+  struct Sender {
+    protocol::Endpoint from;
+    double began = 0.0;                           ///< its first pose since a silence [s]
+    double heard = 0.0;                           ///< its last one [s]
+    std::optional<protocol::Endpoint> told = {};  ///< the other one of the last line on it
+  };
+  double ends_;  ///< [s]
+  std::vector<Sender> senders_;
+  std::optional<protocol::Endpoint> followed_;
+  double next_line_ = -std::numeric_limits<double>::infinity();  ///< [s]
+};
 
 class PoseIntake {
  public:

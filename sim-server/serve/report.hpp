@@ -14,6 +14,11 @@
 
 namespace splash::sim {
 
+class Overload;
+class Simulation;
+struct PacerCounts;
+struct SendCounts;
+
 /// Totals over all solves of a pressure solver that iterates.
 struct SolveTotals {
   std::int64_t solves = 0;  ///< one per step; 0: the solver in use needs none
@@ -90,6 +95,10 @@ struct RunReport {
   /// Simulated time over wall time [1]; not a number when no time passed.
   [[nodiscard]] double real_time_factor() const noexcept;
 };
+
+/// Returns the report without the device, the wall time and the counts of targets and trackers.
+[[nodiscard]] RunReport report_on(const Simulation& simulation, const SendCounts& sent,
+                                  const PacerCounts& paced, const Overload& overload);
 
 /// Returns the report as JSON; numbers that are not finite become null.
 [[nodiscard]] std::string to_json(const RunReport& report);

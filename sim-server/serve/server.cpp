@@ -7,15 +7,16 @@
 #include <cstdio>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "program/config_file.hpp"
 #include "program/failure.hpp"
 #include "program/files.hpp"
 #include "protocol/control.hpp"
+#include "protocol/limits.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
-#include "sim-server/serve/run_report.hpp"
 
 namespace splash::sim {
 namespace {
@@ -63,6 +64,30 @@ std::vector<ShownBody> shown_bodies(const Simulation& simulation, double seconds
 /// Why nobody can feel the water of this scene; empty: one can.
 std::string no_forces(const Simulation& simulation) {
   return simulation.can_feel() ? "" : "poses move no body of this scene";
+}
+
+int next(int& id) {
+  const int now = id;
+  id = (id + 1) % protocol::kCounterWrap;
+  return now;
+}
+
+/// Turns detections into events of the wire: assigns ids, the nearest body and the moment to sound.
+/// Impacts sound when the surfaces meet; bubbles and cavities sound `latency` seconds after they
+/// happened, which hides the time that their detection takes.
+std::vector<TimedEvent> number_events(const Detections& found, const Simulation& simulation,
+                                      double latency, EventIds& ids) {
+  std::vector<TimedEvent> events;
+  found.each([&](const auto& all) {
+    for (const auto& detected : all) {
+      constexpr bool kIsForeseen = std::remove_cvref_t<decltype(detected)>::kIsForeseen;
+      auto event = detected.event();
+      event.id = next(ids.of<decltype(event)>());
+      if (event.body < 0) event.body = simulation.nearest_body(detected.position);
+      events.push_back({event, detected.time + (kIsForeseen ? 0.0 : latency)});
+    }
+  });
+  return events;
 }
 
 }  // namespace

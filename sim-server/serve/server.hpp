@@ -12,7 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "sim-server/gauge/gauge_file.hpp"
+#include "protocol/event.hpp"
+#include "sim-server/gauge/gauges.hpp"
 #include "sim-server/listen/clock_answers.hpp"
 #include "sim-server/listen/control.hpp"
 #include "sim-server/options.hpp"
@@ -20,7 +21,6 @@
 #include "sim-server/send/event_sender.hpp"
 #include "sim-server/send/force_sender.hpp"
 #include "sim-server/send/target_status.hpp"
-#include "sim-server/serve/numbered_events.hpp"
 #include "sim-server/serve/overload.hpp"
 #include "sim-server/serve/pacer.hpp"
 #include "sim-server/serve/pose_intake.hpp"
@@ -31,6 +31,9 @@
 #include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
+
+/// The next id of each kind of event in a session.
+using EventIds = protocol::ByKind<int>;
 
 class Server {
  public:

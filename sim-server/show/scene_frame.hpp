@@ -7,9 +7,14 @@
 
 #include "protocol/frame.hpp"
 #include "sim-server/scene/live_rows.hpp"
+#include "sim-server/scene/mesh/triangle_mesh.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
+
+/// The surface of a body as triangles, in its own axes, closed. A mesh's own, else the surface of a
+/// cube carried to the shape.
+[[nodiscard]] TriangleMesh body_mesh(const Shape& shape);
 
 /// JSON. `particles`: of water, as there are; `spacing`: between them [m]; `rows`: the live ones.
 [[nodiscard]] std::string describe_for_viewers(const Scene& scene, int particles, double spacing,

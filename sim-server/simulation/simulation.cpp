@@ -10,8 +10,8 @@
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "sim-server/simulation/free_body_watch.hpp"
-#include "sim-server/simulation/recovery/step_fault.hpp"
+#include "sim-server/simulation/free_bodies.hpp"
+#include "sim-server/simulation/recovery/recovery.hpp"
 #include "sim-server/start/come_to_rest.hpp"
 #include "sim-server/start/scene_start.hpp"
 #include "sim-server/start/settled_water.hpp"
@@ -88,13 +88,7 @@ std::vector<Vector3> read_places(Fluid& fluid) {
   const auto stride = static_cast<std::size_t>(fluid.params().capacity);
   const std::vector<float> parts =
       fluid.particles().position.read(fluid.device(), 2 * stride + count);
-  std::vector<Vector3> places(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      places[i][axis] = static_cast<double>(parts[axis * stride + i]);
-    }
-  }
-  return places;
+  return as_vectors(parts, stride, count);
 }
 
 }  // namespace

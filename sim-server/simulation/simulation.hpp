@@ -21,9 +21,8 @@
 #include "sim-server/scene/support_state.hpp"
 #include "sim-server/scene/tank_motion.hpp"
 #include "sim-server/simulation/frame_plan.hpp"
-#include "sim-server/simulation/hung_bodies.hpp"
+#include "sim-server/simulation/free_bodies.hpp"
 #include "sim-server/simulation/recovery/recovery.hpp"
-#include "sim-server/simulation/recovery/step_fault.hpp"
 #include "sim-server/start/settle.hpp"
 
 namespace splash::sim {

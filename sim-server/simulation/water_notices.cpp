@@ -60,17 +60,13 @@ bool is_in(const WaterBlock& block, const Vector3& x) {
 /// Numbers of the blocks, from 0, that such particles are in.
 std::set<std::size_t> blocks_of(Simulation& simulation) {
   const Snapshot now = simulation.fluid().snapshot();
-  const auto stride = static_cast<std::size_t>(simulation.fluid().params().capacity);
   const std::vector<WaterBlock>& water = simulation.scene().water;
   std::set<std::size_t> blocks;
   for (std::size_t i = 0; i < now.id.size(); ++i) {
     if (simulation.support_states()[static_cast<std::size_t>(now.id[i])] == SupportState::supported)
       continue;
-    const auto at = [&](std::size_t axis) {
-      return static_cast<double>(now.position[axis * stride + i]);
-    };
     for (std::size_t b = 0; b < water.size(); ++b) {
-      if (!is_in(water[b], {at(0), at(1), at(2)})) continue;
+      if (!is_in(water[b], now.place(i))) continue;
       blocks.insert(b);
       break;
     }

@@ -10,7 +10,7 @@
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/step_policy.hpp"
-#include "sim-server/simulation/recovery/step_fault.hpp"
+#include "sim-server/simulation/recovery/recovery.hpp"
 #include "sim-server/start/settle.hpp"
 
 namespace splash::sim {
@@ -88,16 +88,10 @@ std::vector<int> beside(const Gate& gate, const Snapshot& all, bool left) {
 Fluid part_of(Fluid& whole, const Scene& scene, const Bodies& bodies, const Snapshot& all,
               const std::vector<int>& ids, const WallPlane& gate) {
   FluidParams params = whole.params();
-  const auto stride = static_cast<std::size_t>(params.capacity);
   params.count = static_cast<int>(ids.size());
   params.walls[params.wall_count++] = gate;
   std::vector<Vector3> places;
-  for (const int id : ids) {
-    const auto i = static_cast<std::size_t>(id);
-    places.push_back({static_cast<double>(all.position[i]),
-                      static_cast<double>(all.position[stride + i]),
-                      static_cast<double>(all.position[2 * stride + i])});
-  }
+  for (const int id : ids) places.push_back(all.place(static_cast<std::size_t>(id)));
   const std::vector<BoundaryPoint> boundary(bodies.points().begin(), bodies.points().end());
   return {whole.device(),
           params,

@@ -24,7 +24,7 @@ namespace {
 /// What the test's outcome depends on, as one line.
 std::string key_of(const DeviceFacts& device) {
   std::string kernels;
-  for (const KernelSource& source : fluid_sources()) kernels += source.text;
+  for (const KernelSource& source : kernels::fluid()) kernels += source.text;
   std::ostringstream key;
   key << std::hash<std::string>()(kernels) << ' ' << device.platform << " | " << device.name
       << " | " << device.driver;

@@ -9,7 +9,6 @@
 #include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/bodies/motion/tied_motion.hpp"
 #include "sim-server/fluid/set_up.hpp"
-#include "sim-server/scene/flow.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -78,10 +77,7 @@ double start_flow(Fluid& fluid, const Scene& scene) {
   const auto stride = static_cast<std::size_t>(fluid.params().capacity);
   double fastest = 0.0;
   for (std::size_t i = 0; i < state.id.size(); ++i) {
-    const auto at = [&](std::size_t axis) {
-      return static_cast<double>(state.position[axis * stride + i]);
-    };
-    const Vector3 v = initial_velocity(scene, {at(0), at(1), at(2)});
+    const Vector3 v = initial_velocity(scene, state.place(i));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       state.velocity[axis * stride + i] = static_cast<float>(v[axis]);
     }

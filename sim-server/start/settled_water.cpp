@@ -72,7 +72,7 @@ void add_program(Sum& sum, const Device& device) {
   std::error_code unknown;
   sum.add(fs::file_size(program, unknown));
   sum.add(fs::last_write_time(program, unknown).time_since_epoch().count());
-  for (const auto& sources : {fluid_sources(), grid_projected_sources()}) {
+  for (const auto& sources : {kernels::fluid(), kernels::grid_projected()}) {
     for (const KernelSource& source : sources) sum.add(std::string_view(source.text));
   }
   const DeviceFacts& facts = device.facts();

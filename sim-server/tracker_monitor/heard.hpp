@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What has arrived, from whom and how often: the book that `./splash listen` keeps.
+// What has arrived, from whom and how often: the book that `./splash listen` keeps, and the lines
+// of a scene that it offers.
 #pragma once
 
 #include <cstdint>
@@ -60,5 +61,10 @@ class Heard {
 
 /// How sim-server is started so that it takes what `host` sends to `port`; "": as it is.
 [[nodiscard]] std::string how_to_take(std::uint32_t host, std::uint16_t port);
+
+/// What a scene says so that a message moves a body: its lines, each ended by a line feed, or one
+/// that says why none maps the message. Lines of YAML begin with "tracking:" or with a blank,
+/// others with "#".
+[[nodiscard]] std::string mapping_lines(const protocol::Message& message);
 
 }  // namespace splash::sim

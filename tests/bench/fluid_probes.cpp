@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -45,7 +47,7 @@ kernel void compute(global float* out, float s, int rounds) {
   out[get_global_id(0)] = LAST(a);
 }
 // Scalar instructions that do not wait for each other: shifts, which no vector saves.
-kernel void shift(global uint* out, int rounds) {
+kernel void shift(global int* out, int rounds) {
   uint a = get_global_id(0), b = a + 1, c = a + 2, d = a + 3, e = a + 4, f = a + 5;
   for (int round = 0; round < rounds; ++round) {
     a += b >> 1, b ^= c << 3, c += d >> 5, d ^= e << 7, e += f >> 9, f ^= a << 11;
@@ -60,7 +62,7 @@ kernel void count_up(global const int* cells, global int* count, int points, int
 // As near.h goes through the runs around a group: where each begins and ends is looked up, and its
 // length, of one to three vectors, is not foreseen.
 kernel void visit(global const int* start, global const wide* points, global float* out,
-                  int runs, uint begin) {
+                  int runs, int begin) {
   const int item = get_global_id(0);
   wide sum = 0.0f;
   uint at = begin + 977u * item;
@@ -112,8 +114,9 @@ constexpr double kOfRound = 12.0 * 3.0 * 2.0;
 double computing(Device& device, const cl::Program& program, std::size_t items) {
   Kernel compute(program, "compute", device.profile().group);
   Buffer<float> out(device, items);
-  return fastest(device,
-                 [&] { compute.run(device.queue(), items, out.memory(), 0.999F, kRounds); });
+  return fastest(device, [&] {
+    compute.run(device.queue(), items, {{"out", out}, {"s", 0.999F}, {"rounds", kRounds}});
+  });
 }
 
 /// A number that looks drawn by lot.
@@ -126,8 +129,9 @@ double scalar(Device& device, const cl::Program& program) {
   const std::size_t items = std::size_t{16} * device.facts().compute_units;
   Buffer<int> out(device, items);
   Kernel shift(program, "shift", 1);
-  const double seconds =
-      fastest(device, [&] { shift.run(device.queue(), items, out.memory(), kShifts); });
+  const double seconds = fastest(device, [&] {
+    shift.run(device.queue(), items, {{"out", out}, {"rounds", kShifts}});
+  });
   return 12.0 * static_cast<double>(items) * kShifts / seconds;
 }
 
@@ -139,7 +143,8 @@ double counts(Device& device, const cl::Program& program) {
   Buffer<int> of(device, std::span<const int>(cells)), count(device, items * kCells);
   Kernel count_up(program, "count_up", 1);
   const double seconds = fastest(device, [&] {
-    count_up.run(device.queue(), items, of.memory(), count.memory(), kPoints, kCells);
+    count_up.run(device.queue(), items,
+                 {{"cells", of}, {"count", count}, {"points", kPoints}, {"size", kCells}});
   });
   return static_cast<double>(cells.size()) / seconds;
 }
@@ -153,12 +158,18 @@ double runs(Device& device, const cl::Program& program) {
   const std::size_t items = busy_items(device);
   const int rounds = device.lanes() == 1 ? kVisits / 64 : kVisits;
   Buffer<int> starts(device, std::span<const int>(start));
-  Buffer<float> points(device, std::size_t{4 * kRuns} * width(device)), out(device, items);
+  Buffer<std::byte> points(device, std::size_t{4 * kRuns} * width(device) * sizeof(float));
+  Buffer<float> out(device, items);
   Kernel visit(program, "visit", device.profile().lanes == 1 ? device.profile().group : 1);
   cl_uint begin = 0;  // other runs each time: what predicts branches remembers thousands
   const double seconds = fastest(device, [&] {
     begin = begin * 1664525U + 12345U;
-    visit.run(device.queue(), items, starts.memory(), points.memory(), out.memory(), rounds, begin);
+    visit.run(device.queue(), items,
+              {{"start", starts},
+               {"points", points},
+               {"out", out},
+               {"runs", rounds},
+               {"begin", std::bit_cast<int>(begin)}});
   });
   return static_cast<double>(items) * rounds / seconds;
 }
@@ -183,7 +194,7 @@ kernel void hold_out(constant FluidParams* p, constant BodyShape* shapes, global
 double held(Device& device) {
   if (device.lanes() == 1) return 0.0;
   constexpr int kTimes = 1024;
-  std::vector<KernelSource> sources = fluid_sources();
+  std::vector<KernelSource> sources = kernels::fluid();
   sources.push_back({"tests/bench/hold_out", kHold});
   Kernel hold_out(build_program(device, sources, kernel_defines({})), "hold_out", 1);
   FluidParams p = {};
@@ -202,8 +213,14 @@ double held(Device& device) {
   const auto lanes = static_cast<std::size_t>(device.lanes());
   const Buffer<float> in(device, std::vector<float>(lanes, 0.15F)), out(device, lanes);
   const double seconds = fastest(device, [&] {
-    hold_out.run(device.queue(), 1, params.memory(), shapes.memory(), none.memory(), steps.memory(),
-                 kTimes, in.memory(), out.memory());
+    hold_out.run(device.queue(), 1,
+                 {{"p", params},
+                  {"shapes", shapes},
+                  {"none", none},
+                  {"bodies", steps},
+                  {"rounds", kTimes},
+                  {"in", in},
+                  {"out", out}});
   });
   return static_cast<double>(lanes) * kTimes / seconds;
 }
@@ -212,7 +229,7 @@ double held(Device& device) {
 double idle(Device& device, const cl::Program& program, std::size_t groups) {
   const std::size_t group = device.profile().group;
   Kernel nothing(program, "nothing", group);
-  return fastest(device, [&] { nothing.run(device.queue(), groups * group, 0); });
+  return fastest(device, [&] { nothing.run(device.queue(), groups * group, {{"n", 0}}); });
 }
 
 }  // namespace
@@ -221,17 +238,21 @@ double bandwidth_of(Device& device, std::size_t bytes) {
   const std::size_t most = std::min(device.facts().allocation / 2, device.facts().memory / 8);
   const std::size_t count = std::min(bytes / 3, most) / (sizeof(float) * width(device));
   Kernel triad(probes(device), "triad");
-  using Array = Buffer<float>;
-  const std::size_t size = count * width(device);
+  using Array = Buffer<std::byte>;  // of a type of the kernel's own
+  const std::size_t size = count * width(device) * sizeof(float);
   const Array arrays[] = {Array(device, size), Array(device, size), Array(device, size)};
   // Each is written in turn: in a step, too, a core reads what another one may have written.
   const double seconds = fastest(device, [&] {
     for (int k = 0; k < 3; ++k) {
-      triad.run(device.queue(), count, arrays[k].memory(), arrays[(k + 1) % 3].memory(),
-                arrays[(k + 2) % 3].memory(), 0.5F, static_cast<int>(count));
+      triad.run(device.queue(), count,
+                {{"a", arrays[k]},
+                 {"b", arrays[(k + 1) % 3]},
+                 {"c", arrays[(k + 2) % 3]},
+                 {"s", 0.5F},
+                 {"n", static_cast<int>(count)}});
     }
   });
-  return 9.0 * static_cast<double>(size * sizeof(float)) / seconds;
+  return 9.0 * static_cast<double>(size) / seconds;
 }
 
 Limits limits_of(Device& device) {
@@ -253,7 +274,7 @@ Limits limits_of(Device& device) {
   Kernel nothing(program, "nothing");
   constexpr int kLaunches = 1000;
   const auto empty = [&] {
-    for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, k);
+    for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, {{"n", k}});
     device.queue().finish();
   };
   empty();

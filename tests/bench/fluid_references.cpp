@@ -64,7 +64,7 @@ double farthest(const std::vector<float>& a, const std::vector<float>& b, std::s
 /// The product's kernels with arguments of our own, to be timed one by one.
 struct MainKernels {
   MainKernels(Device& device, Block& block)
-      : program(build_program(device, fluid_sources(), {})),
+      : program(build_program(device, kernels::fluid(), {})),
         density(program, "compute_density"),
         acceleration(program, "compute_acceleration"),
         activity(device, std::vector<int>(cells_of(block.params), 2)),

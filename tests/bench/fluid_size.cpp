@@ -112,7 +112,7 @@ std::pair<double, double> empty_launch(Device& device) {
   Kernel nothing(build_program(device, {source}, {}), "nothing");
   constexpr int kLaunches = 2000;
   const auto run = [&] {
-    for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, k);
+    for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, {{"n", k}});
     device.queue().finish();
   };
   run();

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-#include "sim-server/device/opencl.hpp"
+#include "sim-server/device/device.hpp"
 
 namespace splash::bench {
 namespace {

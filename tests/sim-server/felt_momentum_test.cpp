@@ -15,7 +15,7 @@
 
 #include "sim-server/device/device.hpp"
 #include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
-#include "sim-server/gauge/balance.hpp"
+#include "sim-server/gauge/water_state.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim-server/fluid/air/images.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 #include "sim-server/gauge/sensors.hpp"
 #include "sim-server/gauge/water_state.hpp"
 #include "sim-server/scene/initial_fluid.hpp"

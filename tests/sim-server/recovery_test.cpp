@@ -7,8 +7,6 @@
 
 #include <limits>
 
-#include "sim-server/simulation/recovery/step_fault.hpp"
-
 namespace splash::sim {
 namespace {
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sim-server/bodies/motion/motion.hpp"
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 
@@ -14,9 +15,17 @@ class FreeMotion : public Motion {
 
   /// Straight on for a tenth of a second at most; at or before the time that is known, what is
   /// known.
-  [[nodiscard]] BodyState at(double seconds) const override;
+  [[nodiscard]] BodyState at(double seconds) const override {
+    constexpr double kLookAhead = 0.1;  // more than the steps of any frame [s]
+    BodyState state = now_;
+    const double since = seconds - seconds_;
+    // Not the other way round: a time that is no number is the present one.
+    if (!(since > 0.0)) return state;
+    state.position = now_.position + (since < kLookAhead ? since : kLookAhead) * now_.velocity;
+    return state;
+  }
   /// That it starts with: what it will reach is not known beforehand.
-  [[nodiscard]] double fastest() const override;
+  [[nodiscard]] double fastest() const override { return length(start_.velocity); }
 
   /// What the simulation found at `seconds`.
   void put(const BodyState& state, double seconds) noexcept {

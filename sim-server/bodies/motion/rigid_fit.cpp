@@ -70,12 +70,6 @@ RigidFit fit_rigid(std::span<const Vector3> reference, std::span<const Vector3> 
   RigidFit fit;
   fit.rotation = unit({q[1], q[2], q[3], q[0]});
   fit.translation = mean(measured) - rotate(fit.rotation, mean(reference));
-  double left = 0.0;
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    const Vector3 off = measured[i] - rotate(fit.rotation, reference[i]) - fit.translation;
-    left += dot(off, off);
-  }
-  fit.residual = std::sqrt(left / static_cast<double>(reference.size()));
   return fit;
 }
 

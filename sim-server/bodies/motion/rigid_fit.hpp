@@ -11,7 +11,6 @@ namespace splash::sim {
 struct RigidFit {
   Quaternion rotation = {0.0, 0.0, 0.0, 1.0};  ///< measured = rotation * reference + translation
   Vector3 translation = {};                    ///< [m]
-  double residual = 0.0;                       ///< root of the mean square of what is left [m]
 };
 
 /// By unit quaternions (Horn 1987, J. Opt. Soc. Am. A 4, 629), so that it is never a reflection.

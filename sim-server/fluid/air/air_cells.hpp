@@ -14,6 +14,11 @@
 
 namespace splash::sim {
 
+/// `points` [m], followed by the images of those less than `reach` [m] from the floor or a side of
+/// the tank; images of images fill the corners. The top is open.
+[[nodiscard]] std::vector<Vector3> with_images(std::vector<Vector3> points, const Tank& tank,
+                                               double reach);
+
 class AirCells {
  public:
   /// `support` of the kernel; whole cells fill the box, their edges nearest to `spacing` [m].

@@ -47,6 +47,11 @@ static void set_speeds(float3 v, float3 w, BodyStep* b) {
   b->wz = w.z;
 }
 
+static BodyStep faster_by(BodyStep b, float3 dv, float3 dw) {
+  set_speeds((float3)(b.vx, b.vy, b.vz) + dv, (float3)(b.wx, b.wy, b.wz) + dw, &b);
+  return b;
+}
+
 // The rotation by a vector of any length, then `b`'s.
 static void turn_body(float3 turn, BodyStep* b) {
   const float angle = length(turn);

@@ -122,19 +122,17 @@ void Boundary::place(cl::CommandQueue& queue, const Buffer<FluidParams>& params,
                      {"stride", unsorted_.stride},
                      {"sample", sample_},
                      {"owner", owner_},
-                     {"bodies", steps_},
-                     {"first_body", step.first_body},
                      {"position", unsorted_.position},
-                     {"velocity", unsorted_.velocity}});
+                     {"velocity", unsorted_.velocity}},
+                    steps_at(step));
   grid_.sort(queue, params, point_count_, unsorted_, sorted_);
   gather_volumes_.run(queue, points,
                       {{"points", point_count_},
                        {"id", sorted_.id},
                        {"volume", sample_volume_},
                        {"owner", owner_},
-                       {"bodies", steps_},
-                       {"first_body", step.first_body},
-                       {"sorted_volume", volume_}});
+                       {"sorted_volume", volume_}},
+                      steps_at(step));
 }
 
 }  // namespace splash::sim

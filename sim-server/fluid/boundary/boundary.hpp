@@ -12,7 +12,7 @@
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -58,6 +58,9 @@ class Boundary {
   /// As set_steps gave them: free bodies are there in the frame's first step only.
   [[nodiscard]] const std::vector<BodyStep>& given_steps() const noexcept { return uploaded_; }
   // For kernels: where the bodies are in a step, what they look like, and their points.
+  [[nodiscard]] std::array<KernelArg, 2> steps_at(const Step& step) const {
+    return {{{"bodies", steps_}, {"first_body", step.first_body}}};
+  }
   [[nodiscard]] std::array<KernelArg, 3> bodies_at(const Step& step) const {
     return {{{"bodies", steps_}, {"first_body", step.first_body}, {"body_count", body_count_}}};
   }

@@ -149,8 +149,7 @@ kernel void answer_bodies(constant FluidParams* p, float falling, constant FreeB
   vstore3(vload3(2 * item, felt) + pushed, 2 * item, felt);
   vstore3(vload3(2 * item + 1, felt) + turned, 2 * item + 1, felt);
   if (tied) sum_tug(first_body == 0, tugged, twisted, item, tugs);
-  set_speeds((float3)(b.vx, b.vy, b.vz) + dv, (float3)(b.wx, b.wy, b.wz) + dw, &b);
-  bodies[first_body + f.body] = b;
+  bodies[first_body + f.body] = faster_by(b, dv, dw);
 }
 
 // The water next to the bodies gets its part: one work-item for each group of particles. `velocity`

@@ -16,21 +16,15 @@ BodyPushes::BodyPushes(Fluid& fluid, const std::vector<FreeBody>& bodies,
     : list_(bodies),
       wanted_(bodies.size(), true),
       count_(static_cast<int>(bodies.size())),
-      groups_(fluid.groups()),
       bodies_(fluid.device(), std::span<const FreeBody>(bodies)),
       sums_(fluid.device(), kSums * bodies.size()),
       read_(kSums * bodies.size()) {
   if (fluid.solver().has_pushes()) return;
   Device& device = fluid.device();
-  reach_ = Buffer<float>(device, bodies.size() * SPLASH_REACH_FIELDS *
-                                     static_cast<std::size_t>(fluid.params().capacity));
-  reached_ = Buffer<int>(device, bodies.size() * groups_);
-  parts_ = Buffer<float>(device, bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES);
   const cl::Program program =
-      build_program(device, free_body_sources(), kernel_defines(fluid.parts()));
+      build_program(device, kernels::free_bodies(), kernel_defines(fluid.parts()));
+  reach_ = BodyReach(device, program, fluid.params(), bodies.size());
   films_ = Films(device, program, bodies, skin);
-  reach_bodies_ = Kernel(program, "reach_bodies", device.profile().group);
-  weigh_water_ = Kernel(program, "weigh_water", device.profile().team);
   sum_pushes_ = Kernel(program, "sum_pushes", 1);
 }
 
@@ -48,48 +42,15 @@ void BodyPushes::add(Fluid& fluid, const Step& step) {
 }
 
 void BodyPushes::add_particles(Fluid& fluid, const Step& step) {
-  cl::CommandQueue& queue = fluid.device().queue();
-  const Boundary& boundary = fluid.boundary();
-  const Buffer<FluidParams>& params = fluid.params_buffer();
-  const Buffer<float>& places = fluid.particles().position;
-  const auto dt = static_cast<float>(step.dt);
-  reach_bodies_.run(queue, list_.size() * groups_,
-                    {{"p", params},
-                     {"dt", dt},
-                     {"free_count", count_},
-                     {"frees", bodies_},
-                     {"bodies", boundary.steps()},
-                     {"first_body", step.first_body},
-                     {"cell_start", fluid.grid().cell_start()},
-                     {"position", places},
-                     {"velocity", fluid.particles().velocity},
-                     {"density", fluid.density()},
-                     {"images", fluid.body_images()},
-                     {"pressure_term", fluid.pressure_term()},
-                     {"body_velocity", boundary.points().velocity},
-                     {"body_id", boundary.points().id},
-                     {"owner", boundary.owner()},
-                     {"reach", reach_},
-                     {"reached", reached_}},
-                    boundary.matter());
-  films_.press(fluid, step, {bodies_, fluid.pressure_term(), reach_, reached_});
-  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS,
-                         {{"p", params},
-                          {"pushing", dt},
-                          {"rubbing", dt},
-                          {"frees", bodies_},
-                          {"bodies", boundary.steps()},
-                          {"first_body", step.first_body},
-                          {"position", places},
-                          {"pressure", fluid.pressure_term()},
-                          {"reach", reach_},
-                          {"reached", reached_},
-                          {"parts", parts_}});
-  sum_pushes_.run(queue, list_.size(),
+  const Buffer<float>& pressure = fluid.pressure_term();
+  reach_.find(fluid, step, bodies_);
+  films_.press(fluid, step, {bodies_, pressure, reach_.reach, reach_.reached});
+  reach_.weigh(fluid, step, bodies_, pressure, step.dt, step.dt);
+  sum_pushes_.run(fluid.device().queue(), list_.size(),
                   {{"body_count", count_},
                    {"bodies", bodies_},
-                   {"parts", parts_},
-                   {"pressed", films_.pressed() ? dt : 0.0F},
+                   {"parts", reach_.parts},
+                   {"pressed", films_.pressed() ? as_float(step.dt) : 0.0F},
                    {"film", films_.push()},
                    {"sums", sums_}});
 }

@@ -9,9 +9,10 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/free_bodies/body_reach.hpp"
 #include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -53,18 +54,13 @@ class BodyPushes {
   std::vector<FreeBody> list_;
   std::vector<bool> wanted_;
   int count_ = 0;
-  std::size_t groups_ = 0;  ///< of particles
   Buffer<FreeBody> bodies_;
   Buffer<float> sums_;
   std::vector<float> read_;
 
   // Of particles that push.
-  Buffer<float> reach_;
-  Buffer<int> reached_;
-  Buffer<float> parts_;
+  BodyReach reach_;
   Films films_;
-  Kernel reach_bodies_;
-  Kernel weigh_water_;
   Kernel sum_pushes_;
 };
 

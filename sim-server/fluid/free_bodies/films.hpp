@@ -11,7 +11,7 @@
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/params/boundary_point.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 
 namespace splash::sim {
 

@@ -42,12 +42,7 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
                        const std::vector<PairFriction>& pairs)
     : list_(bodies),
       count_(static_cast<int>(bodies.size())),
-      groups_(device.vectors_of(params.count)),
       bodies_(device, std::span<const FreeBody>(bodies)),
-      reach_(device,
-             bodies.size() * SPLASH_REACH_FIELDS * static_cast<std::size_t>(params.capacity)),
-      reached_(device, bodies.size() * groups_),
-      parts_(device, bodies.size() * SPLASH_PUSH_PARTS * SPLASH_PUSH_ENTRIES),
       answer_(device, 6 * bodies.size()),
       contacts_(device, bodies.size() * SPLASH_CONTACTS * SPLASH_CONTACT_FLOATS * sizeof(float)),
       kept_pushes_(device, bodies.size() * SPLASH_CONTACTS + 1),
@@ -58,12 +53,11 @@ FreeBodies::FreeBodies(Device& device, const FluidParams& params,
       anchors_(device, 1),
       force_read_(6 * bodies.size()),
       tugs_read_(6 * bodies.size()) {
-  const cl::Program program = build_program(device, free_body_sources(), defines);
+  const cl::Program program = build_program(device, kernels::free_bodies(), defines);
+  reach_ = BodyReach(device, program, params, bodies.size());
   films_ = Films(device, program, bodies, skin);
   const std::size_t group = device.profile().group;
   const std::size_t team = device.profile().team;
-  reach_bodies_ = Kernel(program, "reach_bodies", group);
-  weigh_water_ = Kernel(program, "weigh_water", team);
   answer_bodies_ = Kernel(program, "answer_bodies", team);
   carry_water_ = Kernel(program, "carry_water", group);
   keep_out_of_free_ = Kernel(program, "keep_out_of_free", group);
@@ -76,31 +70,8 @@ void FreeBodies::hang(Device& device, const std::vector<Anchor>& anchors) {
   anchors_.enqueue_write(device, uploaded_);
 }
 
-void FreeBodies::reach(Fluid& fluid, const Step& step) {
-  const Boundary& boundary = fluid.boundary();
-  reach_bodies_.run(fluid.device().queue(), list_.size() * groups_,
-                    {{"p", fluid.params_buffer()},
-                     {"dt", as_float(step.dt)},
-                     {"free_count", count_},
-                     {"frees", bodies_},
-                     {"bodies", boundary.steps()},
-                     {"first_body", step.first_body},
-                     {"cell_start", fluid.grid().cell_start()},
-                     {"position", fluid.particles().position},
-                     {"velocity", fluid.particles().velocity},
-                     {"density", fluid.density()},
-                     {"images", fluid.body_images()},
-                     {"pressure_term", fluid.pressure_term()},
-                     {"body_velocity", boundary.points().velocity},
-                     {"body_id", boundary.points().id},
-                     {"owner", boundary.owner()},
-                     {"reach", reach_},
-                     {"reached", reached_}},
-                    boundary.matter());
-}
-
 void FreeBodies::answer(Fluid& fluid, const Step& step) {
-  reach(fluid, step);
+  reach_.find(fluid, step, bodies_);
   answer(fluid, step,
          {.pressure = &fluid.pressure_term(),
           .pushing = step.dt,
@@ -113,50 +84,35 @@ void FreeBodies::answer(Fluid& fluid, const Step& step) {
 void FreeBodies::answer(Fluid& fluid, const Step& step, const Occasion& occasion) {
   cl::CommandQueue& queue = fluid.device().queue();
   const Buffer<FluidParams>& params = fluid.params_buffer();
-  const Buffer<BodyStep>& steps = fluid.boundary().steps();
-  const Buffer<float>& places = fluid.particles().position;
   const int first_anchor = step.first_body / fluid.boundary().body_count() * count_;
   if (occasion.falling > 0.0) {
-    films_.press(fluid, step, {bodies_, *occasion.pressure, reach_, reached_});
+    films_.press(fluid, step, {bodies_, *occasion.pressure, reach_.reach, reach_.reached});
   }
-  weigh_water_.run_teams(queue, list_.size() * SPLASH_PUSH_PARTS,
-                         {{"p", params},
-                          {"pushing", as_float(occasion.pushing)},
-                          {"rubbing", as_float(occasion.rubbing)},
-                          {"frees", bodies_},
-                          {"bodies", steps},
-                          {"first_body", step.first_body},
-                          {"position", places},
-                          {"pressure", *occasion.pressure},
-                          {"reach", reach_},
-                          {"reached", reached_},
-                          {"parts", parts_}});
+  reach_.weigh(fluid, step, bodies_, *occasion.pressure, occasion.pushing, occasion.rubbing);
   answer_bodies_.run_teams(queue, list_.size(),
                            {{"p", params},
                             {"falling", as_float(occasion.falling)},
                             {"frees", bodies_},
-                            {"bodies", steps},
-                            {"first_body", step.first_body},
-                            {"parts", parts_},
+                            {"parts", reach_.parts},
                             {"films", films_.pressed() ? 1 : 0},
                             {"film", films_.push()},
                             {"anchors", anchors_},
                             {"first_anchor", first_anchor},
                             {"answer", answer_},
                             {"felt", felt_},
-                            {"tugs", tugs_}});
-  carry_water_.run(queue, groups_,
+                            {"tugs", tugs_}},
+                           fluid.boundary().steps_at(step));
+  carry_water_.run(queue, reach_.groups,
                    {{"p", params},
                     {"free_count", count_},
                     {"factor", as_float(occasion.factor)},
                     {"frees", bodies_},
-                    {"bodies", steps},
-                    {"first_body", step.first_body},
                     {"answer", answer_},
-                    {"position", places},
-                    {"reach", reach_},
-                    {"reached", reached_},
-                    {"velocity", *occasion.velocity}});
+                    {"position", fluid.particles().position},
+                    {"reach", reach_.reach},
+                    {"reached", reach_.reached},
+                    {"velocity", *occasion.velocity}},
+                   fluid.boundary().steps_at(step));
 }
 
 void FreeBodies::move(Fluid& fluid, const Step& step) {
@@ -166,22 +122,20 @@ void FreeBodies::move(Fluid& fluid, const Step& step) {
   const PointArrays& particles = fluid.particles();
   const auto piston = as_float(step.piston);
   const auto speed = as_float(step.piston_speed);
-  keep_out_of_free_.run(queue, groups_,
+  keep_out_of_free_.run(queue, reach_.groups,
                         {{"p", params},
                          {"dt", as_float(step.dt)},
                          {"piston", piston},
                          {"piston_speed", speed},
                          {"free_count", count_},
                          {"frees", bodies_},
-                         {"bodies", boundary.steps()},
-                         {"first_body", step.first_body},
                          {"position_before", fluid.particles_before().position},
                          {"source", fluid.grid().source()},
                          {"position", particles.position},
                          {"velocity", particles.velocity},
-                         {"reach", reach_},
-                         {"reached", reached_}},
-                        boundary.outlines());
+                         {"reach", reach_.reach},
+                         {"reached", reach_.reached}},
+                        boundary.outlines(), boundary.steps_at(step));
   answer(fluid, step,
          {.pressure = &fluid.pressure_term(), .rubbing = 1.0, .velocity = &particles.velocity});
   move_bodies_.run(queue, 1,

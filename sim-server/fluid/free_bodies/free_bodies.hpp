@@ -9,9 +9,10 @@
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/free_bodies/body_reach.hpp"
 #include "sim-server/fluid/free_bodies/films.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
@@ -69,18 +70,12 @@ class FreeBodies {
     double factor = 1.0;                      ///< the velocities' changes are added times this
     const Buffer<float>* velocity = nullptr;  ///< to these
   };
-  /// Finds what water is in reach of the bodies, and what they do to each other.
-  void reach(Fluid& fluid, const Step& step);
   void answer(Fluid& fluid, const Step& step, const Occasion& occasion);
 
   std::vector<FreeBody> list_;
   int count_ = 0;
-  std::size_t groups_ = 0;  ///< of particles
-  std::size_t next_ = 0;    ///< where the bodies of the coming step begin among the fluid's
+  std::size_t next_ = 0;  ///< where the bodies of the coming step begin among the fluid's
   Buffer<FreeBody> bodies_;
-  Buffer<float> reach_;
-  Buffer<int> reached_;
-  Buffer<float> parts_;
   Buffer<float> answer_;
   Buffer<std::byte> contacts_;
   Buffer<KeptPush> kept_pushes_;
@@ -93,9 +88,8 @@ class FreeBodies {
   std::vector<BodyStep> steps_read_;
   std::vector<float> force_read_;
   std::vector<float> tugs_read_;
+  BodyReach reach_;
   Films films_;
-  Kernel reach_bodies_;
-  Kernel weigh_water_;
   Kernel answer_bodies_;
   Kernel carry_water_;
   Kernel keep_out_of_free_;

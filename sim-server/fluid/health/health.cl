@@ -8,7 +8,6 @@
 #include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/health/state_sums.h"
 #include "sim-server/fluid/health/stray.h"
-#include "sim-server/fluid/lanes/bits.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"

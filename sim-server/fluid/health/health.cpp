@@ -104,8 +104,7 @@ HealthLimits health_limits(const FluidParams& p) {
 }
 
 Health::Health(Device& device, const cl::Program& program, const FluidParams& params)
-    : particles_(params.count),
-      parts_(device.profile().parts),
+    : parts_(device.profile().parts),
       longest_step_(longest_possible_step(params)),
       rested_(device, device.vectors_of(params.count)),
       check_(program, "check_health", device.profile().team) {

@@ -15,7 +15,7 @@
 #include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/neighbours/neighbour_grid.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 
 namespace splash::sim {
 
@@ -112,7 +112,6 @@ class Health {
   [[nodiscard]] std::optional<Diagnosis> diagnosis(std::size_t step,
                                                    std::optional<std::uint32_t> before) const;
 
-  int particles_ = 0;
   std::size_t parts_ = 1;  ///< of the particles, looked at side by side
   FaultSet checks_ = kAllFaults;
   bool fast_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the health of a step is judged by, and what is found of it (health.cl).
+// What the health of a step is judged by, and what is found of it (health.cl, reduce_stats.cl).
 #ifndef SPLASH_HEALTH_RECORD_H
 #define SPLASH_HEALTH_RECORD_H
 
@@ -38,6 +38,21 @@ typedef struct {
   unsigned int ids_before, ids_after;
 } HealthRecord;
 SPLASH_SHARED_STRUCT(HealthRecord, 56)
+
+// Health and limits of one part of the fluid (reduce_stats.cl); the host sums them up.
+typedef struct {
+  float speed2;         // largest [m2/s2]
+  float acceleration2;  // largest [m2/s4]
+  float excess_sum;     // of max(rho / rho0 - 1, 0)
+  float excess_max;
+  int not_finite;  // particles with a coordinate, speed or density that is no number
+  int first_bad;   // the smallest id of such a particle, 2^31 - 1: none
+  int runaway;     // particles at the speed limit
+  int asleep;      // particles that did not take part in the last step
+  float lower[3];  // box around all particles [m]
+  float upper[3];
+} FluidStatsPart;
+SPLASH_SHARED_STRUCT(FluidStatsPart, 56)
 
 // The bits of a group that rests, when it was last looked at.
 typedef struct {

@@ -2,7 +2,7 @@
 // Health and limits of the whole fluid, once a frame: only of finite numbers is the difference to
 // themselves zero.
 
-#include "sim-server/fluid/health/stats_part.h"
+#include "sim-server/fluid/health/health_record.h"
 #include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/lanes/team.h"
 #include "sim-server/fluid/params/fluid_params.h"

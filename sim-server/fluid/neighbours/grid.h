@@ -60,7 +60,7 @@ static int2 run_of_row(constant FluidParams* p, global const int* cell_start, Ro
   return (int2)(cell_start[base + box.from], cell_start[base + box.to + 1]);
 }
 
-// How far the sort for CPUs goes through the cells (cell_count.cl, cell_sort.cl).
+// How far the sort for CPUs goes through the cells (cell_count.cl).
 
 // Most cells lie above the water: past the last one in use nothing is counted or placed, and
 // cell_start says `points` since the last whole sort. extent[chunk]: one past the last cell in use

@@ -13,6 +13,10 @@
 #define SPLASH_WEAKLY_COMPRESSIBLE 0
 #define SPLASH_GRID_PROJECTED 1
 
+// What goes on in a cell of water (sleep/sleep.h): 0, it sleeps.
+#define SPLASH_ACTIVITY_DENSITY 1  // the particles' density is kept up
+#define SPLASH_ACTIVITY_MOTION 2   // they move
+
 #ifdef __cplusplus
 namespace splash::sim {
 #endif

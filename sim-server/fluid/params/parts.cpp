@@ -38,28 +38,4 @@ std::vector<std::string> kernel_defines(const KernelParts& parts) {
   return defines;
 }
 
-namespace kernels {
-std::vector<KernelSource> fluid();
-std::vector<KernelSource> free_bodies();
-std::vector<KernelSource> grid_projected();
-std::vector<KernelSource> stats();
-std::vector<KernelSource> tank_turn();
-}  // namespace kernels
-
-std::vector<KernelSource> fluid_sources() {
-  return kernels::fluid();
-}
-std::vector<KernelSource> grid_projected_sources() {
-  return kernels::grid_projected();
-}
-std::vector<KernelSource> free_body_sources() {
-  return kernels::free_bodies();
-}
-std::vector<KernelSource> tank_turn_sources() {
-  return kernels::tank_turn();
-}
-std::vector<KernelSource> stats_sources() {
-  return kernels::stats();
-}
-
 }  // namespace splash::sim

@@ -38,10 +38,12 @@ struct KernelParts {
 // The fluid's kernels as they are built: the stages of a step, and apart from them those of the
 // grid-projected solver, of free bodies, of a turning tank and the statistics.
 
-[[nodiscard]] std::vector<KernelSource> fluid_sources();
-[[nodiscard]] std::vector<KernelSource> grid_projected_sources();
-[[nodiscard]] std::vector<KernelSource> free_body_sources();
-[[nodiscard]] std::vector<KernelSource> tank_turn_sources();
-[[nodiscard]] std::vector<KernelSource> stats_sources();
+namespace kernels {
+[[nodiscard]] std::vector<KernelSource> fluid();
+[[nodiscard]] std::vector<KernelSource> grid_projected();
+[[nodiscard]] std::vector<KernelSource> free_bodies();
+[[nodiscard]] std::vector<KernelSource> tank_turn();
+[[nodiscard]] std::vector<KernelSource> stats();
+}  // namespace kernels
 
 }  // namespace splash::sim

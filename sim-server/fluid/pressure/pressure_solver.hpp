@@ -11,7 +11,7 @@
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/device.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {

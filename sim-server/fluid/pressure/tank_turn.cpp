@@ -27,7 +27,7 @@ TankTurn turn_of(const TankState& tank, const Vector3& pivot, double dt) {
 }
 
 TankTurning::TankTurning(Device& device)
-    : turn_water_(build_program(device, tank_turn_sources(), {}), "turn_water",
+    : turn_water_(build_program(device, kernels::tank_turn(), {}), "turn_water",
                   device.profile().group),
       turn_(device, 1) {}
 

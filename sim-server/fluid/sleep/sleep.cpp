@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sim-server/fluid/sleep/activity.h"
+#include "sim-server/fluid/params/fluid_params.h"
 
 namespace splash::sim {
 namespace {

@@ -10,7 +10,6 @@
 #include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/neighbours/group.h"
 #include "sim-server/fluid/params/fluid_params.h"
-#include "sim-server/fluid/sleep/activity.h"
 
 #define WAKES_MOTION 1  // [cells]
 #define WAKES_DENSITY 2

@@ -34,7 +34,7 @@ class Sleep {
   /// Wakes everything.
   void wake(Device& device);
 
-  /// Of each cell, what goes on in it (sleep/activity.h).
+  /// Of each cell, what goes on in it (params/fluid_params.h).
   [[nodiscard]] const Buffer<int>& activity() const noexcept { return activity_; }
   /// Of each group of particles, for how many steps it has rested (sleep/rest.h).
   [[nodiscard]] const Buffer<int>& resting() const noexcept { return resting_; }

@@ -97,12 +97,7 @@ void MeshDistance::split(std::size_t part, std::size_t first, std::size_t count)
   Vector3 lower = begin->corner[0];
   Vector3 upper = lower;
   for (auto triangle = begin; triangle != end; ++triangle) {
-    for (const Vector3& x : triangle->corner) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        lower[axis] = std::min(lower[axis], x[axis]);
-        upper[axis] = std::max(upper[axis], x[axis]);
-      }
-    }
+    for (const Vector3& x : triangle->corner) grow_box(x, lower, upper);
   }
   parts_[part] = {lower, upper, first, count};
   if (count <= kLeaf) return;

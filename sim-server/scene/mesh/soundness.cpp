@@ -64,12 +64,7 @@ void check_edges(const TriangleMesh& mesh) {
 void check_volume(const TriangleMesh& mesh) {
   Vector3 lower = mesh.vertices.front();
   Vector3 upper = lower;
-  for (const Vector3& x : mesh.vertices) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], x[axis]);
-      upper[axis] = std::max(upper[axis], x[axis]);
-    }
-  }
+  for (const Vector3& x : mesh.vertices) grow_box(x, lower, upper);
   const Vector3 size = upper - lower;
   const program::Place place{.file = mesh.file};
   if (std::max({size[0], size[1], size[2]}) < kSmallest) {

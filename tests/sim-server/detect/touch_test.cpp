@@ -99,10 +99,6 @@ std::vector<Touch> touch(Water& water, const Buffer<float>& density, const Skins
   return out.read(device, skins.places.size());
 }
 
-Vector3 vector(float x, float y, float z) {
-  return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-}
-
 struct Seen {
   int water = 0;
   int spray = 0;

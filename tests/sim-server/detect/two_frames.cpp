@@ -8,7 +8,7 @@
 
 #include "sim-server/detect/air_folds.hpp"
 #include "sim-server/detect/detector.hpp"
-#include "sim-server/gauge/wall_push.hpp"
+#include "sim-server/gauge/gauges.hpp"
 #include "tests/sim-server/detect/detect_rig.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "sim-server/device/device.hpp"
 #include "sim-server/device/last_words.hpp"
-#include "sim-server/device/opencl.hpp"
 
 namespace splash::sim {
 namespace {

@@ -30,7 +30,7 @@ TEST(Programs, JoinTheirFilesAndConstants) {
   // Fewer than a work-group, whole groups and a rest; never one past the end.
   for (const int count : {1, 63, 64, 65, 1000}) {
     const Buffer<int> out(device, 1100);
-    fill.run(device.queue(), static_cast<std::size_t>(count), count, out.memory());
+    fill.run(device.queue(), static_cast<std::size_t>(count), {{"count", count}, {"out", out}});
     const std::vector<int> values = out.read(device, 1100);
     for (int i = 0; i < 1100; ++i) {
       ASSERT_EQ(values[static_cast<std::size_t>(i)], i < count ? 2 * i + 100 : 0)
@@ -47,11 +47,11 @@ TEST(Programs, TellHowManyOfTheirKernelsHaveRun) {
   Kernel a(program, "a");
   Kernel b(program, "b");
   tell_of_kernels([&](const KernelCount& count) { told.push_back(count); });
-  a.run(device.queue(), 1, 1);
-  a.run(device.queue(), 100, 100);
-  b.run(device.queue(), 1, 1);
+  a.run(device.queue(), 1, {{"n", 1}});
+  a.run(device.queue(), 100, {{"n", 100}});
+  b.run(device.queue(), 1, {{"n", 1}});
   tell_of_kernels({});
-  Kernel(program, "a").run(device.queue(), 1, 1);
+  Kernel(program, "a").run(device.queue(), 1, {{"n", 1}});
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told[1].ready, told[0].ready + 1);
   EXPECT_GE(told[0].all, 2);
@@ -64,17 +64,17 @@ TEST(Programs, RunNothingOfNothingAndElseWholeGroups) {
                                "  out[get_global_id(0)] = 1000 * get_local_size(0) + 1;\n}\n"};
   Kernel count(build_program(device, {kernel}, {}), "count", 24);
   const Buffer<int> out(device, 100);
-  count.run(device.queue(), 0, out.memory());
-  count.run_teams(device.queue(), 0, out.memory());
+  count.run(device.queue(), 0, {{"out", out}});
+  count.run_teams(device.queue(), 0, {{"out", out}});
   EXPECT_EQ(out.read(device, 100), std::vector<int>(100, 0));
   std::vector<int> expected(100, 0);
-  count.run(device.queue(), 1, out.memory());
+  count.run(device.queue(), 1, {{"out", out}});
   std::fill(expected.begin(), expected.begin() + 24, 24001);
   EXPECT_EQ(out.read(device, 100), expected);
-  count.run_teams(device.queue(), 2, out.memory());
+  count.run_teams(device.queue(), 2, {{"out", out}});
   std::fill(expected.begin(), expected.begin() + 48, 24001);
   EXPECT_EQ(out.read(device, 100), expected);
-  count.run(device.queue(), 49, out.memory());  // a third group for one more
+  count.run(device.queue(), 49, {{"out", out}});  // a third group for one more
   std::fill(expected.begin() + 48, expected.begin() + 72, 24001);
   EXPECT_EQ(out.read(device, 100), expected);
 }
@@ -88,7 +88,7 @@ TEST(Programs, TakeNoLargerGroupsThanTheKernelAllows) {
   const std::size_t limit = device.handle().getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
   Kernel size(build_program(device, {kernel}, {}), "size", 4 * limit);
   const Buffer<int> out(device, limit);
-  size.run_teams(device.queue(), 1, out.memory());
+  size.run_teams(device.queue(), 1, {{"out", out}});
   EXPECT_EQ(out.read(device, limit), std::vector<int>(limit, static_cast<int>(limit)));
 }
 

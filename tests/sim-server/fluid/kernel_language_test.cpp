@@ -47,12 +47,12 @@ struct NamedProgram {
 };
 
 std::vector<NamedProgram> programs() {
-  return {{"fluid", fluid_sources()},
-          {"free_bodies", free_body_sources()},
-          {"reduce_stats", stats_sources()},
+  return {{"fluid", kernels::fluid()},
+          {"free_bodies", kernels::free_bodies()},
+          {"reduce_stats", kernels::stats()},
           {"pin", kernels::pin()},
-          {"grid_projected", grid_projected_sources()},
-          {"tank_turn", tank_turn_sources()},
+          {"grid_projected", kernels::grid_projected()},
+          {"tank_turn", kernels::tank_turn()},
           {"detect", kernels::detect()},
           {"gauge", kernels::gauge()}};
 }

@@ -129,7 +129,7 @@ TEST_F(LaunchShape, OfALookAtWhatMaySleepIsWide) {
 
 // Of a sort: five numbers for each point and cell, whichever there are more of.
 TEST_F(LaunchShape, OfASortIsSmall) {
-  const cl::Program program = build_program(device_, fluid_sources(), {});
+  const cl::Program program = build_program(device_, kernels::fluid(), {});
   for (const auto& [size, points] :
        std::vector<std::pair<double, std::size_t>>{{0.3, 100'000}, {3.0, 1000}, {3.0, 100'000}}) {
     const Scene scene = tank_scene(0.02, {size, size, size}, 0.1);

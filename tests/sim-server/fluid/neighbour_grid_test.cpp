@@ -116,7 +116,7 @@ class NeighbourGrids : public ::testing::TestWithParam<Path> {
   }
 
   Device device_{-1, false, GetParam().profile};
-  cl::Program program_ = build_program(device_, fluid_sources(), {});
+  cl::Program program_ = build_program(device_, kernels::fluid(), {});
   Scene scene_;
   std::vector<Vector3> places_;
   FluidParams params_ = {};

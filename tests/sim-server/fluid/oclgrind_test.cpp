@@ -63,8 +63,6 @@ const Kernels kGrid = {
     "tell_tugs",     "entrain_water",  "weigh_pressure",     "mark_faces",     "weigh_faces",
     "weigh_given",   "sum_given",      "open_areas",         "see_room",       "share_at_surface",
     "sharpen_faces", "ask_for_answer", "find_clear",         "ask_for_room",   "find_shift"};
-/// How pushes on felt bodies depend on speeds.
-const Kernels kAnswers = {"weigh_answer"};
 /// Where air may be shut in, which is for CPUs.
 const Kernels kPockets = {"find_pockets"};
 /// From particles to its faces, on CPUs and on GPUs.
@@ -89,7 +87,7 @@ const std::vector<Watched> kWatched = {
     {"vector", "sim_fluid_two_steps 16 0 0", "Oclgrind: 251 particles",
      join({kRuns, kStep, kPairs, kTurn})},
     {"grid_projected", "sim_fluid_two_steps 16 1 1", "Oclgrind: 251 particles",
-     join({kRuns, kStep, kGrid, kAnswers, kPockets, kScatter, kMoved})},
+     join({kRuns, kStep, kGrid, kPockets, kScatter, kMoved})},
     {"scalar_grid_projected", "sim_fluid_two_steps 1 1 1", "Oclgrind: 251 particles",
      join({kRanks, kStep, kGrid, kGather, kMoved})},
     {"free_bodies", "sim_fluid_two_steps 16 0 1", "Oclgrind: 251 particles",

@@ -15,12 +15,10 @@
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/health/health_record.h"
-#include "sim-server/fluid/health/stats_part.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/pocket.h"
-#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/tank_turn.h"
 
 namespace splash::sim {
@@ -133,7 +131,7 @@ const std::vector<Member> kMembers = {
     MEMBERS_3(Touch, u, v, w),
     MEMBERS_3(Touch, water_u, water_v, water_w),
     MEMBERS_3(Touch, nx, ny, nz),
-    MEMBERS_3(Touch, ahead, all_colour, unused),
+    MEMBERS_2(Touch, ahead, all_colour),
 };
 
 #undef MEMBER
@@ -145,8 +143,8 @@ const std::vector<Member> kMembers = {
 std::vector<KernelSource> shared_headers() {
   std::vector<KernelSource> headers;
   std::set<std::string> seen;
-  for (const auto& program : {fluid_sources(), free_body_sources(), stats_sources(),
-                              grid_projected_sources(), tank_turn_sources(), kernels::detect()}) {
+  for (const auto& program : {kernels::fluid(), kernels::free_bodies(), kernels::stats(),
+                              kernels::grid_projected(), kernels::tank_turn(), kernels::detect()}) {
     for (const KernelSource& source : program) {
       if (source.text.find("SPLASH_SHARED_STRUCT(") == std::string::npos) continue;
       if (seen.insert(source.name).second) headers.push_back(source);

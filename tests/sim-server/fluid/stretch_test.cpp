@@ -7,7 +7,7 @@
 
 #include "sim-server/fluid/health/health.hpp"
 #include "sim-server/fluid/time_step.hpp"
-#include "sim-server/gauge/balance.hpp"
+#include "sim-server/gauge/water_state.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/reference.hpp"

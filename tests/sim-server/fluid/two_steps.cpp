@@ -15,7 +15,7 @@
 #include "sim-server/bodies/skin.hpp"
 #include "sim-server/fluid/free_bodies/body_pushes.hpp"
 #include "sim-server/fluid/pressure/tank_turn.hpp"
-#include "sim-server/start/pinned_particles.hpp"
+#include "sim-server/start/settle.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace {

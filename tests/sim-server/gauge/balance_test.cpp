@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Energies, momentum and spread of water whose sums have a closed form.
-#include "sim-server/gauge/balance.hpp"
+#include "sim-server/gauge/water_state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "sim-server/fluid/air/air_cells.hpp"
-#include "sim-server/fluid/air/images.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/gauge/lattice.hpp"
 

@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "sim-server/device/device.hpp"
-#include "sim-server/gauge/gauge_file.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim-server/fluid/air/images.hpp"
+#include "sim-server/fluid/air/air_cells.hpp"
 #include "tests/sim-server/gauge/lattice.hpp"
 
 namespace splash::sim {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The initial flows: free of divergence, along the walls, as fast as they say.
-#include "sim-server/scene/flow.hpp"
+#include "sim-server/scene/initial_fluid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "sim-server/scene/mesh/distance_field.hpp"
-#include "sim-server/scene/mesh/ridges.hpp"
+#include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"

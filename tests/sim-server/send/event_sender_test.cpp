@@ -179,7 +179,6 @@ TEST_F(EventSenderTest, TagsNeverDecreaseAndOffsetsAreNeverNegative) {
     for (const auto& event : heard.events) EXPECT_GE(offset_ms(event), 0.0) << i;
     last = heard.time;
   }
-  EXPECT_EQ(sender().counts().clock_jumps, 0U);
 }
 
 TEST_F(EventSenderTest, AClockThatIsSetBackByAnHourDoesNotSilenceTheSender) {
@@ -189,7 +188,6 @@ TEST_F(EventSenderTest, AClockThatIsSetBackByAnHourDoesNotSilenceTheSender) {
   sender().send_step(frame(1.0), {test::impact(1, 1.005)});
   hear(synth);
   EXPECT_NEAR(sounds_at(hear(synth), 0), 1.005, kTick);
-  EXPECT_EQ(sender().counts().clock_jumps, 1U);
 }
 
 TEST_F(EventSenderTest, IdleSaysOneFrameEachTenthOfASecond) {

@@ -31,7 +31,6 @@ TEST_F(PacerTest, WaitsForEachFramesMoment) {
     EXPECT_NEAR(now, 50.0 + 0.004 * i, 1.0e-9);
   }
   EXPECT_NEAR(slept, 0.030, 1.0e-9);
-  EXPECT_EQ(pacer.counts().frames, 10U);
   EXPECT_EQ(pacer.counts().behind, 0U);
   EXPECT_NEAR(pacer.unix_origin(), 1.7e9 + 50.0, 1.0e-6);
 }
@@ -48,7 +47,6 @@ TEST_F(PacerTest, AShortDelayIsCaughtUp) {
     pacer.wait_until(0.004 * i);
   }
   EXPECT_NEAR(now, 50.0 + 0.080, 1.0e-9) << "back in step";
-  EXPECT_EQ(pacer.counts().slips, 0U);
   EXPECT_EQ(pacer.counts().slipped, 0.0);
 }
 
@@ -56,7 +54,6 @@ TEST_F(PacerTest, ALongDelaySlipsAndLeavesNoBacklog) {
   Pacer pacer({}, clock());
   now += 0.504;
   pacer.wait_until(0.004);
-  EXPECT_EQ(pacer.counts().slips, 1U);
   EXPECT_NEAR(pacer.counts().slipped, 0.5, 1.0e-9);
   EXPECT_NEAR(pacer.unix_origin(), 1.7e9 + 50.5, 1.0e-6);
   now += 0.001;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim-server/show/body_mesh.hpp"
+#include "sim-server/show/scene_frame.hpp"
 
 #include <gtest/gtest.h>
 

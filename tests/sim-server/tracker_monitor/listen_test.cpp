@@ -12,7 +12,6 @@
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/tracker_monitor/heard.hpp"
-#include "sim-server/tracker_monitor/mapping_lines.hpp"
 #include "sim-server/tracker_monitor/obstacles.hpp"
 #include "tests/support/programs.hpp"
 

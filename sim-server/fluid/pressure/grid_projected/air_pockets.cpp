@@ -29,9 +29,7 @@ ShutInAir::ShutInAir(Device& device, const cl::Program& program, const MacFields
 void ShutInAir::find(Fluid& fluid, const Step& step) {
   if (!looks_) return;
   find_pockets_.run(fluid.device().queue(), 1,
-                    {{"p", fluid.params_buffer()},
-                     {"g", fields_.on_device},
-                     {"dt", as_float(step.dt)},
+                    {{"dt", as_float(step.dt)},
                      {"gap", solids_.gap()},
                      {"space", solids_.space()},
                      {"fill", solids_.fill()},
@@ -42,7 +40,8 @@ void ShutInAir::find(Fluid& fluid, const Step& step) {
                      {"pockets", pockets_},
                      {"air", fields_.air},
                      {"compliance", compliance_},
-                     {"pressure", fields_.pressure}});
+                     {"pressure", fields_.pressure}},
+                    fields_.args(fluid));
 }
 
 void ShutInAir::forget(Device& device) {

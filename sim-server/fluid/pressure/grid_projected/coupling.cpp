@@ -60,23 +60,19 @@ void CoupledBodies::let_fall(Fluid& fluid, const Step& step) {
                  {"dt", as_float(step.dt)},
                  {"free_count", count},
                  {"frees", frees(fluid)},
-                 {"bodies", fluid.boundary().steps()},
-                 {"first_body", step.first_body},
-                 {"kept", kept_}});
+                 {"kept", kept_}},
+                fluid.boundary().steps_at(step));
   if (any_hung(fluid)) tie(fluid, step);
   entrain_water_.run_teams(fluid.device().queue(), 1,
-                           {{"p", fluid.params_buffer()},
-                            {"g", fields_.on_device},
-                            {"dt", as_float(step.dt)},
+                           {{"dt", as_float(step.dt)},
                             {"free_count", count},
                             {"frees", solved(fluid)},
                             {"shapes", fluid.boundary().shapes()},
-                            {"bodies", fluid.boundary().steps()},
-                            {"first_body", step.first_body},
                             {"owner", solids_.owner()},
                             {"excess", solids_.excess()},
                             {"carries", fields_.carries},
-                            {"entrained", entrained_}});
+                            {"entrained", entrained_}},
+                           fluid.boundary().steps_at(step), fields_.args(fluid));
 }
 
 void CoupledBodies::tie(Fluid& fluid, const Step& step) {
@@ -87,13 +83,12 @@ void CoupledBodies::tie(Fluid& fluid, const Step& step) {
                    {"dt", as_float(step.dt)},
                    {"free_count", count},
                    {"frees", frees(fluid)},
-                   {"bodies", fluid.boundary().steps()},
-                   {"first_body", step.first_body},
                    {"kept", kept_},
                    {"anchors", fluid.free_bodies()->anchors()},
                    {"first_anchor", first_anchor},
                    {"tied", tied_},
-                   {"tuggings", tuggings_}});
+                   {"tuggings", tuggings_}},
+                  fluid.boundary().steps_at(step));
 }
 
 void CoupledBodies::find_grip(Fluid& fluid, const Step& step) {
@@ -107,39 +102,34 @@ void CoupledBodies::find_grip(Fluid& fluid, const Step& step, int count,
                    {"free_count", count},
                    {"frees", bodies},
                    {"shapes", fluid.boundary().shapes()},
-                   {"bodies", fluid.boundary().steps()},
-                   {"first_body", step.first_body},
                    {"gap", solids_.gap()},
                    {"owner", solids_.owner()},
                    {"wet", fields_.wet},
                    {"air", fields_.air},
-                   {"grip", grip}});
+                   {"grip", grip}},
+                  fluid.boundary().steps_at(step));
 }
 
 void CoupledBodies::push(Fluid& fluid, const Step& step, const Buffer<float>& found) {
   const int count = this->count(fluid);
   if (count == 0) return;
   push_bodies_.run_teams(fluid.device().queue(), 1,
-                         {{"p", fluid.params_buffer()},
-                          {"g", fields_.on_device},
-                          {"free_count", count},
+                         {{"free_count", count},
                           {"frees", solved(fluid)},
-                          {"bodies", fluid.boundary().steps()},
-                          {"first_body", step.first_body},
                           {"owner", solids_.owner()},
                           {"grip", grip_},
                           {"found", found},
                           {"entrained", entrained_},
                           {"kept", kept_},
-                          {"felt", fluid.free_bodies()->felt()}});
+                          {"felt", fluid.free_bodies()->felt()}},
+                         fluid.boundary().steps_at(step), fields_.args(fluid));
   if (!any_hung(fluid)) return;
   tell_tugs_.run(fluid.device().queue(), static_cast<std::size_t>(count),
                  {{"free_count", count},
                   {"frees", frees(fluid)},
-                  {"bodies", fluid.boundary().steps()},
-                  {"first_body", step.first_body},
                   {"tuggings", tuggings_},
-                  {"tugs", fluid.free_bodies()->tugs()}});
+                  {"tugs", fluid.free_bodies()->tugs()}},
+                 fluid.boundary().steps_at(step));
 }
 
 }  // namespace splash::sim

@@ -128,3 +128,11 @@ static float add_bodies(constant MacGrid* g, const Coupling* all, float part,
   TOGETHER();
   return bends;
 }
+
+// What the water that a body entrains (entrained.cl) loses when it goes as the body does, R - E q.
+static void give_entrained(FreeBody f, BodyStep b, global const float* water, float* given) {
+  const float q[6] = {b.vx, b.vy, b.vz, f.size * b.wx, f.size * b.wy, f.size * b.wz};
+  float inertia[SIX_ENTRIES];
+  for (int e = 0; e < SIX_ENTRIES; ++e) inertia[e] = water[e];
+  for (int e = 0; e < 6; ++e) given[e] = water[SIX_ENTRIES + e] - row_of_six(inertia, e, q);
+}

@@ -8,7 +8,7 @@
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
-#include "sim-server/fluid/step.hpp"
+#include "sim-server/fluid/time_step.hpp"
 
 namespace splash::sim {
 

@@ -6,8 +6,8 @@
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
-#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/grid_projected/system.hpp"
 
 namespace splash::sim {

@@ -14,7 +14,6 @@
 #include "sim-server/fluid/boundary/six.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
-#include "sim-server/fluid/pressure/grid_projected/entrained.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"

@@ -14,21 +14,26 @@
 #include "sim-server/fluid/pressure/grid_projected/room.h"
 
 // Adds dt F of each body to the first half of its twelve `sums`, its torque about the body's centre
-// with it [N s], [N m s]. One work-group.
-kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int body_count,
-                           constant FreeBody* felt, global BodyStep* bodies, int first_body,
-                           global const int* owner, global const float* grip,
+// with it [N s], [N m s]. Of felt body `only`, if that is one: rho0 V K^T A^-1 K of that `part` of
+// its speeds to the second half [kg], [kg m2]. One work-group.
+kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int only, int part,
+                           int body_count, constant FreeBody* felt, global BodyStep* bodies,
+                           int first_body, global const int* owner, global const float* grip,
                            global const float* found, global float* sums) {
   local float parts[JUDGES];
   const float heavy = p->rest_density * g->hx * g->hy * g->hz;
   const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy, 0};
-  for (int k = 0; k < body_count; ++k) {
+  const int last = only < 0 ? body_count : only + 1;
+  for (int k = max(only, 0); k < last; ++k) {
     float push[6];
     find_push(g, &all, k, found, parts, push);
     if (FIRST_ITEM > 0) continue;
-    for (int e = 0; e < 6; ++e) {
+    for (int e = 0; e < 6 && only < 0; ++e) {
       sums[12 * k + e] -= (e < 3 ? 1.0f : felt[k].size) * heavy * push[e];
     }
+    if (only < 0) continue;
+    const float lever = part < 3 ? 1.0f : felt[k].size;
+    sums[12 * k + 6 + part] += lever * lever * heavy * push[part];
   }
 }
 
@@ -67,20 +72,4 @@ kernel void ask_for_answer(constant MacGrid* g, int k, int part, float dt, const
   }
   right[c] = b;
   x[c] = rest[c] = start[c] = way[c] = 0.0f;
-}
-
-// Adds rho0 V K^T A^-1 K of that part to the second half of the body's sums [kg], [kg m2]. One
-// work-group.
-kernel void weigh_answer(constant FluidParams* p, constant MacGrid* g, int k, int part,
-                         int body_count, constant FreeBody* felt, global BodyStep* bodies,
-                         int first_body, global const int* owner, global const float* grip,
-                         global const float* found, global float* sums) {
-  local float parts[JUDGES];
-  const float heavy = p->rest_density * g->hx * g->hy * g->hz;
-  const Coupling all = {body_count, felt, bodies + first_body, owner, grip, heavy, 0};
-  float push[6];
-  find_push(g, &all, k, found, parts, push);
-  if (FIRST_ITEM > 0) return;
-  const float lever = part < 3 ? 1.0f : felt[k].size;
-  sums[12 * k + 6 + part] += lever * lever * heavy * push[part];
 }

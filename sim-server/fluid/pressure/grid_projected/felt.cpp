@@ -23,8 +23,7 @@ FeltForces::FeltForces(Device& device, const cl::Program& program, const MacFiel
       answer_(device, 1),
       answer_state_(device, 1),
       weigh_pressure_(program, "weigh_pressure", fields.team),
-      ask_for_answer_(program, "ask_for_answer"),
-      weigh_answer_(program, "weigh_answer", fields.team) {}
+      ask_for_answer_(program, "ask_for_answer") {}
 
 void FeltForces::feel(Device& device, bool on) {
   feels_ = on && solids_.any();
@@ -42,17 +41,7 @@ void FeltForces::weigh(Fluid& fluid, const Step& step) {
   if (!now_) return;
   const int count = static_cast<int>(now_->list.size());
   bodies_.find_grip(fluid, step, count, now_->on_device, grip_);
-  weigh_pressure_.run_teams(fluid.device().queue(), 1,
-                            {{"p", fluid.params_buffer()},
-                             {"g", fields_.on_device},
-                             {"body_count", count},
-                             {"felt", now_->on_device},
-                             {"bodies", fluid.boundary().steps()},
-                             {"first_body", step.first_body},
-                             {"owner", solids_.owner()},
-                             {"grip", grip_},
-                             {"found", system_.found()},
-                             {"sums", now_->sums}});
+  weigh_pressure(fluid, step, system_.found());
   given_.weigh(fluid, step, *now_, system_.found());
   for (int k = 0; k < count; ++k) {
     const bool rates = now_->wanted[static_cast<std::size_t>(k)];
@@ -70,31 +59,29 @@ void FeltForces::weigh_answer(Fluid& fluid, const Step& step, int k, int part) {
                        {"part", part},
                        {"dt", static_cast<float>(step.dt)},
                        {"felt", now_->on_device},
-                       {"bodies", fluid.boundary().steps()},
-                       {"first_body", step.first_body},
                        {"owner", solids_.owner()},
                        {"gap", solids_.gap()},
                        {"mean", fields_.carries},
                        {"grip", grip_},
                        {"start", answer_}},
-                      system_.unknowns());
+                      system_.unknowns(), fluid.boundary().steps_at(step));
   system_.solve_again(fluid, step, kAnswerIterations, true, answer_, answer_state_);
-  if (part != SPLASH_BY_FLOW) {
-    weigh_answer_.run_teams(queue, 1,
-                            {{"p", fluid.params_buffer()},
-                             {"g", fields_.on_device},
-                             {"k", k},
+  if (part != SPLASH_BY_FLOW) weigh_pressure(fluid, step, answer_, k, part);
+  given_.weigh(fluid, step, *now_, answer_, k, part);
+}
+
+void FeltForces::weigh_pressure(Fluid& fluid, const Step& step, const Buffer<float>& found,
+                                int only, int part) {
+  weigh_pressure_.run_teams(fluid.device().queue(), 1,
+                            {{"only", only},
                              {"part", part},
                              {"body_count", static_cast<int>(now_->list.size())},
                              {"felt", now_->on_device},
-                             {"bodies", fluid.boundary().steps()},
-                             {"first_body", step.first_body},
                              {"owner", solids_.owner()},
                              {"grip", grip_},
-                             {"found", answer_},
-                             {"sums", now_->sums}});
-  }
-  given_.weigh(fluid, step, *now_, answer_, k, part);
+                             {"found", found},
+                             {"sums", now_->sums}},
+                            fluid.boundary().steps_at(step), fields_.args(fluid));
 }
 
 }  // namespace splash::sim

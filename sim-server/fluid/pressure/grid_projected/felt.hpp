@@ -38,6 +38,10 @@ class FeltForces {
  private:
   /// The derivative by one `part` of the speed of body `k`, or what its flow gives far from it.
   void weigh_answer(Fluid& fluid, const Step& step, int k, int part);
+  /// Of the solution `found`: adds the force on each body, or of body `only` what it answers to
+  /// that part of its speed.
+  void weigh_pressure(Fluid& fluid, const Step& step, const Buffer<float>& found, int only = -1,
+                      int part = 0);
 
   const MacFields& fields_;
   const GridSolids& solids_;
@@ -51,7 +55,6 @@ class FeltForces {
   Buffer<SolveState> answer_state_;
   Kernel weigh_pressure_;
   Kernel ask_for_answer_;
-  Kernel weigh_answer_;
 };
 
 }  // namespace splash::sim

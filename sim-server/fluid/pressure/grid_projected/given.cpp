@@ -38,15 +38,11 @@ void GivenMomentum::weigh(Fluid& fluid, const Step& step, const FeltBodies& felt
   const KernelArg bodies = {"felt", felt.on_device};
   const KernelArg body_count = {"felt_count", static_cast<int>(count)};
   mark_faces_.run(queue, fields_.cells,
-                  {{"p", fluid.params_buffer()},
-                   {"g", fields_.on_device},
-                   {"falls", only < 0 ? as_float(step.dt) : 0.0F},
+                  {{"falls", only < 0 ? as_float(step.dt) : 0.0F},
                    {"only", only},
                    {"part", part},
                    body_count,
                    bodies,
-                   {"bodies", fluid.boundary().steps()},
-                   {"first_body", step.first_body},
                    {"owner", solids_.owner()},
                    {"gap", solids_.gap()},
                    {"held", solids_.held()},
@@ -57,7 +53,8 @@ void GivenMomentum::weigh(Fluid& fluid, const Step& step, const FeltBodies& felt
                    {"change", fields_.change},
                    {"given", change_},
                    {"taken", taken_},
-                   {"whose", whose_}});
+                   {"whose", whose_}},
+                  fluid.boundary().steps_at(step), fields_.args(fluid));
   if (only >= 0) system_.share_at_surface(fluid.device(), change_);
   system_.sharpen(fluid.device(), change_, given_, &whose_);
   weigh_faces_.run_teams(queue, 1,
@@ -66,15 +63,12 @@ void GivenMomentum::weigh(Fluid& fluid, const Step& step, const FeltBodies& felt
                           {"only", only},
                           {"part", part},
                           bodies,
-                          {"bodies", fluid.boundary().steps()},
-                          {"first_body", step.first_body},
                           {"taken", taken_},
                           {"whose", whose_},
-                          {"parts", parts_}});
+                          {"parts", parts_}},
+                         fluid.boundary().steps_at(step));
   weigh_given_.run_teams(queue, count * SPLASH_PUSH_PARTS,
-                         {{"p", fluid.params_buffer()},
-                          {"g", fields_.on_device},
-                          {"dt", as_float(step.dt)},
+                         {{"dt", as_float(step.dt)},
                           {"only", only},
                           {"part_of_speed", part},
                           {"counts", static_cast<int>(only < 0)},
@@ -86,7 +80,8 @@ void GivenMomentum::weigh(Fluid& fluid, const Step& step, const FeltBodies& felt
                           {"carried", fields_.carried},
                           {"jolt", jolt_},
                           {"parts", parts_}},
-                         fluid.boundary().outlines(), fluid.boundary().bodies_at(step));
+                         fluid.boundary().outlines(), fluid.boundary().bodies_at(step),
+                         fields_.args(fluid));
   sum_given_.run(
       queue, count,
       {body_count, {"only", only}, {"part", part}, bodies, {"parts", parts_}, {"sums", felt.sums}});

@@ -18,7 +18,7 @@ double filter_rate(double spacing) {
 
 GridProjected::GridProjected(Device& device, const FluidParams& params,
                              const std::vector<std::string>& defines, bool solids)
-    : GridProjected(device, params, build_program(device, grid_projected_sources(), defines),
+    : GridProjected(device, params, build_program(device, kernels::grid_projected(), defines),
                     solids) {}
 
 GridProjected::GridProjected(Device& device, const FluidParams& params, const cl::Program& program,
@@ -42,28 +42,25 @@ GridProjected::GridProjected(Device& device, const FluidParams& params, const cl
 void GridProjected::recall_pressure(Fluid& fluid, const Step& step) {
   if (step.dt > 0.0) return;
   sample_pressure_.run(fluid.device().queue(), fluid.groups(),
-                       {{"p", fluid.params_buffer()},
-                        {"g", fields_.on_device},
-                        {"position", fluid.particles().position},
+                       {{"position", fluid.particles().position},
                         {"density", fluid.density()},
                         {"wet", fields_.wet},
                         {"pressure", fields_.pressure},
-                        {"term", fluid.pressure_term()}});
+                        {"term", fluid.pressure_term()}},
+                       fields_.args(fluid));
 }
 
 void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   cl::CommandQueue& queue = fluid.device().queue();
-  const Buffer<FluidParams>& params = fluid.params_buffer();
   const PointArrays& particles = fluid.particles();
   const Boundary& boundary = fluid.boundary();
   to_faces_.find(fluid, particles.velocity, fields_.mean);
   find_deviation_.run(queue, fluid.groups(),
-                      {{"p", params},
-                       {"g", fields_.on_device},
-                       {"position", particles.position},
+                      {{"position", particles.position},
                        {"velocity", particles.velocity},
                        {"mean", fields_.mean},
-                       {"deviation", deviation_}});
+                       {"deviation", deviation_}},
+                      fields_.args(fluid));
   to_faces_.find(fluid, deviation_, seen_);
   solids_.place(fluid, step);
   air_.find(fluid, step);
@@ -78,41 +75,28 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   const double sound = kSpacingWay * static_cast<double>(fluid.params().support) / step.dt;
   const double slower = sound / static_cast<double>(fluid.params().sound_speed);
   find_spacing_.run(queue, fluid.groups(),
-                    {{"p", params},
+                    {{"p", fluid.params_buffer()},
                      {"slower", as_float(part_ * slower * slower)},
                      {"cell_start", fluid.grid().cell_start()},
                      {"position", particles.position},
                      {"term", fluid.pressure_term()},
                      {"images", fluid.body_images()},
-                     {"body_start", boundary.grid().cell_start()},
-                     {"body_position", boundary.points().position},
-                     {"body_volume", boundary.volume()},
-                     {"body_stride", boundary.points().stride},
-                     {"bodies", boundary.steps()},
-                     {"first_body", step.first_body},
-                     {"body_count", boundary.body_count()},
                      {"piston", as_float(step.piston)},
                      {"acceleration", fluid.acceleration()},
                      {"moving", fluid.moving()},
                      {"feels", static_cast<int>(felt_.feels())},
-                     {"by_bodies", felt_.jolt()}});
+                     {"by_bodies", felt_.jolt()}},
+                    boundary.matter(), boundary.bodies_at(step));
 }
 
 void GridProjected::move(Fluid& fluid, const Step& step) {
   const double rate = filter_rate(static_cast<double>(fluid.params().spacing));
   move_particles_.run(fluid.device().queue(), fluid.groups(),
-                      {{"p", fluid.params_buffer()},
-                       {"g", fields_.on_device},
-                       {"dt", as_float(step.dt)},
+                      {{"dt", as_float(step.dt)},
                        {"filtered", as_float(-std::expm1(-rate * step.dt))},
                        {"kick", as_float(part_ * kSpacingKick)},
                        {"piston", as_float(step.piston)},
                        {"piston_speed", as_float(step.piston_speed)},
-                       {"shapes", fluid.boundary().shapes()},
-                       {"meshes", fluid.boundary().meshes()},
-                       {"bodies", fluid.boundary().steps()},
-                       {"first_body", step.first_body},
-                       {"body_count", fluid.boundary().body_count()},
                        {"carries", fields_.carries},
                        {"change", fields_.change},
                        {"gain", fields_.gain},
@@ -124,7 +108,9 @@ void GridProjected::move(Fluid& fluid, const Step& step) {
                        {"velocity", fluid.particles().velocity},
                        {"carried", fields_.carried},
                        {"feels", static_cast<int>(felt_.feels())},
-                       {"jolt", felt_.jolt()}});
+                       {"jolt", felt_.jolt()}},
+                      fluid.boundary().outlines(), fluid.boundary().bodies_at(step),
+                      fields_.args(fluid));
   felt_.weigh(fluid, step);
 }
 

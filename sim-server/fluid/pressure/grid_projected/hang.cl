@@ -40,8 +40,7 @@ kernel void tie_bodies(constant FluidParams* p, float dt, int free_count, consta
   f.iz += tug.turn_inertia;
   const float3 dv = (tug.push - tug.inertia * fall) / f.mass;
   const float3 dw = inertia_solve(f, b, tug.turn);
-  set_speeds((float3)(b.vx, b.vy, b.vz) + dv, (float3)(b.wx, b.wy, b.wz) + dw, &b);
-  bodies[first_body + f.body] = b;
+  bodies[first_body + f.body] = faster_by(b, dv, dw);
   tied[k] = f;
   vstore3((float3)(before.vx, before.vy, before.vz), 0, own);
   vstore3((float3)(before.wx, before.wy, before.wz), 1, own);

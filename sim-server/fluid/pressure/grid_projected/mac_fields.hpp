@@ -1,16 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The grid on the device, with the arrays that the stages of a step share.
+// The grid that carries the weight, as it is laid into a tank, on the device, and the arrays that
+// the stages of a step share.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "sim-server/device/buffer.hpp"
-#include "sim-server/fluid/pressure/grid_projected/mac_layout.hpp"
+#include "sim-server/device/kernel.hpp"
+#include "sim-server/fluid/params/fluid_params.h"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 
 namespace splash::sim {
 
+/// Edge of a cell, as nearly as whole numbers of them fill the tank [spacings].
+inline constexpr double kMacCell = 2.0;
+
+/// Between the walls, and upwards as far as the neighbour grid. Each level of the multigrid has
+/// half the cells of the one before along each axis, down to one or two.
+[[nodiscard]] MacGrid lay_mac_grid(const FluidParams& params);
+
+/// Room for an array over all levels, and for vectors that are read past its end.
+[[nodiscard]] std::size_t mac_room(const MacGrid& grid);
+
+class Fluid;
+
 struct MacFields {
   MacFields(Device& device, const FluidParams& params);
+
+  /// For kernels: the fluid's parameters, and the grid.
+  [[nodiscard]] std::array<KernelArg, 2> args(const Fluid& fluid) const;
 
   MacGrid grid;
   std::size_t cells;    ///< inside, and one more along each axis

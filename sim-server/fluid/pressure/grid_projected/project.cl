@@ -30,27 +30,6 @@ static lane_flags are_washed(const MacLevel l, global const float* wet, const Ce
   return sum > none;
 }
 
-// How fast the solids beside the lower faces of cells, `s` from those below, go along an axis
-// [m/s].
-static lanes solids_beside(constant MacGrid* g, global const BodyStep* bodies,
-                           global const int* owner, float dt, float piston_speed, const Cells* at,
-                           lane_flags held, int axis, int s) {
-  int x[LANES], y[LANES], is_held[LANES];
-  float speed[LANES];
-  STORE(at->x, x, 0);
-  STORE(at->y, y, 0);
-  STORE(held, is_held, 0);
-  for (int lane = 0; lane < LANES; ++lane) {
-    speed[lane] = 0.0f;
-    if (!is_held[lane]) continue;
-    const int c = at->first + lane;
-    const int whose = owner[c] != OF_NOBODY ? owner[c] : owner[c - s];
-    speed[lane] =
-        solid_at_face(g, bodies, whose, dt, piston_speed, (int4)(x[lane], y[lane], at->z, 0), axis);
-  }
-  return LOAD(speed, 0);
-}
-
 kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt,
                           global const BodyStep* bodies, int first_body, float piston_speed,
                           global const float* gap, global const float* held,
@@ -80,8 +59,8 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
       lanes gained = change;
       if (any_lane(some)) {
         open |= some & beside;
-        const lanes goes = solids_beside(g, bodies + first_body, owner, dt, piston_speed, &at, some,
-                                         axis, step[axis]);
+        const lanes goes = solids_at_faces(g, bodies + first_body, owner, dt, piston_speed, &at,
+                                           some, axis, 0, step[axis]);
         gained = select(change, goes - LOAD(carries, face), some);
         change += part * (gained - change);
       }

@@ -3,6 +3,7 @@
 // and the wave maker's piston; the tank's own walls are where the grid ends.
 
 #include "sim-server/fluid/boundary/bodies.h"
+#include "sim-server/fluid/lanes/lanes.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/params/parts.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
@@ -57,4 +58,27 @@ static float solid_at_face(constant MacGrid* g, global const BodyStep* bodies, i
   const float3 v = (float3)(b.vx, b.vy, b.vz) + cross((float3)(b.wx, b.wy, b.wz), arm) +
                    swelling(b, dt) * arm;
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+// How fast solids go along an axis at the lower faces of the cells that are `marked`, or at the
+// upper ones (`upper`: 1): that of the cell, or, where it is nobody's, that of the cell `s` before
+// [m/s].
+static lanes solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
+                             global const int* owner, float dt, float piston_speed, const Cells* at,
+                             lane_flags marked, int axis, int upper, int s) {
+  int x[LANES], y[LANES], is_marked[LANES];
+  float speed[LANES];
+  STORE(at->x, x, 0);
+  STORE(at->y, y, 0);
+  STORE(marked, is_marked, 0);
+  const int4 side = upper * (int4)(axis == 0, axis == 1, axis == 2, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    speed[lane] = 0.0f;
+    if (!is_marked[lane]) continue;
+    const int c = at->first + lane;
+    const int whose = owner[c] != OF_NOBODY ? owner[c] : owner[c - s];
+    const int4 face = (int4)(x[lane], y[lane], at->z, 0) + side;
+    speed[lane] = solid_at_face(g, bodies, whose, dt, piston_speed, face, axis);
+  }
+  return LOAD(speed, 0);
 }

@@ -32,17 +32,14 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
 void GridSolids::place(Fluid& fluid, const Step& step) {
   if (!any_) return;
   cl::CommandQueue& queue = fluid.device().queue();
-  const Buffer<FluidParams>& params = fluid.params_buffer();
   const Boundary& boundary = fluid.boundary();
   cut_cells_.run(queue, fields_.vectors,
-                 {{"p", params},
-                  {"g", fields_.on_device},
-                  {"piston", as_float(step.piston)},
+                 {{"piston", as_float(step.piston)},
                   {"lower", volume_},
                   {"upper", upper_},
                   {"room", space_},
                   {"owner", owner_}},
-                 boundary.outlines(), boundary.bodies_at(step));
+                 boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
   see_room_.run(queue, fields_.vectors,
                 {{"g", fields_.on_device},
                  {"lower", volume_},
@@ -51,17 +48,14 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                  {"owner", owner_},
                  {"seen", seen_space_}});
   find_clear_.run(queue, fields_.vectors,
-                  {{"p", params},
-                   {"g", fields_.on_device},
-                   {"cell_start", fluid.grid().cell_start()},
+                  {{"cell_start", fluid.grid().cell_start()},
                    {"position", fluid.particles().position},
                    {"seen", seen_space_},
                    {"owner", owner_},
                    {"clear", clear_}},
-                  boundary.outlines(), boundary.bodies_at(step));
-  open_faces_.run(
-      queue, fields_.vectors,
-      {{"p", params}, {"g", fields_.on_device}, {"upper", upper_}, {"volume", volume_}});
+                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
+  open_faces_.run(queue, fields_.vectors, {{"upper", upper_}, {"volume", volume_}},
+                  fields_.args(fluid));
   fill_beside_solids_.run(queue, fields_.vectors,
                           {{"g", fields_.on_device},
                            {"volume", volume_},
@@ -71,16 +65,14 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                            {"fill", fields_.fill},
                            {"filled", filled_}});
   open_areas_.run(queue, fields_.vectors,
-                  {{"p", params},
-                   {"g", fields_.on_device},
-                   {"piston", as_float(step.piston)},
+                  {{"piston", as_float(step.piston)},
                    {"owner", owner_},
                    {"fill", filled_},
                    {"volume", volume_},
                    {"gap", gap_},
                    {"held", upper_},
                    {"excess", excess_}},
-                  boundary.outlines(), boundary.bodies_at(step));
+                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
   params_ = fluid.params();
   dt_ = step.dt;
 }
@@ -101,18 +93,11 @@ std::vector<Press> GridSolids::press(Device& device, std::size_t bodies) const {
   const std::vector<int> owner = owner_.read(device, cells);
   const std::array<std::size_t, 3> step = {1, static_cast<std::size_t>(l.row),
                                            static_cast<std::size_t>(l.layer)};
-  const Vector3 lower = {static_cast<double>(g.x), static_cast<double>(g.y),
-                         static_cast<double>(g.z)};
-  const Vector3 edge = {static_cast<double>(g.hx), static_cast<double>(g.hy),
-                        static_cast<double>(g.hz)};
-  const Vector3 gravity = {static_cast<double>(params_.gravity_x),
-                           static_cast<double>(params_.gravity_y),
-                           static_cast<double>(params_.gravity_z)};
-  const Vector3 pull = {static_cast<double>(params_.pull_x), static_cast<double>(params_.pull_y),
-                        static_cast<double>(params_.pull_z)};
-  const Vector3 centre = {static_cast<double>(params_.centre_x),
-                          static_cast<double>(params_.centre_y),
-                          static_cast<double>(params_.centre_z)};
+  const Vector3 lower = vector(g.x, g.y, g.z);
+  const Vector3 edge = vector(g.hx, g.hy, g.hz);
+  const Vector3 gravity = vector(params_.gravity_x, params_.gravity_y, params_.gravity_z);
+  const Vector3 pull = vector(params_.pull_x, params_.pull_y, params_.pull_z);
+  const Vector3 centre = vector(params_.centre_x, params_.centre_y, params_.centre_z);
   const double volume = edge[0] * edge[1] * edge[2];
   const auto middle_of = [&](std::size_t c, std::size_t axis, std::size_t side) {
     const std::array<std::size_t, 3> at = {c % step[2] % step[1], c % step[2] / step[1],

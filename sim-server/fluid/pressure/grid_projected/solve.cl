@@ -8,10 +8,22 @@
 #include "sim-server/fluid/pressure/grid_projected/coupling.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/multigrid.h"
-#include "sim-server/fluid/pressure/grid_projected/pool.h"
-#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
+#include "sim-server/fluid/pressure/grid_projected/pocket.h"
 
 #define SOLVED 1e-4f  // what may be left of the demand [1]
+
+// The rows of a pocket of air (pocket.h) are one unknown: gives each of its cells the mean of all.
+// With one work-item alone: the barriers that many need keep PoCL's compiler for minutes.
+static void pool(global const AirPockets* all, global const int* list, global float* field) {
+#if TEAM == 1
+  for (int k = 0; HAS_POCKETS && k < all->count; ++k) {
+    const AirPocket pocket = all->pocket[k];
+    float sum = 0.0f;
+    for (int i = 0; i < pocket.cells; ++i) sum += field[list[pocket.first + i]];
+    for (int i = 0; i < pocket.cells; ++i) field[list[pocket.first + i]] = sum / pocket.cells;
+  }
+#endif
+}
 
 static float product(const MacLevel l, int end, global const float* a, global const float* b,
                      local float* parts) {

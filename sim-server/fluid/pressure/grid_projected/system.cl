@@ -58,28 +58,6 @@ static int last_of(lane_flags marked) {
   return (int)most(select((lanes)(-1.0f), CONVERT(LANE_NUMBERS), marked));
 }
 
-// How fast solids go at the faces of cells that they cut, below and above along an axis [m/s].
-static void solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
-                            global const int* owner, float dt, float piston_speed, const Cells* at,
-                            lane_flags cut, int axis, lanes* low, lanes* high) {
-  int x[LANES], y[LANES], is_cut[LANES];
-  float below[LANES], above[LANES];
-  STORE(at->x, x, 0);
-  STORE(at->y, y, 0);
-  STORE(cut, is_cut, 0);
-  for (int lane = 0; lane < LANES; ++lane) {
-    below[lane] = above[lane] = 0.0f;
-    if (!is_cut[lane]) continue;
-    const int whose = owner[at->first + lane];
-    const int4 here = (int4)(x[lane], y[lane], at->z, 0);
-    const int4 next = here + (int4)(axis == 0, axis == 1, axis == 2, 0);
-    below[lane] = solid_at_face(g, bodies, whose, dt, piston_speed, here, axis);
-    above[lane] = solid_at_face(g, bodies, whose, dt, piston_speed, next, axis);
-  }
-  *low = LOAD(below, 0);
-  *high = LOAD(above, 0);
-}
-
 // The divergence of how solids go in cells that they cut: of a body that appears, which swells
 // alike in all directions [1/s].
 static lanes swelling_of_solids(global const BodyStep* bodies, global const int* owner, float dt,
@@ -156,11 +134,10 @@ kernel void lay_system(constant FluidParams* p, constant MacGrid* g, float dt,
       links += between + beyond;
       lanes in = LOAD(pushed, face), out = LOAD(pushed, face + s);
       if (any_cut) {
-        lanes below, above;
-        solids_at_faces(g, bodies + first_body, owner, dt, piston_speed, &at, cut, axis, &below,
-                        &above);
-        in -= below;
-        out -= above;
+        in -= solids_at_faces(g, bodies + first_body, owner, dt, piston_speed, &at, cut, axis, 0,
+                              0);
+        out -= solids_at_faces(g, bodies + first_body, owner, dt, piston_speed, &at, cut, axis, 1,
+                               0);
       }
       b -= (high * out - low * in) * inverse[axis];
     }

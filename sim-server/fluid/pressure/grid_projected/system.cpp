@@ -4,12 +4,6 @@
 #include "sim-server/fluid/fluid.hpp"
 
 namespace splash::sim {
-namespace {
-
-/// Iterations of a solve, at most.
-constexpr int kIterations = 40;
-
-}  // namespace
 
 PressureSystem::PressureSystem(Device& device, const cl::Program& program, const MacFields& fields,
                                const GridSolids& solids, const CoupledBodies& bodies,
@@ -38,25 +32,20 @@ PressureSystem::PressureSystem(Device& device, const cl::Program& program, const
 
 void PressureSystem::push_faces(Fluid& fluid, const Step& step) {
   push_faces_.run(fluid.device().queue(), fields_.vectors,
-                  {{"p", fluid.params_buffer()},
-                   {"g", fields_.on_device},
-                   {"dt", as_float(step.dt)},
+                  {{"dt", as_float(step.dt)},
                    {"owner", solids_.owner()},
                    {"fill", solids_.fill()},
                    {"mean", fields_.mean},
                    {"weight", fields_.weight},
                    {"carries", fields_.carries},
                    {"pushed", fields_.change},
-                   {"most", most_}});
+                   {"most", most_}},
+                  fields_.args(fluid));
 }
 
 void PressureSystem::lay(Fluid& fluid, const Step& step) {
   lay_system_.run(fluid.device().queue(), fields_.vectors,
-                  {{"p", fluid.params_buffer()},
-                   {"g", fields_.on_device},
-                   {"dt", as_float(step.dt)},
-                   {"bodies", fluid.boundary().steps()},
-                   {"first_body", step.first_body},
+                  {{"dt", as_float(step.dt)},
                    {"piston_speed", as_float(step.piston_speed)},
                    {"gap", solids_.gap()},
                    {"space", solids_.space()},
@@ -71,30 +60,17 @@ void PressureSystem::lay(Fluid& fluid, const Step& step) {
                    {"start", found_},
                    {"wet", fields_.wet},
                    {"most", most_}},
-                  unknowns());
-}
-
-void PressureSystem::solve(Fluid& fluid, const Step& step) {
-  solve(fluid, step, true, kIterations, true, found_, state_);
-}
-
-void PressureSystem::solve_again(Fluid& fluid, const Step& step, int iterations, bool yielding,
-                                 const Buffer<float>& found, const Buffer<SolveState>& state) {
-  solve(fluid, step, false, iterations, yielding, found, state);
+                  unknowns(), fluid.boundary().steps_at(step), fields_.args(fluid));
 }
 
 void PressureSystem::solve(Fluid& fluid, const Step& step, bool anew, int iterations, bool yielding,
                            const Buffer<float>& found, const Buffer<SolveState>& state) {
   solve_pressure_.run_teams(fluid.device().queue(), 1,
-                            {{"p", fluid.params_buffer()},
-                             {"g", fields_.on_device},
-                             {"anew", static_cast<int>(anew)},
+                            {{"anew", static_cast<int>(anew)},
                              {"iterations", iterations},
                              {"room", static_cast<int>(fields_.room)},
                              {"free_count", yielding ? bodies_.count(fluid) : 0},
                              {"frees", bodies_.solved(fluid)},
-                             {"bodies", fluid.boundary().steps()},
-                             {"first_body", step.first_body},
                              {"owner", solids_.owner()},
                              {"grip", bodies_.grip()},
                              {"entrained", bodies_.entrained()},
@@ -110,16 +86,13 @@ void PressureSystem::solve(Fluid& fluid, const Step& step, bool anew, int iterat
                              {"along", along_},
                              {"pockets", air_.pockets()},
                              {"list", air_.list()},
-                             {"state", state}});
+                             {"state", state}},
+                            fluid.boundary().steps_at(step), fields_.args(fluid));
 }
 
 void PressureSystem::project(Fluid& fluid, const Step& step) {
   project_faces_.run(fluid.device().queue(), fields_.vectors,
-                     {{"p", fluid.params_buffer()},
-                      {"g", fields_.on_device},
-                      {"dt", as_float(step.dt)},
-                      {"bodies", fluid.boundary().steps()},
-                      {"first_body", step.first_body},
+                     {{"dt", as_float(step.dt)},
                       {"piston_speed", as_float(step.piston_speed)},
                       {"gap", solids_.gap()},
                       {"held", solids_.held()},
@@ -132,7 +105,8 @@ void PressureSystem::project(Fluid& fluid, const Step& step) {
                       {"wet", fields_.wet},
                       {"air", fields_.air},
                       {"pushed", fields_.change},
-                      {"pressure", fields_.pressure}});
+                      {"pressure", fields_.pressure}},
+                     fluid.boundary().steps_at(step), fields_.args(fluid));
   share_at_surface(fluid.device(), fields_.change);
   sharpen(fluid.device(), fields_.change, fields_.gain, nullptr);
 }

@@ -10,8 +10,8 @@
 #include "sim-server/fluid/pressure/grid_projected/air_pockets.hpp"
 #include "sim-server/fluid/pressure/grid_projected/coupling.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
+#include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/solids.hpp"
-#include "sim-server/fluid/pressure/grid_projected/solve_state.h"
 #include "sim-server/fluid/pressure/pressure_solver.hpp"
 
 namespace splash::sim {
@@ -24,12 +24,16 @@ class PressureSystem {
   /// Adds gravity and viscosity to the velocities on faces.
   void push_faces(Fluid& fluid, const Step& step);
   void lay(Fluid& fluid, const Step& step);
-  void solve(Fluid& fluid, const Step& step);
+  void solve(Fluid& fluid, const Step& step) {
+    solve(fluid, step, true, kIterations, true, found_, state_);
+  }
   /// Solves the system of the last solve with another right side in unknowns(), in at most so many
   /// `iterations`. `found` holds the first guess and then the solution. `yielding`: free bodies
   /// give way to the pressures.
   void solve_again(Fluid& fluid, const Step& step, int iterations, bool yielding,
-                   const Buffer<float>& found, const Buffer<SolveState>& state);
+                   const Buffer<float>& found, const Buffer<SolveState>& state) {
+    solve(fluid, step, false, iterations, yielding, found, state);
+  }
   void project(Fluid& fluid, const Step& step);
   /// Turns changes of velocity on faces at the surface into those that the particles there get.
   void share_at_surface(Device& device, const Buffer<float>& field);
@@ -53,6 +57,8 @@ class PressureSystem {
   void forget(Device& device);
 
  private:
+  static constexpr int kIterations = 40;  ///< of a solve, at most
+
   void solve(Fluid& fluid, const Step& step, bool anew, int iterations, bool yielding,
              const Buffer<float>& found, const Buffer<SolveState>& state);
 

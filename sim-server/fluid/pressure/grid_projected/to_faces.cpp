@@ -30,24 +30,22 @@ void ToFaces::find(Fluid& fluid, const Buffer<float>& value, const Buffer<float>
   cl::CommandQueue& queue = fluid.device().queue();
   if (items_ == 0) {
     gather_.run(queue, fields_.cells,
-                {{"p", fluid.params_buffer()},
-                 {"g", fields_.on_device},
-                 {"cell_start", fluid.grid().cell_start()},
+                {{"cell_start", fluid.grid().cell_start()},
                  {"position", fluid.particles().position},
                  {"value", value},
                  {"mean", mean},
                  {"weight", fields_.weight},
-                 {"fill", fields_.fill}});
+                 {"fill", fields_.fill}},
+                fields_.args(fluid));
     return;
   }
   scatter_.run(queue, items_,
-               {{"p", fluid.params_buffer()},
-                {"g", fields_.on_device},
-                {"items", static_cast<int>(items_)},
+               {{"items", static_cast<int>(items_)},
                 {"position", fluid.particles().position},
                 {"value", value},
                 {"grids", grids_},
-                {"layers", layers_}});
+                {"layers", layers_}},
+               fields_.args(fluid));
   add_up_.run(queue, fields_.vectors,
               {{"g", fields_.on_device},
                {"items", static_cast<int>(items_)},

@@ -25,7 +25,7 @@ std::vector<Entry> entries(const BodySettings& body, const Motion& motion, doubl
   double before = 0.0;
   for (double t = 0.0; t < until; t += kStep) {
     const BodyState s = motion.at(t);
-    const double height = sole_height(body.shape, {}, {s.rotation, s.position, 0.0}) - level;
+    const double height = sole_height(body.shape, {}, {s.rotation, s.position}) - level;
     if (before > 0.0 && height <= 0.0) found.push_back({t, (before - height) / kStep});
     before = height;
   }

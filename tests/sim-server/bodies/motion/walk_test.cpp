@@ -37,7 +37,7 @@ std::map<std::string, std::vector<double>> plate_contacts() {
 }
 
 double height(const BodySettings& foot, const BodyState& state) {
-  return sole_height(foot.shape, {}, {state.rotation, state.position, 0.0});
+  return sole_height(foot.shape, {}, {state.rotation, state.position});
 }
 
 /// Times at which the sole reaches the floor after it was clear of it by 6 mm; at the start the

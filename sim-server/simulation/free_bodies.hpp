@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: MIT
-// The bodies of a scene that hang on devices by springs: where the devices are, for the kernels
-// (fluid/boundary/body_spring.h), and what they feel.
+// The free bodies of a scene between frames: what the device made of them, and those that hang on
+// devices by springs: where the devices are, for the kernels (fluid/boundary/body_spring.h), and
+// what they feel.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/bodies/motion/tied_motion.hpp"
+#include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/free_bodies/body_pushes.hpp"
 #include "sim-server/fluid/free_bodies/free_bodies.hpp"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {
+
+/// Returns a fault when a free body has NaN or infinity in its state, its centre is beyond a side
+/// or the floor of the tank, or it is ten times as fast as sound. To be called after the frame's
+/// last step, number `step`.
+[[nodiscard]] std::optional<Diagnosis> look_at_free_bodies(Fluid& fluid, int step);
+
+/// Copies the states that the bodies have at `seconds` from the device.
+void bring_free_bodies(Fluid& fluid, Bodies& bodies, double seconds);
 
 class HungBodies {
  public:
