@@ -75,6 +75,7 @@ TEST_F(Signals, HangupBeginsTheLogAnewThatWasMovedAway) {
   Simulator daemon(simulator({"--record", log}));
   const auto has_bundles = [&] { return text_of(log).size() > 200; };
   ASSERT_TRUE(eventually(has_bundles, kTimeout));
+  sleep(1.5);  // longer than from one plunge to the next
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for_text("a.osc is still there: move it away", kTimeout));
   fs::rename(log, file("first.osc"));
@@ -87,8 +88,7 @@ TEST_F(Signals, HangupBeginsTheLogAnewThatWasMovedAway) {
   const auto second = protocol::read_log(log);
   ASSERT_FALSE(first.empty());
   ASSERT_GT(second.size(), 1U);
-  EXPECT_LT(second.front().seconds, 2.0) << "its time begins anew";
-  EXPECT_GT(first.back().seconds, 1.0);
+  EXPECT_LT(second.front().seconds, first.back().seconds) << "its time begins anew";
   EXPECT_TRUE(protocol::to_frame(first.back().messages.at(0))) << "a /frame closes the first";
 }
 

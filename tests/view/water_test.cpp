@@ -163,7 +163,7 @@ TEST_F(DrawnWater, StatesComeAtTheirOwnRateWhilePicturesAreDrawn) {
   const auto passed = [] {
     return browser().evaluate(R"js((async () => {
       const before = [came, splash.pictures()];
-      await new Promise((done) => { setTimeout(done, 1000); });
+      await new Promise((done) => { setTimeout(done, 2000); });
       return [came - before[0], splash.pictures() - before[1]];
     })())js");
   };
