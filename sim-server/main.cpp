@@ -52,11 +52,11 @@ extern "C" void note_end(int number) {
   for (const int ending : {SIGINT, SIGTERM, number}) std::signal(ending, SIG_DFL);
 }
 
-const program::Terminal terminal;
+const program::Terminal kTerminal;
 
 /// SIGHUP asks the program to begin its files anew; if its terminal has been closed, it ends.
 extern "C" void note_hangup(int number) {
-  if (terminal.closed()) {
+  if (kTerminal.closed()) {
     note_end(number);
   } else {
     asked_to_reopen = 1;

@@ -20,7 +20,8 @@ constexpr std::size_t kColumns = 1280;  // width of the plots in the picture [pi
 // Colours as in plunge_figure.cpp.
 constexpr std::string_view kPanels = R"gp(
 set multiplot
-set label 1 figure_title at screen 0.075, 0.965 left font "DejaVu Sans Bold,19" textcolor rgb ink
+set label 1 figure_title at screen 0.075, 0.965 left noenhanced \
+    font "DejaVu Sans Bold,19" textcolor rgb ink
 set label 2 subtitle at screen 0.075, 0.932 left font ",13" textcolor rgb "#6b7280"
 set tmargin at screen 0.905
 set bmargin at screen 0.770
@@ -52,6 +53,7 @@ set tmargin at screen 0.455
 set bmargin at screen 0.085
 set ylabel "channel" textcolor rgb ink
 set yrange [channels+0.5:0.5]
+set ytics 1,channel_step
 set cblabel "level  [dB, full scale = 0]" offset 1,0 textcolor rgb ink
 set colorbox user origin screen 0.928,0.085 size screen 0.013,0.37 noborder
 plot "levels.bin" binary array=(columns,channels) format="%float" origin=(0.5*dx,1) dx=dx dy=1 \
@@ -151,7 +153,8 @@ void draw_events(const EventFigure& figure, const std::filesystem::path& png) {
   std::ofstream out(script);
   out << "cd " << quoted(folder.path().string()) << "\nfigure_title = " << quoted(figure.title)
       << "\nsubtitle = " << quoted(subtitle.str()) << "\ncolumns = " << map.columns
-      << "\nchannels = " << map.channels << "\ndx = " << duration / static_cast<double>(kColumns)
+      << "\nchannels = " << map.channels << "\nchannel_step = " << (map.channels > 12 ? 5 : 1)
+      << "\ndx = " << duration / static_cast<double>(kColumns)
       << "\ntop_db = " << std::ceil(top / 5.0F) * 5.0F << "\nrange_db = " << figure.range_db
       << "\nimpact_step = " << impact_step << "\nset xrange [0:" << duration << "]\n"
       << kCanvas << "set output " << quoted(std::filesystem::absolute(png).string()) << '\n'

@@ -33,7 +33,8 @@ played_colour = "#c3c8d0"
 constexpr std::string_view kSignalPanel = R"gp(
 set tmargin at screen 0.895
 set bmargin at screen 0.590
-set label 1 figure_title at screen 0.075, 0.958 left font "DejaVu Sans Bold,19" textcolor rgb ink
+set label 1 figure_title at screen 0.075, 0.958 left noenhanced \
+    font "DejaVu Sans Bold,19" textcolor rgb ink
 set label 2 subtitle at screen 0.075, 0.922 left font ",13" textcolor rgb "#6b7280"
 set ylabel "amplitude  [full scale]" offset 0.2,0 textcolor rgb ink
 set format x ""
