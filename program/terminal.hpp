@@ -12,8 +12,8 @@ namespace splash::program {
 
 class Terminal {
  public:
-  /// Whether standard input, output or error is a terminal that has been closed since the start.
-  /// It may be called by a signal's handler.
+  /// Returns whether standard input, output or error was a terminal when this was made, and that
+  /// terminal has been closed since. A signal handler may call it.
   [[nodiscard]] bool closed() const noexcept {
     for (int file = 0; file < 3; ++file) {
       termios settings = {};

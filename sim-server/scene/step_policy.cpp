@@ -19,8 +19,8 @@ double StepPolicy::sound_factor(const FluidSettings& fluid) noexcept {
 
 StepPolicy::StepPolicy(const FluidSettings& fluid) noexcept
     : factor_((fluid.sound_speed > 0.0 ? 1.0 : sound_factor(fluid)) * fluid.time_step_factor),
-      largest_stretch_(
-          std::max(std::min(1.0, 1.0 / fluid.time_step_factor) * stable_factor(fluid.solver), 1.0)),
+      largest_stretch_(std::clamp(stable_factor(fluid.solver) / fluid.time_step_factor, 1.0,
+                                  stable_factor(fluid.solver))),
       scene_may_ask_(fluid.solver == PressureKind::weakly_compressible &&
                      fluid.sound_speed <= 0.0 && fluid.time_step_factor < kLargestFactor) {}
 

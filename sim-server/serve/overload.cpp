@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMemory = 1.0;        ///< of the mean load: one slow frame is no load [s]
 constexpr double kLongestWait = 16.0;  ///< times the usual wait
-constexpr double kAim = 0.85;          ///< load for which steps are made longer [1]
+constexpr double kAim = 0.85;  ///< load that longer steps aim at, between `under` and `over` [1]
 
 }  // namespace
 

@@ -102,7 +102,7 @@ void CellRanks::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params,
                      const Buffer<int>& source) {
   const auto items = static_cast<std::size_t>(points);
   const auto block = static_cast<int>(block_);
-  const Buffer<int>& arrival = source;  // nobody asks for the source until the end
+  const Buffer<int>& arrival = source;  // its memory is free until the last kernel writes `source`
   count_points_.run(queue, items,
                     {{"p", params},
                      {"points", points},

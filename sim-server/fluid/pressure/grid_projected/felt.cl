@@ -13,9 +13,9 @@
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
 #include "sim-server/fluid/pressure/grid_projected/room.h"
 
-// Adds dt F of each body to the first half of its twelve `sums`, its torque about the body's centre
-// with it [N s], [N m s]. Of felt body `only`, if that is one: rho0 V K^T A^-1 K of that `part` of
-// its speeds to the second half [kg], [kg m2]. One work-group.
+// With `only` < 0: adds dt F of each body to the first half of its twelve `sums`, its torque about
+// the body's centre with it [N s], [N m s]. Otherwise: adds rho0 V K^T A^-1 K of `part` of the
+// speeds of body `only` to the second half of its sums [kg], [kg m2]. One work-group.
 kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int only, int part,
                            int body_count, constant FreeBody* felt, global BodyStep* bodies,
                            int first_body, global const int* owner, global const float* grip,
@@ -28,12 +28,14 @@ kernel void weigh_pressure(constant FluidParams* p, constant MacGrid* g, int onl
     float push[6];
     find_push(g, &all, k, found, parts, push);
     if (FIRST_ITEM > 0) continue;
-    for (int e = 0; e < 6 && only < 0; ++e) {
-      sums[12 * k + e] -= (e < 3 ? 1.0f : felt[k].size) * heavy * push[e];
+    if (only < 0) {
+      for (int e = 0; e < 6; ++e) {
+        sums[12 * k + e] -= (e < 3 ? 1.0f : felt[k].size) * heavy * push[e];
+      }
+    } else {
+      const float lever = part < 3 ? 1.0f : felt[k].size;
+      sums[12 * k + 6 + part] += lever * lever * heavy * push[part];
     }
-    if (only < 0) continue;
-    const float lever = part < 3 ? 1.0f : felt[k].size;
-    sums[12 * k + 6 + part] += lever * lever * heavy * push[part];
   }
 }
 

@@ -38,8 +38,8 @@ class FeltForces {
  private:
   /// The derivative by one `part` of the speed of body `k`, or what its flow gives far from it.
   void weigh_answer(Fluid& fluid, const Step& step, int k, int part);
-  /// Of the solution `found`: adds the force on each body, or of body `only` what it answers to
-  /// that part of its speed.
+  /// Adds the force on each body by the solution `found` or, with a body `only`, the derivative of
+  /// its force by that part of its speed.
   void weigh_pressure(Fluid& fluid, const Step& step, const Buffer<float>& found, int only = -1,
                       int part = 0);
 

@@ -60,9 +60,9 @@ static float solid_at_face(constant MacGrid* g, global const BodyStep* bodies, i
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// How fast solids go along an axis at the lower faces of the cells that are `marked`, or at the
-// upper ones (`upper`: 1): that of the cell, or, where it is nobody's, that of the cell `s` before
-// [m/s].
+// Speed of solids along an axis at the lower (`upper`: 0) or upper (1) faces of the cells that are
+// `marked` [m/s]. The solid is the one that owns the cell or, where none does, the one that owns
+// the cell `s` before it; `s` may be 0.
 static lanes solids_at_faces(constant MacGrid* g, global const BodyStep* bodies,
                              global const int* owner, float dt, float piston_speed, const Cells* at,
                              lane_flags marked, int axis, int upper, int s) {
