@@ -32,14 +32,6 @@ std::string joined(const std::string& path, const std::string& key) {
   return path.empty() ? shown : path + '.' + shown;
 }
 
-template <class Out>
-bool convert_entry(const ConfigTree& tree, const std::string& path, const Row& row, Out& out) {
-  const auto* found = tree.find(row.key);
-  if (found == nullptr) return false;
-  convert(ConfigValue{*found, row, joined(path, row.key)}, out);
-  return true;
-}
-
 std::string read_text(const std::filesystem::path& path) {
   const Place start{path.string(), 1, 1};
   std::error_code ignored;
@@ -108,29 +100,9 @@ void ConfigMap::check_keys(const std::vector<const Row*>& rows,
   }
 }
 
-bool ConfigMap::read_value(const Row& row, double& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
-}
-bool ConfigMap::read_value(const Row& row, int& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
-}
-bool ConfigMap::read_value(const Row& row, bool& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
-}
-bool ConfigMap::read_value(const Row& row, std::string& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
-}
-bool ConfigMap::read_value(const Row& row, Vector3& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
-}
-bool ConfigMap::read_value(const Row& row, Quaternion& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
-}
-bool ConfigMap::read_value(const Row& row, std::vector<double>& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
-}
-bool ConfigMap::read_value(const Row& row, std::vector<std::string>& out) const {
-  return convert_entry(*node_->tree, node_->path, row, out);
+void ConfigMap::read_value(const Row& row, const MemberPlace& out) const {
+  const auto* found = node_->tree->find(row.key);
+  if (found != nullptr) convert({*found, row, joined(node_->path, row.key)}, out);
 }
 
 bool ConfigMap::has(const std::string& key) const {

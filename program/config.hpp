@@ -65,6 +65,10 @@ struct Field {
       member;
 };
 
+/// A member of one of these types.
+using MemberPlace = std::variant<double*, int*, bool*, std::string*, Vector3*, Quaternion*,
+                                 std::vector<double>*, std::vector<std::string>*>;
+
 /// One mapping of a YAML file. It keeps the text's places and refuses what yaml-cpp accepts:
 /// duplicate and unknown keys, octal-looking and non-finite numbers, yes/no as booleans.
 class ConfigMap {
@@ -97,14 +101,7 @@ class ConfigMap {
   explicit ConfigMap(std::shared_ptr<const Node> node);
   void check_keys(const std::vector<const Row*>& rows,
                   const std::vector<std::string>& children) const;
-  bool read_value(const Row& row, double& out) const;
-  bool read_value(const Row& row, int& out) const;
-  bool read_value(const Row& row, bool& out) const;
-  bool read_value(const Row& row, std::string& out) const;
-  bool read_value(const Row& row, Vector3& out) const;
-  bool read_value(const Row& row, Quaternion& out) const;
-  bool read_value(const Row& row, std::vector<double>& out) const;
-  bool read_value(const Row& row, std::vector<std::string>& out) const;
+  void read_value(const Row& row, const MemberPlace& out) const;
 
   std::shared_ptr<const Node> node_;
 };
@@ -116,7 +113,7 @@ void ConfigMap::read(const std::vector<Field<Struct>>& fields,
   for (const auto& field : fields) rows.push_back(&field.row);
   check_keys(rows, children);
   for (const auto& field : fields) {
-    std::visit([&](auto member) { read_value(field.row, out.*member); }, field.member);
+    std::visit([&](auto member) { read_value(field.row, &(out.*member)); }, field.member);
   }
 }
 

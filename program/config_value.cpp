@@ -155,38 +155,6 @@ void check_range(const ConfigValue& value, double number) {
   throw value.error("out of range", range_of(value.row));
 }
 
-template <std::size_t Count>
-void convert_array(const ConfigValue& value, std::array<double, Count>& out) {
-  if (value.tree.kind != Kind::list || value.tree.items.size() != Count) {
-    const auto expected = "a list of " + std::to_string(Count) + " numbers";
-    throw value.error("wrong kind of value", with_range(expected, value.row));
-  }
-  std::array<double, Count> numbers{};
-  for (std::size_t i = 0; i < Count; ++i) convert(value.item(i), numbers[i]);
-  out = numbers;
-}
-
-template <class Item>
-void convert_list(const ConfigValue& value, std::vector<Item>& out) {
-  if (value.tree.kind != Kind::list) {
-    throw value.error("wrong kind of value", "a list, such as [a, b]");
-  }
-  std::vector<Item> items(value.tree.items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) convert(value.item(i), items[i]);
-  out = std::move(items);
-}
-
-}  // namespace
-
-ConfigError ConfigValue::error(const std::string& reason, const std::string& expected) const {
-  return {tree.place, "key '" + key + "': " + reason + " (got " + describe_kind(tree) +
-                          ", expected " + expected + ")"};
-}
-
-ConfigValue ConfigValue::item(std::size_t index) const {
-  return {tree.items[index], row, key + '[' + std::to_string(index) + ']'};
-}
-
 void convert(const ConfigValue& value, double& out) {
   const auto parsed = is_plain(value) ? parse_number(value.tree.text) : std::nullopt;
   if (!parsed) throw wrong(value, with_range("a number", value.row));
@@ -239,17 +207,40 @@ void convert(const ConfigValue& value, std::string& out) {
   out = text;
 }
 
-void convert(const ConfigValue& value, Vector3& out) {
-  convert_array(value, out);
+template <std::size_t Count>
+void convert(const ConfigValue& value, std::array<double, Count>& out) {
+  if (value.tree.kind != Kind::list || value.tree.items.size() != Count) {
+    const auto expected = "a list of " + std::to_string(Count) + " numbers";
+    throw value.error("wrong kind of value", with_range(expected, value.row));
+  }
+  std::array<double, Count> numbers{};
+  for (std::size_t i = 0; i < Count; ++i) convert(value.item(i), numbers[i]);
+  out = numbers;
 }
-void convert(const ConfigValue& value, Quaternion& out) {
-  convert_array(value, out);
+
+template <class Item>
+void convert(const ConfigValue& value, std::vector<Item>& out) {
+  if (value.tree.kind != Kind::list) {
+    throw value.error("wrong kind of value", "a list, such as [a, b]");
+  }
+  std::vector<Item> items(value.tree.items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) convert(value.item(i), items[i]);
+  out = std::move(items);
 }
-void convert(const ConfigValue& value, std::vector<double>& out) {
-  convert_list(value, out);
+
+}  // namespace
+
+ConfigError ConfigValue::error(const std::string& reason, const std::string& expected) const {
+  return {tree.place, "key '" + key + "': " + reason + " (got " + describe_kind(tree) +
+                          ", expected " + expected + ")"};
 }
-void convert(const ConfigValue& value, std::vector<std::string>& out) {
-  convert_list(value, out);
+
+ConfigValue ConfigValue::item(std::size_t index) const {
+  return {tree.items[index], row, key + '[' + std::to_string(index) + ']'};
+}
+
+void convert(const ConfigValue& value, const MemberPlace& out) {
+  std::visit([&](auto* member) { convert(value, *member); }, out);
 }
 
 }  // namespace splash::program

@@ -36,14 +36,7 @@ struct ConfigValue {
   [[nodiscard]] ConfigValue item(std::size_t index) const;
 };
 
-/// Each throws ConfigError and leaves `out` as it was when the value breaks its row.
-void convert(const ConfigValue& value, double& out);
-void convert(const ConfigValue& value, int& out);
-void convert(const ConfigValue& value, bool& out);
-void convert(const ConfigValue& value, std::string& out);
-void convert(const ConfigValue& value, Vector3& out);
-void convert(const ConfigValue& value, Quaternion& out);
-void convert(const ConfigValue& value, std::vector<double>& out);
-void convert(const ConfigValue& value, std::vector<std::string>& out);
+/// Throws ConfigError and leaves `out` as it was when the value breaks its row.
+void convert(const ConfigValue& value, const MemberPlace& out);
 
 }  // namespace splash::program
