@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "program/config_tree.hpp"
@@ -59,6 +60,20 @@ ConfigError::ConfigError(const Place& place, const std::string& reason)
 
 ConfigError ConfigError::with_suggestion(const ConfigError& error, const std::string& name) {
   return {error.place_, error.reason_ + "; did you mean '" + name + "'?"};
+}
+
+std::string read_file(const std::filesystem::path& path, std::uintmax_t megabytes) {
+  const Place place{.file = path.string()};
+  std::error_code failure;
+  const std::uintmax_t size = std::filesystem::file_size(path, failure);
+  if (failure) throw ConfigError(place, "cannot be read: " + failure.message());
+  if (size > megabytes << 20U) {
+    throw ConfigError(place, "is larger than " + std::to_string(megabytes) + " MB");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) throw ConfigError(place, "cannot be read");
+  return bytes;
 }
 
 ConfigMap::ConfigMap(std::shared_ptr<const Node> node) : node_(std::move(node)) {}

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -38,6 +39,9 @@ class ConfigError : public Failure {
   Place place_;
   std::string reason_;
 };
+
+/// The bytes of a file that a configuration names. Throws ConfigError: cannot be read, larger.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path, std::uintmax_t megabytes);
 
 struct Row {
   std::string key;

@@ -3,15 +3,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace splash::sim {
 
 namespace {
-
-constexpr std::uintmax_t kLargestFile = 256U << 20U;  // bytes
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \r");
@@ -36,15 +32,8 @@ TextTable::TextTable(std::string text, std::string file_name)
 }
 
 TextTable TextTable::load(const std::filesystem::path& path) {
-  const program::Place place{.file = path.string()};
-  std::error_code failure;
-  const std::uintmax_t size = std::filesystem::file_size(path, failure);
-  if (failure) throw program::ConfigError(place, "cannot be read: " + failure.message());
-  if (size > kLargestFile) throw program::ConfigError(place, "is larger than 256 MB");
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw program::ConfigError(place, "cannot be read");
-  return TextTable(std::move(text), path.string());
+  constexpr std::uintmax_t kLargest = 256;  // [MB]
+  return TextTable(program::read_file(path, kLargest), path.string());
 }
 
 std::vector<Cell> TextTable::cells(std::size_t index, char separator) const {

@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 
 #include "sim-server/scene/mesh/mesh_text.hpp"
 
 namespace splash::sim {
 namespace {
-
-constexpr std::uintmax_t kLargestFile = 16U << 20U;  // bytes
 
 std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
@@ -49,15 +45,8 @@ TriangleMesh parse_mesh(const std::string& bytes, const std::string& file, doubl
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, double scale) {
-  const program::Place place{.file = path.string()};
-  std::error_code failure;
-  const std::uintmax_t size = std::filesystem::file_size(path, failure);
-  if (failure) throw program::ConfigError(place, "cannot be read: " + failure.message());
-  if (size > kLargestFile) throw program::ConfigError(place, "is larger than 16 MB");
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw program::ConfigError(place, "cannot be read");
-  return parse_mesh(bytes, path.string(), scale);
+  constexpr std::uintmax_t kLargest = 16;  // [MB]
+  return parse_mesh(program::read_file(path, kLargest), path.string(), scale);
 }
 
 }  // namespace splash::sim
