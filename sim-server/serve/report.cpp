@@ -14,70 +14,40 @@
 #include <stdexcept>
 
 #include "program/files.hpp"
-#include "sim-server/scene/solver_choice.hpp"
-#include "sim-server/send/event_sender.hpp"
-#include "sim-server/serve/overload.hpp"
-#include "sim-server/serve/pacer.hpp"
-#include "sim-server/simulation/simulation.hpp"
 
 namespace splash::sim {
 namespace {
-
-SolveTotals totals_of(const SolveWork& work) {
-  return {work.solves, work.iterations, work.most, work.given_up};
-}
 
 /// Of `all`, at least one [1].
 double share(double sum, std::int64_t all) {
   return sum / static_cast<double>(std::max<std::int64_t>(all, 1));
 }
 
-void put_water(const Simulation& simulation, RunReport& report) {
-  const RunTotals& totals = simulation.totals();
-  report.scene = simulation.scene().name;
-  report.solver = name_of(simulation.scene().fluid.solver);
-  report.solver_notice = solver_notice(simulation.scene());
-  report.particles = simulation.particles();
-  report.steps = totals.steps;
-  report.frames = totals.frames;
-  report.simulated_seconds = simulation.seconds();
-  const auto healthy = totals.frames - static_cast<std::int64_t>(totals.calmed + totals.resets);
-  report.mean_density_error = share(totals.mean_excess_sum, healthy);
-  report.maximum_density_error = totals.max_excess;
-  report.solve = totals_of(simulation.solver_work());
-  report.felt = totals.felt;
-  report.retried = totals.retried;
-  report.calmed = totals.calmed;
-  report.resets = totals.resets;
+/// Of the frames that ended well [1].
+double mean_density_error(const RunTotals& totals) {
+  return share(totals.mean_excess_sum,
+               totals.frames - static_cast<std::int64_t>(totals.calmed + totals.resets));
 }
 
-void put_air(const RunTotals& totals, std::int64_t particles, RunReport& report) {
-  const double mean = share(totals.bubbles_alive_sum, totals.frames);
-  report.air = {
-      .entrapped = totals.air.entrapped,
-      .by_bodies = totals.air.by_bodies,
-      .told = totals.air.told,
-      .thinned = totals.air.thinned,
-      .mean_particles = share(mean, particles),
-      .largest_particles = share(static_cast<double>(totals.bubbles_alive_most), particles)};
+/// Bubble particles alive, in particles of water, mean and most of all frames [1].
+double mean_bubbles(const RunReport& report) {
+  return share(share(report.totals.bubbles_alive_sum, report.totals.frames), report.particles);
+}
+double most_bubbles(const RunReport& report) {
+  return share(static_cast<double>(report.totals.bubbles_alive_most), report.particles);
 }
 
-void put_cavities(const NoCavity& none, RunReport& report) {
-  report.no_cavity = {{"stopped", none.stopped},
-                      {"shallow", none.shallow},
-                      {"afloat", none.afloat},
-                      {"unseen", none.unseen},
-                      {"filled", none.filled}};
+double mean_asleep(const RunTotals& totals) {
+  return share(totals.skipped.asleep_sum, totals.frames);
 }
 
-void put_skips(const RunTotals& totals, RunReport& report) {
-  const SkipTotals& skipped = totals.skipped;
-  report.idle_frames = skipped.idle;
-  report.without_contacts = skipped.contacts;
-  report.without_bubbles = skipped.bubbles;
-  report.without_cavities = skipped.cavities;
-  report.kernel_parts = skipped.kernel_parts;
-  report.asleep = share(skipped.asleep_sum, totals.frames);
+/// Impacts that none followed, by reason.
+NamedCounts by_reason(const NoCavity& none) {
+  return {{"stopped", none.stopped},
+          {"shallow", none.shallow},
+          {"afloat", none.afloat},
+          {"unseen", none.unseen},
+          {"filled", none.filled}};
 }
 
 using Json = nlohmann::ordered_json;
@@ -102,8 +72,13 @@ Json by_name(const NamedCounts& counts) {
   return json;
 }
 
-Json iterations_of(const SolveTotals& solve) {
-  return {{"mean", finite_or_null(solve.mean())},
+/// Per solve [1]; not a number without solves.
+double mean_iterations(const SolveWork& solve) {
+  return per(static_cast<double>(solve.iterations), static_cast<double>(solve.solves));
+}
+
+Json iterations_of(const SolveWork& solve) {
+  return {{"mean", finite_or_null(mean_iterations(solve))},
           {"most", solve.most},
           {"given_up", solve.given_up},
           {"solves", solve.solves}};
@@ -147,94 +122,75 @@ Json cost_of(const Cost& cost) {
 
 }  // namespace
 
-RunReport report_on(const Simulation& simulation, const SendCounts& sent, const PacerCounts& paced,
-                    const Overload& overload) {
-  RunReport report;
-  put_water(simulation, report);
-  put_air(simulation.totals(), simulation.particles(), report);
-  put_cavities(simulation.totals().no_cavity, report);
-  put_skips(simulation.totals(), report);
-  report.events = sent.events;
-  report.invalid_events = sent.invalid;
-  report.overdue_events = sent.overdue;
-  report.behind = paced.behind;
-  report.slipped_seconds = paced.slipped;
-  report.most_behind = paced.most_behind;
-  report.lean_seconds = overload.spent_at(Load::lean);
-  report.coarse_seconds = overload.spent_at(Load::coarse);
-  report.slow_seconds = overload.spent_at(Load::slow);
-  return report;
-}
-
 std::uint64_t sum_of(const NamedCounts& counts) noexcept {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
                          [](std::uint64_t sum, const auto& entry) { return sum + entry.second; });
 }
 
-double SolveTotals::mean() const noexcept {
-  return per(static_cast<double>(iterations), static_cast<double>(solves));
-}
-
 double RunReport::steps_per_second() const noexcept {
-  return per(static_cast<double>(steps), wall_seconds);
+  return per(static_cast<double>(totals.steps), run.wall);
 }
 
 double RunReport::real_time_factor() const noexcept {
-  return per(simulated_seconds, wall_seconds);
+  return per(simulated_seconds, run.wall);
 }
 
 std::string to_json(const RunReport& report) {
+  const SkipTotals& skipped = report.totals.skipped;
   Json json;
   json["device"] = report.device;
   json["scene"] = report.scene;
   json["solver"] = report.solver;
   json["solver_notice"] = report.solver_notice;
   json["particles"] = report.particles;
-  json["steps"] = report.steps;
-  json["frames"] = report.frames;
+  json["steps"] = report.totals.steps;
+  json["frames"] = report.totals.frames;
   json["simulated_seconds"] = finite_or_null(report.simulated_seconds);
-  json["wall_seconds"] = finite_or_null(report.wall_seconds);
-  json["processor_seconds"] = finite_or_null(report.processor_seconds);
+  json["wall_seconds"] = finite_or_null(report.run.wall);
+  json["processor_seconds"] = finite_or_null(report.run.processor);
   json["start"] = cost_of(report.start);
   json["settling"] = cost_of(report.settling);
   json["settled_file"] = report.settled_file;
   json["steps_per_second"] = finite_or_null(report.steps_per_second());
   json["real_time_factor"] = finite_or_null(report.real_time_factor());
-  json["mean_density_error"] = finite_or_null(report.mean_density_error);
-  json["maximum_density_error"] = finite_or_null(report.maximum_density_error);
+  json["mean_density_error"] = finite_or_null(mean_density_error(report.totals));
+  json["maximum_density_error"] = finite_or_null(report.totals.max_excess);
   json["iterations"] = iterations_of(report.solve);
-  report.events.each([&](const char* kind, std::uint64_t count) { json["events"][kind] = count; });
-  json["no_cavity"] = by_name(report.no_cavity);
-  json["air"] = {{"entrapped_litres", finite_or_null(kLitres * report.air.entrapped)},
-                 {"by_bodies_litres", finite_or_null(kLitres * report.air.by_bodies)},
-                 {"told_litres", finite_or_null(kLitres * report.air.told)},
-                 {"thinned_bubbles", report.air.thinned}};
-  json["bubble_particles"] = {{"mean_share", finite_or_null(report.air.mean_particles)},
-                              {"largest_share", finite_or_null(report.air.largest_particles)}};
-  json["invalid_events"] = report.invalid_events;
-  json["overdue_events"] = report.overdue_events;
+  report.sent.events.each(
+      [&](const char* kind, std::uint64_t count) { json["events"][kind] = count; });
+  json["no_cavity"] = by_name(by_reason(report.totals.no_cavity));
+  json["air"] = {{"entrapped_litres", finite_or_null(kLitres * report.totals.air.entrapped)},
+                 {"by_bodies_litres", finite_or_null(kLitres * report.totals.air.by_bodies)},
+                 {"told_litres", finite_or_null(kLitres * report.totals.air.told)},
+                 {"thinned_bubbles", report.totals.air.thinned}};
+  json["bubble_particles"] = {{"mean_share", finite_or_null(mean_bubbles(report))},
+                              {"largest_share", finite_or_null(most_bubbles(report))}};
+  json["invalid_events"] = report.sent.invalid;
+  json["overdue_events"] = report.sent.overdue;
   json["send_failures"] = report.send_failures;
   json["late"] = known_or_null(report.late);
   json["lost"] = known_or_null(report.lost);
   json["shown_frames"] = report.shown;
-  json["felt_frames"] = report.felt;
-  json["behind"] = report.behind;
-  json["slipped_seconds"] = finite_or_null(report.slipped_seconds);
-  json["most_behind"] = finite_or_null(report.most_behind);
+  json["felt_frames"] = report.totals.felt;
+  json["behind"] = report.paced.behind;
+  json["slipped_seconds"] = finite_or_null(report.paced.slipped);
+  json["most_behind"] = finite_or_null(report.paced.most_behind);
   json["overload"] = {{"lean_seconds", finite_or_null(report.lean_seconds)},
                       {"coarse_seconds", finite_or_null(report.coarse_seconds)},
                       {"slow_seconds", finite_or_null(report.slow_seconds)}};
-  json["skipped"] = {
-      {"idle_frames", report.idle_frames},       {"contact_passes", report.without_contacts},
-      {"bubble_passes", report.without_bubbles}, {"cavity_searches", report.without_cavities},
-      {"kernel_parts", report.kernel_parts},     {"asleep", finite_or_null(report.asleep)}};
+  json["skipped"] = {{"idle_frames", skipped.idle},
+                     {"contact_passes", skipped.contacts},
+                     {"bubble_passes", skipped.bubbles},
+                     {"cavity_searches", skipped.cavities},
+                     {"kernel_parts", skipped.kernel_parts},
+                     {"asleep", finite_or_null(mean_asleep(report.totals))}};
   json["refused_poses"] = sum_of(report.refused_poses);
   json["refused"] = {{"poses", by_name(report.refused_poses)},
                      {"datagrams", by_name(report.refused_datagrams)},
                      {"messages", report.refused_messages}};
-  json["resets"] = report.resets;
-  json["retried_frames"] = report.retried;
-  json["calmed_frames"] = report.calmed;
+  json["resets"] = report.totals.resets;
+  json["retried_frames"] = report.totals.retried;
+  json["calmed_frames"] = report.totals.calmed;
   // A device may call itself anything: bytes that are no UTF-8 are replaced.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -257,50 +213,53 @@ void write_report(const std::filesystem::path& path, const RunReport& report) {
 }
 
 std::string summary(const RunReport& report) {
+  const SkipTotals& skipped = report.totals.skipped;
   std::ostringstream text;
   text << std::fixed << std::setprecision(2);
   text << "scene     " << report.scene << ", " << report.particles << " particles on "
        << report.device << '\n';
-  text << "time      " << report.simulated_seconds << " s simulated in " << report.wall_seconds
+  text << "time      " << report.simulated_seconds << " s simulated in " << report.run.wall
        << " s: real-time factor " << report.real_time_factor() << ", " << std::setprecision(0)
        << report.steps_per_second() << " steps/s\n";
-  text << std::setprecision(2) << "cost      " << report.processor_seconds
+  text << std::setprecision(2) << "cost      " << report.run.processor
        << " s of processor; before, ready after " << report.start.wall << " s ("
        << report.start.processor << " s of processor), of which the water took "
        << report.settling.wall << " s (" << report.settling.processor << ") to come to rest"
        << (report.settled_file.empty() ? "" : ", as it is from " + report.settled_file) << '\n';
   text << "pressure  " << report.solver_notice << '\n';
-  text << std::setprecision(2) << "density   error mean " << 100.0 * report.mean_density_error
-       << " %, maximum " << 100.0 * report.maximum_density_error << " %\n";
+  text << std::setprecision(2) << "density   error mean "
+       << 100.0 * mean_density_error(report.totals) << " %, maximum "
+       << 100.0 * report.totals.max_excess << " %\n";
   if (report.solve.solves > 0) {
-    text << "solver    iterations per step: " << report.solve.mean() << ", at most "
+    text << "solver    iterations per step: " << mean_iterations(report.solve) << ", at most "
          << report.solve.most << "; given up " << report.solve.given_up << '\n';
   }
   const char* before = "events    ";
-  report.events.each([&](const char* kind, std::uint64_t count) {
+  report.sent.events.each([&](const char* kind, std::uint64_t count) {
     text << std::exchange(before, ", ") << count << ' ' << kind;
   });
-  put_counts("; impacts without one:", report.no_cavity, text);
+  put_counts("; impacts without one:", by_reason(report.totals.no_cavity), text);
   text << '\n';
-  text << "air       " << kLitres * report.air.entrapped << " l entrapped ("
-       << kLitres * report.air.by_bodies << " by bodies), " << kLitres * report.air.told
-       << " l told, " << report.air.thinned << " bubbles over the budget; bubble particles "
-       << 100.0 * report.air.mean_particles << " % of the water's on average, "
-       << 100.0 * report.air.largest_particles << " % at most\n";
+  text << "air       " << kLitres * report.totals.air.entrapped << " l entrapped ("
+       << kLitres * report.totals.air.by_bodies << " by bodies), "
+       << kLitres * report.totals.air.told << " l told, " << report.totals.air.thinned
+       << " bubbles over the budget; bubble particles " << 100.0 * mean_bubbles(report)
+       << " % of the water's on average, " << 100.0 * most_bubbles(report) << " % at most\n";
   text << "receivers late " << known_or_dash(report.late) << ", lost " << known_or_dash(report.lost)
        << ", refused by the network " << report.send_failures << '\n';
-  text << "skipped   " << 100.0 * report.asleep << " % of the water asleep, of " << report.frames
-       << " frames " << report.idle_frames << " idle, " << report.without_contacts
-       << " without contacts, " << report.without_bubbles << " without bubbles, "
-       << report.without_cavities << " without cavities\n";
+  text << "skipped   " << 100.0 * mean_asleep(report.totals) << " % of the water asleep, of "
+       << report.totals.frames << " frames " << skipped.idle << " idle, " << skipped.contacts
+       << " without contacts, " << skipped.bubbles << " without bubbles, " << skipped.cavities
+       << " without cavities\n";
   if (const auto refused = sum_of(report.refused_poses); refused > 0) {
     text << "poses     " << refused;
     put_counts(" refused:", report.refused_poses, text);
     text << '\n';
   }
-  text << "pacing    " << report.behind << " of " << report.frames << " frames behind, "
-       << std::setprecision(3) << report.slipped_seconds << " s slipped, " << report.resets
-       << " resets, " << report.calmed << " frames given up, " << report.retried << " retried\n";
+  text << "pacing    " << report.paced.behind << " of " << report.totals.frames
+       << " frames behind, " << std::setprecision(3) << report.paced.slipped << " s slipped, "
+       << report.totals.resets << " resets, " << report.totals.calmed << " frames given up, "
+       << report.totals.retried << " retried\n";
   return text.str();
 }
 

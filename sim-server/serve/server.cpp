@@ -17,6 +17,7 @@
 #include "protocol/limits.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 
 namespace splash::sim {
 namespace {
@@ -420,10 +421,22 @@ RunReport Server::finish() {
   sender_.leave();
   keep_going([this] { sender_.close(simulation_.seconds()); }, [this] { sender_.stop_logging(); });
   target_status_.finish(kAnswerTimeout);
-  RunReport report = report_on(simulation_, sender_.counts(), pacer_.counts(), overload_);
+  const Scene& scene = simulation_.scene();
+  RunReport report;
   report.device = device_;
-  report.wall_seconds = run_cost_.wall;
-  report.processor_seconds = run_cost_.processor;
+  report.scene = scene.name;
+  report.solver = name_of(scene.fluid.solver);
+  report.solver_notice = solver_notice(scene);
+  report.particles = simulation_.particles();
+  report.simulated_seconds = simulation_.seconds();
+  report.run = run_cost_;
+  report.totals = simulation_.totals();
+  report.solve = simulation_.solver_work();
+  report.sent = sender_.counts();
+  report.paced = pacer_.counts();
+  report.lean_seconds = overload_.spent_at(Load::lean);
+  report.coarse_seconds = overload_.spent_at(Load::coarse);
+  report.slow_seconds = overload_.spent_at(Load::slow);
   report.send_failures = unsent();
   report.late = target_status_.late();
   report.lost = target_status_.lost();
