@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include "program/failure.hpp"
 
 namespace splash::program {
@@ -61,6 +62,29 @@ const char* cure(int error) {
 
 std::string write_error(int error) {
   return (error != 0 ? std::strerror(error) : std::string("input/output error")) + cure(error);
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text,
+                const std::string& what) {
+  std::error_code ignored;
+  const bool in_place =  // never replace a device or a pipe by a file
+      std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
+  const std::filesystem::path written = path.string() + (in_place ? "" : ".part");
+  errno = 0;
+  std::ofstream file(written, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (!file) {
+    error = std::error_code(errno, std::generic_category());
+  } else if (in_place) {
+    return;
+  } else {
+    std::filesystem::rename(written, path, error);
+    if (!error) return;
+  }
+  if (!in_place) std::filesystem::remove(written, ignored);  // the first error is the one to tell
+  throw WriteError(what, error.value());
 }
 
 }  // namespace splash::program

@@ -28,4 +28,9 @@ class WriteError : public Failure {
       : Failure(kExitIo, what + ": " + write_error(error)) {}
 };
 
+/// Writes the whole file or nothing, by way of a file beside it; what is no file, such as a device,
+/// in place. Throws WriteError with `what`.
+void write_file(const std::filesystem::path& path, const std::string& text,
+                const std::string& what);
+
 }  // namespace splash::program

@@ -3,15 +3,12 @@
 #include "sim-server/serve/report.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
 
 #include "program/files.hpp"
 
@@ -97,24 +94,6 @@ std::string known_or_dash(const std::optional<std::uint64_t>& value) {
   return value ? std::to_string(*value) : "unknown (no target answered)";
 }
 
-program::WriteError cannot_write(const std::filesystem::path& path, int error) {
-  return {"cannot write the report '" + path.string() + "'", error};
-}
-
-/// `path` is what the person asked for, `file_path` where the bytes go.
-void write_text(const std::filesystem::path& file_path, const std::filesystem::path& path,
-                const std::string& text) {
-  errno = 0;
-  std::ofstream file(file_path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (file) return;
-  const int error = errno;
-  std::error_code ignored;  // the first error is the one to tell
-  if (file_path != path) std::filesystem::remove(file_path, ignored);
-  throw cannot_write(path, error);
-}
-
 Json cost_of(const Cost& cost) {
   return {{"wall_seconds", finite_or_null(cost.wall)},
           {"processor_seconds", finite_or_null(cost.processor)}};
@@ -196,20 +175,7 @@ std::string to_json(const RunReport& report) {
 }
 
 void write_report(const std::filesystem::path& path, const RunReport& report) {
-  std::error_code ignored;
-  const bool in_place =  // never replace a device or a pipe by a file
-      std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
-  if (in_place) {
-    write_text(path, path, to_json(report));
-    return;
-  }
-  const std::filesystem::path draft = path.string() + ".part";
-  write_text(draft, path, to_json(report));
-  std::error_code renamed;
-  std::filesystem::rename(draft, path, renamed);
-  if (!renamed) return;
-  std::filesystem::remove(draft, ignored);
-  throw cannot_write(path, renamed.value());
+  program::write_file(path, to_json(report), "cannot write the report '" + path.string() + "'");
 }
 
 std::string summary(const RunReport& report) {

@@ -4,7 +4,6 @@
 #include "sim-server/start/settled_water.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -184,34 +183,19 @@ bool take_up(const fs::path& path, std::uint64_t key, Fluid& fluid) {
   return true;
 }
 
-/// Writes the whole file or nothing, by way of a file beside it.
 void keep(const fs::path& path, std::uint64_t key, Fluid& fluid) {
-  std::string body;
+  std::string text(kMark);
+  text.resize(kMark.size() + sizeof(Header));
   for (const cl::Buffer& buffer : fluid.state()) {
     const std::vector<char> bytes = bytes_of(fluid.device(), buffer);
     const std::uint64_t size = bytes.size();
-    body.append(reinterpret_cast<const char*>(&size), sizeof size);
-    body.append(bytes.begin(), bytes.end());
+    text.append(reinterpret_cast<const char*>(&size), sizeof size);
+    text.append(bytes.begin(), bytes.end());
   }
+  const std::string_view body = std::string_view(text).substr(kMark.size() + sizeof(Header));
   const Header header = {key, sum_of(body), body.size()};
-  const fs::path draft = path.string() + ".part";
-  const std::string what = "cannot write the settled water '" + path.string() + "'";
-  errno = 0;
-  std::ofstream file(draft, std::ios::binary);
-  file << kMark;
-  file.write(reinterpret_cast<const char*>(&header), sizeof header);
-  file << body;
-  file.close();
-  std::error_code error, ignored;
-  if (!file) {
-    error = std::error_code(errno, std::generic_category());
-    fs::remove(draft, ignored);
-    throw program::WriteError(what, error.value());
-  }
-  fs::rename(draft, path, error);
-  if (!error) return;
-  fs::remove(draft, ignored);
-  throw program::WriteError(what, error.value());
+  std::memcpy(text.data() + kMark.size(), &header, sizeof header);
+  program::write_file(path, text, "cannot write the settled water '" + path.string() + "'");
 }
 
 }  // namespace
