@@ -2,7 +2,6 @@
 // A small grammar in front of from_chars, which reads independently of the locale.
 #include "program/config_value.hpp"
 
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -65,14 +64,6 @@ std::optional<Number> read(const std::string& text) {
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error != std::errc{} || stop != end) return std::nullopt;  // out of the type's range
   return value;
-}
-
-std::string lower(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return out;
 }
 
 }  // namespace

@@ -69,6 +69,14 @@ std::string printable(std::string_view text, std::size_t longest) {
   return out;
 }
 
+std::string lower(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return out;
+}
+
 void TextLimit::print(const std::string& line, double now,
                       const std::function<void(const std::string&)>& print) {
   left_ = std::min(kBurst, left_ + kRate * std::max(0.0, now - filled_));

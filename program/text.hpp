@@ -22,6 +22,9 @@ namespace splash::program {
 /// `longest` bytes.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t longest);
 
+/// The text with ASCII letters in lower case.
+[[nodiscard]] std::string lower(const std::string& text);
+
 // Limits how much text per second other hosts can make a program print, so that they cannot fill a
 // disk.
 

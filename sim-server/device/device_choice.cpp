@@ -3,21 +3,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 #include <utility>
 
+#include "program/text.hpp"
 #include "sim-server/device/device_error.hpp"
 
 namespace splash::sim {
 namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool is_number(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(),
@@ -29,7 +23,7 @@ bool is_meant(const DeviceFacts& device, const std::string& wish) {
   if (is_number(wish)) return std::to_string(device.index) == wish;
   if (wish == "cpu") return device.kind == DeviceKind::cpu;
   if (wish == "gpu") return device.kind == DeviceKind::gpu;
-  return lower(device.name).find(wish) != std::string::npos;
+  return program::lower(device.name).find(wish) != std::string::npos;
 }
 
 bool comes_first(const DeviceFacts& a, const DeviceFacts& b) {
@@ -38,9 +32,7 @@ bool comes_first(const DeviceFacts& a, const DeviceFacts& b) {
 }
 
 std::string milliseconds(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f ms", 1e3 * seconds);
-  return text;
+  return program::format("%.2f ms", 1e3 * seconds);
 }
 
 /// Devices of a kind that are left, and what their tests said.
@@ -129,7 +121,7 @@ class Chooser {
 std::vector<DeviceFacts> meant_devices(const std::vector<DeviceFacts>& all,
                                        const std::string& wish) {
   std::vector<DeviceFacts> meant;
-  const std::string wanted = lower(wish);
+  const std::string wanted = program::lower(wish);
   std::copy_if(all.begin(), all.end(), std::back_inserter(meant),
                [&](const DeviceFacts& device) { return is_meant(device, wanted); });
   if (meant.empty()) {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "program/text.hpp"
 
 namespace splash::sim {
 namespace {
@@ -76,30 +77,25 @@ void Overload::stretch(double factor) {
 }
 
 std::string describe(const Overload& overload, bool scene_may_ask_for_more) {
-  std::array<char, 256> text = {};
   const double load = overload.load();
   switch (overload.level()) {
     case Load::easy:
-      return "the machine keeps up again: nothing is left out";
+      break;
     case Load::lean:
-      std::snprintf(text.data(), text.size(),
-                    "a simulated second takes %.2f s: gauges are read once a second", load);
-      break;
+      return program::format("a simulated second takes %.2f s: gauges are read once a second",
+                             load);
     case Load::coarse:
-      std::snprintf(text.data(), text.size(),
-                    "a simulated second takes %.2f s: steps become %.2f times as long, which is "
-                    "stable",
-                    load, overload.stretch());
-      break;
+      return program::format(
+          "a simulated second takes %.2f s: steps become %.2f times as long, which is stable", load,
+          overload.stretch());
     case Load::slow:
       // Where steps may get longer still, the scene can ask for it.
-      std::snprintf(text.data(), text.size(),
-                    "a simulated second takes %.2f s: simulated time runs slower than the clock "
-                    "(fewer fluid.particles%s or a faster --device would help)",
-                    load, scene_may_ask_for_more ? ", fluid.time_step_factor: 2" : "");
-      break;
+      return program::format(
+          "a simulated second takes %.2f s: simulated time runs slower than the clock "
+          "(fewer fluid.particles%s or a faster --device would help)",
+          load, scene_may_ask_for_more ? ", fluid.time_step_factor: 2" : "");
   }
-  return text.data();
+  return "the machine keeps up again: nothing is left out";
 }
 
 }  // namespace splash::sim

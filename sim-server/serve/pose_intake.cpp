@@ -2,10 +2,10 @@
 #include "sim-server/serve/pose_intake.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <string>
 
+#include "program/text.hpp"
 #include "sim-server/bodies/motion/floor_motion.hpp"
 #include "sim-server/scene/rotation.hpp"
 
@@ -54,9 +54,7 @@ constexpr double kBeside = 2.0;
 constexpr double kBelow = 0.25;
 
 std::string length_text(double metres) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), metres < 10.0 ? "%.2f m" : "%.1f m", metres);
-  return text.data();
+  return program::format("%.*f m", metres < 10.0 ? 2 : 1, metres);
 }
 
 /// What is said of a body that poses put where no water can be meant: the sender's unit, axes or
@@ -77,9 +75,7 @@ std::optional<std::string> far_off(const Tank& tank, const Vector3& place) {
 
 /// "0.30 1.20 -0.85 m".
 std::string in_metres(const Vector3& place) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "%.2f %.2f %.2f m", place[0], place[1], place[2]);
-  return text.data();
+  return program::format("%.2f %.2f %.2f m", place[0], place[1], place[2]);
 }
 
 }  // namespace

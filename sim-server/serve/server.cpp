@@ -29,19 +29,11 @@ constexpr double kLeanGauges = 1.0;   ///< between two readings of the gauges un
 constexpr auto kPauseStep = std::chrono::milliseconds(20);
 constexpr double kAnswerTimeout = 0.2;  ///< targets that say nothing for this long are silent [s]
 
-std::optional<protocol::LogWriter> open_log(const std::filesystem::path& path) {
+/// A file or a folder of files that the run writes; none where no path names it.
+template <class Written, class... More>
+std::optional<Written> opened(const std::filesystem::path& path, const More&... more) {
   if (path.empty()) return std::nullopt;
-  return protocol::LogWriter(path);
-}
-
-std::optional<GaugeFile> open_gauges(const std::filesystem::path& path, const Scene& scene) {
-  if (path.empty()) return std::nullopt;
-  return GaugeFile(path, scene);
-}
-
-std::optional<VtkFiles> open_vtk(const std::filesystem::path& folder) {
-  if (folder.empty()) return std::nullopt;
-  return VtkFiles(folder);
+  return std::optional<Written>(std::in_place, path, more...);
 }
 
 void print_line(const std::string& line) {
@@ -99,9 +91,9 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
       device_(device),
       targets_(options.targets),
       socket_(sending_endpoint(options.targets, options.listen)),
-      log_(open_log(options.record)),
-      gauges_(open_gauges(options.gauges, simulation.scene())),
-      vtk_(open_vtk(options.vtk)),
+      log_(opened<protocol::LogWriter>(options.record)),
+      gauges_(opened<GaugeFile>(options.gauges, simulation.scene())),
+      vtk_(opened<VtkFiles>(options.vtk)),
       sender_(
           targets_, socket_, log_ ? &*log_ : nullptr,
           {.seed = simulation.scene().seed, .lead = 1e-3 * simulation.scene().serve.latency_ms}),

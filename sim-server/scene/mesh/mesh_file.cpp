@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/scene/mesh/mesh_file.hpp"
 
-#include <algorithm>
-#include <cctype>
-
+#include "program/text.hpp"
 #include "sim-server/scene/mesh/mesh_text.hpp"
 
 namespace splash::sim {
 namespace {
 
-std::string ending_of(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 TriangleMesh parse(const std::string& bytes, const std::string& file, double scale) {
-  const std::string ending = ending_of(file);
+  const std::string ending = program::lower(std::filesystem::path(file).extension().string());
   if (ending == ".stl" && is_binary_stl(bytes)) return parse_binary_stl(bytes, file, scale);
   if (ending == ".obj") return parse_obj(MeshText(bytes, file, scale, true));
   if (ending != ".stl") {
