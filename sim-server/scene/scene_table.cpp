@@ -64,193 +64,113 @@ std::vector<std::string> preset_names() {
 
 #define KEY(type, name, value, ...) {{.key = #name, __VA_ARGS__}, &Struct::name},
 #define SPELLED(type, name, value, ...) {{.key = #name, __VA_ARGS__}, &Struct::name##_spelled},
+// The function `name`_fields(), around the keys of its struct.
+#define FIELDS(type, name)              \
+  const Fields<type>& name##_fields() { \
+    using Struct = type;                \
+    static const Fields<Struct> kFields = {
+#define END_OF_FIELDS \
+  }                   \
+  ;                   \
+  return kFields;     \
+  }
 
-const Fields<Scene>& scene_fields() {
-  using Struct = Scene;
-  static const Fields<Struct> kFields = {
+FIELDS(Scene, scene)
 #include "sim-server/scene/keys/scene.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<FluidEntry>& fluid_fields() {
-  using Struct = FluidEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(FluidEntry, fluid)
 #include "sim-server/scene/keys/fluid.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<Tank>& tank_fields() {
-  using Struct = Tank;
-  static const Fields<Struct> kFields = {
+FIELDS(Tank, tank)
 #include "sim-server/scene/keys/tank.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<Slope>& slope_fields() {
-  using Struct = Slope;
-  static const Fields<Struct> kFields = {
+FIELDS(Slope, slope)
 #include "sim-server/scene/keys/slope.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<WaveMaker>& wave_maker_fields() {
-  using Struct = WaveMaker;
-  static const Fields<Struct> kFields = {
+FIELDS(WaveMaker, wave_maker)
 #include "sim-server/scene/keys/wave_maker.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<TankMotionSettings>& tank_motion_fields() {
-  using Struct = TankMotionSettings;
-  static const Fields<Struct> kFields = {
+FIELDS(TankMotionSettings, tank_motion)
 #include "sim-server/scene/keys/tank_motion.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<TankSample>& tank_sample_fields() {
-  using Struct = TankSample;
-  static const Fields<Struct> kFields = {
+FIELDS(TankSample, tank_sample)
 #include "sim-server/scene/keys/tank_sample.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<WaterEntry>& water_fields() {
-  using Struct = WaterEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(WaterEntry, water)
 #include "sim-server/scene/keys/water.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<Gate>& gate_fields() {
-  using Struct = Gate;
-  static const Fields<Struct> kFields = {
+FIELDS(Gate, gate)
 #include "sim-server/scene/keys/gate.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<FlowEntry>& flow_fields() {
-  using Struct = FlowEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(FlowEntry, flow)
 #include "sim-server/scene/keys/flow.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<BodySettings>& body_fields() {
-  using Struct = BodySettings;
-  static const Fields<Struct> kFields = {
+FIELDS(BodySettings, body)
 #include "sim-server/scene/keys/body.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<ShapeEntry>& shape_fields() {
-  using Struct = ShapeEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(ShapeEntry, shape)
 #include "sim-server/scene/keys/shape.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<MeshEntry>& mesh_fields() {
-  using Struct = MeshEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(MeshEntry, mesh)
 #include "sim-server/scene/keys/mesh.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<MotionEntry>& motion_fields() {
-  using Struct = MotionEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(MotionEntry, motion)
 #include "sim-server/scene/keys/motion.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<FrictionEntry>& friction_fields() {
-  using Struct = FrictionEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(FrictionEntry, friction)
 #include "sim-server/scene/keys/friction.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<GaugesSettings>& gauges_fields() {
-  using Struct = GaugesSettings;
-  static const Fields<Struct> kFields = {
+FIELDS(GaugesSettings, gauges)
 #include "sim-server/scene/keys/gauges.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<GaugeEntry>& gauge_fields() {
-  using Struct = GaugeEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(GaugeEntry, gauge)
 #include "sim-server/scene/keys/gauge.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<DetectSettings>& detect_fields() {
-  using Struct = DetectSettings;
-  static const Fields<Struct> kFields = {
+FIELDS(DetectSettings, detect)
 #include "sim-server/scene/keys/detect.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<SkipSettings>& skip_fields() {
-  using Struct = SkipSettings;
-  static const Fields<Struct> kFields = {
+FIELDS(SkipSettings, skip)
 #include "sim-server/scene/keys/skip.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<ServeSettings>& serve_fields() {
-  using Struct = ServeSettings;
-  static const Fields<Struct> kFields = {
+FIELDS(ServeSettings, serve)
 #include "sim-server/scene/keys/serve.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<TrackingSettings>& tracking_fields() {
-  using Struct = TrackingSettings;
-  static const Fields<Struct> kFields = {
+FIELDS(TrackingSettings, tracking)
 #include "sim-server/scene/keys/tracking.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<TrackerEntry>& tracker_fields() {
-  using Struct = TrackerEntry;
-  static const Fields<Struct> kFields = {
+FIELDS(TrackerEntry, tracker)
 #include "sim-server/scene/keys/tracker.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
-const Fields<FloorSettings>& floor_fields() {
-  using Struct = FloorSettings;
-  static const Fields<Struct> kFields = {
+FIELDS(FloorSettings, floor)
 #include "sim-server/scene/keys/floor.def"
-  };
-  return kFields;
-}
+END_OF_FIELDS
 
 #undef KEY
 #undef SPELLED
+#undef FIELDS
+#undef END_OF_FIELDS
 
 namespace {
 
