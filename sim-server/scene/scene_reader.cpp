@@ -27,13 +27,6 @@ namespace {
 
 using program::ConfigMap;
 
-/// Brings a quaternion to unit length.
-void normalise(const ConfigMap& map, Quaternion& q) {
-  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  if (length < 1.0e-3) throw map.error("rotation", "is no rotation: its length is zero");
-  for (double& part : q) part /= length;
-}
-
 /// A file's path, made absolute by the scene's folder.
 std::filesystem::path find_file(const ConfigMap& map, const std::string& key,
                                 const std::string& name) {
@@ -81,7 +74,7 @@ std::vector<Keyframe> read_keyframes(const ConfigMap& motion) {
   for (const ConfigMap& map : motion.list("keyframes")) {
     Keyframe keyframe;
     map.read(keyframe_fields(), {}, keyframe);
-    normalise(map, keyframe.rotation);
+    keyframe.rotation = checked_rotation(map, keyframe.rotation);
     if (!keyframes.empty() && keyframe.time <= keyframes.back().time) {
       throw map.error("time", "is not later than that of the keyframe before");
     }
@@ -134,13 +127,9 @@ void check_markers(const ConfigMap& map, const MotionEntry& entry) {
 }
 
 MotionSettings read_motion(const ConfigMap& map) {
-  static const std::map<std::string, MotionKind> kKinds = {
-      {"fixed", MotionKind::fixed}, {"script", MotionKind::script},    {"csv", MotionKind::csv},
-      {"trc", MotionKind::trc},     {"osc", MotionKind::osc},          {"free", MotionKind::free},
-      {"touch", MotionKind::touch}, {"pressure", MotionKind::pressure}};
   MotionEntry entry;
   map.read(motion_fields(), {"keyframes"}, entry);
-  entry.kind = kKinds.at(entry.kind_spelled);
+  entry.kind = motion_kinds().at(entry.kind_spelled);
   if (entry.coupling_spelled == "spring") entry.coupling = CouplingKind::spring;
   refuse_foreign_keys(map, entry);
   entry.keyframes = read_keyframes(map);
@@ -170,7 +159,7 @@ void read_rest(const ConfigMap& map, BodySettings& body) {
   if (needed) {
     const ConfigMap rest = map.child("rest");
     rest.read(rest_fields(), {}, body.rest);
-    normalise(rest, body.rest.rotation);
+    body.rest.rotation = checked_rotation(rest, body.rest.rotation);
     return;
   }
   if (map.has("rest")) throw map.error("rest", "the motion already says where the body is");

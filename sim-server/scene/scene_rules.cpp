@@ -69,6 +69,12 @@ std::string wrong(const Order& order) {
 
 }  // namespace
 
+Quaternion checked_rotation(const ConfigMap& map, const Quaternion& q) {
+  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  if (length < 1.0e-3) throw map.error("rotation", "is no rotation: its length is zero");
+  return unit(q);
+}
+
 void check_tank(const ConfigMap& map, const Tank& tank) {
   check_corners(map, tank.lower, tank.upper);
 }

@@ -50,6 +50,14 @@ const std::map<std::string, TrackerEntry>& tracker_presets() {
   return kPresets;
 }
 
+const std::map<std::string, MotionKind>& motion_kinds() {
+  static const std::map<std::string, MotionKind> kKinds = {
+      {"fixed", MotionKind::fixed}, {"script", MotionKind::script},    {"csv", MotionKind::csv},
+      {"trc", MotionKind::trc},     {"osc", MotionKind::osc},          {"free", MotionKind::free},
+      {"touch", MotionKind::touch}, {"pressure", MotionKind::pressure}};
+  return kKinds;
+}
+
 namespace {
 
 constexpr double kLastArgument = 15.0;  // protocol/limits.hpp: 16 arguments

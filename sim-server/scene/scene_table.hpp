@@ -92,6 +92,9 @@ struct GaugeEntry : GaugeSettings {
 [[nodiscard]] const Fields<TrackerEntry>& tracker_fields();
 [[nodiscard]] const Fields<FloorSettings>& floor_fields();
 [[nodiscard]] const Fields<Keyframe>& mount_fields();
+/// Of a body's motion, as scene files spell them.
+[[nodiscard]] const std::map<std::string, MotionKind>& motion_kinds();
+
 /// What senders of the common kinds send, under the names of `preset`.
 [[nodiscard]] const std::map<std::string, TrackerEntry>& tracker_presets();
 

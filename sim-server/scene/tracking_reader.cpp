@@ -7,7 +7,7 @@
 #include "protocol/address.hpp"
 #include "protocol/limits.hpp"
 #include "sim-server/scene/mapping_readers.hpp"
-#include "sim-server/scene/rotation.hpp"
+#include "sim-server/scene/scene_rules.hpp"
 #include "sim-server/scene/scene_table.hpp"
 
 namespace splash::sim {
@@ -131,11 +131,7 @@ void read_mount(const ConfigMap& map, TrackerSource& source) {
   const auto mount = map.optional_child("mount");
   if (!mount) return;
   mount->read(mount_fields(), {}, source.mount);
-  const Quaternion& q = source.mount.rotation;
-  if (std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) < 1.0e-3) {
-    throw mount->error("rotation", "is no rotation: its length is zero");
-  }
-  source.mount.rotation = unit(q);
+  source.mount.rotation = checked_rotation(*mount, source.mount.rotation);
 }
 
 TrackerSource read_surface(const ConfigMap& map, const TrackerEntry& entry, const Scene& scene) {

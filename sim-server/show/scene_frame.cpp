@@ -60,26 +60,11 @@ Carried carried_cube(const Shape& shape, int along) {
 
 using Json = nlohmann::ordered_json;
 
-const char* name_of(MotionKind kind) {
-  switch (kind) {
-    case MotionKind::fixed:
-      return "fixed";
-    case MotionKind::script:
-      return "script";
-    case MotionKind::csv:
-      return "csv";
-    case MotionKind::trc:
-      return "trc";
-    case MotionKind::osc:
-      return "osc";
-    case MotionKind::touch:
-      return "touch";
-    case MotionKind::pressure:
-      return "pressure";
-    case MotionKind::free:
-      break;
-  }
-  return "free";
+std::string name_of(MotionKind kind) {
+  const auto& kinds = motion_kinds();
+  return std::find_if(kinds.begin(), kinds.end(),
+                      [&](const auto& known) { return known.second == kind; })
+      ->first;
 }
 
 Json json_of(const TriangleMesh& mesh) {
