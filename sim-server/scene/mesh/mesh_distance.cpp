@@ -49,18 +49,6 @@ Vector3 middle(const std::array<Vector3, 3>& corner) {
   return (1.0 / 3.0) * (corner[0] + corner[1] + corner[2]);
 }
 
-Vector3 face_normal(const std::array<Vector3, 3>& corner) {
-  const Vector3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  return (1.0 / length(n)) * n;
-}
-
-/// Of the triangle at its corner k [rad].
-double angle_at(const std::array<Vector3, 3>& corner, std::size_t k) {
-  const Vector3 one = corner[(k + 1) % 3] - corner[k];
-  const Vector3 other = corner[(k + 2) % 3] - corner[k];
-  return std::atan2(length(cross(one, other)), dot(one, other));
-}
-
 }  // namespace
 
 MeshDistance::MeshDistance(const TriangleMesh& mesh) {

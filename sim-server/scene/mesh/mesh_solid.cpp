@@ -20,16 +20,10 @@ constexpr double kSharp = std::numbers::pi / 6.0;  // [rad]
 
 using Edge = std::pair<int, int>;
 
-Vector3 normal_of(const TriangleMesh& mesh, std::size_t triangle) {
-  const auto [a, b, c] = corners(mesh, triangle);
-  const Vector3 n = cross(b - a, c - a);
-  return (1.0 / length(n)) * n;
-}
-
 /// By how much the surface turns from one triangle to the next over an edge, outwards [rad].
 double turn(const TriangleMesh& mesh, std::size_t one, std::size_t other, const Vector3& along) {
-  const Vector3 n = normal_of(mesh, one);
-  const Vector3 m = normal_of(mesh, other);
+  const Vector3 n = face_normal(corners(mesh, one));
+  const Vector3 m = face_normal(corners(mesh, other));
   return std::atan2(dot(cross(n, m), along) / length(along), dot(n, m));
 }
 
@@ -58,10 +52,7 @@ void add_tips(const TriangleMesh& mesh, std::set<Vector3>& tips) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto corner = corners(mesh, t);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3 one = corner[(k + 1) % 3] - corner[k];
-      const Vector3 other = corner[(k + 2) % 3] - corner[k];
-      around[static_cast<std::size_t>(mesh.triangles[t][k])] +=
-          std::atan2(length(cross(one, other)), dot(one, other));
+      around[static_cast<std::size_t>(mesh.triangles[t][k])] += angle_at(corner, k);
     }
   }
   for (std::size_t v = 0; v < around.size(); ++v) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "sim-server/scene/mesh/triangle_mesh.hpp"
 
+#include <cmath>
 #include <map>
 #include <utility>
+
+#include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
 
@@ -11,6 +14,17 @@ std::array<Vector3, 3> corners(const TriangleMesh& mesh, std::size_t triangle) {
     return mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle][k])];
   };
   return {at(0), at(1), at(2)};
+}
+
+Vector3 face_normal(const std::array<Vector3, 3>& corner) {
+  const Vector3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  return (1.0 / length(n)) * n;
+}
+
+double angle_at(const std::array<Vector3, 3>& corner, std::size_t k) {
+  const Vector3 one = corner[(k + 1) % 3] - corner[k];
+  const Vector3 other = corner[(k + 2) % 3] - corner[k];
+  return std::atan2(length(cross(one, other)), dot(one, other));
 }
 
 program::ConfigError triangle_error(const TriangleMesh& mesh, std::size_t triangle,
