@@ -6,7 +6,6 @@
 #include <string>
 
 #include "program/text.hpp"
-#include "sim-server/bodies/motion/floor_motion.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {

@@ -5,12 +5,22 @@
 // touch.
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <optional>
 
 #include "sim-server/bodies/motion/posed_motion.hpp"
 
 namespace splash::sim {
+
+/// What a floor says of a body that stands on it.
+struct FloorTouch {
+  std::size_t body = 0;                     ///< index among the scene's
+  bool down = false;                        ///< false: it has left the floor
+  Vector3 place = {};                       ///< where it stands, while it does [m]
+  std::optional<Quaternion> rotation = {};  ///< body to world, where that is known
+};
+using GiveTouch = std::function<void(const FloorTouch& touch)>;
 
 /// How a foot comes and goes.
 struct FloorSteps {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "protocol/message.hpp"
-#include "sim-server/bodies/motion/touch.hpp"
+#include "sim-server/bodies/motion/floor_motion.hpp"
 #include "sim-server/scene/scene.hpp"
 
 namespace splash::sim {

@@ -56,13 +56,6 @@ std::optional<std::vector<double>> numbers_at(const protocol::Message& message,
   return numbers;
 }
 
-/// A vector in the sender's axes, in the scene's.
-Vector3 along(const TrackerSource& source, const Vector3& theirs) {
-  Vector3 ours;
-  for (std::size_t i = 0; i < 3; ++i) ours[i] = source.signs[i] * theirs[source.axes[i]];
-  return ours;
-}
-
 /// +1 where the sender's axes are as handed as the scene's, -1 where they are mirrored.
 double handedness(const TrackerSource& source) {
   const auto& a = source.axes;
@@ -71,8 +64,8 @@ double handedness(const TrackerSource& source) {
 }
 
 /// The axis of a rotation is an axial vector: M R M^T of a mirroring M turns about -M v.
-Quaternion along(const TrackerSource& source, const Quaternion& theirs) {
-  const Vector3 axis = along(source, Vector3{theirs[0], theirs[1], theirs[2]});
+Quaternion in_scene_axes(const TrackerSource& source, const Quaternion& theirs) {
+  const Vector3 axis = in_scene_axes(source, Vector3{theirs[0], theirs[1], theirs[2]});
   const double hand = handedness(source);
   return {hand * axis[0], hand * axis[1], hand * axis[2], theirs[3]};
 }
@@ -102,11 +95,11 @@ Quaternion from_angles(const TrackerSource& source, const std::vector<double>& a
 /// nullopt: the numbers are no rotation.
 std::optional<Quaternion> rotation_of(const TrackerSource& source,
                                       const std::vector<double>& numbers) {
-  if (numbers.size() == 3) return along(source, from_angles(source, numbers));
+  if (numbers.size() == 3) return in_scene_axes(source, from_angles(source, numbers));
   const double length =
       std::hypot(std::hypot(numbers[0], numbers[1]), std::hypot(numbers[2], numbers[3]));
   if (!(std::abs(length - 1.0) <= kUnitTolerance)) return std::nullopt;
-  return along(source, unit({numbers[0], numbers[1], numbers[2], numbers[3]}));
+  return in_scene_axes(source, unit({numbers[0], numbers[1], numbers[2], numbers[3]}));
 }
 
 /// True if two messages describe the tracker at the same time: by their time tags or, without
@@ -133,6 +126,12 @@ TrackerSource named_pose(std::size_t body, const std::string& name) {
 }
 
 }  // namespace
+
+Vector3 in_scene_axes(const TrackerSource& source, const Vector3& theirs) {
+  Vector3 ours;
+  for (std::size_t i = 0; i < 3; ++i) ours[i] = source.signs[i] * theirs[source.axes[i]];
+  return ours;
+}
 
 TrackerMap::TrackerMap(const Scene& scene) {
   const Quaternion turn = from_turn({0.0, 0.0, std::numbers::pi / 180.0 * scene.tracking.yaw});
@@ -177,8 +176,8 @@ std::optional<MappedPose> TrackerMap::read(Source& source, const protocol::Messa
   if (has_position) {
     const auto numbers = numbers_at(message, settings.position);
     if (!numbers) return MappedPose{settings.body, PoseRefusal::malformed};
-    source.position =
-        settings.unit * along(settings, Vector3{(*numbers)[0], (*numbers)[1], (*numbers)[2]});
+    source.position = settings.unit *
+                      in_scene_axes(settings, Vector3{(*numbers)[0], (*numbers)[1], (*numbers)[2]});
   }
   if (has_rotation) {
     const auto numbers = numbers_at(message, settings.rotation);

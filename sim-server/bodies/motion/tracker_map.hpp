@@ -24,6 +24,9 @@ struct MappedPose {
   Quaternion rotation = {0.0, 0.0, 0.0, 1.0};  ///< body to world, unit
 };
 
+/// A vector in the sender's axes, in the scene's before its room is turned.
+[[nodiscard]] Vector3 in_scene_axes(const TrackerSource& source, const Vector3& theirs);
+
 class TrackerMap {
  public:
   explicit TrackerMap(const Scene& scene);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sim-server/bodies/motion/tracker_map.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::sim {
@@ -11,13 +12,6 @@ namespace {
 
 /// A source that says nothing for so long has gone: the feet that were its cursors are free [s].
 constexpr double kSilence = 3.0;
-
-/// In the scene's axes, before its room is turned.
-Vector3 along(const TrackerSource& source, const Vector3& theirs) {
-  Vector3 ours;
-  for (std::size_t i = 0; i < 3; ++i) ours[i] = source.signs[i] * theirs[source.axes[i]];
-  return ours;
-}
 
 }  // namespace
 
@@ -35,15 +29,15 @@ Vector3 TuioFeet::place_of(const Foot& foot, const TuioCursor& cursor) const {
   const Vector3 theirs = {foot.settings.floor[0] * cursor.x, foot.settings.floor[1] * cursor.y,
                           0.0};
   const auto turned = rotation_of(foot, cursor).value_or(foot.rest);
-  return room_ + rotate(turn_, along(foot.settings, theirs)) +
+  return room_ + rotate(turn_, in_scene_axes(foot.settings, theirs)) +
          rotate(turned, foot.settings.mount.position);
 }
 
 /// About the surface's normal, which is upwards or, where its axes are mirrored, downwards.
 std::optional<Quaternion> TuioFeet::rotation_of(const Foot& foot, const TuioCursor& cursor) const {
   if (!cursor.angle) return std::nullopt;
-  const Vector3 x = along(foot.settings, {1.0, 0.0, 0.0});
-  const Vector3 y = along(foot.settings, {0.0, 1.0, 0.0});
+  const Vector3 x = in_scene_axes(foot.settings, {1.0, 0.0, 0.0});
+  const Vector3 y = in_scene_axes(foot.settings, {0.0, 1.0, 0.0});
   const Quaternion turned = from_turn(*cursor.angle * cross(x, y));
   return unit(compose(turn_, compose(turned, foot.rest)));
 }
