@@ -32,9 +32,14 @@ constexpr ArgumentRow stamp(std::string_view name, std::string_view meaning) {
 constexpr ArgumentRow program(std::string_view name) {
   return {'s', "program", "", 0, 0, "who answers", name};
 }
+constexpr ArgumentRow optional(ArgumentRow row) {
+  row.optional = true;
+  return row;
+}
 
 constexpr ArgumentRow kOffset = {
     'f', "offset_ms", "ms", 0, 10000, "moment at which it sounds, after its bundle's time"};
+constexpr ArgumentRow kBody = {'i', "body", "1", 0, 255, "index of the body in the scene"};
 constexpr ArgumentRow kNearestBody = {'i', "body", "1",
                                       -1,  255,    "nearest body of the scene, -1: none"};
 
@@ -53,22 +58,10 @@ constexpr ArgumentRow kImpact[] = {
     coordinate("y", "to the left of x, seen from above"),
     coordinate("z", "upwards"),
     kOffset,
-    {'f',
-     "momentum",
-     "N s",
-     0,
-     1e6,
-     "given to the water until the blow is strongest, 0: not known",
-     {},
-     true},
-    {'f',
-     "rise",
-     "s",
-     0,
-     10,
-     "from the first touch until the blow is strongest, 0: not known",
-     {},
-     true}};
+    optional({'f', "momentum", "N s", 0, 1e6,
+              "given to the water until the blow is strongest, 0: not known"}),
+    optional({'f', "rise", "s", 0, 10,
+              "from the first touch until the blow is strongest, 0: not known"})};
 constexpr ArgumentRow kBubble[] = {
     count_row("id", "counts the bubbles of a session, wraps at 2^24"),
     kNearestBody,
@@ -87,9 +80,9 @@ constexpr ArgumentRow kCavity[] = {
     coordinate("y", "to the left of x, seen from above"),
     coordinate("z", "upwards"),
     kOffset,
-    {'f', "life", "s", 0, 100, "until it surfaces or breaks, 0: not known", {}, true}};
+    optional({'f', "life", "s", 0, 100, "until it surfaces or breaks, 0: not known"})};
 constexpr ArgumentRow kBodyPose[] = {
-    {'i', "body", "1", 0, 255, "index of the body in the scene"},
+    kBody,
     coordinate("x", "the body's origin"),
     coordinate("y", "to the left of x, seen from above"),
     coordinate("z", "upwards"),
@@ -106,31 +99,33 @@ constexpr ArgumentRow kNamedPose[] = {text("body", "name of the body in the scen
                                       kBodyPose[6],
                                       kBodyPose[7]};
 constexpr ArgumentRow kBodyGrab[] = {
-    {'i', "body", "1", 0, 255, "index of the body in the scene"},
-    {'i', "on", "1", 0, 1, "1: it follows /body/pose from now on, 0: its own motion"}};
-constexpr ArgumentRow reading(std::string_view name, std::string_view meaning,
-                              bool optional = true) {
-  return {'f', name, "N", -1e6, 1e6, meaning, {}, optional};
+    kBody, {'i', "on", "1", 0, 1, "1: it follows /body/pose from now on, 0: its own motion"}};
+constexpr ArgumentRow reading(std::string_view name, std::string_view meaning) {
+  return {'f', name, "N", -1e6, 1e6, meaning};
 }
+constexpr ArgumentRow next_reading(std::string_view name) {
+  return optional(reading(name, "same of the next one"));
+}
+
 constexpr ArgumentRow kPressure[] = {
     {'i', "first", "1", 0, 65535,
      "sensor of the first value: those of tile 0, of tile 1 and so on"},
-    reading("f0", "what that one feels; below 0, which is drift: as 0", false),
-    reading("f1", "same of the next one"),
-    reading("f2", "same of the next one"),
-    reading("f3", "same of the next one"),
-    reading("f4", "same of the next one"),
-    reading("f5", "same of the next one"),
-    reading("f6", "same of the next one"),
-    reading("f7", "same of the next one"),
-    reading("f8", "same of the next one"),
-    reading("f9", "same of the next one"),
-    reading("f10", "same of the next one"),
-    reading("f11", "same of the next one"),
-    reading("f12", "same of the next one"),
-    reading("f13", "same of the next one"),
-    reading("f14", "same of the next one")};
-constexpr ArgumentRow kForce[] = {{'i', "body", "1", 0, 255, "index of the body in the scene"},
+    reading("f0", "what that one feels; below 0, which is drift: as 0"),
+    next_reading("f1"),
+    next_reading("f2"),
+    next_reading("f3"),
+    next_reading("f4"),
+    next_reading("f5"),
+    next_reading("f6"),
+    next_reading("f7"),
+    next_reading("f8"),
+    next_reading("f9"),
+    next_reading("f10"),
+    next_reading("f11"),
+    next_reading("f12"),
+    next_reading("f13"),
+    next_reading("f14")};
+constexpr ArgumentRow kForce[] = {kBody,
                                   {'f', "fx", "N", -1e6, 1e6, "force of the water on the body"},
                                   {'f', "fy", "N", -1e6, 1e6, "same"},
                                   {'f', "fz", "N", -1e6, 1e6, "same, upwards"},
@@ -142,7 +137,7 @@ constexpr ArgumentRow rate(std::string_view name, std::string_view meaning) {
   return {'f', name, name[1] == 'f' ? "N s/m" : "N m s", -1e9, 1e9, meaning};
 }
 constexpr ArgumentRow kForceRate[] = {
-    {'i', "body", "1", 0, 255, "index of the body in the scene"},
+    kBody,
     rate("dfx", "what a speed along x adds to fx; 0 or less"),
     rate("dfy", "same along y"),
     rate("dfz", "same along z"),
@@ -150,7 +145,7 @@ constexpr ArgumentRow kForceRate[] = {
     rate("dty", "same about y"),
     rate("dtz", "same about z")};
 constexpr ArgumentRow kForceChange[] = {
-    {'i', "body", "1", 0, 255, "index of the body in the scene"},
+    kBody,
     coordinate("x", "the body's origin"),
     coordinate("y", "to the left of x, seen from above"),
     coordinate("z", "upwards"),
@@ -158,7 +153,7 @@ constexpr ArgumentRow kForceChange[] = {
 constexpr ArgumentRow speed(std::string_view name, std::string_view meaning) {
   return {'f', name, name[0] == 'v' ? "m/s" : "rad/s", -1e6, 1e6, meaning};
 }
-constexpr ArgumentRow kBodyTwist[] = {{'i', "body", "1", 0, 255, "index of the body in the scene"},
+constexpr ArgumentRow kBodyTwist[] = {kBody,
                                       speed("vx", "velocity of the body's origin"),
                                       speed("vy", "same"),
                                       speed("vz", "same, upwards"),
@@ -197,7 +192,7 @@ constexpr ArgumentRow kPing[] = {stamp("t0", "sender's clock when it sent the pi
 
 constexpr ArgumentRow kDone[] = {
     text("command", "address of the command"),
-    {'i', "value", "1", -kLastInt - 1, kLastInt, "its result, if it has one", {}, true}};
+    optional({'i', "value", "1", -kLastInt - 1, kLastInt, "its result, if it has one"})};
 constexpr ArgumentRow kFail[] = {text("command", "address of the command"),
                                  text("reason", "why, and what is allowed; cut at 64 characters")};
 constexpr ArgumentRow kValue[] = {text("name", "as in /set and /param"),
