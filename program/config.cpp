@@ -62,6 +62,21 @@ ConfigError ConfigError::with_suggestion(const ConfigError& error, const std::st
   return {error.place_, error.reason_ + "; did you mean '" + name + "'?"};
 }
 
+Row number_row(std::string key, std::string unit, double min, double max, std::string meaning,
+               std::string source) {
+  return {.key = std::move(key),
+          .unit = std::move(unit),
+          .meaning = std::move(meaning),
+          .min = min,
+          .max = max,
+          .source = std::move(source)};
+}
+
+Row required(Row row) {
+  row.required = true;
+  return row;
+}
+
 std::string read_file(const std::filesystem::path& path, std::uintmax_t megabytes) {
   const Place place{.file = path.string()};
   std::error_code failure;

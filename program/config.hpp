@@ -56,6 +56,12 @@ struct Row {
   std::vector<std::string> kinds = {};    ///< of the mapping that use it; empty: all
 };
 
+/// A row of a number or of a list of them.
+[[nodiscard]] Row number_row(std::string key, std::string unit, double min, double max,
+                             std::string meaning, std::string source = {});
+/// The same row, whose key must be given.
+[[nodiscard]] Row required(Row row);
+
 using Vector3 = std::array<double, 3>;
 using Quaternion = std::array<double, 4>;  ///< x y z w
 

@@ -4,6 +4,9 @@
 namespace splash::synth {
 namespace {
 
+using program::number_row;
+using program::required;
+
 constexpr const char* kPaper = "paper, section 6";
 
 }  // namespace
@@ -13,12 +16,9 @@ std::vector<Field<RigEntry>> rig_fields() {
       {{.key = "name", .unit = "", .meaning = "what the rig is called", .required = true},
        &RigEntry::name},
       {{.key = "description", .unit = "", .meaning = "one line for lists"}, &RigEntry::description},
-      {{.key = "device_channels",
-        .unit = "",
-        .meaning = "the device's channel of each of the rig's, in their order, from 1 on, e.g. "
-                   "[3, 1]; left out: one after another",
-        .min = 1,
-        .max = kMostDeviceChannels},
+      {number_row("device_channels", "", 1, kMostDeviceChannels,
+                  "the device's channel of each of the rig's, in their order, from 1 on, e.g. "
+                  "[3, 1]; left out: one after another"),
        &RigEntry::device_channel_numbers}};
 }
 
@@ -33,32 +33,18 @@ std::vector<Field<OutputEntry>> output_fields() {
         .required = true,
         .choices = {"tiles", "single", "worn", "stereo"}},
        &OutputEntry::kind_name},
-      {{.key = "full_scale",
-        .unit = "m",
-        .meaning = "amplitude of a voice that drives its channel to 1.0, before gain_db",
-        .min = 1e-6,
-        .max = 10.0,
-        .source = "a cavity of 10 cm: epsilon r = 0.1 x 0.1 m"},
+      {number_row("full_scale", "m", 1e-6, 10.0,
+                  "amplitude of a voice that drives its channel to 1.0, before gain_db",
+                  "a cavity of 10 cm: epsilon r = 0.1 x 0.1 m"),
        &OutputEntry::full_scale},
-      {{.key = "gain_db", .unit = "dB", .meaning = "gain of all channels", .min = -60, .max = 60},
-       &OutputEntry::gain_db},
-      {{.key = "ceiling",
-        .unit = "1",
-        .meaning = "no sample ever leaves beyond this part of full scale",
-        .min = 0.001,
-        .max = 1.0},
+      {number_row("gain_db", "dB", -60, 60, "gain of all channels"), &OutputEntry::gain_db},
+      {number_row("ceiling", "1", 0.001, 1.0,
+                  "no sample ever leaves beyond this part of full scale"),
        &OutputEntry::ceiling},
-      {{.key = "body",
-        .unit = "",
-        .meaning = "number of the one body whose events are rendered; -1: all",
-        .min = -1,
-        .max = 16777215},
+      {number_row("body", "", -1, 16777215,
+                  "number of the one body whose events are rendered; -1: all"),
        &OutputEntry::body},
-      {{.key = "trims_db",
-        .unit = "dB",
-        .meaning = "gain of each channel, in their order",
-        .min = -60,
-        .max = 60},
+      {number_row("trims_db", "dB", -60, 60, "gain of each channel, in their order"),
        &OutputEntry::trims_db},
       {{.key = "parts",
         .unit = "",
@@ -67,53 +53,24 @@ std::vector<Field<OutputEntry>> output_fields() {
 }
 
 std::vector<Field<Band>> band_fields() {
-  return {{{.key = "low",
-            .unit = "Hz",
-            .meaning = "-3 dB point of the high-pass, 24 dB per octave",
-            .min = 1,
-            .max = 20000,
-            .required = true},
+  return {{required(
+               number_row("low", "Hz", 1, 20000, "-3 dB point of the high-pass, 24 dB per octave")),
            &Band::low},
-          {{.key = "high",
-            .unit = "Hz",
-            .meaning = "-3 dB point of the low-pass; bubbles born above it are left out",
-            .min = 2,
-            .max = 192000,
-            .required = true},
+          {required(number_row("high", "Hz", 2, 192000,
+                               "-3 dB point of the low-pass; bubbles born above it are left out")),
            &Band::high}};
 }
 
 std::vector<Field<Output>> tile_fields() {
-  return {{{.key = "origin", .unit = "m", .meaning = "corner of tile 0 with the least x and y"},
-           &Output::place},
-          {{.key = "columns",
-            .unit = "",
-            .meaning = "tiles along +x",
-            .min = 1,
-            .max = 1024,
-            .source = kPaper},
-           &Output::tiles_x},
-          {{.key = "rows",
-            .unit = "",
-            .meaning = "tiles along +y",
-            .min = 1,
-            .max = 1024,
-            .source = kPaper},
-           &Output::tiles_y},
-          {{.key = "size",
-            .unit = "m",
-            .meaning = "edge of a tile",
-            .min = 0.01,
-            .max = 10,
-            .source = kPaper},
-           &Output::tile_size},
-          {{.key = "reach",
-            .unit = "m",
-            .meaning = "an event moves tiles whose middle is nearer than this",
-            .min = 0.01,
-            .max = 100,
-            .source = "1.3 tiles: an event on a corner moves its four tiles alike"},
-           &Output::reach}};
+  return {
+      {{.key = "origin", .unit = "m", .meaning = "corner of tile 0 with the least x and y"},
+       &Output::place},
+      {number_row("columns", "", 1, 1024, "tiles along +x", kPaper), &Output::tiles_x},
+      {number_row("rows", "", 1, 1024, "tiles along +y", kPaper), &Output::tiles_y},
+      {number_row("size", "m", 0.01, 10, "edge of a tile", kPaper), &Output::tile_size},
+      {number_row("reach", "m", 0.01, 100, "an event moves tiles whose middle is nearer than this",
+                  "1.3 tiles: an event on a corner moves its four tiles alike"),
+       &Output::reach}};
 }
 
 std::vector<Field<Output>> stereo_fields() {
@@ -122,25 +79,18 @@ std::vector<Field<Output>> stereo_fields() {
             .meaning = "point heard from both sides alike; left out: the scene's middle, as "
                        "--middle tells it"},
            &Output::place},
-          {{.key = "width",
-            .unit = "m",
-            .meaning = "from all on the left to all on the right, along x",
-            .min = 0.01,
-            .max = 100},
+          {number_row("width", "m", 0.01, 100, "from all on the left to all on the right, along x"),
            &Output::width}};
 }
 
 std::vector<Field<Equalisation>> equaliser_fields() {
-  return {{{.key = "channels",
-            .unit = "",
-            .meaning = "which ones, e.g. [tile/07]; left out: all of the output"},
-           &Equalisation::channels},
-          {{.key = "most_boost_db",
-            .unit = "dB",
-            .meaning = "at no frequency does it play louder than this",
-            .min = 0,
-            .max = 24},
-           &Equalisation::most_boost_db}};
+  return {
+      {{.key = "channels",
+        .unit = "",
+        .meaning = "which ones, e.g. [tile/07]; left out: all of the output"},
+       &Equalisation::channels},
+      {number_row("most_boost_db", "dB", 0, 24, "at no frequency does it play louder than this"),
+       &Equalisation::most_boost_db}};
 }
 
 std::vector<Field<SectionEntry>> section_fields() {
@@ -150,49 +100,24 @@ std::vector<Field<SectionEntry>> section_fields() {
             .required = true,
             .choices = {"peak", "low_shelf", "high_shelf"}},
            &SectionEntry::kind_name},
-          {{.key = "frequency",
-            .unit = "Hz",
-            .meaning = "middle of a peak; where a shelf has half its gain",
-            .min = 1,
-            .max = 192000,
-            .required = true},
+          {required(number_row("frequency", "Hz", 1, 192000,
+                               "middle of a peak; where a shelf has half its gain")),
            &SectionEntry::frequency},
-          {{.key = "gain_db",
-            .unit = "dB",
-            .meaning = "its gain",
-            .min = -60,
-            .max = 24,
-            .required = true},
-           &SectionEntry::gain_db},
-          {{.key = "q",
-            .unit = "1",
-            .meaning = "a peak's frequency over its width at half its gain",
-            .min = 0.1,
-            .max = 30},
+          {required(number_row("gain_db", "dB", -60, 24, "its gain")), &SectionEntry::gain_db},
+          {number_row("q", "1", 0.1, 30, "a peak's frequency over its width at half its gain"),
            &SectionEntry::q}};
 }
 
 std::vector<Field<MeasuredResponse>> response_fields() {
-  return {{{.key = "frequency",
-            .unit = "Hz",
-            .meaning = "2 to 64 rising frequencies, each at least 1.05 times the one before",
-            .min = 1,
-            .max = 192000,
-            .required = true},
-           &MeasuredResponse::frequency},
-          {{.key = "level_db",
-            .unit = "dB",
-            .meaning = "measured there, over what it should be; it is undone",
-            .min = -120,
-            .max = 120,
-            .required = true},
-           &MeasuredResponse::level_db},
-          {{.key = "most_cut_db",
-            .unit = "dB",
-            .meaning = "nothing is turned down by more than this",
-            .min = 0,
-            .max = 60},
-           &MeasuredResponse::most_cut_db}};
+  return {
+      {required(number_row("frequency", "Hz", 1, 192000,
+                           "2 to 64 rising frequencies, each at least 1.05 times the one before")),
+       &MeasuredResponse::frequency},
+      {required(number_row("level_db", "dB", -120, 120,
+                           "measured there, over what it should be; it is undone")),
+       &MeasuredResponse::level_db},
+      {number_row("most_cut_db", "dB", 0, 60, "nothing is turned down by more than this"),
+       &MeasuredResponse::most_cut_db}};
 }
 
 std::vector<Field<ThresholdEntry>> threshold_fields() {
@@ -202,30 +127,21 @@ std::vector<Field<ThresholdEntry>> threshold_fields() {
             .required = true,
             .choices = {"touch", "hearing"}},
            &ThresholdEntry::sense_name},
-          {{.key = "level_db",
-            .unit = "dB",
-            .meaning = "level, re full scale, at which a sine of 250 Hz (touch) or 1 kHz (hearing) "
-                       "is just perceived; voices 20 dB below it end",
-            .min = -140,
-            .max = 0,
-            .required = true},
+          {required(number_row(
+               "level_db", "dB", -140, 0,
+               "level, re full scale, at which a sine of 250 Hz (touch) or 1 kHz (hearing) "
+               "is just perceived; voices 20 dB below it end")),
            &ThresholdEntry::level_db}};
 }
 
 std::vector<Field<Heat>> heat_fields() {
-  return {{{.key = "rms",
-            .unit = "1",
-            .meaning = "RMS value that the transducer takes continuously, in parts of full scale; "
-                       "its limit sinks from the ceiling to this as it warms up",
-            .min = 0.05,
-            .max = 1.0,
-            .required = true},
+  return {{required(number_row(
+               "rms", "1", 0.05, 1.0,
+               "RMS value that the transducer takes continuously, in parts of full scale; "
+               "its limit sinks from the ceiling to this as it warms up")),
            &Heat::rms},
-          {{.key = "seconds",
-            .unit = "s",
-            .meaning = "how fast it warms up and cools down: the coil's thermal time constant",
-            .min = 0.1,
-            .max = 600},
+          {number_row("seconds", "s", 0.1, 600,
+                      "how fast it warms up and cools down: the coil's thermal time constant"),
            &Heat::seconds}};
 }
 
