@@ -127,6 +127,9 @@ void ConfigMap::read(const std::vector<Field<Struct>>& fields,
   }
 }
 
+/// A default as the table below shows it: "0.5", "true", "[1, 2]".
+[[nodiscard]] std::string default_text(const MemberPlace& value);
+
 /// Returns a Markdown table of rows: key, unit, default, range, meaning, source.
 [[nodiscard]] std::string describe(const std::vector<Row>& rows,
                                    const std::vector<std::string>& defaults);

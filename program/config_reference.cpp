@@ -32,7 +32,30 @@ std::string cell(const std::string& text) {
   return out;
 }
 
+std::string text_of(double value) {
+  return format("%.6g", value);
+}
+std::string text_of(int value) {
+  return std::to_string(value);
+}
+std::string text_of(bool value) {
+  return value ? "true" : "false";
+}
+std::string text_of(const std::string& value) {
+  return value;
+}
+template <class List>
+std::string text_of(const List& list) {
+  std::string out;
+  for (const auto& item : list) out += (out.empty() ? "" : ", ") + text_of(item);
+  return "[" + out + "]";
+}
+
 }  // namespace
+
+std::string default_text(const MemberPlace& value) {
+  return std::visit([](const auto* member) { return text_of(*member); }, value);
+}
 
 std::string describe(const std::vector<Row>& rows, const std::vector<std::string>& defaults) {
   std::string out =

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cstddef>
-#include <iomanip>
-#include <sstream>
 #include <type_traits>
 
 #include "sim-server/scene/scene_reader.hpp"
@@ -11,38 +8,14 @@ namespace splash::sim {
 
 namespace {
 
-void print(std::ostream& out, double value) {
-  out << std::setprecision(6) << value;
-}
-void print(std::ostream& out, int value) {
-  out << value;
-}
-void print(std::ostream& out, bool value) {
-  out << (value ? "true" : "false");
-}
-void print(std::ostream& out, const std::string& value) {
-  out << value;
-}
-
-template <class List>
-void print(std::ostream& out, const List& values) {
-  if (values.size() == 0) return;
-  out << '[';
-  const char* separator = "";
-  for (const auto& value : values) {
-    out << separator;
-    print(out, value);
-    separator = ", ";
-  }
-  out << ']';
-}
-
-/// Zero stands for "not given" where it is outside the row's range.
+/// Zero stands for "not given" where it is outside the row's range, an empty list anywhere.
 template <class Value>
 bool is_default(const program::Row& row, const Value& value) {
   if (row.required) return false;
   if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
     return static_cast<double>(value) >= row.min;
+  } else if constexpr (!std::is_same_v<Value, bool>) {
+    return !value.empty();
   }
   return true;
 }
@@ -50,20 +23,18 @@ bool is_default(const program::Row& row, const Value& value) {
 /// The text of a row's default. Not inlined: where g++ 12 sees the object it warns of the variant's
 /// alternatives that this struct cannot have.
 template <class Struct>
-[[gnu::noinline]] std::string default_text(const program::Field<Struct>& field,
-                                           const Struct& defaults) {
-  std::ostringstream text;
-  std::visit(
+[[gnu::noinline]] std::string default_text(const program::Field<Struct>& field, Struct& defaults) {
+  return std::visit(
       [&](auto member) {
-        if (is_default(field.row, defaults.*member)) print(text, defaults.*member);
+        auto& value = defaults.*member;
+        return is_default(field.row, value) ? program::default_text(&value) : std::string();
       },
       field.member);
-  return text.str();
 }
 
 template <class Struct>
 std::string section(const std::string& heading, const Fields<Struct>& fields) {
-  const Struct defaults;
+  Struct defaults;
   std::vector<program::Row> rows;
   std::vector<std::string> texts;
   for (const auto& field : fields) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The rows of the rig file as Markdown tables, with their defaults.
-#include "program/text.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/output/rig_rows.hpp"
 
@@ -9,34 +8,15 @@ namespace {
 
 using program::Row;
 
-std::string text_of(double value) {
-  return program::format("%.6g", value);
-}
-std::string text_of(int value) {
-  return std::to_string(value);
-}
-std::string text_of(bool value) {
-  return value ? "true" : "false";
-}
-std::string text_of(const std::string& value) {
-  return value;
-}
-template <class List>
-std::string text_of(const List& list) {
-  std::string out;
-  for (const auto& item : list) out += (out.empty() ? "" : ", ") + text_of(item);
-  return "[" + out + "]";
-}
-
 template <class Struct>
 std::string describe_fields(const std::vector<Field<Struct>>& fields) {
-  static const Struct kFallback{};  // static: else g++ 12 warns of uninitialised strings
+  static Struct fallback{};  // static: else g++ 12 warns of uninitialised strings
   std::vector<Row> rows;
   std::vector<std::string> defaults;
   for (const Field<Struct>& field : fields) {
     rows.push_back(field.row);
-    defaults.push_back(
-        std::visit([&](auto member) { return text_of(kFallback.*member); }, field.member));
+    defaults.push_back(std::visit(
+        [&](auto member) { return program::default_text(&(fallback.*member)); }, field.member));
   }
   return program::describe(rows, defaults);
 }
