@@ -64,7 +64,7 @@ double handedness(const TrackerSource& source) {
 }
 
 /// The axis of a rotation is an axial vector: M R M^T of a mirroring M turns about -M v.
-Quaternion in_scene_axes(const TrackerSource& source, const Quaternion& theirs) {
+Quaternion along(const TrackerSource& source, const Quaternion& theirs) {
   const Vector3 axis = in_scene_axes(source, Vector3{theirs[0], theirs[1], theirs[2]});
   const double hand = handedness(source);
   return {hand * axis[0], hand * axis[1], hand * axis[2], theirs[3]};
@@ -95,11 +95,11 @@ Quaternion from_angles(const TrackerSource& source, const std::vector<double>& a
 /// nullopt: the numbers are no rotation.
 std::optional<Quaternion> rotation_of(const TrackerSource& source,
                                       const std::vector<double>& numbers) {
-  if (numbers.size() == 3) return in_scene_axes(source, from_angles(source, numbers));
+  if (numbers.size() == 3) return along(source, from_angles(source, numbers));
   const double length =
       std::hypot(std::hypot(numbers[0], numbers[1]), std::hypot(numbers[2], numbers[3]));
   if (!(std::abs(length - 1.0) <= kUnitTolerance)) return std::nullopt;
-  return in_scene_axes(source, unit({numbers[0], numbers[1], numbers[2], numbers[3]}));
+  return along(source, unit({numbers[0], numbers[1], numbers[2], numbers[3]}));
 }
 
 /// True if two messages describe the tracker at the same time: by their time tags or, without
