@@ -5,11 +5,9 @@
 #include <lo/lo_lowlevel.h>
 #include <oscpack/osc/OscReceivedElements.h>
 
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace splash::protocol::test {
 namespace {
@@ -32,9 +30,6 @@ Message from_oscpack(const osc::ReceivedMessage& received) {
 
 TimeTag from_liblo(lo_timetag tag) {
   return {static_cast<std::uint64_t>(tag.sec) << 32U | tag.frac};
-}
-lo_timetag to_liblo(TimeTag tag) {
-  return {static_cast<std::uint32_t>(tag.value >> 32U), static_cast<std::uint32_t>(tag.value)};
 }
 
 int on_bundle(lo_timetag time, void* packet) {
@@ -72,31 +67,6 @@ int on_message(const char* path, const char* types, lo_arg** values, int count, 
   return 0;
 }
 
-using LoMessage = std::unique_ptr<void, decltype(&lo_message_free)>;
-
-LoMessage to_lo_message(const Message& message) {
-  LoMessage out(lo_message_new(), &lo_message_free);
-  for (const auto& argument : message.arguments) {
-    if (const auto* whole = std::get_if<std::int32_t>(&argument)) {
-      lo_message_add_int32(out.get(), *whole);
-    } else if (const auto* real = std::get_if<float>(&argument)) {
-      lo_message_add_float(out.get(), *real);
-    } else if (const auto* text = std::get_if<std::string>(&argument)) {
-      lo_message_add_string(out.get(), text->c_str());
-    } else {
-      lo_message_add_timetag(out.get(), to_liblo(std::get<TimeTag>(argument)));
-    }
-  }
-  return out;
-}
-
-std::vector<std::byte> take_bytes(void* data, std::size_t size) {
-  const std::unique_ptr<void, decltype(&std::free)> guard(data, &std::free);
-  std::vector<std::byte> out(size);
-  std::memcpy(out.data(), data, size);
-  return out;
-}
-
 }  // namespace
 
 std::optional<Packet> read_with_oscpack(Bytes packet) {
@@ -120,9 +90,7 @@ std::optional<Packet> read_with_oscpack(Bytes packet) {
 }
 
 LibloReader::LibloReader() {
-  folder_ = (std::filesystem::temp_directory_path() / "splash-liblo-XXXXXX").string();
-  if (mkdtemp(folder_.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  server_ = lo_server_new_with_proto((folder_ + "/socket").c_str(), LO_UNIX, nullptr);
+  server_ = lo_server_new_with_proto((folder_ / "socket").c_str(), LO_UNIX, nullptr);
   if (server_ == nullptr) throw std::runtime_error("liblo opens no UNIX socket");
   auto* server = static_cast<lo_server>(server_);
   lo_server_enable_queue(server, 0, 0);  // bundles of the future are read at once
@@ -132,8 +100,6 @@ LibloReader::LibloReader() {
 
 LibloReader::~LibloReader() {
   lo_server_free(static_cast<lo_server>(server_));
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 std::optional<Packet> LibloReader::read(Bytes packet) {
@@ -143,25 +109,6 @@ std::optional<Packet> LibloReader::read(Bytes packet) {
       lo_server_dispatch_data(static_cast<lo_server>(server_), copy.data(), copy.size());
   if (used < 0) return std::nullopt;
   return packet_;
-}
-
-std::vector<std::byte> build_with_liblo(const Message& message) {
-  const auto built = to_lo_message(message);
-  std::size_t size = 0;
-  void* data = lo_message_serialise(built.get(), message.address.c_str(), nullptr, &size);
-  return take_bytes(data, size);
-}
-
-std::vector<std::byte> build_with_liblo(TimeTag time, const std::vector<Message>& messages) {
-  // lo_bundle_free would leak its copies of the addresses (liblo 0.31).
-  const std::unique_ptr<void, decltype(&lo_bundle_free_recursive)> bundle(
-      lo_bundle_new(to_liblo(time)), &lo_bundle_free_recursive);
-  for (const auto& message : messages) {  // the bundle owns its messages
-    lo_bundle_add_message(bundle.get(), message.address.c_str(), to_lo_message(message).release());
-  }
-  std::size_t size = 0;
-  void* data = lo_bundle_serialise(bundle.get(), nullptr, &size);
-  return take_bytes(data, size);
 }
 
 }  // namespace splash::protocol::test

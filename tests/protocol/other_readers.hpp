@@ -3,10 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "protocol/message.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::protocol::test {
 
@@ -24,14 +23,9 @@ class LibloReader {
   [[nodiscard]] std::optional<Packet> read(Bytes packet);
 
  private:
-  std::string folder_;
+  tests::TemporaryFolder folder_;
   void* server_ = nullptr;
   Packet packet_;
 };
-
-/// The bytes liblo builds, as the simulator sends them.
-[[nodiscard]] std::vector<std::byte> build_with_liblo(const Message& message);
-[[nodiscard]] std::vector<std::byte> build_with_liblo(TimeTag time,
-                                                      const std::vector<Message>& messages);
 
 }  // namespace splash::protocol::test

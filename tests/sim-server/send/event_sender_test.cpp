@@ -12,7 +12,7 @@
 
 #include "protocol/limits.hpp"
 #include "protocol/message.hpp"
-#include "tests/sim-server/send/oscpack_reader.hpp"
+#include "tests/protocol/other_readers.hpp"
 #include "tests/sim-server/send/peer.hpp"
 #include "tests/sim-server/send/sample_events.hpp"
 
@@ -55,7 +55,7 @@ class EventSenderTest : public testing::Test {
     }
     const auto decoded = protocol::decode(*bytes);
     EXPECT_EQ(decoded.refusal, protocol::Refusal::none);
-    EXPECT_EQ(test::read_with_oscpack(*bytes), decoded.packet);
+    EXPECT_EQ(protocol::test::read_with_oscpack(*bytes), decoded.packet);
     Heard heard;
     heard.time = protocol::to_unix_seconds(decoded.packet.time.value());
     heard.frame = protocol::to_frame(decoded.packet.messages.at(0)).value();

@@ -11,11 +11,16 @@
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/status.hpp"
-#include "tests/sim-server/send/oscpack_reader.hpp"
+#include "tests/protocol/other_readers.hpp"
+#include "tests/protocol/random_packets.hpp"
 #include "tests/sim-server/send/sample_events.hpp"
 
 namespace splash::sim {
 namespace {
+
+using protocol::test::read_with_oscpack;
+
+constexpr protocol::TimeTag kTime{0xE1234567'89ABCDEFULL};
 
 /// One message of each kind that the simulator sends.
 std::vector<protocol::Message> all_messages() {
@@ -37,18 +42,27 @@ TEST(LoPacket, BuildsTheSameBytesAsOurEncoder) {
   for (const auto& message : all_messages()) {
     EXPECT_EQ(build_message(message), protocol::encode(message)) << message.address;
   }
-  const protocol::TimeTag time{0xE1234567'89ABCDEFULL};
-  EXPECT_EQ(build_bundle(time, all_messages()), protocol::encode(time, all_messages()));
+  EXPECT_EQ(build_bundle(kTime, all_messages()), protocol::encode(kTime, all_messages()));
+}
+
+TEST(LoPacket, BuildsTheSameBytesOfAnyMessages) {
+  protocol::test::RandomPackets random(3);
+  for (int i = 0; i < 10'000; ++i) {
+    const auto message = random.message();
+    ASSERT_EQ(build_message(message), protocol::encode(message)) << i;
+    const auto time = random.time();
+    const auto messages = random.messages();
+    ASSERT_EQ(build_bundle(time, messages), protocol::encode(time, messages)) << i;
+  }
 }
 
 TEST(LoPacket, IsReadAlikeByOscpackAndByUs) {
-  const protocol::TimeTag time{0xE1234567'89ABCDEFULL};
-  const auto bytes = build_bundle(time, all_messages());
-  const protocol::Packet sent{time, all_messages()};
-  EXPECT_EQ(test::read_with_oscpack(bytes), sent);
+  const auto bytes = build_bundle(kTime, all_messages());
+  const protocol::Packet sent{kTime, all_messages()};
+  EXPECT_EQ(read_with_oscpack(bytes), sent);
   EXPECT_EQ(protocol::decode(bytes).packet, sent);
   for (const auto& message : all_messages()) {
-    EXPECT_EQ(test::read_with_oscpack(build_message(message)).messages.front(), message);
+    EXPECT_EQ(read_with_oscpack(build_message(message)), (protocol::Packet{{}, {message}}));
   }
 }
 
