@@ -76,20 +76,17 @@ TEST(ClockAnswers, StrangersAreNotAnswered) {
 TEST(ClockAnswers, APingOfAnotherHostMustBeAsLongAsItsPong) {
   const auto address = tests::own_address();
   if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
-  protocol::UdpSocket receiver({.address = *address, .port = 0});
+  test::Peer receiver(*address);
   protocol::UdpSocket events({.address = *address, .port = 0});
-  const Targets targets({receiver.local()});
+  const Targets targets({receiver.endpoint()});
   std::promise<std::string> told;
   const ClockAnswers answers(events, targets,
                              [&](const std::string& line) { told.set_value(line); });
-  const auto ping = protocol::ping(protocol::TimeTag{7});
-  const auto filled = protocol::filled_up(protocol::ping(protocol::TimeTag{8}), 40);
-  ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode(ping)));
-  ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode(filled)));
-  std::vector<std::byte> buffer(2048);
-  const auto received = receiver.receive(buffer.data(), buffer.size(), test::kTimeout);
-  ASSERT_TRUE(received && received->size == 40U);
-  const auto pong = protocol::decode(protocol::Bytes(buffer).first(40)).packet.messages.at(0);
+  receiver.send(events.local(), protocol::ping(protocol::TimeTag{7}));
+  receiver.send(events.local(), protocol::filled_up(protocol::ping(protocol::TimeTag{8}), 40));
+  const auto answer = receiver.bytes();
+  ASSERT_TRUE(answer && answer->size() == 40U);
+  const auto pong = protocol::decode(*answer).packet.messages.at(0);
   EXPECT_EQ(std::get<protocol::TimeTag>(pong.arguments.at(0)).value, 8U) << "the first got none";
   EXPECT_EQ(answers.withheld(), 1U);
   auto line = told.get_future();
@@ -103,15 +100,14 @@ TEST(ClockAnswers, APingOfAnotherHostMustBeAsLongAsItsPong) {
 TEST(ClockAnswers, PingsOfABundleCountTogether) {
   const auto address = tests::own_address();
   if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
-  protocol::UdpSocket receiver({.address = *address, .port = 0});
+  test::Peer receiver(*address);
   protocol::UdpSocket events({.address = *address, .port = 0});
-  const Targets targets({receiver.local()});
+  const Targets targets({receiver.endpoint()});
   const ClockAnswers answers(events, targets, nullptr);
   const auto ping = protocol::ping(protocol::TimeTag{7});
-  ASSERT_TRUE(receiver.send_to(events.local(), protocol::encode({1}, {ping, ping})));
-  std::vector<std::byte> buffer(2048);
-  EXPECT_TRUE(receiver.receive(buffer.data(), buffer.size(), test::kTimeout));
-  EXPECT_FALSE(receiver.receive(buffer.data(), buffer.size(), 0.3));
+  receiver.send(events.local(), protocol::encode({1}, {ping, ping}));
+  EXPECT_TRUE(receiver.bytes());
+  EXPECT_FALSE(receiver.bytes(0.3));
   EXPECT_EQ(answers.withheld(), 1U);
 }
 

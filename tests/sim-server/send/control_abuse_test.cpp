@@ -83,16 +83,15 @@ class ControlStranger : public ControlAbuse {
 
 TEST_F(ControlStranger, IsNeitherAnsweredNorObeyed) {
   start({.listen = {.address = address_, .port = 0}});
-  protocol::UdpSocket stranger({.address = address_, .port = 0});
+  test::Peer stranger(address_);
   for (const auto& message :
        {protocol::to_message(protocol::BodyPose{}), protocol::Message{"/status", {}},
         protocol::Message{"/quit", {}}, protocol::Message{"/notify", {1}}}) {
-    ASSERT_TRUE(stranger.send_to(server_->local(), protocol::encode(message)));
+    stranger.send(server_->local(), message);
   }
   wait_for_packets(4);
   server_.reset();  // nothing more is under way
-  std::byte buffer[64];
-  EXPECT_FALSE(stranger.receive(buffer, sizeof buffer, 0.0).has_value());
+  EXPECT_TRUE(stranger.silent());
   EXPECT_TRUE(poses().empty());
   EXPECT_TRUE(targets_.list().empty());
   EXPECT_EQ(quits(), 0);
@@ -100,14 +99,10 @@ TEST_F(ControlStranger, IsNeitherAnsweredNorObeyed) {
 
 TEST_F(ControlStranger, WhoIsAllowedIsHeardButMayNotQuit) {
   start({.listen = {.address = address_, .port = 0}, .allowed = {address_}});
-  protocol::UdpSocket friendly({.address = address_, .port = 0});
-  std::vector<std::byte> buffer(2048);
+  test::Peer friendly(address_);
   const auto ask_friendly = [&](const protocol::Message& message) {
-    const auto question = protocol::filled_up(message, protocol::kFilledQuestion);
-    EXPECT_TRUE(friendly.send_to(server_->local(), protocol::encode(question)));
-    const auto received = friendly.receive(buffer.data(), buffer.size(), test::kTimeout);
-    if (!received) return protocol::Message{};
-    return protocol::decode(protocol::Bytes(buffer).first(received->size)).packet.messages.at(0);
+    friendly.send(server_->local(), protocol::filled_up(message, protocol::kFilledQuestion));
+    return friendly.message();
   };
   EXPECT_EQ(ask_friendly({"/status", {}}).address, "/status.reply");
   EXPECT_EQ(ask_friendly({"/quit", {}}),

@@ -58,11 +58,13 @@ class ControlFixture : public testing::Test {
   }
 
   /// Sends and returns the next reply.
-  protocol::Message ask(const protocol::Message& message) {
-    peer_.send(server_->local(), message);
+  protocol::Message ask(const protocol::Message& message) { return ask(*server_, message); }
+  protocol::Message ask(const sim::ControlServer& server, const protocol::Message& message) {
+    peer_.send(server.local(), message);
     return peer_.message();
   }
-  void tell(const protocol::Message& message) { peer_.send(server_->local(), message); }
+  /// A message or a datagram.
+  void tell(const auto& what) { peer_.send(server_->local(), what); }
   /// All that was sent before is done: the server obeys in order.
   void settle() { ASSERT_EQ(ask({"/sync", {12345}}), (protocol::Message{"/synced", {12345}})); }
   /// For peers that get no replies: waits until the server has taken `packets` datagrams.

@@ -51,9 +51,9 @@ TEST_F(Control, PassesTheTimeTagOfAPosesBundleOn) {
   const auto bundle = [](protocol::TimeTag tag) {
     return protocol::encode(tag, {protocol::to_message(kPose)});
   };
-  peer_.send(server_->local(), bundle(protocol::to_time_tag(sent)));
-  peer_.send(server_->local(), bundle(protocol::kImmediately));
-  peer_.send(server_->local(), bundle({0}));
+  tell(bundle(protocol::to_time_tag(sent)));
+  tell(bundle(protocol::kImmediately));
+  tell(bundle({0}));
   settle();
   ASSERT_EQ(poses().size(), 3U);
   ASSERT_TRUE(poses()[0].moment.sent.has_value());
@@ -79,8 +79,7 @@ TEST_F(Control, APoseCameWhenTheKernelTookIt) {
   const double second = protocol::monotonic_now();
   peer_.send(server.local(), protocol::to_message(kPose));
   const double second_sent = protocol::monotonic_now();
-  peer_.send(server.local(), Message{"/sync", {1}});
-  ASSERT_EQ(peer_.message().address, "/synced");
+  ASSERT_EQ(ask(server, {"/sync", {1}}).address, "/synced");
   ASSERT_EQ(arrivals.size(), 2U);
   constexpr double kTick = 1.0e-3;  // the kernel's clock is another one
   EXPECT_GE(arrivals[0], first - kTick);
@@ -114,7 +113,7 @@ TEST_F(Control, RefusesAPoseThatIsNoRotation) {
 }
 
 TEST_F(Control, AnswersStatusWithItsRefusals) {
-  peer_.send(server_->local(), std::vector<std::byte>(3));
+  tell(std::vector<std::byte>(3));
   auto stretched = kPose;
   stretched.qw = 1.0F;
   EXPECT_THAT(reason(ask(protocol::to_message(stretched))), HasSubstr("quaternion"));
@@ -150,13 +149,9 @@ TEST_F(Control, AnyPacketRenewsASubscription) {
   std::atomic<double> now = 0.0;  // read on the control's thread
   Targets targets({}, [&now] { return now.load(); });
   ControlServer server({.listen = {}}, {}, targets);
-  const auto ask_server = [&](const Message& message) {
-    peer_.send(server.local(), message);
-    return peer_.message().address;
-  };
-  ASSERT_EQ(ask_server({"/notify", {1}}), "/done");
+  ASSERT_EQ(ask(server, {"/notify", {1}}).address, "/done");
   now = 0.9 * kSubscriptionLease;
-  ASSERT_EQ(ask_server({"/sync", {1}}), "/synced");
+  ASSERT_EQ(ask(server, {"/sync", {1}}).address, "/synced");
   ASSERT_EQ(targets.list().size(), 1U);
   EXPECT_NEAR(targets.list()[0].expires, 1.9 * kSubscriptionLease, 1.0e-9);
 }
@@ -172,18 +167,14 @@ TEST_F(Control, NotifySubscribesToForcesWhereThereAreAny) {
   server_ = nullptr;
   std::string why = "the water solves";
   ControlServer server({.listen = {}}, {.no_forces = [&] { return why; }}, targets_);
-  const auto ask_server = [&](std::int32_t streams) {
-    peer_.send(server.local(), Message{"/notify", {streams}});
-    return peer_.message();
-  };
-  EXPECT_THAT(reason(ask_server(2)), HasSubstr("the water solves"));
+  EXPECT_THAT(reason(ask(server, {"/notify", {2}})), HasSubstr("the water solves"));
   why.clear();
-  EXPECT_EQ(ask_server(2), protocol::done("/notify", 2));
+  EXPECT_EQ(ask(server, {"/notify", {2}}), protocol::done("/notify", 2));
   EXPECT_TRUE(targets_.wants(kForceStream));
   EXPECT_FALSE(targets_.wants(kEventStream));
-  EXPECT_EQ(ask_server(3), protocol::done("/notify", 3));
+  EXPECT_EQ(ask(server, {"/notify", {3}}), protocol::done("/notify", 3));
   EXPECT_TRUE(targets_.wants(kEventStream));
-  EXPECT_EQ(ask_server(0), protocol::done("/notify", 0));
+  EXPECT_EQ(ask(server, {"/notify", {0}}), protocol::done("/notify", 0));
   EXPECT_FALSE(targets_.wants(kForceStream));
 }
 
@@ -198,17 +189,12 @@ TEST_F(Control, TakesWhatAFloorFeelsWhereThereIsOne) {
                               return has_floor;
                             }},
                        targets_);
-  const auto ask_server = [&](const Message& message) {
-    peer_.send(server.local(), message);
-    peer_.send(server.local(), Message{"/sync", {1}});
-    return peer_.message();
-  };
-  EXPECT_THAT(reason(ask_server({"/tile/pressure", {0, 5.0F}})), HasSubstr("kind: pressure"));
-  static_cast<void>(peer_.message());
+  EXPECT_THAT(reason(ask(server, {"/tile/pressure", {0, 5.0F}})), HasSubstr("kind: pressure"));
   has_floor = true;
-  EXPECT_EQ(ask_server({"/tile/pressure", {0, 5.0F, -1.0F}}).address, "/synced");
+  peer_.send(server.local(), Message{"/tile/pressure", {0, 5.0F, -1.0F}});
+  EXPECT_EQ(ask(server, {"/sync", {1}}).address, "/synced") << "and nothing came before it";
   EXPECT_EQ(taken, 1);
-  EXPECT_THAT(reason(ask_server({"/tile/pressure", {0, 1}})), testing::Not(HasSubstr("no /fail")));
+  EXPECT_THAT(reason(ask(server, {"/tile/pressure", {0, 1}})), testing::Not(HasSubstr("no /fail")));
 }
 
 TEST_F(Control, QuitFromThisHostIsDoneAndObeyed) {
@@ -220,7 +206,7 @@ TEST_F(Control, QuitFromThisHostIsDoneAndObeyed) {
 TEST_F(Control, MessagesOfTrackersAreNoUnknownCommands) {
   const double sent = 1.0e9 + 0.125;
   const protocol::Message message = {"/tracker", {std::string("A"), 0.5F}};
-  peer_.send(server_->local(), protocol::encode(protocol::to_time_tag(sent), {message}));
+  tell(protocol::encode(protocol::to_time_tag(sent), {message}));
   settle();
   ASSERT_EQ(tracked().size(), 1U);
   EXPECT_EQ(tracked()[0].message, message);
@@ -239,10 +225,7 @@ TEST_F(Control, AnActionThatThrowsIsToldAndSurvived) {
   sim::ControlActions actions;
   actions.status = []() -> protocol::SimStatus { throw std::runtime_error("device is gone"); };
   sim::ControlServer server({.listen = {}}, actions, targets_);
-  for (int i = 0; i < 2; ++i) {
-    peer_.send(server.local(), Message{"/status", {}});
-    EXPECT_EQ(reason(peer_.message()), "device is gone");
-  }
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(reason(ask(server, {"/status", {}})), "device is gone");
 }
 
 TEST_F(Control, WhatTheProgramDoesNotOfferIsRefused) {
@@ -250,8 +233,7 @@ TEST_F(Control, WhatTheProgramDoesNotOfferIsRefused) {
   sim::ControlServer server({.listen = {}}, {}, targets_);
   for (const auto& message :
        {Message{"/status", {}}, Message{"/quit", {}}, protocol::to_message(kPose)}) {
-    peer_.send(server.local(), message);
-    EXPECT_EQ(peer_.message().address, "/fail") << message.address;
+    EXPECT_EQ(ask(server, message).address, "/fail") << message.address;
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The other end of a wire in a test: a socket on a free port of loopback.
+// The other end of a wire in a test: a socket on a free port.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +19,10 @@ inline constexpr double kTimeout = 5.0;  ///< for what must come; a pass never w
 
 class Peer {
  public:
+  explicit Peer(std::uint32_t address = INADDR_LOOPBACK)
+      : socket_({.address = address, .port = 0}) {}
+
   [[nodiscard]] protocol::Endpoint endpoint() const { return socket_.local(); }
-  [[nodiscard]] protocol::UdpSocket& socket() { return socket_; }
 
   void send(const protocol::Endpoint& to, const protocol::Message& message) {
     send(to, protocol::encode(message));
@@ -56,7 +58,7 @@ class Peer {
   [[nodiscard]] protocol::Endpoint last_sender() const { return from_; }
 
  private:
-  protocol::UdpSocket socket_{protocol::Endpoint{}};
+  protocol::UdpSocket socket_;
   protocol::Endpoint from_;
 };
 

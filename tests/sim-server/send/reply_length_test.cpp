@@ -27,41 +27,31 @@ class ReplyLength : public test::ControlFixture {
     const auto address = tests::own_address();
     if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
     start({.listen = {.address = *address, .port = 0}, .allowed = {*address}});
-    friendly_.emplace(protocol::Endpoint{*address, 0});
+    friendly_.emplace(*address);
   }
-  void say(const std::vector<std::byte>& datagram) {
-    ASSERT_TRUE(friendly_->send_to(server_->local(), datagram));
+  /// A message or a datagram.
+  void say(const auto& what) {
+    friendly_->send(server_->local(), what);
     wait_for_packets(++said_);
   }
-  /// The next datagram that came back; empty: none.
-  std::vector<std::byte> heard(double limits) {
-    std::vector<std::byte> buffer(2048);
-    const auto received = friendly_->receive(buffer.data(), buffer.size(), limits);
-    buffer.resize(received ? received->size : 0);
-    return buffer;
-  }
-  Message answer() {
-    const auto decoded = protocol::decode(heard(test::kTimeout));
-    return decoded.packet.messages.empty() ? Message{} : decoded.packet.messages.front();
-  }
 
-  std::optional<protocol::UdpSocket> friendly_;
+  std::optional<test::Peer> friendly_;
   std::uint64_t said_ = 0;
 };
 
 TEST_F(ReplyLength, AShortQuestionIsObeyedButNotAnsweredAndItsAskerIsTold) {
-  say(protocol::encode(Message{"/clearSched", {}}));
-  say(protocol::encode(Message{"/notify", {1}}));
-  say(protocol::encode(Message{"/status", {}}));
-  say(protocol::encode(protocol::filled_up({"/sync", {9}}, 16)));
-  EXPECT_EQ(answer(), protocol::synced(9)) << "and nothing came before it";
+  say(Message{"/clearSched", {}});
+  say(Message{"/notify", {1}});
+  say(Message{"/status", {}});
+  say(protocol::filled_up({"/sync", {9}}, 16));
+  EXPECT_EQ(friendly_->message(), protocol::synced(9)) << "and nothing came before it";
   EXPECT_EQ(server_->counts().withheld, 3U);
   EXPECT_EQ(server_->counts().replies, 1U);
   EXPECT_EQ(targets_.list().size(), 1U) << "obeyed";
   const auto told = lines();
   ASSERT_EQ(told.size(), 3U);
   EXPECT_EQ(told[2],
-            protocol::to_string(friendly_->local()) +
+            protocol::to_string(friendly_->endpoint()) +
                 " asked /status in a datagram of 12 bytes; the reply has 108 bytes and was "
                 "not sent. Fill the question up with text to 108 bytes (protocol/README.md, "
                 "'Who is answered')");
@@ -72,9 +62,9 @@ TEST_F(ReplyLength, AQuestionAsLongAsItsAnswerIsAnswered) {
   const auto filled = protocol::encode(protocol::filled_up({"/status", {}}, 108));
   ASSERT_EQ(filled.size(), protocol::encode(status).size());
   say(filled);
-  EXPECT_EQ(answer().address, "/status.reply");
-  say(protocol::encode(protocol::filled_up(protocol::ping({5}), 40)));
-  EXPECT_EQ(answer().address, "/pong");
+  EXPECT_EQ(friendly_->message().address, "/status.reply");
+  say(protocol::filled_up(protocol::ping({5}), 40));
+  EXPECT_EQ(friendly_->message().address, "/pong");
   EXPECT_EQ(server_->counts().withheld, 0U);
   EXPECT_TRUE(lines().empty());
 }
@@ -87,8 +77,8 @@ TEST_F(ReplyLength, ThisHostIsAnsweredWhateverItSends) {
 }
 
 TEST_F(ReplyLength, AReasonIsCutToTheQuestion) {
-  say(protocol::encode(Message{"/dumpOSC", {9, 9, 9, 9}}));  // 36 bytes
-  const Message cut = answer();
+  say(Message{"/dumpOSC", {9, 9, 9, 9}});  // 36 bytes
+  const Message cut = friendly_->message();
   ASSERT_EQ(cut.address, "/fail");
   EXPECT_EQ(protocol::encode(cut).size(), 36U);
   EXPECT_EQ(std::get<std::string>(cut.arguments.at(1)), "types are ,");
@@ -103,8 +93,8 @@ TEST_F(ReplyLength, AllRepliesToABundleTogetherAreNoLonger) {
   say(bundle);
   std::size_t bytes = 0;
   std::size_t replies = 0;
-  for (auto reply = heard(test::kTimeout); !reply.empty(); reply = heard(0.2)) {
-    bytes += reply.size() + kHeaders;
+  for (auto reply = friendly_->bytes(); reply; reply = friendly_->bytes(0.2)) {
+    bytes += reply->size() + kHeaders;
     ++replies;
   }
   EXPECT_LE(bytes, bundle.size() + kHeaders);
@@ -115,7 +105,7 @@ TEST_F(ReplyLength, AllRepliesToABundleTogetherAreNoLonger) {
 
 TEST_F(ReplyLength, AFloodOfShortQuestionsIsToldABoundedNumberOfTimes) {
   const double start = protocol::monotonic_now();
-  for (int i = 0; i < 500; ++i) say(protocol::encode(Message{"/status", {}}));
+  for (int i = 0; i < 500; ++i) say(Message{"/status", {}});
   const double seconds = protocol::monotonic_now() - start;
   EXPECT_EQ(server_->counts().withheld, 500U);
   EXPECT_EQ(server_->counts().replies, 0U);

@@ -109,17 +109,16 @@ TEST_F(TargetStatusTest, ARestartedSynthLosesNothingItHadTold) {
 TEST(TargetStatusAfar, AsksInAsManyBytesAsAnyReplyHas) {
   const auto address = tests::own_address();
   if (!address) GTEST_SKIP() << "this machine has no address besides loopback";
-  protocol::UdpSocket synth({.address = *address, .port = 0});
-  TargetStatus status({synth.local()});
+  Peer synth(*address);
+  TargetStatus status({synth.endpoint()});
   status.poll();
-  std::vector<std::byte> buffer(2048);
-  const auto received = synth.receive(buffer.data(), buffer.size(), test::kTimeout);
-  ASSERT_TRUE(received);
-  EXPECT_GE(received->size, protocol::encode(protocol::to_message(SynthStatus{})).size());
-  const auto question = protocol::decode(protocol::Bytes(buffer).first(received->size));
-  ASSERT_EQ(question.packet.messages.size(), 1U);
-  EXPECT_EQ(question.packet.messages[0].address, "/status");
-  EXPECT_EQ(protocol::violation(question.packet.messages[0]), std::nullopt);
+  const auto datagram = synth.bytes();
+  ASSERT_TRUE(datagram);
+  EXPECT_GE(datagram->size(), protocol::encode(protocol::to_message(SynthStatus{})).size());
+  const auto questions = protocol::decode(*datagram).packet.messages;
+  ASSERT_EQ(questions.size(), 1U);
+  EXPECT_EQ(questions[0].address, "/status");
+  EXPECT_EQ(protocol::violation(questions[0]), std::nullopt);
 }
 
 TEST_F(TargetStatusTest, SumsOverThoseWhoAnswer) {
