@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
 #include "protocol/control.hpp"
@@ -216,6 +217,23 @@ TEST_F(ControlPortTest, ErrorTurnsReportsOffAndOn) {
 TEST_F(ControlPortTest, ReportsAFloodABoundedNumberOfTimes) {
   for (int i = 0; i < 1000; ++i) port_.report(kFriend, "is wrong", now_ + 1e-2 * i);
   EXPECT_NEAR(static_cast<double>(lines_.size()), kReportBurst + 10.0 * kReportRate, 1.0);
+}
+
+TEST(PacketText, ShowsEveryTypeWithAllItsDigits) {
+  EXPECT_EQ(
+      to_text({"/x", {std::int32_t{-3}, 0.000610F, std::string("a b"), TimeTag{0x100000002}}}),
+      "/x ,ifst -3 0.000609999988 \"a b\" 00000001.00000002");
+  EXPECT_EQ(to_text({"/status", {}}), "/status ,");
+}
+
+TEST(PacketText, ShowsTheTimeOfItsBundle) {
+  EXPECT_EQ(to_text({"/x", {}}, TimeTag{1}), "00000000.00000001 /x ,");
+}
+
+TEST(PacketText, ShowsBytes) {
+  const std::array<std::byte, 3> bytes{std::byte{0x2F}, std::byte{0}, std::byte{0xFA}};
+  EXPECT_EQ(to_hexadecimal(bytes), "2f 00 fa");
+  EXPECT_EQ(to_hexadecimal({}), "");
 }
 
 }  // namespace

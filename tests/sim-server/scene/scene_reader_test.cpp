@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A good scene is read as written; each kind of mistake is refused at its place with its reason.
+// A good scene is read as written; each kind of mistake is refused at its place with its reason;
+// and the reference page holds what the reader knows.
 #include "sim-server/scene/scene_reader.hpp"
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 
 #include "program/config.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::sim {
 namespace {
@@ -290,6 +292,20 @@ const std::vector<Mistake> kMistakes = {
 
 INSTANTIATE_TEST_SUITE_P(All, SceneMistake, ::testing::ValuesIn(kMistakes),
                          [](const auto& mistake) { return mistake.param.name; });
+
+TEST(SceneReference, StandsInTheReadme) {
+  EXPECT_THAT(tests::text_of(SPLASH_SOURCE_DIR "/configs/README.md"),
+              HasSubstr("<!-- begin: scene-reference -->\n" + scene_reference() +
+                        "<!-- end: scene-reference -->\n"))
+      << "build and run scene-reference and put its output between the markers";
+}
+
+TEST(SceneReference, GivesDefaultsAndSaysWhatIsRequired) {
+  const std::string text = scene_reference();
+  EXPECT_THAT(text, HasSubstr("| `density` | kg/m3 | 998 |"));
+  EXPECT_THAT(text, HasSubstr("| `spacing` | m |  | 0.001"));
+  EXPECT_THAT(text, HasSubstr("| `size` | m | required |"));
+}
 
 }  // namespace
 }  // namespace splash::sim
