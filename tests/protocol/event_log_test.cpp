@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <stdexcept>
@@ -12,27 +11,22 @@
 
 #include "protocol/limits.hpp"
 #include "tests/protocol/raw_packet.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::protocol::test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 class EventLog : public ::testing::Test {
  protected:
-  EventLog() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "splash-log-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~EventLog() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "test.osc"; }
 
   void write(const Raw& content) const {
-    std::ofstream file(path(), std::ios::binary);
-    file.write(reinterpret_cast<const char*>(content.data()),
-               static_cast<std::streamsize>(content.size()));
+    folder_.write("test.osc", {reinterpret_cast<const char*>(content.data()), content.size()});
   }
 
   [[nodiscard]] std::string refusal(const Raw& content) const {
@@ -45,7 +39,7 @@ class EventLog : public ::testing::Test {
     return "accepted";
   }
 
-  std::filesystem::path folder_;
+  const tests::TemporaryFolder folder_;
 };
 
 const Message kImpact = to_message(Impact{1, 0, 2.0F, 1.0F, {0.1F, 0.2F, 0.3F}, 0.5F});
@@ -72,10 +66,8 @@ TEST_F(EventLog, FramedAsAScoreOfScsynth) {
     LogWriter log(path());
     log.append(1.5, {{"/a", {7}}});
   }
-  std::ifstream file(path(), std::ios::binary);
-  const std::string content((std::istreambuf_iterator<char>(file)), {});
   const Raw bundle = bundle_head(0x180000000ULL) + element(message("/a", ",i", word(7)));
-  EXPECT_EQ(bytes(content), element(bundle));
+  EXPECT_EQ(bytes(tests::text_of(path())), element(bundle));
 }
 
 TEST_F(EventLog, TimeNeverRunsBackwards) {
@@ -143,39 +135,26 @@ TEST_F(EventLog, RefusesWhatTheGateRefusesAndSaysWhere) {
 TEST_F(EventLog, RefusesALogThatWouldFillTheMemory) {
   write(element(bundle_head()));
   std::filesystem::resize_file(path(), (256U << 20U) + 1);  // sparse
-  try {
-    (void)read_log(path());
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("at most 268435456"));
-  }
+  EXPECT_THAT([&] { (void)read_log(path()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("at most 268435456")));
 }
 
 TEST_F(EventLog, SaysWhyAFileCannotBeOpened) {
-  try {
-    (void)read_log(folder_ / "none.osc");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("none.osc"), HasSubstr("No such file")));
-  }
-  try {
-    const LogWriter log(folder_ / "no" / "folder.osc");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("cannot create"), HasSubstr("No such file")));
-  }
-  EXPECT_THROW((void)read_log(folder_), std::runtime_error);
+  EXPECT_THAT(
+      [&] { (void)read_log(folder_ / "none.osc"); },
+      ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("none.osc"), HasSubstr("No such file"))));
+  EXPECT_THAT([&] { const LogWriter log(folder_ / "no" / "folder.osc"); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("cannot create"), HasSubstr("No such file"))));
+  EXPECT_THROW((void)read_log(folder_.path()), std::runtime_error);
 }
 
 TEST_F(EventLog, AFullDiskIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   LogWriter log("/dev/full");
-  try {
-    log.append(0.0, {kFrame});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("/dev/full"), HasSubstr("No space left")));
-  }
+  EXPECT_THAT(
+      [&] { log.append(0.0, {kFrame}); },
+      ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"))));
 }
 
 /// As on a small disk: files of this process may not grow beyond `bytes`.

@@ -126,13 +126,10 @@ TEST(FrameStream, NoMoreViewersThanTheLimit) {
 
 TEST(FrameStream, ATakenPortIsAnErrorThatHelps) {
   const FrameStream holder({}, numbered(0));
-  try {
-    const FrameStream second({.listen = holder.local(), .allowed = {}}, numbered(0));
-    FAIL() << "two streams on one port";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("--show host:port"));
-    EXPECT_THAT(error.what(), HasSubstr(std::to_string(holder.local().port)));
-  }
+  EXPECT_THAT(
+      [&] { const FrameStream second({.listen = holder.local(), .allowed = {}}, numbered(0)); },
+      testing::ThrowsMessage<std::runtime_error>(testing::AllOf(
+          HasSubstr("--show host:port"), HasSubstr(std::to_string(holder.local().port)))));
 }
 
 /// User and system time of all threads so far [s].

@@ -17,12 +17,6 @@
 namespace splash::protocol::test {
 namespace {
 
-Raw repeated(const Raw& part, std::size_t times) {
-  Raw out;
-  for (std::size_t i = 0; i < times; ++i) out = out + part;
-  return out;
-}
-
 std::vector<Killer> legal_packets() {
   const std::string sixteen = "," + std::string(16, 'i');
   return {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace splash::protocol::test {
@@ -22,6 +23,12 @@ inline Raw operator+(Raw left, const Raw& right) {
   // g++ 12 believes that insert() of a whole vector passes its end.
   for (const std::byte byte : right) left.push_back(byte);
   return left;
+}
+
+inline Raw repeated(const Raw& part, std::size_t times) {
+  Raw out;
+  for (std::size_t i = 0; i < times; ++i) out = std::move(out) + part;
+  return out;
 }
 
 inline Raw word(std::uint32_t value) {

@@ -2,9 +2,10 @@
 // What the gate lets pass, our decoder, oscpack and liblo read alike.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <string>
 
+#include "protocol/control_port.hpp"
 #include "tests/protocol/other_readers.hpp"
 #include "tests/protocol/random_packets.hpp"
 
@@ -17,25 +18,16 @@ std::size_t inputs() {
   return wanted == nullptr ? 40000 : std::strtoul(wanted, nullptr, 10);
 }
 
-std::string hex(Bytes packet) {
-  std::string out;
-  for (const auto byte : packet) {
-    char two[4];
-    std::snprintf(two, sizeof two, "%02x", std::to_integer<unsigned>(byte));
-    out += two;
-  }
-  return out;
-}
-
 void expect_alike(Bytes packet, LibloReader& liblo) {
   const auto ours = decode(packet);
-  ASSERT_EQ(ours.refusal, Refusal::none) << hex(packet);
-  ASSERT_EQ(read_with_oscpack(packet), ours.packet) << hex(packet);
-  ASSERT_EQ(liblo.read(packet), ours.packet) << hex(packet);
+  ASSERT_EQ(ours.refusal, Refusal::none) << to_hexadecimal(packet);
+  ASSERT_EQ(read_with_oscpack(packet), ours.packet) << to_hexadecimal(packet);
+  ASSERT_EQ(liblo.read(packet), ours.packet) << to_hexadecimal(packet);
   // One packet has one form: this also compares the sign of zeros, which == does not.
   const auto again = ours.packet.time ? encode(*ours.packet.time, ours.packet.messages)
                                       : encode(ours.packet.messages.at(0));
-  ASSERT_TRUE(std::equal(again.begin(), again.end(), packet.begin(), packet.end())) << hex(packet);
+  ASSERT_TRUE(std::equal(again.begin(), again.end(), packet.begin(), packet.end()))
+      << to_hexadecimal(packet);
 }
 
 TEST(Readers, ReadLegalPacketsAlike) {

@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 constexpr double kTimeout = 5.0;  // [s]: loopback needs microseconds, a loaded machine more
 
@@ -52,27 +53,24 @@ TEST(UdpSocket, TellsTheRealSizeOfWhatDoesNotFit) {
 
 TEST(UdpSocket, ATakenPortIsAnErrorThatHelps) {
   const UdpSocket holder(Endpoint{});
-  try {
-    const UdpSocket second(holder.local());
-    FAIL() << "two sockets on one port";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("UDP port " + std::to_string(holder.local().port)),
-                                    HasSubstr("Address already in use, another program holds it"),
-                                    HasSubstr("use --listen host:port"), HasSubstr("port 0")));
-  }
+  EXPECT_THAT([&] { const UdpSocket second(holder.local()); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("UDP port " + std::to_string(holder.local().port)),
+                        HasSubstr("Address already in use, another program holds it"),
+                        HasSubstr("use --listen host:port"), HasSubstr("port 0"))));
 }
 
 TEST(UdpSocket, AnAddressOfAnotherMachineIsAnError) {
   EXPECT_THROW(UdpSocket(Endpoint{0xcb007101U, 0}), std::runtime_error);  // 203.0.113.1
 }
 
-// As the kernel lists it: 127.0.0.1 only, not every network of the machine.
 TEST(Endpoint, IsLoopbackInTheWholeBlock) {
   EXPECT_TRUE(is_loopback({0x7F000001, 1}));
   EXPECT_TRUE(is_loopback({0x7F123456, 1}));
   EXPECT_FALSE(is_loopback({0x0A000001, 1}));
 }
 
+// As the kernel lists it: 127.0.0.1 only, not every network of the machine.
 TEST(UdpSocket, IsBoundToLoopbackOnly) {
   const UdpSocket socket(Endpoint{});
   std::ifstream table("/proc/net/udp");
@@ -144,25 +142,18 @@ TEST(Endpoint, ReadsHostAndPort) {
 }
 
 TEST(Endpoint, NamesOptionAndHost) {
-  try {
-    (void)endpoint_of("--target", "256.0.0.1:5", 1);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("--target '256.0.0.1:5': host '256.0.0.1': "),
-                                    HasSubstr("write another name, or an IPv4 address")));
-  }
+  EXPECT_THAT([] { (void)endpoint_of("--target", "256.0.0.1:5", 1); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("--target '256.0.0.1:5': host '256.0.0.1': "),
+                        HasSubstr("write another name, or an IPv4 address"))));
 }
 
 TEST(Endpoint, SaysWhatIsWrong) {
   for (const char* wrong : {"", "host:", "127.0.0.1:65536", "127.0.0.1:-1", "127.0.0.1:12a", "::1",
                             "1:2:3", "127.0.0.1: 5"}) {
-    try {
-      (void)parse_endpoint(wrong, 1);
-      FAIL() << wrong;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(),
-                  AllOf(HasSubstr("'" + std::string(wrong) + "'"), HasSubstr("for example")));
-    }
+    EXPECT_THAT([&] { (void)parse_endpoint(wrong, 1); },
+                ThrowsMessage<std::invalid_argument>(
+                    AllOf(HasSubstr("'" + std::string(wrong) + "'"), HasSubstr("for example"))));
   }
 }
 
