@@ -4,12 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 
 #include "program/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::program {
 namespace {
@@ -21,19 +21,18 @@ using testing::HasSubstr;
 /// A user's folder with the rigs "mine" and "stereo", and an empty folder to stand in.
 class ConfigFile : public testing::Test {
  protected:
-  ConfigFile() : folder_(fs::temp_directory_path() / ("splash-names-" + std::to_string(getpid()))) {
+  ConfigFile() {
     fs::create_directories(own());
-    fs::create_directories(folder_ / "here");
-    for (const char* name : {"mine", "stereo"}) touch(own() / (std::string(name) + ".yaml"));
+    fs::create_directories(here());
+    for (const char* name : {"mine.yaml", "stereo.yaml"}) touch(own() / name);
     setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
-    fs::current_path(folder_ / "here");
+    fs::current_path(here());
   }
   ~ConfigFile() override {
     fs::current_path(before_);
-    fs::remove_all(folder_);
     unsetenv("XDG_CONFIG_HOME");
   }
-  [[nodiscard]] fs::path own() const { return folder_ / "config" / "splash" / "rigs"; }
+  [[nodiscard]] fs::path own() const { return folder_ / "config/splash/rigs"; }
   [[nodiscard]] fs::path here() const { return folder_ / "here"; }
   static void touch(const fs::path& path) { std::ofstream(path) << "name: x\n"; }
   static fs::path find(const fs::path& wanted) { return find_config("--rig", "rigs", wanted); }
@@ -48,7 +47,7 @@ class ConfigFile : public testing::Test {
 
  private:
   fs::path before_ = fs::current_path();
-  fs::path folder_;
+  tests::TemporaryFolder folder_;
 };
 
 TEST_F(ConfigFile, OnesOwnGoesBeforeTheShippedOne) {

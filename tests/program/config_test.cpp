@@ -3,12 +3,10 @@
 #include "program/config.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <fstream>
 
 #include "program/config_value.hpp"
 #include "program/text.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::program {
 namespace {
@@ -98,16 +96,13 @@ TEST(Config, AMapOutlivesItsParent) {
 }
 
 TEST(Config, LoadsAFile) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "splash-config-XXXXXX").string();
-  const std::filesystem::path folder = mkdtemp(pattern.data());
-  const auto path = folder / "good.yaml";
-  std::ofstream(path) << "\xef\xbb\xbfname: t\xc3\xbcmpel\r\n";  // with a byte order mark and CRLF
+  const tests::TemporaryFolder folder;
   Everything out;
-  const auto map = ConfigMap::load(path);
+  const auto map = ConfigMap::load(  // with a byte order mark and CRLF
+      folder.write("good.yaml", "\xef\xbb\xbfname: t\xc3\xbcmpel\r\n"));
   map.read(kFields, {}, out);
   EXPECT_EQ(out.name, "t\xc3\xbcmpel");
-  EXPECT_EQ(map.folder(), folder);
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(map.folder(), folder.path());
 }
 
 TEST(Number, OneSpellingEach) {
