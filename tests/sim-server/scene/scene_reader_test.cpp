@@ -173,12 +173,8 @@ TEST(SceneReader, RefusesBodiesThatNoEventCanTellOf) {
   text.insert(
       end,
       "  - {name: one_more, shape: {size: [0.1, 0.1, 0.1]}, rest: {position: [0.2, 0.2, 0.2]}}\n");
-  try {
-    (void)parse_scene(text, "small.yaml");
-    FAIL() << "events of the last body could not be sent";
-  } catch (const std::exception& error) {
-    EXPECT_THAT(error.what(), HasSubstr("body 257, and events tell of 256 at most"));
-  }
+  EXPECT_THAT(tests::refusal([&] { return parse_scene(text, "small.yaml"); }),
+              HasSubstr("body 257, and events tell of 256 at most"));
 }
 
 TEST(SceneReader, ReadsFreeBodies) {

@@ -6,12 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -23,7 +21,9 @@ namespace splash::sim {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 RunReport example() {
   RunReport report;
@@ -59,10 +59,7 @@ RunReport example() {
 }
 
 TEST(Report, HasNoKeyThatTheDocumentsLackNorTheyOneThatItLacks) {
-  std::ifstream file(tests::source_folder() / "docs" / "running.md");
-  std::stringstream all;
-  all << file.rdbuf();
-  const std::string text = all.str();
+  const std::string text = tests::text_of(tests::source_folder() / "docs" / "running.md");
   const std::size_t start = text.find("\n## The report\n");
   ASSERT_NE(start, std::string::npos);
   const std::string section = text.substr(start, text.find("\n## ", start + 1) - start);
@@ -149,21 +146,14 @@ TEST(Report, IsWrittenWholeAndReplacesAnOlderOne) {
   EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator()), 1) << "no draft is left";
 }
 
-std::string refusal(const std::filesystem::path& path) {
-  try {
-    write_report(path, example());
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "written";
-}
-
 TEST(Report, RefusalsNameThePathAndTheCause) {
   const tests::TemporaryFolder folder;
   const auto nowhere = folder / "no" / "such" / "r.json";
-  EXPECT_THAT(refusal(nowhere), HasSubstr(nowhere.string()));
-  EXPECT_THAT(refusal(nowhere), HasSubstr("No such file"));
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("directory"));
+  EXPECT_THAT([&] { write_report(nowhere, example()); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr(nowhere.string()), HasSubstr("No such file"))));
+  EXPECT_THAT([&] { write_report(folder.path(), example()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("directory")));
 }
 
 // By way of a link: if the report ever replaced what it should write into, run by root, this test
@@ -173,7 +163,8 @@ TEST(Report, ADeviceIsWrittenInPlaceAndItsErrorTold) {
   const tests::TemporaryFolder folder;
   const auto link = folder / "full";
   std::filesystem::create_symlink("/dev/full", link);
-  EXPECT_THAT(refusal(link), HasSubstr("No space left"));
+  EXPECT_THAT([&] { write_report(link, example()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("No space left")));
   EXPECT_TRUE(std::filesystem::is_symlink(link));
 }
 

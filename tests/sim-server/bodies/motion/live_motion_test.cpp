@@ -49,12 +49,11 @@ TEST(LiveMotion, WaitsAtRest) {
 }
 
 TEST(LiveMotion, FollowsASwing) {
-  LiveMotion motion(kRest);
   SentPoses poses = sent_by({.rate = 60.0, .jitter = 0.002}, swing);
   for (SentPose& pose : poses) {
     pose.rotation = from_turn({0.0, 0.5 * std::sin(2 * M_PI * pose.taken), 0.0});
   }
-  for (const PlayedState& frame : LivePlay(motion).play(poses, 1.9)) {
+  for (const PlayedState& frame : LivePlay(kRest).play(poses, 1.9)) {
     const double t = frame.wall + 0.5 * kFrame;
     if (t < 0.3) continue;
     EXPECT_NEAR(frame.state.position[0], swing(t)[0], 0.004) << t;
@@ -114,23 +113,21 @@ TEST(LiveMotion, BridgesAGapForAsLongAsItMay) {
   EXPECT_NEAR(later.position[0], last + 0.2 + 0.025, 0.003) << "half the speed while it stops";
 }
 
-// At 30 Hz 25 ms are less than the time between two poses.
-/// At 60 poses a second by radio one is lost now and then: the hand goes on, and the next pose
-/// finds it where it is.
+// At 60 poses a second by radio one is lost now and then: the hand goes on, and the next pose
+// finds it where it is.
 TEST(LiveMotion, ALostPoseAtSixtyHertzIsNoJolt) {
   const auto fast_swing = [](double t) {
     return Vector3{0.2 * std::sin(2.0 * std::numbers::pi * t), 0.0, 0.3};  // 1.26 m/s, 7.9 m/s2
   };
   const SentPoses all = sent_by({.rate = 60.0, .until = 3.0}, fast_swing);
-  LiveMotion whole({0.0, fast_swing(0.0), {0.0, 0.0, 0.0, 1.0}});
-  const auto wanted = LivePlay(whole).play(all, 3.0);
+  const Keyframe rest = {0.0, fast_swing(0.0), kUpright};
+  const auto wanted = LivePlay(rest).play(all, 3.0);
   double astray = 0.0;
   double slower = 0.0;
   for (std::size_t lost = 70; lost < 130; ++lost) {
     SentPoses some = all;
     some.erase(some.begin() + static_cast<std::ptrdiff_t>(lost));
-    LiveMotion motion({0.0, fast_swing(0.0), {0.0, 0.0, 0.0, 1.0}});
-    LivePlay play(motion);
+    LivePlay play(rest);
     const auto played = play.play(some, 3.0);
     EXPECT_EQ(play.refused(), 0);
     for (std::size_t k = 0; k < played.size(); ++k) {
@@ -143,18 +140,25 @@ TEST(LiveMotion, ALostPoseAtSixtyHertzIsNoJolt) {
   EXPECT_LT(slower, 0.25);
 }
 
-TEST(LiveMotion, DoesNotStopBetweenSlowPoses) {
-  LiveMotion motion(kRest);
+/// That poses of a steady motion, `rate` a second, are played at its speed `from` then on [s].
+void expect_steady(double rate, const LiveGap& gap, double from) {
   const auto steady = [](double t) { return Vector3{t, 0.0, 1.0}; };
-  for (const PlayedState& frame : LivePlay(motion).play(sent_by({.rate = 30.0}, steady), 1.9)) {
-    if (frame.wall > 0.2) {
-      EXPECT_NEAR(frame.state.velocity[0], 1.0, 0.02) << frame.wall;
-    }
+  LivePlay play(kRest, 0.0, gap);
+  for (const PlayedState& frame : play.play(sent_by({.rate = rate}, steady), 1.9)) {
+    if (frame.wall < from) continue;
+    EXPECT_NEAR(frame.state.velocity[0], 1.0, 0.02) << frame.wall;
   }
 }
 
+// At 30 Hz 25 ms are less than the time between two poses.
+TEST(LiveMotion, DoesNotStopBetweenSlowPoses) {
+  expect_steady(30.0, {}, 0.2);
+}
+
+constexpr LiveGap kHeld = {.coast = 0.0, .fade = 0.0, .hold = true};
+
 TEST(LiveMotion, HoldsAGapAtTheLastPose) {
-  LiveMotion motion(kRest, {}, {.coast = 0.0, .fade = 0.0, .hold = true});
+  LiveMotion motion(kRest, {}, kHeld);
   walk(motion);
   const double last = 29 / 60.0;
   EXPECT_NEAR(at(motion, last + 0.1).position[0], last, 1.0e-3);
@@ -163,13 +167,7 @@ TEST(LiveMotion, HoldsAGapAtTheLastPose) {
 }
 
 TEST(LiveMotion, HeldBodiesMoveAtTheirSpeedBetweenPoses) {
-  LiveMotion motion(kRest, {}, {.coast = 0.0, .fade = 0.0, .hold = true});
-  const auto steady = [](double t) { return Vector3{t, 0.0, 1.0}; };
-  for (const PlayedState& frame : LivePlay(motion).play(sent_by({.rate = 60.0}, steady), 1.9)) {
-    if (frame.wall > 0.6) {
-      EXPECT_NEAR(frame.state.velocity[0], 1.0, 0.02) << frame.wall;
-    }
-  }
+  expect_steady(60.0, kHeld, 0.6);
 }
 
 TEST(LiveMotion, AppearsAtOnceWhereItIsFoundFirstOrFarAway) {

@@ -67,7 +67,8 @@ class LivePlay {
  public:
   static constexpr double kFrame = 1.0 / 160.0;  // [s]
 
-  explicit LivePlay(LiveMotion& motion, double begin = 0.0) : motion_(motion), wall_(begin) {}
+  explicit LivePlay(const Keyframe& rest, double begin = 0.0, const LiveGap& gap = {})
+      : motion(rest, {}, gap), wall_(begin) {}
 
   std::vector<PlayedState> play(SentPoses poses, double until, double factor = 1.0) {
     std::stable_sort(poses.begin(), poses.end(),
@@ -78,11 +79,11 @@ class LivePlay {
       for (; next < poses.size() && poses[next].arrival <= wall_; ++next) {
         const SentPose& pose = poses[next];
         const PoseRefusal refusal =
-            motion_.push(pose.position, pose.rotation, {pose.arrival, pose.sent});
+            motion.push(pose.position, pose.rotation, {pose.arrival, pose.sent});
         refused_ += refusal != PoseRefusal::none;
       }
-      motion_.begin({seconds_, wall_, kFrame});
-      played.push_back({wall_, seconds_ + 0.5 * kFrame, motion_.at(seconds_ + 0.5 * kFrame)});
+      motion.begin({seconds_, wall_, kFrame});
+      played.push_back({wall_, seconds_ + 0.5 * kFrame, motion.at(seconds_ + 0.5 * kFrame)});
       seconds_ += kFrame;
       wall_ += kFrame / factor;
     }
@@ -90,8 +91,9 @@ class LivePlay {
   }
   [[nodiscard]] int refused() const noexcept { return refused_; }
 
+  LiveMotion motion;
+
  private:
-  LiveMotion& motion_;
   double wall_;
   double seconds_ = 0.0;
   int refused_ = 0;

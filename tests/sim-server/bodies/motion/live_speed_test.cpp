@@ -40,23 +40,21 @@ double worst_speed(const std::vector<PlayedState>& played, double from, double l
 
 TEST(LiveSpeed, JitterOf30MsChangesTaggedSpeedsByATenthAtMost) {
   for (const double rate : {30.0, 60.0, 120.0, 240.0}) {
-    LiveMotion motion(kRest);
-    LivePlay play(motion);
+    LivePlay play(kRest);
     const SentPoses poses =
         sent_by({.rate = rate, .until = 8.0, .jitter = 0.030, .tagged = true}, plunges);
     EXPECT_LT(worst_speed(play.play(poses, 8.0), 1.0, 0.030), 0.1) << rate;
     EXPECT_EQ(play.refused(), 0) << rate;
-    EXPECT_LE(motion.delay(), 0.030) << rate;
+    EXPECT_LE(play.motion.delay(), 0.030) << rate;
   }
 }
 
 TEST(LiveSpeed, WithoutJitterPosesAreNotDelayed) {
   for (const bool tagged : {false, true}) {
-    LiveMotion motion(kRest);
-    LivePlay play(motion);
+    LivePlay play(kRest);
     const SentPoses poses = sent_by({.until = 4.0, .tagged = tagged}, plunges);
     EXPECT_LT(worst_speed(play.play(poses, 4.0), 1.0, 0.0), 0.02);
-    EXPECT_LT(motion.delay(), 0.001);
+    EXPECT_LT(play.motion.delay(), 0.001);
   }
 }
 
@@ -64,18 +62,16 @@ TEST(LiveSpeed, WithoutJitterPosesAreNotDelayed) {
 // not.
 TEST(LiveSpeed, JitterOf30MsWithoutTagsIsEvenedOut) {
   for (const double rate : {60.0, 120.0, 240.0}) {
-    LiveMotion motion(kRest);
-    LivePlay play(motion);
+    LivePlay play(kRest);
     const SentPoses poses = sent_by({.rate = rate, .until = 8.0, .jitter = 0.030}, plunges);
     EXPECT_LT(worst_speed(play.play(poses, 8.0), 1.0, 0.030), 0.65) << rate;
-    EXPECT_LE(motion.delay(), 0.030) << rate;
+    EXPECT_LE(play.motion.delay(), 0.030) << rate;
   }
 }
 
 TEST(LiveSpeed, JitterThatKeepsTheOrderIsEvenedOutWithoutTags) {
   for (const double rate : {30.0, 60.0, 120.0}) {
-    LiveMotion motion(kRest);
-    LivePlay play(motion);
+    LivePlay play(kRest);
     const SentPoses poses = sent_by({.rate = rate, .until = 6.0, .jitter = 0.6 / rate}, plunges);
     EXPECT_LT(worst_speed(play.play(poses, 6.0), 1.0, 0.020), rate < 60.0 ? 0.35 : 0.15) << rate;
   }
@@ -88,8 +84,7 @@ TEST(LiveSpeed, ASendersOwnUnevenClockIsNotSmoothed) {
   for (double t = 0.0; t < 8.0; t += std::max(uneven(random), 0.3) / 60.0) {
     poses.push_back({.taken = t, .arrival = t, .position = plunges(t)});
   }
-  LiveMotion motion(kRest);
-  LivePlay play(motion);
+  LivePlay play(kRest);
   EXPECT_LT(worst_speed(play.play(poses, 8.0), 1.5, 0.0), 0.15);
 }
 
@@ -98,8 +93,7 @@ TEST(LiveSpeed, LostPosesDoNotChangeIt) {
     SentPoses poses = sent_by({.until = 8.0, .tagged = tagged}, plunges);
     std::mt19937 random(5);
     std::erase_if(poses, [&](const SentPose&) { return random() % 5 == 0; });
-    LiveMotion motion(kRest);
-    LivePlay play(motion);
+    LivePlay play(kRest);
     EXPECT_LT(worst_speed(play.play(poses, 8.0), 1.5, 0.0), 0.15) << tagged;
     EXPECT_EQ(play.refused(), 0);
   }
@@ -111,16 +105,14 @@ TEST(LiveSpeed, RatesMayChange) {
     const SentPoses more = sent_by({.rate = rate, .from = from, .until = from + 3.0}, plunges);
     poses.insert(poses.end(), more.begin(), more.end());
   }
-  LiveMotion motion(kRest);
-  LivePlay play(motion);
+  LivePlay play(kRest);
   EXPECT_LT(worst_speed(play.play(poses, 9.0), 1.0, 0.0), 0.15);
 }
 
 // A real-time factor of 0.3: 21 ms of poses in each frame of 6 ms.
 TEST(LiveSpeed, IsThatOnTheWallWhereTheMachineIsTooSlow) {
   for (const bool tagged : {false, true}) {
-    LiveMotion motion(kRest);
-    LivePlay play(motion);
+    LivePlay play(kRest);
     const auto played = play.play(sent_by({.until = 6.0, .tagged = tagged}, plunges), 5.9, 0.3);
     EXPECT_EQ(play.refused(), 0);
     EXPECT_LT(worst_speed(played, 1.0, 0.02), 0.1);
@@ -155,10 +147,10 @@ TEST(LiveSpeed, AStallIsNoSpeed) {
 // The first clock reading of a host that has been up for months, or of one that just began.
 TEST(LiveSpeed, PosesThatCameBeforeTimeBeganAreNotInItsWay) {
   for (const double up : {10.0, 3.0e7}) {
-    LiveMotion motion(kRest);
-    LivePlay early(motion, up);
+    LivePlay early(kRest, up);
     for (const SentPose& pose : sent_by({.from = up - 0.5, .until = up}, splashes)) {
-      EXPECT_EQ(motion.push(pose.position, pose.rotation, {pose.arrival, {}}), PoseRefusal::none);
+      EXPECT_EQ(early.motion.push(pose.position, pose.rotation, {pose.arrival, {}}),
+                PoseRefusal::none);
     }
     const auto played = early.play(sent_by({.from = up, .until = up + 2.0}, splashes), up + 1.9);
     EXPECT_EQ(early.refused(), 0);
@@ -177,8 +169,7 @@ TEST(LiveSpeed, OutliersOfAFrameOrTwoAreRefused) {
           ++outliers;
         }
       }
-      LiveMotion motion(kRest);
-      LivePlay play(motion);
+      LivePlay play(kRest);
       for (const PlayedState& frame : play.play(poses, 6.1)) {
         if (frame.wall > 0.3) {
           EXPECT_LT(length(frame.state.velocity), 2.2) << frame.wall;
@@ -196,8 +187,7 @@ TEST(LiveSpeed, AJumpThatStaysIsABodyFoundElsewhere) {
       const auto jumps = [way](double t) {
         return splashes(t) + Vector3{t < 2.0 ? 0.0 : way, 0.0, 0.0};
       };
-      LiveMotion motion(kRest);
-      LivePlay play(motion);
+      LivePlay play(kRest);
       for (const PlayedState& frame :
            play.play(sent_by({.rate = rate, .until = 4.0}, jumps), 3.9)) {
         if (frame.wall < 0.3) continue;
@@ -215,8 +205,7 @@ TEST(LiveSpeed, RealHandsAreNotRefused) {
   for (const double rate : {60.0, 120.0, 240.0}) {
     for (const double noise : {0.0, 0.001}) {
       for (const auto& hand : {shakes, splashes}) {
-        LiveMotion motion(kRest);
-        LivePlay play(motion);
+        LivePlay play(kRest);
         play.play(sent_by({.rate = rate, .until = 4.0, .noise = noise}, hand), 3.9);
         EXPECT_EQ(play.refused(), 0) << rate << " Hz, noise " << noise;
       }
@@ -231,8 +220,7 @@ TEST(LiveSpeed, ABlowIsNotRefused) {
       const double fallen = t < 0.7 ? 0.0 : 5.0 * (t - 0.7) * (t - 0.7);  // 3 m/s at the table
       return Vector3{0.0, 0.0, std::max(1.45 - fallen, 1.0)};
     };
-    LiveMotion motion(kRest);
-    LivePlay play(motion);
+    LivePlay play(kRest);
     const auto played = play.play(sent_by({.rate = rate, .until = 2.0}, blow), 1.9);
     EXPECT_EQ(play.refused(), 0) << rate;
     EXPECT_NEAR(played.back().state.position[2], 1.0, 1.0e-3);
@@ -245,8 +233,7 @@ TEST(LiveSpeed, ASendersClockMayBeSet) {
     if (pose.taken > 2.0) *pose.sent += 3600.0;
     if (pose.taken > 4.0) *pose.sent -= 7200.0;
   }
-  LiveMotion motion(kRest);
-  LivePlay play(motion);
+  LivePlay play(kRest);
   for (const PlayedState& frame : play.play(poses, 5.9)) {
     if (frame.wall < 0.3) continue;
     EXPECT_LT(length(frame.state.velocity), 2.0) << frame.wall;
@@ -260,22 +247,20 @@ TEST(LiveSpeed, ClocksMayDrift) {
   SentPoses poses =
       sent_by({.rate = 60.0, .until = 600.0, .jitter = 0.01, .tagged = true}, splashes);
   for (SentPose& pose : poses) *pose.sent += 1.0e-4 * pose.taken;
-  LiveMotion motion(kRest);
-  LivePlay play(motion);
+  LivePlay play(kRest);
   const auto played = play.play(poses, 599.9);
   for (std::size_t i = played.size() - 1600; i < played.size(); ++i) {
-    const double t = played[i].wall + 0.5 * kFrame - motion.delay();
+    const double t = played[i].wall + 0.5 * kFrame - play.motion.delay();
     EXPECT_LT(length(played[i].state.position - splashes(t)), 0.01);
   }
   EXPECT_EQ(play.refused(), 0);
 }
 
 TEST(LiveSpeed, APoseThatWasHeldUpForLongIsRefused) {
-  LiveMotion motion(kRest);
-  LivePlay play(motion);
+  LivePlay play(kRest);
   play.play(sent_by({.until = 4.0, .tagged = true}, splashes), 3.9);
   const auto refusal = [&](double taken) {
-    return motion.push(splashes(taken), {0, 0, 0, 1}, {4.0, taken + Sender{}.clock});
+    return play.motion.push(splashes(taken), {0, 0, 0, 1}, {4.0, taken + Sender{}.clock});
   };
   EXPECT_EQ(refusal(3.5), PoseRefusal::none) << "it belongs between those before and after";
   EXPECT_EQ(refusal(2.5), PoseRefusal::too_old);

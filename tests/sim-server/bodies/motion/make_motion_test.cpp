@@ -12,6 +12,7 @@
 #include "sim-server/bodies/motion/live_motion.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/scene_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
@@ -19,8 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path kWalk =
-    std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes" / "walk.trc";
+const std::filesystem::path kWalk = tests::scene_folder() / "walk.trc";
 
 BodySettings body(MotionKind kind) {
   BodySettings settings;

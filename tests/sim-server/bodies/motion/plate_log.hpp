@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -30,8 +29,7 @@ struct PlateRow {
 };
 
 inline std::vector<PlateRow> read_plates() {
-  std::ifstream file(std::filesystem::path(SPLASH_SOURCE_DIR) / "tests" / "data" /
-                     "walk_plates.csv");
+  std::ifstream file(SPLASH_SOURCE_DIR "/tests/data/walk_plates.csv");
   std::vector<PlateRow> rows;
   for (std::string line; std::getline(file, line);) {
     std::replace(line.begin(), line.end(), ',', ' ');

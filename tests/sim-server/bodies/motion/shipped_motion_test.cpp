@@ -8,6 +8,7 @@
 #include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/bodies/motion/sole_calibration.hpp"
 #include "sim-server/scene/scene_reader.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::sim {
 namespace {
@@ -32,13 +33,8 @@ std::vector<Entry> entries(const BodySettings& body, const Motion& motion, doubl
   return found;
 }
 
-Scene shipped(const std::string& name) {
-  return read_scene(std::filesystem::path(SPLASH_SOURCE_DIR) / "configs" / "scenes" /
-                    (name + ".yaml"));
-}
-
 TEST(ShippedMotion, TheHandPlungesFourTimes) {
-  const Scene scene = shipped("basin");
+  const Scene scene = read_scene(tests::scene_file("basin"));
   const auto motion = make_motion(scene.bodies.at(0), {});
   const auto plunges = entries(scene.bodies[0], *motion, 0.5, 10.0);
   ASSERT_EQ(plunges.size(), 4U);
@@ -60,7 +56,7 @@ TEST(ShippedMotion, TheHandPlungesFourTimes) {
 }
 
 TEST(ShippedMotion, FeetInThePoolStepInTurnAndStand) {
-  const Scene scene = shipped("pool");
+  const Scene scene = read_scene(tests::scene_file("pool"));
   std::vector<Entry> all;
   for (const auto& body : scene.bodies) {
     const auto motion = make_motion(body, {});
@@ -82,7 +78,7 @@ TEST(ShippedMotion, FeetInThePoolStepInTurnAndStand) {
 }
 
 TEST(ShippedMotion, TheDiscMeetsTheLevelAtItsTimeAndSpeed) {
-  const Scene scene = shipped("plunge");
+  const Scene scene = read_scene(tests::scene_file("plunge"));
   const auto motion = make_motion(scene.bodies.at(0), {});
   const auto plunges = entries(scene.bodies[0], *motion, 0.3, 5.0);
   ASSERT_EQ(plunges.size(), 1U);
