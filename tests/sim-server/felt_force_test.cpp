@@ -17,6 +17,7 @@
 #include "sim-server/device/device.hpp"
 #include "sim-server/gauge/body_push.hpp"
 #include "sim-server/gauge/film_force.hpp"
+#include "sim-server/gauge/water_state.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
@@ -34,14 +35,12 @@ bodies:
     rest: {position: [0.2, 0.2, 0.2]}
 )";
 
-constexpr double kFrame = 1.0 / 160.0;  // [s]
+constexpr double kFrame = 1.0 / 160.0;                            // [s]
+constexpr double kDisplaced = 998.0 * 9.81 * 0.12 * 0.12 * 0.12;  ///< weight of the box's water [N]
 
-/// A body that poses move at `speed` along x from `from` on.
-void push_poses(Simulation& simulation, const Vector3& from, double speed) {
-  PosedMotion* const body = simulation.live_body(0);
-  const double now = simulation.seconds();
-  const Vector3 place = from + Vector3{speed * now, 0.0, 0.0};
-  static_cast<void>(body->push(place, {0.0, 0.0, 0.0, 1.0}, {now, {}}));
+/// The box in water of these settings.
+Scene held(const std::string& fluid) {
+  return parse_scene("fluid: {" + fluid + "}" + kHeldBox, "held.yaml");
 }
 
 BodyForce in_doubles(Simulation& simulation, Fluid& fluid) {
@@ -51,8 +50,7 @@ BodyForce in_doubles(Simulation& simulation, Fluid& fluid) {
 
 TEST(FeltForce, IsThatOfSumsInDoublePrecision) {
   Device device;
-  const Scene scene =
-      parse_scene("fluid: {spacing: 0.03, solver: weakly_compressible}" + kHeldBox, "held.yaml");
+  const Scene scene = held("spacing: 0.03, solver: weakly_compressible");
   Simulation simulation(device, scene, {});
   ASSERT_TRUE(simulation.can_feel());
   EXPECT_TRUE(simulation.advance().pushes.empty()) << "nobody asked";
@@ -87,7 +85,7 @@ TEST(FeltForce, IsThatOfSumsInDoublePrecision) {
 /// Mean force on the box over 40 frames, in its displaced weight [1].
 Vector3 felt_share(const std::string& fluid, double height) {
   Device device;
-  Scene scene = parse_scene("fluid: {" + fluid + "}" + kHeldBox, "held.yaml");
+  Scene scene = held(fluid);
   scene.bodies[0].rest.position[2] = height;
   Simulation simulation(device, scene, {});
   simulation.feel(true);
@@ -99,10 +97,9 @@ Vector3 felt_share(const std::string& fluid, double height) {
     if (frame.pushes.empty()) return {};
     mean = mean + (1.0 / kFrames) * frame.pushes[0].force;
   }
-  const double weight = 998.0 * 9.81 * 0.12 * 0.12 * 0.12;
   std::printf("%s, at %.3f m: %.4f %.4f %.4f of the displaced weight\n", fluid.c_str(), height,
-              mean[0] / weight, mean[1] / weight, mean[2] / weight);
-  return (1.0 / weight) * mean;
+              mean[0] / kDisplaced, mean[1] / kDisplaced, mean[2] / kDisplaced);
+  return (1.0 / kDisplaced) * mean;
 }
 
 TEST(FeltForce, OfAHeldBoxIsTheWeightOfWhatItDisplaces) {
@@ -117,7 +114,7 @@ TEST(FeltForce, OfAHeldBoxIsTheWeightOfWhatItDisplaces) {
 // Who asks while all water sleeps is told the same, and nothing wakes for longer than a frame.
 TEST(FeltForce, InWaterThatSleepsIsThatWeightAsWell) {
   Device device;
-  Simulation simulation(device, parse_scene("fluid: {spacing: 0.02}" + kHeldBox, "held.yaml"), {});
+  Simulation simulation(device, held("spacing: 0.02"), {});
   const std::uint64_t& idle = simulation.totals().skipped.idle;
   while (idle < 10 && simulation.seconds() < 10.0) static_cast<void>(simulation.advance());
   ASSERT_EQ(idle, 10U) << "it does not sleep";
@@ -126,7 +123,7 @@ TEST(FeltForce, InWaterThatSleepsIsThatWeightAsWell) {
   for (int k = 0; k < 20; ++k) {
     const FrameResult frame = simulation.advance();
     ASSERT_EQ(frame.pushes.size(), 1U);
-    share = frame.pushes[0].force[2] / (998.0 * 9.81 * 0.12 * 0.12 * 0.12);
+    share = frame.pushes[0].force[2] / kDisplaced;
     EXPECT_NEAR(share, 1.0, 0.03);
   }
   std::printf("asleep %.4f of the displaced weight\n", share);
@@ -142,8 +139,7 @@ TEST(FeltForce, OfABoxNextToTheFloorIsThatWeightAsWell) {
 
 TEST(FeltForce, OfAFilmIsThatOfSumsInDoublePrecision) {
   Device device;
-  Scene scene =
-      parse_scene("fluid: {spacing: 0.03, solver: weakly_compressible}" + kHeldBox, "held.yaml");
+  Scene scene = held("spacing: 0.03, solver: weakly_compressible");
   scene.bodies[0].rest.position = {0.2, 0.2, 0.065};
   Simulation simulation(device, scene, {});
   simulation.feel(true);
@@ -167,72 +163,61 @@ TEST(FeltForce, OfAFilmIsThatOfSumsInDoublePrecision) {
   EXPECT_NEAR(by_film[2], film[2], 0.02 * std::abs(film[2]));
 }
 
-struct Case {
-  std::string fluid;
-  std::string motion;
-  bool grabbed = false;
-};
-const Case kTracked = {"sound_speed: 20",
-                       "motion: {kind: osc}\n    rest: {position: [-0.15, 0, 0.3]}"};
-const Case kGrabbed = {"sound_speed: 20",
-                       "motion: {kind: script, keyframes: [{time: 0, position: [-0.15, 0, 0.3]}]}",
-                       true};
-
 /// A ball of water that floats in the air without weight, and a plate that runs into it: the
 /// momentum of the forces in what it gets [1].
-double momentum_felt(const Case& one, double speed, int frames) {
+double momentum_felt(bool grabbed, double speed, int frames) {
   Device device;
-  const Scene scene =
-      parse_scene("fluid: {spacing: 0.02, gravity: [0, 0, 0], settle: never, " + one.fluid + R"(}
+  const std::string motion =
+      grabbed ? "motion: {kind: script, keyframes: [{time: 0, position: [-0.15, 0, 0.3]}]}"
+              : "motion: {kind: osc}\n    rest: {position: [-0.15, 0, 0.3]}";
+  const Scene scene = parse_scene(
+      R"(fluid: {spacing: 0.02, gravity: [0, 0, 0], settle: never, sound_speed: 20}
 tank: {lower: [-0.5, -0.3, 0], upper: [0.5, 0.3, 0.6]}
 water: [{lower: [-0.1, -0.1, 0.2], upper: [0.1, 0.1, 0.4], form: sphere}]
 bodies:
   - name: plate
     shape: {size: [0.06, 0.16, 0.16]}
-    )" + one.motion + "\n",
-                  "ball.yaml");
+    )" + motion +
+          "\n",
+      "ball.yaml");
   Simulation simulation(device, scene, {});
   simulation.feel(true);
-  if (one.grabbed) {
+  if (grabbed) {
     EXPECT_TRUE(simulation.advance().pushes.empty()) << "nobody holds it";
     simulation.live_body(0)->grab(true);
     static_cast<void>(simulation.advance());
   }
   Vector3 given = {};
-  const auto momentum = [&] {
-    const WaterState water = read_water(simulation.fluid(), false);
-    Vector3 sum = {};
-    for (const Vector3& velocity : water.velocity) sum = sum + water.mass * velocity;
-    return sum;
-  };
-  const Vector3 before = momentum();
+  const auto momentum_now = [&] { return momentum(read_water(simulation.fluid(), false)).sum; };
+  const Vector3 before = momentum_now();
   for (int k = 0; k < frames; ++k) {
-    push_poses(simulation, {-0.15, 0.0, 0.3}, speed);
     const double start = simulation.seconds();
+    static_cast<void>(simulation.live_body(0)->push({-0.15 + speed * start, 0.0, 0.3},
+                                                    {0.0, 0.0, 0.0, 1.0}, {start, {}}));
     const FrameResult frame = simulation.advance();
-    if (one.grabbed && frame.pushes.empty() && k < 2) continue;  // it has not been held so long
+    if (grabbed && frame.pushes.empty() && k < 2) continue;  // it has not been held so long
     EXPECT_EQ(frame.pushes.size(), 1U);
     if (frame.pushes.empty()) return 0.0;
     given = given - (frame.seconds - start) * frame.pushes[0].force;
   }
-  const Vector3 got = momentum() - before;
-  std::printf("%s%s at %.1f m/s: momentum %.4f N s, by forces %.4f N s\n", one.fluid.c_str(),
-              one.grabbed ? ", grabbed," : "", speed, got[0], given[0]);
+  const Vector3 got = momentum_now() - before;
+  std::printf("%s at %.1f m/s: momentum %.4f N s, by forces %.4f N s\n",
+              grabbed ? "grabbed" : "tracked", speed, got[0], given[0]);
   EXPECT_GT(got[0], 0.3 * 4.18 * speed);
   return given[0] / got[0];
 }
 
 TEST(FeltForce, IsAllTheMomentumThatTheWaterGets) {
-  EXPECT_NEAR(momentum_felt(kTracked, 0.3, 70), 1.0, 0.005);
-  EXPECT_NEAR(momentum_felt(kTracked, 1.0, 22), 1.0, 0.005);
-  EXPECT_NEAR(momentum_felt(kGrabbed, 0.5, 45), 1.0, 0.005);
+  EXPECT_NEAR(momentum_felt(false, 0.3, 70), 1.0, 0.005);
+  EXPECT_NEAR(momentum_felt(false, 1.0, 22), 1.0, 0.005);
+  EXPECT_NEAR(momentum_felt(true, 0.5, 45), 1.0, 0.005);
 }
 
 // The body moves on from the frame's first step at either of two speeds: the force of the second
 // step differs by the rate. Without what rubs, which acts in one direction alone.
 TEST(FeltForce, ChangesWithTheSpeedByItsRate) {
   Device device;
-  const Scene scene = parse_scene("fluid: {spacing: 0.03, artificial: 0}" + kHeldBox, "held.yaml");
+  const Scene scene = held("spacing: 0.03, artificial: 0");
   Simulation simulation(device, scene, {});
   simulation.feel(true);
   const Vector3 rate = simulation.advance().pushes.at(0).by_speed;
@@ -277,8 +262,7 @@ TEST(FeltForce, ChangesWithTheSpeedByItsRate) {
 // the force of that frame.
 TEST(FeltForce, OfWaterOnAGridChangesWithTheSpeedByItsRate) {
   Device device;
-  Scene scene =
-      parse_scene("fluid: {spacing: 0.03, solver: grid_projected}" + kHeldBox, "held.yaml");
+  Scene scene = held("spacing: 0.03, solver: grid_projected");
   scene.bodies[0].rest.rotation = from_turn({0.3, -0.2, 0.1});
   Simulation simulation(device, scene, {});
   simulation.feel(true);
@@ -320,8 +304,7 @@ TEST(FeltForce, OfWaterOnAGridChangesWithTheSpeedByItsRate) {
 // Of the same pressures in double precision; the water settles, and what its motion adds is small.
 TEST(FeltForce, OfWaterAtRestOnAGridIsThatOfItsPressures) {
   Device device;
-  Scene scene =
-      parse_scene("fluid: {spacing: 0.03, solver: grid_projected}" + kHeldBox, "held.yaml");
+  Scene scene = held("spacing: 0.03, solver: grid_projected");
   scene.bodies[0].rest.rotation = from_turn({0.3, -0.2, 0.1});
   scene.bodies[0].rest.position = {0.21, 0.19, 0.3};
   Simulation simulation(device, scene, {});
@@ -339,7 +322,7 @@ TEST(FeltForce, OfWaterAtRestOnAGridIsThatOfItsPressures) {
 
 TEST(FeltForce, IsNoneOfAFreeBody) {
   Device device;
-  Scene free = parse_scene("fluid: {spacing: 0.03}" + kHeldBox, "held.yaml");
+  Scene free = held("spacing: 0.03");
   free.bodies[0].motion.kind = MotionKind::free;
   free.bodies[0].motion.density = 900.0;
   EXPECT_FALSE(Simulation(device, free, {}).can_feel());

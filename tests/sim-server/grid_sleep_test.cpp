@@ -54,12 +54,17 @@ const std::string kHand = ball(
     "{time: 2.35, position: [0.15, 0.15, 0.15]}]}\n");
 
 /// One of half the water's density, afloat.
-std::string box() {
-  return "bodies:\n"
-         "  - name: box\n"
-         "    shape: {kind: box, size: [0.16, 0.16, 0.08]}\n"
-         "    rest: {position: [0.15, 0.15, 0.15]}\n"
-         "    motion: {kind: free, density: 500}\n";
+constexpr char kBox[] = R"(bodies:
+  - name: box
+    shape: {kind: box, size: [0.16, 0.16, 0.08]}
+    rest: {position: [0.15, 0.15, 0.15]}
+    motion: {kind: free, density: 500}
+)";
+
+void expect_same(const Snapshot& a, const Snapshot& b) {
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.velocity, b.velocity);
+  EXPECT_EQ(a.id, b.id);
 }
 
 struct Rest {
@@ -109,10 +114,7 @@ TEST(GridSleep, AsksNothingOfTheDeviceAndMovesNothing) {
   EXPECT_EQ(bench::noted_commands(), bench::Commands{});
   EXPECT_TRUE(bench::end_ledger().empty());
   EXPECT_EQ(simulation.totals().steps, steps);
-  const Snapshot after = simulation.fluid().snapshot();
-  EXPECT_EQ(before.position, after.position);
-  EXPECT_EQ(before.velocity, after.velocity);
-  EXPECT_EQ(before.id, after.id);
+  expect_same(before, simulation.fluid().snapshot());
   const std::vector<int> moving =
       simulation.fluid().moving().read(device, static_cast<std::size_t>(simulation.particles()));
   EXPECT_EQ(moving, std::vector<int>(moving.size(), 0));
@@ -186,7 +188,7 @@ TEST(GridSleep, LetsAFreeBodyFallIntoTheWater) {
 // It floats at rest, then the water beneath it sleeps, too, and both as they were.
 TEST(GridSleep, HoldsAFloatThatRests) {
   Device device;
-  Simulation simulation(device, pond(box()), {});
+  Simulation simulation(device, pond(kBox), {});
   const Rest rest = run(simulation, 25.0);
   std::printf("asleep from %.2f s on, for %.2f s\n", rest.slept_at, rest.slept);
   ASSERT_GT(rest.slept, 1.0);
@@ -223,9 +225,7 @@ TEST(GridSleep, GivesTheSameBitsTwice) {
     ASSERT_GT(run(simulation, 2.6).slept, 0.5);
     ends.push_back(simulation.fluid().snapshot());
   }
-  EXPECT_EQ(ends[0].position, ends[1].position);
-  EXPECT_EQ(ends[0].velocity, ends[1].velocity);
-  EXPECT_EQ(ends[0].id, ends[1].id);
+  expect_same(ends[0], ends[1]);
 }
 
 // What sleeps would have moved by its speed times that long at most.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 #include "sim-server/gauge/gauges.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -75,25 +76,14 @@ TEST_P(LyingBody, KeepsItsBuoyancyOnTheFloorAndOnAnother) {
 
 INSTANTIATE_TEST_SUITE_P(Spacings, LyingBody, ::testing::Values(6, 8, 12));
 
-struct Light {
-  int density;
-  int per;
-  bool sleep;
-};
-
-std::string light_name(const ::testing::TestParamInfo<Light>& info) {
-  return std::to_string(info.param.density) + "_" + std::to_string(info.param.per) +
-         (info.param.sleep ? "_asleep" : "_awake");
-}
-
-class LightBody : public ::testing::TestWithParam<Light> {};
+/// Its density, spacings across it, and whether still water sleeps.
+class LightBody : public ::testing::TestWithParam<std::tuple<int, int, bool>> {};
 
 TEST_P(LightBody, RisesFromTheFloor) {
+  const auto& [density, per, sleep] = GetParam();
   Device device;
-  Scene scene =
-      pond(GetParam().per,
-           ball("ball", 0.06, "kind: free, density: " + std::to_string(GetParam().density)));
-  scene.skip.sleep = GetParam().sleep;
+  Scene scene = pond(per, ball("ball", 0.06, "kind: free, density: " + std::to_string(density)));
+  scene.skip.sleep = sleep;
   Simulation simulation(device, scene, {});
   double height = 0.0;
   while (simulation.seconds() < 4.0 && height < 0.18) {
@@ -104,16 +94,14 @@ TEST_P(LightBody, RisesFromTheFloor) {
   EXPECT_GE(height, 0.18);
 }
 
-std::vector<Light> lights() {
-  std::vector<Light> all;
-  for (const int per : {6, 8, 12}) {
-    for (const int density : {250, 500, 750}) {
-      for (const bool sleep : {true, false}) all.push_back({density, per, sleep});
-    }
-  }
-  return all;
-}
-INSTANTIATE_TEST_SUITE_P(Cases, LightBody, ::testing::ValuesIn(lights()), light_name);
+INSTANTIATE_TEST_SUITE_P(Cases, LightBody,
+                         ::testing::Combine(::testing::Values(250, 500, 750),
+                                            ::testing::Values(6, 8, 12), ::testing::Bool()),
+                         [](const auto& body) {
+                           return std::to_string(std::get<0>(body.param)) + "_" +
+                                  std::to_string(std::get<1>(body.param)) +
+                                  (std::get<2>(body.param) ? "_asleep" : "_awake");
+                         });
 
 }  // namespace
 }  // namespace splash::sim

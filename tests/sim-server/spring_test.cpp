@@ -47,6 +47,12 @@ BodyState cube(const Simulation& simulation) {
   return simulation.bodies().state(0, simulation.seconds());
 }
 
+/// The device is there now.
+void pose(Simulation& simulation, const Vector3& place,
+          const Quaternion& turn = {0.0, 0.0, 0.0, 1.0}) {
+  static_cast<void>(simulation.live_body(0)->push(place, turn, {simulation.seconds(), {}}));
+}
+
 Vector3 felt(const FrameResult& frame) {
   return frame.pushes.size() == 1U ? frame.pushes[0].force : Vector3{NAN, NAN, NAN};
 }
@@ -113,8 +119,7 @@ TEST(Spring, TurnsAsFastAsItSwings) {
   double before = 0.0;
   while (simulation.seconds() < 3.0) {
     const double now = simulation.seconds();
-    static_cast<void>(
-        simulation.live_body(0)->push({0.2, 0.2, 1.2}, from_turn({0.0, 0.0, 0.5}), {now, {}}));
+    pose(simulation, {0.2, 0.2, 1.2}, from_turn({0.0, 0.0, 0.5}));
     static_cast<void>(simulation.advance());
     const double angle = to_turn(cube(simulation).rotation)[2] - 0.5;
     if (now > 0.6 && before > 0.0 && angle <= 0.0) {
@@ -129,14 +134,12 @@ void expect_all_momentum(const std::string& fluid) {
   Device device;
   Simulation simulation(device, scene_of("1.2", "mass: 0.5, stiffness: 80, damping: 2", fluid), {});
   simulation.feel(true);
-  PosedMotion* const hand = simulation.live_body(0);
-  ASSERT_NE(hand, nullptr);
   Vector3 given = {};
   Vector3 turned = {};
   while (simulation.seconds() < 0.8) {
     const double now = simulation.seconds();
     const Quaternion turn = from_turn({0.0, 0.0, 0.4 * std::sin(4.0 * now)});
-    static_cast<void>(hand->push({0.2 + 0.05 * std::sin(5.0 * now), 0.2, 1.2}, turn, {now, {}}));
+    pose(simulation, {0.2 + 0.05 * std::sin(5.0 * now), 0.2, 1.2}, turn);
     const FrameResult frame = simulation.advance();
     ASSERT_EQ(frame.pushes.size(), 1U);
     const double seconds = frame.seconds - now;
@@ -160,14 +163,13 @@ TEST(Spring, NeverPullsAtOnceWhenPosesBeginOrJump) {
   Device device;
   Simulation simulation(device, scene_of("0.7", "mass: 1, stiffness: 200, damping: 10"), {});
   simulation.feel(true);
-  PosedMotion* const hand = simulation.live_body(0);
   double before = 0.0, steepest = 0.0, farthest = 0.0;
   Vector3 place = {0.2, 0.2, 0.7};
   while (simulation.seconds() < 4.0) {
     const double now = simulation.seconds();
     if (now > 1.0) place = {0.3, 0.1, 0.9};   // the first pose is elsewhere
     if (now > 2.5) place = {0.1, 0.3, 0.75};  // and the tracker jumps
-    if (now > 1.0) static_cast<void>(hand->push(place, {0, 0, 0, 1}, {now, {}}));
+    if (now > 1.0) pose(simulation, place);
     const double force = length(felt(simulation.advance()));
     if (now > 0.9) {
       steepest = std::max(steepest, std::abs(force - before));
@@ -185,11 +187,10 @@ TEST(Spring, IsSoundAfterAFrameWentWrongAndWhenTheSceneBeginsAnew) {
   Device device;
   Simulation simulation(device, scene_of("0.4", "mass: 0.7, stiffness: 100, damping: 5"), {});
   simulation.feel(true);
-  PosedMotion* const hand = simulation.live_body(0);
   const auto play = [&](double seconds, const Vector3& place) {
     double most = 0.0;
     for (const double end = simulation.seconds() + seconds; simulation.seconds() < end;) {
-      static_cast<void>(hand->push(place, {0, 0, 0, 1}, {simulation.seconds(), {}}));
+      pose(simulation, place);
       const double force = length(felt(simulation.advance()));
       EXPECT_TRUE(std::isfinite(force));
       most = std::max(most, force);
@@ -327,7 +328,7 @@ TEST(Spring, HoldsAMeshWhereItsFileHasItsOrigin) {
   const Vector3 corner = {0.25, 0.15, 1.1};
   FrameResult frame;
   while (simulation.seconds() < 2.5) {
-    static_cast<void>(simulation.live_body(0)->push(corner, turn, {simulation.seconds(), {}}));
+    pose(simulation, corner, turn);
     frame = simulation.advance();
   }
   const BodyState state = cube(simulation);
