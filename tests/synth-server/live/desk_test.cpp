@@ -11,9 +11,7 @@
 #include <random>
 #include <set>
 
-#include "synth-server/output/rig_reader.hpp"
 #include "synth-server/sound/sound_rows.hpp"
-#include "tests/support/programs.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
@@ -21,12 +19,8 @@ namespace {
 
 using testing::HasSubstr;
 
-Rig shipped(const std::string& name) {
-  return read_rig(tests::rig_path(name));
-}
-
 TEST(Desk, HasAKnobForEveryRowAndLevel) {
-  const Desk desk(shipped("tiles36.yaml"), {});
+  const Desk desk(shipped_rig("tiles36"), {});
   std::set<std::string> names;
   for (const Knob& knob : desk.knobs()) {
     EXPECT_TRUE(names.insert(knob.name).second) << knob.name;
@@ -43,7 +37,7 @@ TEST(Desk, HasAKnobForEveryRowAndLevel) {
 }
 
 TEST(Desk, TakesWhatIsInRangeAndSaysWhatIsAllowed) {
-  Desk desk(shipped("shoes.yaml"), {});
+  Desk desk(shipped_rig("shoes"), {});
   EXPECT_EQ(desk.set("impact/q", 2.0), "");
   EXPECT_EQ(desk.get("impact/q"), 2.0);
   EXPECT_EQ(desk.set("impact/q", 51.0), "51, allowed 0.6 to 50");
@@ -60,7 +54,7 @@ TEST(Desk, TakesWhatIsInRangeAndSaysWhatIsAllowed) {
 }
 
 TEST(Desk, TellsWhatHasChangedOnce) {
-  Desk desk(shipped("handheld.yaml"), {});
+  Desk desk(shipped_rig("handheld"), {});
   EXPECT_TRUE(desk.take_changes(64).empty());
   EXPECT_EQ(desk.set("bubble/pitch", 0.5), "");
   EXPECT_EQ(desk.set("bubble/pitch", 0.25), "");
@@ -80,7 +74,7 @@ TEST(Desk, TellsWhatHasChangedOnce) {
 /// A rig of a hand and two loudspeakers under changes, and what must hold of each sample.
 class DeskUnderHand : public testing::Test {
  protected:
-  DeskUnderHand() : rig_(shipped("handheld+stereo.yaml")), desk_(rig_, {}) {
+  DeskUnderHand() : rig_(shipped_rig("handheld+stereo")), desk_(rig_, {}) {
     settings_ = file_settings();
     settings_.controls = &desk_.box();
     engine_ = std::make_unique<Engine>(rig_, settings_);

@@ -6,34 +6,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "synth-server/output/rig_reader.hpp"
 #include "synth-server/play/player.hpp"
 #include "synth-server/receive/intake.hpp"
+#include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
 namespace {
 
-constexpr double kRate = 48000.0;
+constexpr int kBlock = 256;
 constexpr double kStart = 700.0;  // [s, monotonic]
 constexpr double kUnix = 1.8e9;   // at the same moment [s]
 constexpr protocol::Endpoint kSim{INADDR_LOOPBACK, 57300};
 
-Rig stereo() {
-  return read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml");
-}
-
-EngineSettings open_engine() {
-  EngineSettings settings;
-  settings.start_ramp = 0.0;
-  return settings;
-}
-
 /// A synth without threads: time passes block by block.
 class Chain {
  public:
-  Chain(double ramp, bool muted, int block = 256)
-      : block_(block),
-        engine_(stereo(), open_engine()),
+  Chain(double ramp, bool muted)
+      : engine_(shipped_rig("stereo"), file_settings()),
         player_(engine_, queue_, nullptr, {kRate, 4096, ramp, muted, {}}),
         intake_(queue_, {}, {},
                 LocalTime([this] { return kUnix + (now() - kStart); }, [this] { return now(); })) {}
@@ -44,21 +33,25 @@ class Chain {
     command.kind = kind;
     (void)queue_.push(command);
   }
-  /// A frame of the simulator with a cavity that sounds for seconds.
-  void cavity(double at) {
+  /// A frame of the simulator now, with what follows in its bundle.
+  void hear(const std::vector<protocol::Message>& more) {
+    std::vector<protocol::Message> all = {
+        protocol::to_message(protocol::Frame{1, sequence_++, 0, 0.0F})};
+    all.insert(all.end(), more.begin(), more.end());
     std::vector<Reply> replies;
-    const protocol::Frame frame{1, sequence_, 0, 0.0F};
-    const protocol::Cavity cavity{sequence_++, 0, 0.1F, 0.1F, {0.0F, 0.0F, 0.0F}, 0.0F};
-    intake_.datagram(protocol::encode(protocol::kImmediately,
-                                      {protocol::to_message(frame), protocol::to_message(cavity)}),
-                     kSim, at, replies);
+    intake_.datagram(protocol::encode(protocol::kImmediately, all), kSim, now(), replies);
   }
-  void heartbeat(double at) {
-    std::vector<Reply> replies;
-    intake_.datagram(
-        protocol::encode(protocol::kImmediately,
-                         {protocol::to_message(protocol::Frame{1, sequence_++, 0, 0.0F})}),
-        kSim, at, replies);
+  /// One that sounds for seconds.
+  void cavity() {
+    hear({protocol::to_message(
+        protocol::Cavity{sequence_, 0, 0.1F, 0.1F, {0.0F, 0.0F, 0.0F}, 0.0F})});
+  }
+  /// So many, a tenth of a second apart.
+  void cavities(int count) {
+    for (int i = 0; i < count; ++i) {
+      cavity();
+      run(0.1);
+    }
   }
   void run(double seconds, bool restart = false) {
     const double end = now() + seconds;
@@ -69,12 +62,8 @@ class Chain {
     if (intake_.next_expiry() <= until) intake_.tick(intake_.next_expiry());
   }
   [[nodiscard]] float peak_since(double moment) const {
-    float peak = 0.0F;
-    const auto from = static_cast<std::size_t>(std::llround((moment - kStart) * kRate));
-    for (std::size_t i = from; i < samples_.size(); ++i) {
-      peak = std::max(peak, std::abs(samples_[i]));
-    }
-    return peak;
+    return static_cast<float>(
+        loudest(samples_, static_cast<std::size_t>(std::llround((moment - kStart) * kRate))));
   }
   [[nodiscard]] double last_sound() const {
     const auto last = std::find_if(samples_.rbegin(), samples_.rend(),
@@ -88,14 +77,11 @@ class Chain {
  private:
   void call(bool restart) {
     tick_when_due(now());
-    std::vector<float> left(static_cast<std::size_t>(block_));
-    std::vector<float> right(left.size());
-    std::vector<float*> channels{left.data(), right.data()};
-    player_.render({channels.data(), block_, now(), false, restart});
-    samples_.insert(samples_.end(), left.begin(), left.end());
+    StereoBlock block(kBlock);
+    player_.render({block.pointers.data(), kBlock, now(), false, restart});
+    samples_.insert(samples_.end(), block.left.begin(), block.left.end());
   }
 
-  int block_;
   std::vector<float> samples_;
   int sequence_ = 0;
   CommandQueue queue_;
@@ -107,15 +93,10 @@ class Chain {
 TEST(RingingOut, SoundsAsIfTheSenderWereStillThere) {
   Chain gone(0.0, false);
   Chain there(0.0, false);
-  for (Chain* chain : {&gone, &there}) {
-    for (int event = 0; event < 4; ++event) {
-      chain->cavity(chain->now());
-      chain->run(0.1);
-    }
-  }
+  for (Chain* chain : {&gone, &there}) chain->cavities(4);
   const double last = gone.now();
   for (int beat = 0; beat < 60; ++beat) {
-    there.heartbeat(there.now());
+    there.hear({});
     there.run(0.1);
   }
   gone.run(there.now() - gone.now());
@@ -129,55 +110,42 @@ TEST(RingingOut, SoundsAsIfTheSenderWereStillThere) {
 
 TEST(RingingOut, TakesTheSenderBackInTheMiddleOfASound) {
   Chain chain(0.0, false);
-  chain.cavity(chain.now());
+  chain.cavity();
   chain.run(1.0);
   EXPECT_FALSE(chain.sender_present());
   const float before = chain.peak_since(chain.now() - 0.1);
   ASSERT_GT(before, 0.01F);
-  chain.cavity(chain.now());
   const double back = chain.now();
-  chain.run(0.1);
+  chain.cavities(1);
   EXPECT_TRUE(chain.sender_present());
   EXPECT_GT(chain.peak_since(back), before);
 }
 
 TEST(Gate, OpensOverTwoSecondsAndNotBefore) {
   Chain chain(2.0, false);
-  chain.cavity(chain.now());
+  chain.cavity();
   chain.run(0.02);
   EXPECT_LT(chain.peak_since(kStart), 1e-3F);
-  for (int i = 0; i < 22; ++i) {
-    chain.cavity(chain.now());
-    chain.run(0.1);
-  }
+  chain.cavities(22);
   EXPECT_GT(chain.peak_since(chain.now() - 0.1), 0.3F);
 }
 
 TEST(Gate, StaysShutWhileMutedAndOpensSlowlyAfterwards) {
   Chain chain(2.0, true);
-  for (int i = 0; i < 25; ++i) {
-    chain.cavity(chain.now());
-    chain.run(0.1);
-  }
+  chain.cavities(25);
   EXPECT_EQ(chain.peak_since(kStart), 0.0F) << "off until it is started";
   chain.say(Command::Kind::unmute);
   const double opened = chain.now();
-  chain.cavity(chain.now());
+  chain.cavity();
   chain.run(0.05);
   EXPECT_GT(chain.peak_since(opened), 0.0F);
   EXPECT_LT(chain.peak_since(opened), 0.01F);
-  for (int i = 0; i < 21; ++i) {
-    chain.cavity(chain.now());
-    chain.run(0.1);
-  }
+  chain.cavities(21);
   EXPECT_GT(chain.peak_since(chain.now() - 0.1), 0.3F);
 
   chain.say(Command::Kind::mute);
   const double muted = chain.now();
-  for (int i = 0; i < 4; ++i) {
-    chain.cavity(chain.now());
-    chain.run(0.1);
-  }
+  chain.cavities(4);
   EXPECT_GT(chain.last_sound(), muted + 0.01) << "a fade, not a click";
   EXPECT_LE(chain.last_sound(), muted + 0.0201);
   chain.say(Command::Kind::unmute);
@@ -189,10 +157,7 @@ TEST(Gate, StaysShutWhileMutedAndOpensSlowlyAfterwards) {
 
 TEST(Gate, OpensSlowlyForADeviceThatCameBack) {
   Chain chain(2.0, false);
-  for (int i = 0; i < 25; ++i) {
-    chain.cavity(chain.now());
-    chain.run(0.1);
-  }
+  chain.cavities(25);
   ASSERT_GT(chain.peak_since(chain.now() - 0.1), 0.3F);
   const double back = chain.now();
   chain.run(0.05, true);
@@ -202,7 +167,7 @@ TEST(Gate, OpensSlowlyForADeviceThatCameBack) {
 TEST(Meter, ShowsThePeaksOfTheLastHalfSecond) {
   Chain chain(0.0, false);
   EXPECT_EQ(chain.meter().loudest().level, 0.0F);
-  chain.cavity(chain.now());
+  chain.cavity();
   chain.run(0.2);
   EXPECT_FLOAT_EQ(chain.meter().level(0), chain.peak_since(kStart));
   chain.say(Command::Kind::mute);

@@ -7,16 +7,15 @@
 
 #include <cmath>
 
-#include "synth-server/output/rig_reader.hpp"
 #include "synth-server/play/player.hpp"
+#include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
 namespace {
 
-constexpr double kRate = 48000.0;
 constexpr int kBlock = 256;
 constexpr double kBlockSeconds = kBlock / kRate;
-constexpr int kMostVoices = 4096;
+constexpr int kMostVoices = 4096;  // of engine and player
 
 /// The clock stands still but for what rendering takes: so much for each voice.
 struct SlowMachine {
@@ -31,17 +30,8 @@ struct SlowMachine {
   }
 };
 
-EngineSettings settings() {
-  EngineSettings settings;
-  settings.sample_rate = kRate;
-  settings.start_ramp = 0.0;
-  settings.max_voices = kMostVoices;
-  return settings;
-}
-
 PlayerSettings player_settings() {
   PlayerSettings settings{kRate, 4096, 0.0, false, {}};
-  settings.max_voices = kMostVoices;
   settings.now = &SlowMachine::read;
   return settings;
 }
@@ -49,7 +39,7 @@ PlayerSettings player_settings() {
 class GovernorTest : public testing::Test {
  protected:
   GovernorTest()
-      : engine_(read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml"), settings()),
+      : engine_(shipped_rig("stereo"), file_settings()),
         player_(engine_, queue_, nullptr, player_settings()) {
     SlowMachine::engine = &engine_;
     SlowMachine::now = 0.0;
@@ -63,10 +53,8 @@ class GovernorTest : public testing::Test {
       command.event = protocol::Bubble{next_id_++, 0, 0.020F, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F};
       (void)queue_.push(command);
     }
-    std::vector<float> left(kBlock);
-    std::vector<float> right(kBlock);
-    std::vector<float*> channels{left.data(), right.data()};
-    player_.render({channels.data(), kBlock, time_, false});
+    StereoBlock block(kBlock);
+    player_.render({block.pointers.data(), kBlock, time_, false});
     time_ += kBlockSeconds;
   }
   [[nodiscard]] double load() const {

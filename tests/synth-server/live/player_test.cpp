@@ -8,12 +8,11 @@
 #include <cmath>
 #include <random>
 
-#include "synth-server/output/rig_reader.hpp"
+#include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
 namespace {
 
-constexpr double kRate = 48000.0;
 constexpr int kBlock = 256;
 constexpr double kStart = 1000.0;  // [s, monotonic]
 constexpr double kLatency = 0.010;
@@ -21,24 +20,21 @@ constexpr double kLatency = 0.010;
 class PlayerTest : public testing::Test {
  protected:
   PlayerTest()
-      : rig_(read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml")),
-        engine_(rig_, settings()),
+      : engine_(rig_, file_settings()),
         player_(engine_, queue_, nullptr, {kRate, 4096, 0.0, false, {kLatency, 0.050, 2.0}}) {}
 
-  static EngineSettings settings() {
-    EngineSettings settings;
-    settings.sample_rate = kRate;
-    settings.start_ramp = 0.0;
-    return settings;
+  /// When the next sample is due.
+  [[nodiscard]] double now() const {
+    return kStart + shift_ + static_cast<double>(samples_.size()) / kRate;
   }
   /// One callback, `late` after the moment at which its samples are due; keeps the left channel.
   void call(double late = 0.0, int frames = kBlock, bool xrun = false) {
-    std::vector<float> left(static_cast<std::size_t>(frames));
-    std::vector<float> right(left.size());
-    std::vector<float*> channels{left.data(), right.data()};
-    const double due = kStart + shift_ + static_cast<double>(samples_.size()) / kRate;
-    player_.render({channels.data(), frames, due + late, xrun});
-    samples_.insert(samples_.end(), left.begin(), left.end());
+    StereoBlock block(frames);
+    player_.render({block.pointers.data(), frames, now() + late, xrun});
+    samples_.insert(samples_.end(), block.left.begin(), block.left.end());
+  }
+  void calls(int count) {
+    for (int i = 0; i < count; ++i) call();
   }
   void play(double moment, float radius = 0.001F, double by_arrival = 0.0) {
     Command command;
@@ -59,7 +55,13 @@ class PlayerTest : public testing::Test {
     return -1;
   }
 
-  Rig rig_;
+  /// What was told for `moment` is heard at its sample, the first from `from` on.
+  void expect_onset(double moment, std::size_t from) const {
+    const std::int64_t ideal = std::llround((moment + kLatency - kStart - shift_) * kRate);
+    EXPECT_NEAR(static_cast<double>(onset_after(from) - ideal), 1.0, 1.0);
+  }
+
+  Rig rig_ = shipped_rig("stereo");
   Engine engine_;
   CommandQueue queue_;
   Player player_;
@@ -75,12 +77,12 @@ TEST_F(PlayerTest, StartsEventsAtTheirSampleDespiteJitter) {
   // The first sample of a bubble is sin(0): it is heard one or two after its start.
   std::vector<std::int64_t> errors;
   for (int event = 0; event < 40; ++event) {
-    const std::size_t now = samples_.size();
-    const double moment = kStart + static_cast<double>(now) / kRate + 0.011 + 0.000123 * event;
+    const std::size_t before = samples_.size();
+    const double moment = now() + 0.011 + 0.000123 * event;
     play(moment);
     for (int i = 0; i < 40; ++i) call(jitter(random));
     const std::int64_t ideal = std::llround((moment + kLatency - kStart) * kRate);
-    const std::int64_t heard = onset_after(now);
+    const std::int64_t heard = onset_after(before);
     ASSERT_GT(heard, 0);
     errors.push_back(heard - ideal);
   }
@@ -93,12 +95,11 @@ TEST_F(PlayerTest, StartsEventsAtTheirSampleDespiteJitter) {
 }
 
 TEST_F(PlayerTest, CountsAndPlaysTheLateDropsTheTooLate) {
-  for (int i = 0; i < 100; ++i) call();
-  const double now = kStart + static_cast<double>(samples_.size()) / kRate;
-  play(now - 0.030);
-  play(now - 0.500);
-  play(now + 3600.0, 0.001F, now + 0.005);
-  for (int i = 0; i < 10; ++i) call();
+  calls(100);
+  play(now() - 0.030);
+  play(now() - 0.500);
+  play(now() + 3600.0, 0.001F, now() + 0.005);
+  calls(10);
   EXPECT_EQ(player_.counters().late, 1U);
   EXPECT_EQ(player_.counters().too_late, 1U);
   EXPECT_EQ(player_.counters().early, 1U);
@@ -106,40 +107,38 @@ TEST_F(PlayerTest, CountsAndPlaysTheLateDropsTheTooLate) {
 }
 
 TEST_F(PlayerTest, AnXrunMovesTheSamplesAndTheClockFollows) {
-  for (int i = 0; i < 1000; ++i) call();
+  calls(1000);
   shift_ = 0.012;  // the device repeated what it had for 12 ms: too little to notice by itself
   call(0.0, kBlock, true);
   const std::size_t before = samples_.size();
-  const double moment = kStart + shift_ + static_cast<double>(before) / kRate + 0.015;
+  const double moment = now() + 0.015;
   play(moment);
-  for (int i = 0; i < 20; ++i) call();
-  const std::int64_t ideal = std::llround((moment + kLatency - kStart - shift_) * kRate);
-  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+  calls(20);
+  expect_onset(moment, before);
   EXPECT_EQ(player_.counters().xruns, 1U);
   EXPECT_EQ(player_.counters().clock_resets, 1U);
 }
 
 TEST_F(PlayerTest, WhatWaitsDuringAnXrunStartsAtItsMoment) {
-  for (int i = 0; i < 1000; ++i) call();
+  calls(1000);
   const std::size_t before = samples_.size();
-  const double moment = kStart + static_cast<double>(before) / kRate + 0.040;
+  const double moment = now() + 0.040;
   play(moment);
   call();  // it waits in the engine now
   shift_ = 0.012;
   call(0.0, kBlock, true);
-  for (int i = 0; i < 20; ++i) call();
-  const std::int64_t ideal = std::llround((moment + kLatency - kStart - shift_) * kRate);
-  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+  calls(20);
+  expect_onset(moment, before);
   EXPECT_EQ(player_.counters().late, 0U);
 }
 
 TEST_F(PlayerTest, WhatALongStallOvertookIsCountedLateOrDropped) {
-  for (int i = 0; i < 1000; ++i) call();
+  calls(1000);
   const std::size_t before = samples_.size();
-  const double now = kStart + static_cast<double>(before) / kRate;
-  play(now + 0.5);   // 1 s too late when the machine goes on
-  play(now + 1.47);  // 30 ms: within the window
-  play(now + 1.9);   // not overtaken
+  const double start = now();
+  play(start + 0.5);   // 1 s too late when the machine goes on
+  play(start + 1.47);  // 30 ms: within the window
+  play(start + 1.9);   // not overtaken
   call();
   EXPECT_EQ(engine_.counters().scheduled, 3U);
   shift_ = 1.5;
@@ -148,29 +147,27 @@ TEST_F(PlayerTest, WhatALongStallOvertookIsCountedLateOrDropped) {
   EXPECT_EQ(player_.counters().late, 1U);
   EXPECT_NEAR(static_cast<double>(onset_after(before)), static_cast<double>(before + kBlock), 2.0)
       << "the late one starts at once";
-  for (int i = 0; i < 100; ++i) call();
+  calls(100);
   const std::size_t between = before + 16000;  // it has rung out
-  const std::int64_t ideal = std::llround((now + 1.9 + kLatency - kStart - shift_) * kRate);
-  EXPECT_NEAR(static_cast<double>(onset_after(between) - ideal), 1.0, 1.0);
+  expect_onset(start + 1.9, between);
   EXPECT_EQ(engine_.counters().started.of<protocol::Bubble>(), 2U);
   EXPECT_EQ(engine_.counters().scheduled, 0U);
 }
 
 TEST_F(PlayerTest, WhatWaitsKeepsItsSampleWhenOnlyCallbacksAreLate) {
-  for (int i = 0; i < 1000; ++i) call();
+  calls(1000);
   const std::size_t before = samples_.size();
-  const double moment = kStart + static_cast<double>(before) / kRate + 0.020;
+  const double moment = now() + 0.020;
   play(moment);
   call();
   for (int i = 0; i < 5; ++i) call(0.030);  // the clock takes them for moved samples
   EXPECT_EQ(player_.counters().clock_resets, 1U);
-  for (int i = 0; i < 20; ++i) call();
-  const std::int64_t ideal = std::llround((moment + kLatency - kStart) * kRate);
-  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+  calls(20);
+  expect_onset(moment, before);
 }
 
 TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
-  Engine undisturbed(rig_, settings());
+  Engine undisturbed(rig_, file_settings());
   std::vector<float> expected;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> lost(0.0, 0.050);
@@ -185,10 +182,7 @@ TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
       undisturbed.schedule({command.event, undisturbed.clock()});
     }
     call(0.0, kBlock, xrun);
-    std::vector<float> left(kBlock);
-    std::vector<float> right(kBlock);
-    std::vector<float*> channels{left.data(), right.data()};
-    undisturbed.render(channels.data(), kBlock);
+    const auto left = render(undisturbed, kBlock)[0];
     expected.insert(expected.end(), left.begin(), left.end());
   }
   EXPECT_EQ(player_.counters().xruns, 1000U);
@@ -198,11 +192,10 @@ TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
   EXPECT_GT(onset_after(0), 0);
   EXPECT_EQ(samples_, expected) << "what sounds does not notice";
   const std::size_t before = samples_.size();
-  const double moment = kStart + shift_ + static_cast<double>(before) / kRate + 0.015;
+  const double moment = now() + 0.015;
   play(moment);
-  for (int i = 0; i < 20; ++i) call();
-  const std::int64_t ideal = std::llround((moment + kLatency - kStart - shift_) * kRate);
-  EXPECT_NEAR(static_cast<double>(onset_after(before) - ideal), 1.0, 1.0);
+  calls(20);
+  expect_onset(moment, before);
 }
 
 TEST_F(PlayerTest, CutsBlocksThatAreLargerThanTheEngines) {
@@ -215,31 +208,30 @@ TEST_F(PlayerTest, CutsBlocksThatAreLargerThanTheEngines) {
 }
 
 TEST_F(PlayerTest, ClearingEndsVoicesAndWhatWaits) {
-  for (int i = 0; i < 10; ++i) call();
-  const double now = kStart + static_cast<double>(samples_.size()) / kRate;
-  play(now, 0.1F);        // sounds for seconds
-  play(now + 0.5, 0.1F);  // waits
-  for (int i = 0; i < 20; ++i) call();
+  calls(10);
+  play(now(), 0.1F);        // sounds for seconds
+  play(now() + 0.5, 0.1F);  // waits
+  calls(20);
   ASSERT_GE(onset_after(samples_.size() - kBlock), 0);
   say(Command::Kind::clear_scheduled);
-  for (int i = 0; i < 120; ++i) call();  // 0.64 s: filters ring, too
+  calls(120);  // 0.64 s: filters ring, too
   const std::size_t silent_from = samples_.size();
-  for (int i = 0; i < 200; ++i) call();
+  calls(200);
   EXPECT_EQ(onset_after(silent_from), -1) << "the waiting one neither";
-  play(kStart + static_cast<double>(samples_.size()) / kRate);
-  for (int i = 0; i < 10; ++i) call();
+  play(now());
+  calls(10);
   EXPECT_GE(onset_after(silent_from), 0);
 }
 
 TEST_F(PlayerTest, FinishingFadesOutForGood) {
   play(kStart, 0.1F);
-  for (int i = 0; i < 20; ++i) call();
+  calls(20);
   player_.finish();
-  for (int i = 0; i < 10; ++i) call();
+  calls(10);
   EXPECT_TRUE(engine_.silenced());
   say(Command::Kind::unmute);
-  play(kStart + static_cast<double>(samples_.size()) / kRate);
-  for (int i = 0; i < 10; ++i) call();
+  play(now());
+  calls(10);
   EXPECT_TRUE(engine_.silenced()) << "nothing opens it again";
 }
 

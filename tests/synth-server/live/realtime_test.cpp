@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "synth-server/output/rig_reader.hpp"
 #include "synth-server/play/player.hpp"
 #include "tests/synth-server/render/forbidden_calls.hpp"
+#include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// All that can happen in a callback: events of every kind, late and early, floods beyond pool and
 /// queue, forces, clearing, silence, xruns, odd block sizes, recording into a ring that overflows.
 TEST(Realtime, TheCallbackDoesNothingForbidden) {
-  const Rig rig = read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/tiles36.yaml");
+  const Rig rig = shipped_rig("tiles36");
   EngineSettings settings;
   settings.sound.cloud.coupling = 1.0;
   settings.sound.foot.texture = settings.sound.foot.wash = 1e-4;

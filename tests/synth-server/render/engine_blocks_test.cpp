@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "synth-server/output/rig_reader.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
@@ -30,8 +29,7 @@ INSTANTIATE_TEST_SUITE_P(RigsAndRates, AnyBlocks,
                          });
 
 TEST_P(AnyBlocks, AreFiniteBoundedAndSoundTheSame) {
-  const Rig rig =
-      read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/" + GetParam().rig + ".yaml");
+  const Rig rig = shipped_rig(GetParam().rig);
   auto settings = file_settings();
   settings.sample_rate = GetParam().rate;
   settings.max_voices = 200;  // some have to be stolen

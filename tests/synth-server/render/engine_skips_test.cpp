@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "synth-server/output/rig_reader.hpp"
 #include "synth-server/render/audibility.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
@@ -111,7 +110,7 @@ struct Felt {
 std::vector<Felt> floors() {
   Rig dull = floor_rig();
   dull.outputs[0].threshold = {Sense::touch, -44.0};
-  const Rig shipped = read_rig(std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/tiles36.yaml");
+  const Rig shipped = shipped_rig("tiles36");
   return {{"dull", dull, -44.0, 0.75}, {"shipped", shipped, -52.0, 0.9}};
 }
 

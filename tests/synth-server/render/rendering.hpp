@@ -3,10 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "synth-server/output/rig_reader.hpp"
 #include "synth-server/render/engine.hpp"
 
 namespace splash::synth {
@@ -33,6 +36,11 @@ inline Rig floor_rig() {
   output.kind = OutputKind::tiles;
   rig.outputs = {output};
   return rig;
+}
+
+/// configs/rigs/`name`.yaml.
+inline Rig shipped_rig(const std::string& name) {
+  return read_rig(SPLASH_SOURCE_DIR "/configs/rigs/" + name + ".yaml");
 }
 
 inline EngineSettings file_settings() {
@@ -68,6 +76,14 @@ inline protocol::Cavity cavity(float radius, protocol::Vec3 place = {}) {
 }
 
 using Channels = std::vector<std::vector<float>>;
+
+/// Room for a block of two channels.
+struct StereoBlock {
+  explicit StereoBlock(int frames)
+      : left(static_cast<std::size_t>(frames)), right(static_cast<std::size_t>(frames)) {}
+  std::vector<float> left, right;
+  std::array<float*, 2> pointers = {left.data(), right.data()};
+};
 
 /// Renders `frames` more samples of an engine in blocks of the given sizes, over and over.
 inline Channels render(Engine& engine, int frames, const std::vector<int>& blocks = {512}) {
