@@ -3,13 +3,11 @@
 // that channel, and a server that dies and comes back is survived.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,6 +16,7 @@
 #include "tests/support/child_process.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/waiting.hpp"
 
 namespace splash::synth {
@@ -29,20 +28,47 @@ class PulseServer {
  public:
   /// Programs started from now on find it: HOME, PULSE_SERVER and XDG_RUNTIME_DIR say so. Throws
   /// std::runtime_error naming the package when it does not start.
-  explicit PulseServer(int channels);
-  ~PulseServer();
-  PulseServer(const PulseServer&) = delete;
-  PulseServer& operator=(const PulseServer&) = delete;
+  explicit PulseServer(int channels) : channels_(channels) {
+    const std::string address = "unix:" + socket_;
+    setenv("HOME", folder_.path().c_str(), 1);
+    setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+    setenv("PULSE_SERVER", address.c_str(), 1);
+    const std::string pulse = " { type pulse server \"" + address + "\" }\n";
+    folder_.write(".asoundrc", "pcm.!default" + pulse + "ctl.!default" + pulse);
+    start();
+  }
 
   /// As a crash would.
-  void kill();
+  void kill() {
+    server_->signal(SIGKILL);
+    (void)server_->wait_for_end(5.0);
+  }
   /// After kill(): anew in the same place.
-  void start();
+  void start() {
+    std::filesystem::remove(socket_);
+    server_ = std::make_unique<tests::ChildProcess>(std::vector<std::string>{
+        "pulseaudio", "-n", "--daemonize=no", "--exit-idle-time=-1", "--disable-shm=yes",
+        "--use-pid-file=no", "--realtime=no", "--high-priority=no", "-L",
+        "module-native-protocol-unix auth-anonymous=1 socket=" + socket_, "-L",
+        "module-null-sink sink_name=tiles rate=48000 channels=" + std::to_string(channels_)});
+    const auto answers = [] {
+      return tests::ChildProcess({"pactl", "info"}).wait_for_end(5.0) == 0;
+    };
+    if (tests::eventually([&] { return !server_->running() || answers(); }, 20.0, 0.1) &&
+        server_->running()) {
+      return;
+    }
+    throw std::runtime_error(
+        "pulseaudio did not start; is it installed ('apt install pulseaudio "
+        "pulseaudio-utils')?\n" +
+        server_->output());
+  }
 
   [[nodiscard]] int channels() const noexcept { return channels_; }
 
  private:
-  std::string folder_;
+  tests::TemporaryFolder folder_;
+  std::string socket_ = folder_ / "native";
   int channels_;
   std::unique_ptr<tests::ChildProcess> server_;
 };
@@ -51,89 +77,39 @@ class PulseServer {
 class PulseRecording {
  public:
   /// Returns once the sink is heard. Throws std::runtime_error when it is not.
-  explicit PulseRecording(const PulseServer& pulse);
+  explicit PulseRecording(const PulseServer& pulse)
+      : width_(static_cast<std::size_t>(pulse.channels())),
+        listener_({"parec", "--device=tiles.monitor", "--format=float32le", "--rate=48000",
+                   "--latency-msec=20", "--channels=" + std::to_string(pulse.channels())}) {
+    wait_for(1);
+  }
 
   /// Waits until `more` frames came beyond those that are there; all of them, channel by channel.
-  [[nodiscard]] std::vector<std::vector<float>> channels(std::size_t more);
+  [[nodiscard]] std::vector<std::vector<float>> channels(std::size_t more) {
+    wait_for(frames() + more);
+    const std::string bytes = listener_.output();
+    const std::size_t count = bytes.size() / (width_ * sizeof(float));
+    std::vector<std::vector<float>> channels(width_, std::vector<float>(count));
+    for (std::size_t i = 0; i < count * width_; ++i) {
+      std::memcpy(&channels[i % width_][i / width_], bytes.data() + i * sizeof(float),
+                  sizeof(float));
+    }
+    return channels;
+  }
 
  private:
-  [[nodiscard]] std::size_t frames() const;
-  void wait_for(std::size_t wanted);
+  [[nodiscard]] std::size_t frames() const {
+    return listener_.output().size() / (width_ * sizeof(float));
+  }
+  void wait_for(std::size_t wanted) {
+    if (tests::eventually([&] { return frames() >= wanted; }, 20.0, 0.1)) return;
+    throw std::runtime_error("parec heard " + std::to_string(frames()) + " frames of " +
+                             std::to_string(wanted));
+  }
 
   std::size_t width_;
   tests::ChildProcess listener_;
 };
-
-PulseServer::PulseServer(int channels) : channels_(channels) {
-  std::string name = (std::filesystem::temp_directory_path() / "splash-pulse-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
-  folder_ = name;
-  const std::string address = "unix:" + folder_ + "/native";
-  setenv("HOME", folder_.c_str(), 1);
-  setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
-  setenv("PULSE_SERVER", address.c_str(), 1);
-  std::ofstream(folder_ + "/.asoundrc")
-      << "pcm.!default { type pulse server \"" << address
-      << "\" }\nctl.!default { type pulse server \"" << address << "\" }\n";
-  start();
-}
-
-PulseServer::~PulseServer() {
-  server_.reset();
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
-void PulseServer::start() {
-  std::filesystem::remove(folder_ + "/native");
-  server_ = std::make_unique<tests::ChildProcess>(std::vector<std::string>{
-      "pulseaudio", "-n", "--daemonize=no", "--exit-idle-time=-1", "--disable-shm=yes",
-      "--use-pid-file=no", "--realtime=no", "--high-priority=no", "-L",
-      "module-native-protocol-unix auth-anonymous=1 socket=" + folder_ + "/native", "-L",
-      "module-null-sink sink_name=tiles rate=48000 channels=" + std::to_string(channels_)});
-  const auto answers = [] { return tests::ChildProcess({"pactl", "info"}).wait_for_end(5.0) == 0; };
-  if (tests::eventually([&] { return !server_->running() || answers(); }, 20.0, 0.1) &&
-      server_->running()) {
-    return;
-  }
-  throw std::runtime_error(
-      "pulseaudio did not start; is it installed ('apt install pulseaudio "
-      "pulseaudio-utils')?\n" +
-      server_->output());
-}
-
-void PulseServer::kill() {
-  server_->signal(SIGKILL);
-  (void)server_->wait_for_end(5.0);
-}
-
-PulseRecording::PulseRecording(const PulseServer& pulse)
-    : width_(static_cast<std::size_t>(pulse.channels())),
-      listener_({"parec", "--device=tiles.monitor", "--format=float32le", "--rate=48000",
-                 "--latency-msec=20", "--channels=" + std::to_string(pulse.channels())}) {
-  wait_for(1);
-}
-
-std::size_t PulseRecording::frames() const {
-  return listener_.output().size() / (width_ * sizeof(float));
-}
-
-void PulseRecording::wait_for(std::size_t wanted) {
-  if (tests::eventually([&] { return frames() >= wanted; }, 20.0, 0.1)) return;
-  throw std::runtime_error("parec heard " + std::to_string(frames()) + " frames of " +
-                           std::to_string(wanted));
-}
-
-std::vector<std::vector<float>> PulseRecording::channels(std::size_t more) {
-  wait_for(frames() + more);
-  const std::string bytes = listener_.output();
-  const std::size_t count = bytes.size() / (width_ * sizeof(float));
-  std::vector<std::vector<float>> channels(width_, std::vector<float>(count));
-  for (std::size_t i = 0; i < count * width_; ++i) {
-    std::memcpy(&channels[i % width_][i / width_], bytes.data() + i * sizeof(float), sizeof(float));
-  }
-  return channels;
-}
 
 using tests::peak;
 using tests::rig_path;

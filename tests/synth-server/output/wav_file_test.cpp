@@ -4,10 +4,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -15,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::synth {
@@ -79,16 +78,12 @@ WavContent read_wav(const std::filesystem::path& path) {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 class Wav : public testing::Test {
  protected:
-  Wav() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            ("splash-" + std::string(test->name()) + std::to_string(::getpid()) + ".wav");
-  }
-  ~Wav() override { std::filesystem::remove(path_); }
-  std::filesystem::path path_;
+  const tests::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "out.wav";
 };
 
 float value(int channel, int frame) {
@@ -148,24 +143,20 @@ TEST_F(Wav, IsReadableWhileItIsWritten) {
 }
 
 TEST_F(Wav, SaysWhichFileCannotBeCreated) {
-  try {
-    const WavFile file("/no/such/folder/out.wav", 1, 1000);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("/no/such/folder/out.wav"), HasSubstr("No such")));
-  }
+  EXPECT_THAT([] { const WavFile file("/no/such/folder/out.wav", 1, 1000); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("/no/such/folder/out.wav"), HasSubstr("No such"))));
 }
 
 TEST_F(Wav, SaysThatTheDiskIsFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  try {
+  const auto fill = [] {
     WavFile file("/dev/full", 1, 1000);
     write(file, 1, 0, 200000);
     file.close();
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("/dev/full"), HasSubstr("No space")));
-  }
+  };
+  EXPECT_THAT(fill, ThrowsMessage<std::runtime_error>(
+                        AllOf(HasSubstr("/dev/full"), HasSubstr("No space"))));
 }
 
 TEST_F(Wav, BecomesRf64BeyondTheLimitOfRiff) {
