@@ -105,13 +105,12 @@ TEST_F(ControlTest, WhatNothingIsThereForIsRefused) {
 }
 
 TEST_F(ControlTest, PlaysTestTones) {
-  EXPECT_EQ(ask({"/tone", {2}}), (Message{"/done", {std::string("/tone")}}));
-  EXPECT_EQ(ask({"/tone", {3}}),
-            (Message{"/fail", {std::string("/tone"), std::string("there are 2 channels")}}));
+  EXPECT_EQ(ask({"/tone", {2}}), protocol::done("/tone"));
+  EXPECT_EQ(ask({"/tone", {3}}), protocol::fail("/tone", "there are 2 channels"));
 }
 
 TEST_F(ControlTest, Mutes) {
-  EXPECT_EQ(ask({"/mute", {1}}), (Message{"/done", {std::string("/mute")}}));
+  EXPECT_EQ(ask({"/mute", {1}}), protocol::done("/mute"));
   EXPECT_TRUE(muted_);
   EXPECT_EQ(ask({"/mute", {0}}, kFriend).address, "/done");
   EXPECT_FALSE(muted_);
@@ -123,12 +122,10 @@ TEST_F(ControlTest, SetsAndGetsByName) {
   EXPECT_EQ(ask({"/get", {std::string("impact/q")}}), value(5.0F));
   EXPECT_EQ(ask({"/set", {std::string("impact/q"), 2.5F}}), value(2.5F));
   EXPECT_EQ(ask({"/get", {std::string("impact/q")}}, kFriend), value(2.5F));
-  EXPECT_EQ(ask({"/set", {std::string("impact"), 2.5F}}),
-            (Message{"/fail", {std::string("/set"), std::string("no such row")}}));
+  EXPECT_EQ(ask({"/set", {std::string("impact"), 2.5F}}), protocol::fail("/set", "no such row"));
   EXPECT_EQ(ask({"/get", {std::string("impact")}}).address, "/fail");
   EXPECT_EQ(ask({"/set", {std::string("impact/q"), 7}}).address, "/fail") << "an integer";
-  EXPECT_EQ(ask({"/preset", {std::string("calibrated"), 2.0F}}),
-            (Message{"/done", {std::string("/preset")}}));
+  EXPECT_EQ(ask({"/preset", {std::string("calibrated"), 2.0F}}), protocol::done("/preset"));
   EXPECT_EQ(ask({"/preset", {std::string("loud"), 2.0F}}).address, "/fail");
   EXPECT_EQ(ask({"/preset", {std::string("calibrated"), 601.0F}}).address, "/fail");
 }
@@ -155,36 +152,34 @@ TEST_F(ControlTest, StatusJoinsBothSides) {
 }
 
 TEST_F(ControlTest, ClearsWhatWaits) {
-  EXPECT_EQ(ask({"/clearSched", {}}), (Message{"/done", {std::string("/clearSched")}}));
+  EXPECT_EQ(ask({"/clearSched", {}}), protocol::done("/clearSched"));
   EXPECT_EQ(cleared_, 1);
 }
 
 TEST_F(ControlTest, FailsCommandsForTheSimulator) {
   const Message pose = protocol::to_message(protocol::BodyPose{});
-  EXPECT_EQ(ask(pose),
-            (Message{"/fail",
-                     {std::string("/body/pose"), std::string("not a command of synth-server")}}));
+  EXPECT_EQ(ask(pose), protocol::fail("/body/pose", "not a command of synth-server"));
 }
 
 TEST_F(ControlTest, QuitsOnlyForItsOwnHost) {
   EXPECT_EQ(ask({"/quit", {}}, kFriend).address, "/fail");
   EXPECT_EQ(quits_, 0);
-  EXPECT_EQ(ask({"/quit", {}}), (Message{"/done", {std::string("/quit")}}));
+  EXPECT_EQ(ask({"/quit", {}}), protocol::done("/quit"));
   EXPECT_EQ(quits_, 1);
 }
 
 TEST_F(ControlTest, SaysGoodbyeToItsSubscribers) {
-  EXPECT_EQ(ask({"/notify", {1}}), (Message{"/done", {std::string("/notify"), 1}}));
-  EXPECT_EQ(ask({"/notify", {1}}), (Message{"/done", {std::string("/notify"), 1}})) << "once each";
-  EXPECT_EQ(ask({"/notify", {1}}, kFriend), (Message{"/done", {std::string("/notify"), 1}}))
+  EXPECT_EQ(ask({"/notify", {1}}), protocol::done("/notify", 1));
+  EXPECT_EQ(ask({"/notify", {1}}), protocol::done("/notify", 1)) << "once each";
+  EXPECT_EQ(ask({"/notify", {1}}, kFriend), protocol::done("/notify", 1))
       << "the streams, as from the simulator";
-  EXPECT_EQ(ask({"/notify", {0}}), (Message{"/done", {std::string("/notify"), 0}}));
+  EXPECT_EQ(ask({"/notify", {0}}), protocol::done("/notify", 0));
   EXPECT_EQ(ask({"/notify", {2}}).address, "/fail");
   std::vector<Reply> replies;
   control_.say_goodbye(replies);
   ASSERT_EQ(replies.size(), 1U);
   EXPECT_EQ(replies[0].to, kFriend);
-  EXPECT_EQ(replies[0].message, (Message{"/done", {std::string("/quit")}}));
+  EXPECT_EQ(replies[0].message, protocol::done("/quit"));
 }
 
 TEST_F(ControlTest, ASubscriptionEndsUnlessItIsRenewed) {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <random>
 
+#include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/protocol/killers.hpp"
 #include "tests/support/waiting.hpp"
@@ -91,7 +92,7 @@ TEST_F(ReceiverTest, SaysGoodbyeToItsClients) {
     socket_.send_to(receiver.local(), protocol::encode(Message{"/notify", {1}}));
     EXPECT_EQ(reply().address, "/done");
   }
-  EXPECT_EQ(reply(), (Message{"/done", {std::string("/quit")}}));
+  EXPECT_EQ(reply(), protocol::done("/quit"));
 }
 
 TEST_F(ReceiverTest, DumpsPacketsWhenAsked) {

@@ -26,9 +26,12 @@ PoolSettings settings_for(int voices) {
   return settings;
 }
 
-Start start(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05) {
+Start start(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05,
+            bool kept = false) {
   const BubbleTone tone = paper_bubble(radius, epsilon);
-  return pool.start(tone, life_of(tone, kRate, kFloor), {&kRoute, 1}, 0, sample);
+  VoiceLife life = life_of(tone, kRate, kFloor);
+  life.kept = kept;
+  return pool.start(tone, life, {&kRoute, 1}, 0, sample);
 }
 
 double formula(double radius, std::int64_t start, double sample) {
@@ -162,10 +165,7 @@ TEST(BubblePool, RefusesWhenFadingVoicesTakeAllPlaces) {
 }
 
 Start start_kept(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05) {
-  const BubbleTone tone = paper_bubble(radius, epsilon);
-  VoiceLife life = life_of(tone, kRate, kFloor);
-  life.kept = true;
-  return pool.start(tone, life, {&kRoute, 1}, 0, sample);
+  return start(pool, radius, sample, epsilon, true);
 }
 
 // However loud the others, and however many come after it.

@@ -38,9 +38,7 @@ TEST(Engine, LeavesOutBubblesAboveTheBandOfEachOutput) {
   Engine engine(rig, file_settings());
   engine.schedule({bubble(0.0039F), 0});  // 769 Hz: heard, not felt
   const auto out = render(engine, 4800);
-  for (std::size_t tile = 0; tile < 36; ++tile) {
-    for (const float v : out[tile]) ASSERT_EQ(v, 0.0F);
-  }
+  for (std::size_t tile = 0; tile < 36; ++tile) ASSERT_EQ(energy(out[tile]), 0.0) << tile;
   EXPECT_GT(*std::max_element(out[36].begin(), out[36].end()), 0.01F);
   EXPECT_EQ(engine.counters().started.of<protocol::Bubble>(), 1U);
 
@@ -120,34 +118,35 @@ INSTANTIATE_TEST_SUITE_P(Floors, UnfeltVoices, testing::ValuesIn(floors()),
 
 TEST_P(UnfeltVoices, StayBelowTheThresholdOfTouch) {
   const Rig& rig = GetParam().rig;
-  const auto render_with = [&](bool skip, std::uint64_t& dropped, std::uint64_t& voices) {
+  struct Rendered {
+    Channels out;
+    std::uint64_t dropped = 0;
+    std::uint64_t voices = 0;
+  };
+  const auto render_with = [&](bool skip) {
     auto settings = file_settings();
     settings.skip_unfelt = skip;
     Engine engine(rig, settings);
     for (const TimedEvent& event : splashes(1500, 48000)) engine.schedule(event);
-    auto out = render(engine, 48000);
-    voices = engine.counters().voices;
-    dropped = engine.counters().dropped_unheard;
+    Rendered all{render(engine, 48000), engine.counters().dropped_unheard,
+                 engine.counters().voices};
     const auto rest = render(engine, 24000);
-    for (std::size_t c = 0; c < out.size(); ++c) {
-      out[c].insert(out[c].end(), rest[c].begin(), rest[c].end());
+    for (std::size_t c = 0; c < all.out.size(); ++c) {
+      all.out[c].insert(all.out[c].end(), rest[c].begin(), rest[c].end());
     }
     EXPECT_EQ(engine.counters().limited, 0U);
-    return out;
+    return all;
   };
-  std::uint64_t dropped = 0;
-  std::uint64_t none = 0;
-  std::uint64_t voices = 0;
-  std::uint64_t all = 0;
-  const auto skipping = render_with(true, dropped, voices);
-  const auto diligent = render_with(false, none, all);
-  EXPECT_GT(dropped, 5U);
-  EXPECT_EQ(none, 0U);
-  EXPECT_LT(static_cast<double>(voices), GetParam().voices * static_cast<double>(all))
+  const Rendered skipping = render_with(true);
+  const Rendered diligent = render_with(false);
+  EXPECT_GT(skipping.dropped, 5U);
+  EXPECT_EQ(diligent.dropped, 0U);
+  EXPECT_LT(static_cast<double>(skipping.voices),
+            GetParam().voices * static_cast<double>(diligent.voices))
       << "they also end earlier";
   double nearest_db = -200.0;
   for (const std::size_t tile : {0U, 14U, 21U, 35U}) {
-    const auto left_out = difference(diligent[tile], skipping[tile]);
+    const auto left_out = difference(diligent.out[tile], skipping.out[tile]);
     ASSERT_GT(energy(left_out), 0.0);
     for (std::size_t from = 0; from + 4800 <= left_out.size(); from += 2400) {
       for (double f = 25.0; f < 750.0; f *= 1.26) {

@@ -27,10 +27,7 @@ EngineSettings foot_settings(double texture, double wash) {
 double energy_of(const protocol::Event& event, const EngineSettings& settings) {
   constexpr int kTimes = 40;
   Engine engine(open_rig(), settings);
-  for (int i = 0; i < kTimes; ++i) {
-    protocol::Event again = event;
-    engine.schedule({again, i * 48000});
-  }
+  for (int i = 0; i < kTimes; ++i) engine.schedule({event, i * 48000});
   return energy(render(engine, kTimes * 48000)[0]) / kTimes;
 }
 
@@ -95,11 +92,7 @@ TEST(Underfoot, FollowsToldForcesByTheLawHoweverOftenTheyCome) {
       const auto more = render(engine, apart)[0];
       out.insert(out.end(), more.begin(), more.end());
     }
-    double sum = 0.0;
-    for (std::size_t n = kFrames / 4; n < kFrames; ++n) {
-      sum += static_cast<double>(out[n]) * static_cast<double>(out[n]);
-    }
-    return std::sqrt(sum / (0.75 * kFrames));
+    return std::sqrt(energy({out.begin() + kFrames / 4, out.begin() + kFrames}) / (0.75 * kFrames));
   };
   const double wanted = 1e-4 * std::sqrt(4.0) / open_rig().outputs[0].full_scale;
   EXPECT_NEAR(played(4050.0F, 96) / wanted, 1.0, 0.1);
