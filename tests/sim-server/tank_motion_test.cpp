@@ -122,19 +122,16 @@ TEST(TankMotion, RockedSlowlyTheSurfaceStaysLevel) {
 // Swayed from rest at 0.7 times the first mode's frequency. Linear theory (Ibrahim 2005), for the
 // height at the wall x = 0: b_n'' + w_n^2 b_n = k_n tanh(k_n h) 4 L / (n pi)^2 X'', odd n.
 TEST(TankMotion, SwayedWaterSloshesAsLinearTheorySays) {
-  const double length = 0.4, depth = 0.12, amplitude = 0.012, ramp = 0.6, g = 9.81;
+  const double length = 0.4, depth = 0.12, g = 9.81;
   const double first = std::numbers::pi / length;
   const double omega1 = std::sqrt(g * first * std::tanh(first * depth));
   const double period = 2.0 * std::numbers::pi / (0.7 * omega1);
   std::string text = short_tank(
       "grid_projected", "sway: [0.012, 0, 0], ramp: 0.6, period: " + std::to_string(period), 0.015);
   const auto rows = run(text, 2.4);
-  TankMotionSettings settings;
-  settings.present = true;
-  settings.sway = {amplitude, 0.0, 0.0};
-  settings.ramp = ramp;
-  settings.period = period;
-  TankMotion tank(settings, {0.0, 0.0, 0.0});
+  TankMotion tank(
+      {.present = true, .sway = {0.012, 0.0, 0.0}, .period = period, .ramp = 0.6, .samples = {}},
+      {0.0, 0.0, 0.0});
   double off = 0.0, size = 0.0, b[3] = {}, rate[3] = {}, t = 0.0;
   const double dt = 1.0e-4;
   for (const auto& row : rows) {

@@ -22,11 +22,7 @@ using ::testing::HasSubstr;
 const Vector3 kGravity = {0.0, 0.0, -9.81};
 
 TankMotionSettings rolling() {
-  TankMotionSettings motion;
-  motion.present = true;
-  motion.roll = {0.0, 30.0, 0.0};
-  motion.period = 2.0;
-  return motion;
+  return {.present = true, .roll = {0.0, 30.0, 0.0}, .period = 2.0, .samples = {}};
 }
 
 TEST(TankMotion, TurnsGravityWithTheTank) {
@@ -54,11 +50,8 @@ TEST(TankMotion, IsTheSameWhoeverAskedBefore) {
 }
 
 TEST(TankMotion, GrowsSmoothlyFromNothing) {
-  TankMotionSettings motion;
-  motion.present = true;
-  motion.sway = {0.05, 0.0, 0.0};
-  motion.period = 0.9;
-  motion.ramp = 1.5;
+  const TankMotionSettings motion = {
+      .present = true, .sway = {0.05, 0.0, 0.0}, .period = 0.9, .ramp = 1.5, .samples = {}};
   TankMotion tank(motion, kGravity);
   EXPECT_NEAR(tank.at(0.0).gravity[0], 0.0, 1.0e-12);
   // What it feels is minus the second derivative of where it is.
@@ -76,10 +69,9 @@ TEST(TankMotion, GrowsSmoothlyFromNothing) {
 }
 
 TEST(TankMotion, GoesAlongStraightLinesBetweenSamples) {
-  TankMotionSettings motion;
-  motion.present = true;
-  motion.samples = {{1.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}},
-                    {3.0, {2.0, 0.0, 1.0}, {0.0, 0.0, 4.0}}};
+  const TankMotionSettings motion = {.present = true,
+                                     .samples = {{1.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}},
+                                                 {3.0, {2.0, 0.0, 1.0}, {0.0, 0.0, 4.0}}}};
   TankMotion tank(motion, kGravity);
   EXPECT_EQ(tank.at(0.5).gravity, kGravity);
   const TankState half = tank.at(2.0);

@@ -28,11 +28,7 @@ class Chain {
                 LocalTime([this] { return kUnix + (now() - kStart); }, [this] { return now(); })) {}
 
   [[nodiscard]] double now() const { return kStart + static_cast<double>(samples_.size()) / kRate; }
-  void say(Command::Kind kind) {
-    Command command;
-    command.kind = kind;
-    (void)queue_.push(command);
-  }
+  void say(Command::Kind kind) { (void)queue_.push({.kind = kind, .event = {}}); }
   /// A frame of the simulator now, with what follows in its bundle.
   void hear(const std::vector<protocol::Message>& more) {
     std::vector<protocol::Message> all = {

@@ -31,9 +31,7 @@ struct SlowMachine {
 };
 
 PlayerSettings player_settings() {
-  PlayerSettings settings{kRate, 4096, 0.0, false, {}};
-  settings.now = &SlowMachine::read;
-  return settings;
+  return {.sample_rate = kRate, .start_ramp = 0.0, .schedule = {}, .now = &SlowMachine::read};
 }
 
 class GovernorTest : public testing::Test {
@@ -48,10 +46,8 @@ class GovernorTest : public testing::Test {
   /// A block, in which so many bubbles of 20 mm start, which sound for most of a second.
   void call(int bubbles) {
     for (int i = 0; i < bubbles; ++i) {
-      Command command;
-      command.at_once = true;
-      command.event = protocol::Bubble{next_id_++, 0, 0.020F, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F};
-      (void)queue_.push(command);
+      (void)queue_.push(
+          {.event = protocol::Bubble{next_id_++, 0, 0.020F, 0.05F, {}, 0.0F}, .at_once = true});
     }
     StereoBlock block(kBlock);
     player_.render({block.pointers.data(), kBlock, time_, false});
@@ -93,10 +89,8 @@ TEST_F(GovernorTest, NeverActsWhileThereIsTime) {
 }
 
 TEST_F(GovernorTest, LeavesCavitiesAlone) {
-  Command command;
-  command.at_once = true;
-  command.event = protocol::Cavity{0, 0, 0.1F, 0.005F, {0.0F, 0.0F, 0.0F}, 0.0F};
-  (void)queue_.push(command);  // weaker than the bubbles at first
+  const protocol::Cavity cavity{0, 0, 0.1F, 0.005F, {}, 0.0F};  // weaker than the bubbles at first
+  (void)queue_.push({.event = cavity, .at_once = true});
   SlowMachine::seconds_per_voice = kBlockSeconds / 200.0;
   for (int block = 0; block < 200; ++block) call(20);
   EXPECT_GT(engine_.counters().stolen, 0U);

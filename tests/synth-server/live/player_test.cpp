@@ -37,17 +37,11 @@ class PlayerTest : public testing::Test {
     for (int i = 0; i < count; ++i) call();
   }
   void play(double moment, float radius = 0.001F, double by_arrival = 0.0) {
-    Command command;
-    command.event = protocol::Bubble{next_id_++, 0, radius, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F};
-    command.moment = moment;
-    command.by_arrival = by_arrival;
-    ASSERT_TRUE(queue_.push(command));
+    ASSERT_TRUE(queue_.push({.event = protocol::Bubble{next_id_++, 0, radius, 0.05F, {}, 0.0F},
+                             .moment = moment,
+                             .by_arrival = by_arrival}));
   }
-  void say(Command::Kind kind) {
-    Command command;
-    command.kind = kind;
-    ASSERT_TRUE(queue_.push(command));
-  }
+  void say(Command::Kind kind) { ASSERT_TRUE(queue_.push({.kind = kind, .event = {}})); }
   [[nodiscard]] std::int64_t onset_after(std::size_t from) const {
     for (std::size_t i = from; i < samples_.size(); ++i) {
       if (std::abs(samples_[i]) > 1e-6F) return static_cast<std::int64_t>(i);
@@ -175,11 +169,9 @@ TEST_F(PlayerTest, AThousandXrunsAreCountedAndVoicesKeepTheirClock) {
     const bool xrun = i % 4 == 3;
     if (xrun) shift_ += lost(random);  // what the device played meanwhile is not known
     if (i % 7 == 0 && i < 3600) {
-      Command command;
-      command.event = protocol::Bubble{i, 0, 0.01F, 0.05F, {0.0F, 0.0F, 0.0F}, 0.0F};
-      command.at_once = true;
-      ASSERT_TRUE(queue_.push(command));
-      undisturbed.schedule({command.event, undisturbed.clock()});
+      const protocol::Bubble bubble{i, 0, 0.01F, 0.05F, {}, 0.0F};
+      ASSERT_TRUE(queue_.push({.event = bubble, .at_once = true}));
+      undisturbed.schedule({bubble, undisturbed.clock()});
     }
     call(0.0, kBlock, xrun);
     const auto left = render(undisturbed, kBlock)[0];

@@ -20,10 +20,7 @@ constexpr Route kRoute{0, 1.0};
 using Start = BubblePool::Start;
 
 PoolSettings settings_for(int voices) {
-  PoolSettings settings;
-  settings.max_voices = voices;
-  settings.sample_rate = kRate;
-  return settings;
+  return {.max_voices = voices, .sample_rate = kRate};
 }
 
 Start start(BubblePool& pool, double radius, std::int64_t sample, double epsilon = 0.05,

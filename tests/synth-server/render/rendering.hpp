@@ -44,35 +44,19 @@ inline Rig shipped_rig(const std::string& name) {
 }
 
 inline EngineSettings file_settings() {
-  EngineSettings settings;
-  settings.sample_rate = kRate;
-  settings.start_ramp = 0.0;
-  return settings;
+  return {.sample_rate = kRate, .sound = {}, .start_ramp = 0.0};
 }
 
 inline protocol::Bubble bubble(float radius, float epsilon = 0.05F, protocol::Vec3 place = {}) {
-  protocol::Bubble event;
-  event.radius = radius;
-  event.epsilon = epsilon;
-  event.position = place;
-  return event;
+  return {.radius = radius, .epsilon = epsilon, .position = place};
 }
 
 inline protocol::Impact impact(float speed, std::int32_t id = 0, protocol::Vec3 place = {}) {
-  protocol::Impact event;
-  event.id = id;
-  event.body = 0;
-  event.speed = speed;
-  event.approach = speed;
-  event.position = place;
-  return event;
+  return {.id = id, .speed = speed, .approach = speed, .position = place};
 }
 
 inline protocol::Cavity cavity(float radius, protocol::Vec3 place = {}) {
-  protocol::Cavity event;
-  event.radius = radius;
-  event.position = place;
-  return event;
+  return {.radius = radius, .position = place};
 }
 
 using Channels = std::vector<std::vector<float>>;
