@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "examples/force/splash_force.hpp"
@@ -17,6 +15,7 @@
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -308,10 +307,11 @@ TEST(Direct, WaterOnAGridGivesADeviceNoEnergyInAMinute) {
 
 // A box as a mesh whose file has its origin in a corner: poses and torques are of that corner.
 TEST(Spring, HoldsAMeshWhereItsFileHasItsOrigin) {
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "cube.obj";
-  std::ofstream(file)
-      << "v 0 0 0\nv .1 0 0\nv .1 .1 0\nv 0 .1 0\nv 0 0 .1\nv .1 0 .1\nv .1 .1 .1\n"
-         "v 0 .1 .1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const tests::TemporaryFolder folder;
+  const std::string file =
+      folder.write("cube.obj",
+                   "v 0 0 0\nv .1 0 0\nv .1 .1 0\nv 0 .1 0\nv 0 0 .1\nv .1 0 .1\nv .1 .1 .1\n"
+                   "v 0 .1 .1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
   const std::string motion =
       "    motion: {kind: osc, coupling: spring, device_damping: 100, mass: 0.5, stiffness: 100, "
       "damping: 20}\n";
@@ -319,7 +319,7 @@ TEST(Spring, HoldsAMeshWhereItsFileHasItsOrigin) {
       "fluid: {spacing: 0.033}\ntank: {lower: [0, 0, 0], upper: [0.4, 0.4, 1.6]}\n"
       "water: [{lower: [0, 0, 0], upper: [0.4, 0.4, 0.2]}]\nbodies:\n  - name: cube\n"
       "    shape: {mesh: " +
-          file.string() + "}\n" + motion + "    rest: {position: [0.2, 0.2, 1.2]}\n",
+          file + "}\n" + motion + "    rest: {position: [0.2, 0.2, 1.2]}\n",
       "mesh.yaml");
   Device device;
   Simulation simulation(device, scene, {});

@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 
 #include "sim-server/bodies/motion/tracker_map.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -14,6 +12,7 @@
 #include "sim-server/tracker_monitor/heard.hpp"
 #include "sim-server/tracker_monitor/obstacles.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::sim {
 namespace {
@@ -135,14 +134,14 @@ TEST(Listen, TellsWhatTheGateRefuses) {
 }
 
 TEST(Listen, SaysWhatAFirewallNeeds) {
-  const std::filesystem::path ufw = tests::temporary_path("ufw.conf");
-  std::ofstream(ufw) << "# a comment\nENABLED=yes\n";
+  const tests::TemporaryFolder folder;
+  const auto ufw = folder.write("ufw.conf", "# a comment\nENABLED=yes\n");
   SystemFiles files = {.ufw = ufw, .firewalld = "/nowhere", .counters = "/nowhere"};
   EXPECT_THAT(obstacles({9000}, {}, files), HasSubstr("sudo ufw allow 9000/udp"));
-  std::ofstream(ufw)
-      << "ENABLED=no\n"
-         "Ip: Forwarding InReceives InHdrErrors InDelivers\nIp: 2 100 1 90\n"
-         "Udp: InDatagrams NoPorts InErrors\nUdp: 5 17 0\nUdpLite: NoPorts\nUdpLite: 4\n";
+  folder.write("ufw.conf",
+               "ENABLED=no\n"
+               "Ip: Forwarding InReceives InHdrErrors InDelivers\nIp: 2 100 1 90\n"
+               "Udp: InDatagrams NoPorts InErrors\nUdp: 5 17 0\nUdpLite: NoPorts\nUdpLite: 4\n");
   files.counters = ufw;
   EXPECT_EQ(obstacles({9000}, {}, files), "");
   EXPECT_THAT(obstacles({9000}, {.unwanted = 3}, files), HasSubstr("3 datagrams came for ports"));
@@ -153,7 +152,6 @@ TEST(Listen, SaysWhatAFirewallNeeds) {
   EXPECT_EQ(missed(files).filtered, 9U);
   files.counters = "/nowhere";
   EXPECT_EQ(missed(files).unwanted + missed(files).filtered, 0U);
-  std::filesystem::remove(ufw);
 }
 
 TEST(Listen, TheProgramHearsASender) {

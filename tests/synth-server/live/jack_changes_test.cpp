@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "protocol/status.hpp"
@@ -17,6 +15,7 @@
 #include "tests/support/jack.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/waiting.hpp"
 
 namespace splash::synth {
@@ -133,16 +132,16 @@ TEST(JackPorts, AreNamedInTheChannelMap) {
 
 TEST(JackPorts, AreThoseThatTheRigNames) {
   const JackServer server("named", {6, kPeriod});
-  const std::string rig = tests::temporary_path("named.yaml");
-  std::ofstream(rig)
-      << "name: named\noutputs:\n  - name: shoe\n    kind: worn\n    parts: [heel, toe]\n"
-         "    band: {low: 20, high: 750}\ndevice_channels: [5, 2]\n";
+  const tests::TemporaryFolder folder;
+  const std::string rig =
+      folder.write("named.yaml",
+                   "name: named\noutputs:\n  - name: shoe\n    kind: worn\n    parts: [heel, toe]\n"
+                   "    band: {low: 20, high: 750}\ndevice_channels: [5, 2]\n");
   tests::ChildProcess synth(
       tests::command("synth-server", {"--rig", rig, "--api", "jack", "--test-tone", "1"}));
   JackCapture client("synth-server", 5, 0.5);
   EXPECT_TRUE(client.wait(kTimeout));
   EXPECT_EQ(synth.wait_for_end(kTimeout), 0) << synth.output();
-  std::filesystem::remove(rig);
   EXPECT_THAT(synth.output(), testing::HasSubstr("1 shoe/heel -> system:playback_5, "
                                                  "2 shoe/toe -> system:playback_2"));
   EXPECT_GT(tests::peak(client.channels()[4]), 0.01F) << "heel";

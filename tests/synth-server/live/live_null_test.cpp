@@ -12,6 +12,7 @@
 #include "protocol/status.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/waiting.hpp"
 
 namespace splash::synth {
@@ -25,7 +26,6 @@ using tests::Recording;
 using tests::rig_path;
 using tests::sleep;
 using tests::Synth;
-using tests::temporary_path;
 
 constexpr int kRate = 48000;
 /// The engine opens slowly at its start [s].
@@ -47,7 +47,6 @@ TimeTag after(TimeTag tag, std::uint64_t samples) {
 
 class LiveNull : public testing::Test {
  protected:
-  ~LiveNull() override { std::filesystem::remove(wav_); }
   std::vector<std::string> arguments(const std::string& rig = "stereo.yaml") {
     return {"--rig", rig_path(rig), "--device", "null", "--record-audio", wav_};
   }
@@ -57,10 +56,10 @@ class LiveNull : public testing::Test {
     constexpr double kUnwritten = 1.0;  // a file is whole up to its last second
     const auto written = [&] { return static_cast<double>(std::filesystem::file_size(wav_)); };
     const double enough = written() + (seconds + kUnwritten) * kBytesPerSecond;
-    const double limit = protocol::monotonic_now() + 60.0;
-    while (written() < enough && protocol::monotonic_now() < limit) sleep(0.02);
+    static_cast<void>(tests::eventually([&] { return written() >= enough; }, 60.0, 0.02));
   }
-  std::string wav_ = temporary_path("live.wav");
+  const tests::TemporaryFolder folder_;
+  const std::string wav_ = folder_ / "live.wav";
 };
 
 TEST_F(LiveNull, PlaysTimeTagsExactToTheSample) {
@@ -96,8 +95,8 @@ TEST_F(LiveNull, PlaysTimeTagsExactToTheSample) {
 }
 
 TEST_F(LiveNull, PlaysALogAloudAndEndsWhenItHasRungOut) {
-  const std::string log = temporary_path("aloud.osc");
-  const std::string rendered = temporary_path("rendered.wav");
+  const std::string log = folder_ / "aloud.osc";
+  const std::string rendered = folder_ / "rendered.wav";
   {
     protocol::LogWriter writer(log);
     for (int i = 0; i < 8; ++i) {
@@ -117,8 +116,6 @@ TEST_F(LiveNull, PlaysALogAloudAndEndsWhenItHasRungOut) {
   EXPECT_EQ(code, 0) << text;
   const Recording heard = tests::read_recording(wav_);
   const Recording file = tests::read_recording(rendered);
-  std::filesystem::remove(log);
-  std::filesystem::remove(rendered);
   const auto& left = file.channels[0];
   ASSERT_GT(left.size(), static_cast<std::size_t>(kRate));
   EXPECT_LT(peak(left, static_cast<std::int64_t>(left.size()) - kRate / 100), 1e-6F);

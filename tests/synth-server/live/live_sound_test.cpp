@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/waiting.hpp"
 
 namespace splash::synth {
@@ -20,19 +19,11 @@ using testing::HasSubstr;
 class LiveSound : public testing::Test {
  protected:
   LiveSound() {
-    std::filesystem::create_directories(config_ / "splash/sounds");
-    write(own("dull"), "name: dull\nimpact: {frequency: 90, q: 2}\n");
-    write(file_, "name: mine\nimpact: {q: 3}\n");
+    folder_.write("splash/sounds/dull.yaml", "name: dull\nimpact: {frequency: 90, q: 2}\n");
+    write_q(3);
   }
-  ~LiveSound() override {
-    std::filesystem::remove_all(config_);
-    std::filesystem::remove(file_);
-  }
-  [[nodiscard]] std::filesystem::path own(const std::string& name) const {
-    return config_ / "splash/sounds" / (name + ".yaml");
-  }
-  static void write(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream(path) << text;
+  void write_q(int q) const {
+    folder_.write("mine.yaml", "name: mine\nimpact: {q: " + std::to_string(q) + "}\n");
   }
   static Message set(const std::string& name, float value) { return {"/set", {name, value}}; }
   static Message preset(const std::string& name) { return {"/preset", {name, 0.1F}}; }
@@ -45,14 +36,14 @@ class LiveSound : public testing::Test {
     EXPECT_TRUE(tests::eventually([&] { return value(synth, name) == wanted; }, 20.0, 0.1)) << name;
   }
 
-  std::filesystem::path config_ = tests::temporary_path("config");
-  std::string file_ = tests::temporary_path("mine.yaml");
+  const tests::TemporaryFolder folder_;
+  const std::string file_ = folder_ / "mine.yaml";
 };
 
 TEST_F(LiveSound, IsSetAndPresetAndReadAgain) {
   tests::Synth synth(
       {"--rig", tests::rig_path("handheld.yaml"), "--device", "null", "--sound", file_},
-      {{"XDG_CONFIG_HOME", config_.string()}});
+      {{"XDG_CONFIG_HOME", folder_.path().string()}});
   EXPECT_THAT(synth.process().output(), HasSubstr("sound: mine\n"));
   EXPECT_EQ(value(synth, "impact/q"), 3.0F);
   EXPECT_EQ(synth.ask(set("impact/q", 4.0F), "/value"),
@@ -67,10 +58,10 @@ TEST_F(LiveSound, IsSetAndPresetAndReadAgain) {
   EXPECT_EQ(synth.ask(preset("../sounds/dull"), "/fail").address, "/fail") << "no paths";
   EXPECT_EQ(synth.ask(preset(file_.substr(0, 60)), "/fail").address, "/fail");
 
-  write(file_, "name: mine\nimpact: {q: 8}\n");
+  write_q(8);
   synth.process().signal(SIGHUP);
   expect_value(synth, "impact/q", 8.0F);
-  write(file_, "name: mine\nimpact: {q: 800}\n");
+  write_q(800);
   synth.process().signal(SIGHUP);
   EXPECT_TRUE(synth.process().wait_for_text(file_ + ":2:13: error: key 'impact.q'"));
   EXPECT_EQ(value(synth, "impact/q"), 8.0F) << "a wrong file changes nothing";

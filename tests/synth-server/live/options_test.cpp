@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "program/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::synth {
 namespace {
@@ -85,8 +85,8 @@ TEST(Options, ChangeOneRowOfTheSoundWhateverItsFileSays) {
 }
 
 TEST(Options, RefuseToRenderOverTheLog) {
-  const auto log = std::filesystem::path(testing::TempDir()) / "options-test.osc";
-  std::ofstream(log) << "events";
+  const tests::TemporaryFolder folder;
+  const auto log = folder.write("log.osc", "events");
   const std::string other = (log.parent_path() / "." / log.filename()).string();
   const auto parsed = parse({"--rig", "x", "--replay", log.c_str(), "--render", other.c_str()});
   EXPECT_FALSE(parsed.options) << "the same file by another name";

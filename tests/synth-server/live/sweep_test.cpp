@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <random>
 
 #include "synth-server/output/equaliser.hpp"
 #include "synth-server/output/rig_reader.hpp"
 #include "synth-server/output/wav_file.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/synth-server/live/transducer.hpp"
 
 namespace splash::synth {
@@ -75,8 +75,8 @@ TEST(Sweep, RefusesARecordingWithoutIt) {
 
 /// From the programs's lines to a transducer that is even.
 TEST(Sweep, PrintsAnEqualiserThatEvensTheTransducerOut) {
-  const auto folder = std::filesystem::path(testing::TempDir());
-  const std::string recording = (folder / "sweep-heard.wav").string();
+  const tests::TemporaryFolder folder;
+  const std::string recording = folder / "heard.wav";
   const Rig tiles = read_rig(tests::rig_path("tiles36.yaml"));
   const auto heard = heard_of(sweep_of(tiles, 7, kRate), 0.0002, 0.0);
   {
@@ -88,7 +88,6 @@ TEST(Sweep, PrintsAnEqualiserThatEvensTheTransducerOut) {
   const auto [code, text] = tests::run_program(
       "synth-server",
       {"--rig", tests::rig_path("tiles36.yaml"), "--sweep", "8", "--response", recording});
-  std::filesystem::remove(recording);
   ASSERT_EQ(code, 0) << text;
   EXPECT_THAT(text, testing::HasSubstr("channels: [tile/07]"));
   const std::string lines = text.substr(text.find("    equalisers:"));

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "program/failure.hpp"
 #include "synth-server/play/track.hpp"
 #include "synth-server/replay/event_recorder.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/synth-server/render/rendering.hpp"
 
 namespace splash::synth {
@@ -135,7 +135,8 @@ TEST(Replay, AloudFeelsTheSame) {
 }
 
 TEST(Replay, OfARecordingGivesTheSameSamplesWithForcesToo) {
-  const auto path = std::filesystem::temp_directory_path() / "splash-forces-replay-test.osc";
+  const tests::TemporaryFolder folder;
+  const auto path = folder / "forces.osc";
   EventRecorder recorder(path, static_cast<int>(kRate));
   auto settings = texture_settings();
   settings.watch = &recorder;
@@ -150,7 +151,6 @@ TEST(Replay, OfARecordingGivesTheSameSamplesWithForcesToo) {
   recorder.finish();
   EXPECT_EQ(recorder.lost(), 0U);
   const auto log = protocol::read_log(path);
-  std::filesystem::remove(path);
   ReplaySettings again;
   again.engine = texture_settings();
   ReplayReport report;
