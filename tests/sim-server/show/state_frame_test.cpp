@@ -2,13 +2,14 @@
 // The state's encoding, bit for bit against view-server/README.md, as a reader would take it apart.
 #include "sim-server/show/state_frame.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 #include <string>
+
+#include "protocol/control_port.hpp"
 
 namespace splash::sim {
 namespace {
@@ -44,61 +45,34 @@ ShownState state() {
 }
 
 std::string hex(const protocol::ViewFrame& frame, std::size_t from, std::size_t size) {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text;
-  for (std::size_t i = from; i < from + size; ++i) {
-    text += kDigits[std::to_integer<unsigned>(frame[i]) >> 4U];
-    text += kDigits[std::to_integer<unsigned>(frame[i]) & 15U];
-  }
-  return text;
+  return protocol::to_hexadecimal(protocol::Bytes(frame).subspan(from, size));
 }
 
 TEST(StateFrame, IsWhatTheReadmeSaysBitForBit) {
   const protocol::ViewFrame frame = state_frame(few(), state());
   ASSERT_EQ(frame.size(), 56U + 2 * 32 + 4 * 8);
-  EXPECT_EQ(hex(frame, 0, 8),
-            "53505331"
-            "98000000");
+  EXPECT_EQ(hex(frame, 0, 8), "53 50 53 31 98 00 00 00");
   EXPECT_EQ(frame_number<double>(&frame[8]), 1764000000.25);
   EXPECT_EQ(frame_number<double>(&frame[16]), 1.5);
-  EXPECT_EQ(hex(frame, 24, 16),
-            "07000000"
-            "03000000"
-            "01000000"
-            "02000000");
+  EXPECT_EQ(hex(frame, 24, 16), "07 00 00 00 03 00 00 00 01 00 00 00 02 00 00 00");
   // Lower corner (0, 0, 0.25), unit 2 / 65535.
-  EXPECT_EQ(hex(frame, 40, 12),
-            "00000000"
-            "00000000"
-            "0000803e");
+  EXPECT_EQ(hex(frame, 40, 12), "00 00 00 00 00 00 00 00 00 00 80 3e");
   EXPECT_EQ(frame_number<float>(&frame[52]), static_cast<float>(2.0 / 65535.0));
   EXPECT_EQ(hex(frame, 56 + 32, 32),
-            "0000003f"
-            "000080bf"
-            "00000040"
-            "00000000"
-            "00000000"
-            "0000803f"
-            "00000000"
-            "06000000");
-  // By id: the second (x 1, y 2, z 0.5; 2 m/s: half of 255), the third (13 m/s: 255, spray), the
-  // first (asleep), and the bubble.
-  EXPECT_EQ(hex(frame, 120, 8),
-            "0080ffff0020"
-            "80"
-            "00");
-  EXPECT_EQ(hex(frame, 128, 8),
-            "004000800000"
-            "ff"
-            "04");
-  EXPECT_EQ(hex(frame, 136, 8),
-            "000000000000"
-            "00"
-            "02");
-  EXPECT_EQ(hex(frame, 144, 8),
-            "0040ffff0000"
-            "00"
-            "01");
+            "00 00 00 3f "
+            "00 00 80 bf "
+            "00 00 00 40 "
+            "00 00 00 00 "
+            "00 00 00 00 "
+            "00 00 80 3f "
+            "00 00 00 00 "
+            "06 00 00 00");
+  // By id, each its place, speed and kind: the second (x 1, y 2, z 0.5; 2 m/s: half of 255), the
+  // third (13 m/s: 255, spray), the first (asleep), and the bubble.
+  EXPECT_EQ(hex(frame, 120, 8), "00 80 ff ff 00 20 80 00");
+  EXPECT_EQ(hex(frame, 128, 8), "00 40 00 80 00 00 ff 04");
+  EXPECT_EQ(hex(frame, 136, 8), "00 00 00 00 00 00 00 02");
+  EXPECT_EQ(hex(frame, 144, 8), "00 40 ff ff 00 00 00 01");
 }
 
 TEST(StateFrame, PlacesAndSpeedsComeBackWithinHalfACount) {
@@ -150,7 +124,7 @@ TEST(StateFrame, OneParticleAloneHasAPlace) {
   water.id = {0};
   const protocol::ViewFrame frame = state_frame(water, {});
   EXPECT_GT(frame_number<float>(&frame[52]), 0.0F);
-  EXPECT_EQ(hex(frame, 56, 6), "000000000000");
+  EXPECT_EQ(hex(frame, 56, 6), "00 00 00 00 00 00");
 }
 
 }  // namespace

@@ -213,19 +213,22 @@ TEST(Calibration, HoldsForOtherBurstsAndTransducers) {
   }
 }
 
-/// What a hand gets of one component of a log.
-std::vector<double> levels_of(const std::filesystem::path& log, const Sound& sound,
-                              unsigned component) {
+/// What the channels of a rig get of a scene's recorded log.
+std::vector<std::vector<float>> played(const std::string& scene, const std::string& rig_name,
+                                       const Sound& sound, unsigned components = kAllComponents) {
+  const Rig rig = read_rig(kRoot / "configs/rigs" / (rig_name + ".yaml"));
   ReplaySettings settings;
   settings.engine.sample_rate = kRate;
   settings.engine.sound = sound;
-  settings.engine.components = component;
-  std::vector<float> signal;
-  static_cast<void>(replay(protocol::read_log(log), handheld(), settings,
-                           [&](const float* const* channels, int frames) {
-                             signal.insert(signal.end(), channels[0], channels[0] + frames);
+  settings.engine.components = components;
+  std::vector<std::vector<float>> out(static_cast<std::size_t>(channel_count(rig)));
+  static_cast<void>(replay(protocol::read_log(kRoot / "tests/data" / (scene + ".osc")), rig,
+                           settings, [&](const float* const* channels, int frames) {
+                             for (std::size_t c = 0; c < out.size(); ++c) {
+                               out[c].insert(out[c].end(), channels[c], channels[c] + frames);
+                             }
                            }));
-  return sensation_levels(signal, kRate, kThreshold);
+  return out;
 }
 
 /// Of the half windows in which anything is felt, the part in which one component is more than
@@ -255,11 +258,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, CalibrationOf,
                                          Heard{"pool", "drops"}));
 
 TEST_P(CalibrationOf, EachComponentIsFeltAndNoneCoversTheOthersMostOfTheTime) {
-  const auto log = kRoot / "tests/data" / (std::string(GetParam().scene) + ".osc");
   std::array<std::vector<double>, 3> levels;
   for (std::size_t c = 0; c < 3; ++c) {
     const unsigned component = 1U << c;
-    levels[c] = levels_of(log, shipped(GetParam().sound), component);
+    const auto hand = played(GetParam().scene, "handheld", shipped(GetParam().sound), component)[0];
+    levels[c] = sensation_levels(hand, kRate, kThreshold);
     const double most = *std::max_element(levels[c].begin(), levels[c].end());
     std::printf("%s, %s, component %u: %.0f dB over the threshold at most\n", GetParam().scene,
                 GetParam().sound, component, most);
@@ -272,24 +275,18 @@ TEST_P(CalibrationOf, EachComponentIsFeltAndNoneCoversTheOthersMostOfTheTime) {
 
 /// Root of the mean square of the frequencies that the right loudspeaker plays of the pool [Hz].
 double mean_pitch(const std::string& name) {
-  ReplaySettings settings;
-  settings.engine.sample_rate = kRate;
-  settings.engine.sound = shipped(name);
   double power = 0.0;
   double steps = 0.0;
   double last = 0.0;
   double peak = 0.0;
-  static_cast<void>(replay(protocol::read_log(kRoot / "tests/data/pool.osc"),
-                           read_rig(kRoot / "configs/rigs/stereo.yaml"), settings,
-                           [&](const float* const* channels, int frames) {
-                             for (int i = 0; i < frames; ++i) {
-                               const auto now = static_cast<double>(channels[1][i]);
-                               power += now * now;
-                               steps += (now - last) * (now - last);
-                               peak = std::max(peak, std::abs(now));
-                               last = now;
-                             }
-                           }));
+  const auto speakers = played("pool", "stereo", shipped(name));
+  for (const float sample : speakers[1]) {
+    const auto now = static_cast<double>(sample);
+    power += now * now;
+    steps += (now - last) * (now - last);
+    peak = std::max(peak, std::abs(now));
+    last = now;
+  }
   const double pitch = kRate / std::numbers::pi * std::asin(0.5 * std::sqrt(steps / power));
   std::printf("%s: %.0f Hz, peak %.2f\n", name.c_str(), pitch, peak);
   EXPECT_GT(peak, 0.02) << name;
@@ -303,22 +300,11 @@ TEST(Sounds, AreHigherOrLowerAsTheySay) {
   EXPECT_LT(mean_pitch("deep"), 0.8 * calibrated);
 }
 
-/// Energy of the pool's or the plunge's bubbles in the loudspeakers: all, and above 2 kHz.
+/// Energy of a scene's bubbles in the loudspeakers: all, and above 2 kHz.
 std::array<double, 2> energies(const std::string& scene, const Sound& sound) {
-  ReplaySettings settings;
-  settings.engine.sample_rate = kRate;
-  settings.engine.sound = sound;
-  settings.engine.components = kBubbles;
-  std::array<std::vector<double>, 2> sides;
-  static_cast<void>(replay(protocol::read_log(kRoot / "tests/data" / (scene + ".osc")),
-                           read_rig(kRoot / "configs/rigs/stereo.yaml"), settings,
-                           [&](const float* const* channels, int frames) {
-                             for (std::size_t c = 0; c < 2; ++c) {
-                               sides[c].insert(sides[c].end(), channels[c], channels[c] + frames);
-                             }
-                           }));
   std::array<double, 2> sums{};
-  for (std::vector<double>& side : sides) {
+  for (const auto& channel : played(scene, "stereo", sound, kBubbles)) {
+    std::vector<double> side(channel.begin(), channel.end());
     side.resize(std::bit_ceil(side.size()));
     std::vector<std::complex<double>> spectrum;
     Eigen::FFT<double>().fwd(spectrum, side);
