@@ -3,9 +3,6 @@
 // where the test wants them.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <string>
 #include <vector>
 
 #include "sim-server/detect/bubbles.hpp"
@@ -35,11 +32,5 @@ void fill_pool(Bubbles& bubbles, const std::vector<Vector3>& places, double born
 
 /// Carries and looks for spawns, and waits for it.
 void detect(Water& water, Bubbles& bubbles, double frame);
-
-/// Every vector width on whatever device there is.
-inline const auto kLaneCounts = ::testing::Values(1, 8, 16);
-inline std::string lanes_name(const ::testing::TestParamInfo<int>& info) {
-  return std::to_string(info.param) + "_lanes";
-}
 
 }  // namespace splash::sim

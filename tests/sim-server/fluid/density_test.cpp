@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
@@ -16,10 +15,10 @@ namespace {
 /// roundings of 6e-8.
 constexpr double kBound = 1.0e-5;
 
-class Density : public ::testing::TestWithParam<Build> {};
+class Density : public ::testing::TestWithParam<int> {};
 
 TEST_P(Density, IsTheTwins) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   double worst = 0.0;
   for (Water& water : situations()) {
     SCOPED_TRACE(water.name);
@@ -47,7 +46,7 @@ TEST_P(Density, IsTheTwins) {
 // A particle that is no number any more must not lead any index astray: those out of its reach
 // stay what they were.
 TEST_P(Density, OfOthersOutlivesNoNumbers) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
                           std::numeric_limits<float>::infinity(), -3.0e38F, 3.0e38F}) {
     SCOPED_TRACE(bad);
@@ -74,7 +73,7 @@ TEST_P(Density, OfOthersOutlivesNoNumbers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, Density, kBuilds, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, Density, kLaneCounts, lanes_name);
 
 }  // namespace
 }  // namespace splash::sim

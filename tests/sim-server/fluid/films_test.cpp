@@ -11,7 +11,6 @@
 #include "sim-server/gauge/film_force.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/free_float.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 
 namespace splash::sim {
 namespace {
@@ -51,10 +50,10 @@ BodyForce expected(FreeFloat& world, const WaterState& water, std::size_t body) 
                     body);
 }
 
-class Films : public ::testing::TestWithParam<Build> {};
+class Films : public ::testing::TestWithParam<int> {};
 
 TEST_P(Films, PushAsTheSumsInDoublePrecisionSay) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   FreeFloat world = pool();
   world.scene.slope = {true, 0.35, 0.3};
   world.add(kBall, 500.0, at({0.1, 0.1, 0.061}));
@@ -79,8 +78,7 @@ TEST_P(Films, PushAsTheSumsInDoublePrecisionSay) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lanes, Films, ::testing::Values(Build{1}, Build{8}, Build{16}),
-                         build_name);
+INSTANTIATE_TEST_SUITE_P(Lanes, Films, kLaneCounts, lanes_name);
 
 TEST(Films, OfBodiesThatTouchOnlyEachOtherAreEqualAndOpposite) {
   Device device(-1, false, 0);

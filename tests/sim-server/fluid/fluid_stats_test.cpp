@@ -8,14 +8,13 @@
 
 #include "sim-server/fluid/params/parts.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace splash::sim {
 namespace {
 
-class FluidStatsOf : public ::testing::TestWithParam<Build> {
+class FluidStatsOf : public ::testing::TestWithParam<int> {
  protected:
   FluidStatsOf() {
     water_.start(device_);
@@ -37,7 +36,7 @@ class FluidStatsOf : public ::testing::TestWithParam<Build> {
     return stats;
   }
 
-  Device device_{-1, false, GetParam().lanes};
+  Device device_{-1, false, GetParam()};
   std::vector<Water> all_ = situations();
   Water& water_ = all_.at(1);
 };
@@ -95,7 +94,7 @@ TEST_P(FluidStatsOf, SpeedsAndExcessAreTheTwins) {
   EXPECT_NEAR(stats.mean_excess, sum / static_cast<double>(state.id.size()), 1.0e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, FluidStatsOf, kScalarAndVector, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, FluidStatsOf, kScalarAndVector, lanes_name);
 
 }  // namespace
 }  // namespace splash::sim

@@ -11,7 +11,6 @@
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "tests/sim-server/fluid/free_float.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
 
 namespace splash::sim {

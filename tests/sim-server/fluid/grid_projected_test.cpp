@@ -15,7 +15,6 @@
 #include "sim-server/fluid/health/health.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/grid_projected_reference.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -23,7 +22,7 @@ namespace {
 
 constexpr double kStep = 4.0e-3;  ///< [s]
 
-class GridProjectedReference : public ::testing::TestWithParam<Build> {};
+class GridProjectedReference : public ::testing::TestWithParam<int> {};
 
 /// Water in a tank that no whole number of cells fills.
 Water odd_tank() {
@@ -61,7 +60,7 @@ double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
 }
 
 TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   Water water = odd_tank();
   water.start(device, {});
   water.stir(0.3, 7);
@@ -175,8 +174,7 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
   EXPECT_LT(worst_place, 1.0e-7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedReference, ::testing::Values(Build{1}, Build{16}),
-                         build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, GridProjectedReference, kScalarAndVector, lanes_name);
 
 /// How far cells are from holding their volume, beyond the twentieth that moves nothing.
 double asked_of(double fill) {
@@ -194,7 +192,7 @@ Water pressed_together(double part) {
 }
 
 TEST_P(GridProjectedReference, CellsAskForTheRoomThatTheyLack) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   for (const double part : {0.85, 1.15}) {
     Water water = pressed_together(part);
     water.start(device);

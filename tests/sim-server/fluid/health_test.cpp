@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace splash::sim {
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double kDt = 1.0e-4;  // [s]
 
-class HealthOf : public ::testing::TestWithParam<Build> {
+class HealthOf : public ::testing::TestWithParam<int> {
  protected:
   HealthOf() {
     water_.start(device_);
@@ -47,7 +46,7 @@ class HealthOf : public ::testing::TestWithParam<Build> {
     return fluid.particles().id.read(fluid.device(), place + 1).back();
   }
 
-  Device device_{-1, false, GetParam().lanes};
+  Device device_{-1, false, GetParam()};
   std::vector<Water> all_ = situations();
   Water& water_ = all_.front();  // a lattice
 };
@@ -102,7 +101,7 @@ TEST_P(HealthOf, AStepTooLongIsSeenWhateverCameOfIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, HealthOf, kScalarAndVector, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, HealthOf, kScalarAndVector, lanes_name);
 
 TEST(HealthWords, EachFaultHasItsOwn) {
   for (std::size_t k = 0; k < kFaults; ++k) {

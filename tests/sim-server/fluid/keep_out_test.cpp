@@ -13,7 +13,6 @@
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 #include "tests/sim-server/scene/mesh_forms.hpp"
 
@@ -123,10 +122,10 @@ Vector3 outward(const Shape& shape, const Vector3& x) {
   return rotate(turned(), (1.0 / length(rise)) * rise);
 }
 
-class KeepOut : public ::testing::TestWithParam<Build> {};
+class KeepOut : public ::testing::TestWithParam<int> {};
 
 TEST_P(KeepOut, LeavesNobodyDeepInside) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   for (const Shape& shape : kShapes) {
     SCOPED_TRACE(static_cast<int>(shape.kind));
     Water water = body_among_particles(shape);
@@ -190,7 +189,7 @@ void expect_nobody_through(Device& device, const Shape& shape, bool free, double
 
 // As what a heavy ball squeezes against the floor: into the body's far half, or out behind it.
 TEST_P(KeepOut, LetsNobodyThrough) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   for (const bool free : {false, true}) {
     for (const Shape& shape : kShapes) {
       for (const double far : {0.3, 1.0}) {
@@ -202,7 +201,7 @@ TEST_P(KeepOut, LetsNobodyThrough) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, KeepOut, kScalarAndVector, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, KeepOut, kScalarAndVector, lanes_name);
 
 }  // namespace
 }  // namespace splash::sim

@@ -11,7 +11,6 @@
 #include "sim-server/fluid/time_step.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/rotation.hpp"
-#include "sim-server/scene/solver_choice.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -157,10 +156,7 @@ TEST_P(Pack, DoesNothingWhereNothingIsLoose) {
   EXPECT_EQ(places(), before_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Pack,
-                         ::testing::Values(PressureKind::weakly_compressible,
-                                           PressureKind::grid_projected),
-                         [](const auto& solver) { return name_of(solver.param); });
+INSTANTIATE_TEST_SUITE_P(Each, Pack, kBothSolvers, solver_name);
 
 }  // namespace
 }  // namespace splash::sim

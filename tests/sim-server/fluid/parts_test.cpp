@@ -6,8 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim-server/scene/solver_choice.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/situations.hpp"
 
 namespace splash::sim {
@@ -93,10 +91,7 @@ TEST_P(Parts, NorIsFrictionWhereThereIsNone) {
   EXPECT_TRUE(rubbing.front().fluid->parts().friction);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, Parts,
-                         ::testing::Values(PressureKind::weakly_compressible,
-                                           PressureKind::grid_projected),
-                         [](const auto& solver) { return name_of(solver.param); });
+INSTANTIATE_TEST_SUITE_P(Solvers, Parts, kBothSolvers, solver_name);
 
 TEST(KernelParts, AreWhatTheSceneHas) {
   FluidParams params = {};

@@ -10,7 +10,6 @@
 #include "sim-server/scene/resolution.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "sim-server/scene/solver_choice.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -207,10 +206,7 @@ TEST(WeaklyCompressible, GoesOnFromARestoredState) {
   EXPECT_EQ(first.id, second.id);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, EitherSolver,
-                         ::testing::Values(PressureKind::weakly_compressible,
-                                           PressureKind::grid_projected),
-                         [](const auto& solver) { return name_of(solver.param); });
+INSTANTIATE_TEST_SUITE_P(Solvers, EitherSolver, kBothSolvers, solver_name);
 
 }  // namespace
 }  // namespace splash::sim

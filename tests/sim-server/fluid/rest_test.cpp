@@ -74,7 +74,7 @@ class Resting : public Sleeping {
   /// of where all had been `before` the step: whoever wakes may leave its cell at once.
   int most_around(const Cells& activity, const Numbers& before, const Numbers& now,
                   std::size_t id) const {
-    const auto lanes = static_cast<std::size_t>(GetParam().lanes);
+    const auto lanes = static_cast<std::size_t>(GetParam());
     const std::size_t first = now.place[id] / lanes * lanes;
     const std::array<int, 3> here = activity.of(water_.params, before.state[id]);
     int from = here[0];
@@ -209,7 +209,7 @@ TEST_P(Resting, IsNoHarmThatGaugesSortBetweenFrames) {
   EXPECT_GT(asleep, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, Resting, kScalarAndVector, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, Resting, kScalarAndVector, lanes_name);
 
 }  // namespace
 }  // namespace splash::sim

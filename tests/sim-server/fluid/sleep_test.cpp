@@ -83,7 +83,7 @@ TEST_P(Sleeping, AFastParticleKeepsItsSurroundingsAwake) {
 
 // A rule that nothing can meet must change nothing at all.
 TEST_P(Sleeping, WhileAllAreAwakeNothingDiffers) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   std::vector<Snapshot> ends;
   for (const double speed : {0.0, 1.0e-4}) {
     Water water;
@@ -104,7 +104,7 @@ TEST_P(Sleeping, WhileAllAreAwakeNothingDiffers) {
   EXPECT_EQ(ends[0].velocity, ends[1].velocity);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builds, Sleeping, kScalarAndVector, build_name);
+INSTANTIATE_TEST_SUITE_P(Builds, Sleeping, kScalarAndVector, lanes_name);
 
 }  // namespace
 }  // namespace splash::sim

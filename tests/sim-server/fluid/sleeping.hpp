@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "sim-server/scene/initial_fluid.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -17,9 +16,9 @@ inline constexpr SleepRule kRule = {.speed = 0.05, .frames = 3};
 inline constexpr double kDt = 1.0e-3;
 
 /// A trough 1.2 m long; a box hangs above its left end and comes down when it is told to.
-class Sleeping : public ::testing::TestWithParam<Build> {
+class Sleeping : public ::testing::TestWithParam<int> {
  protected:
-  Sleeping() : device_(-1, false, GetParam().lanes) {
+  Sleeping() : device_(-1, false, GetParam()) {
     water_.scene = tank_scene(0.03, {1.2, 0.24, 0.6}, 0.12);
     BodySettings box;
     box.name = "box";

@@ -11,6 +11,17 @@
 #include "sim-server/start/settle.hpp"
 
 namespace splash::sim {
+namespace {
+
+std::vector<Vector3> by_id(const Snapshot& snapshot, const std::vector<float>& parts) {
+  std::vector<Vector3> all(snapshot.id.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[static_cast<std::size_t>(snapshot.id[i])] = vector_at(parts, parts.size() / 3, i);
+  }
+  return all;
+}
+
+}  // namespace
 
 Scene tank_scene(double spacing, const Vector3& upper, double depth) {
   Scene scene;
@@ -54,14 +65,9 @@ void Water::start(Device& device, const KernelBuild& build) {
 void Water::stir(double speed, unsigned seed) {
   const auto velocities =
       random_places(particles.size(), {-speed, -speed, -speed}, {speed, speed, speed}, seed);
-  Snapshot snapshot = fluid->snapshot();
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vector3& v = velocities[static_cast<std::size_t>(snapshot.id[i])];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      snapshot.velocity[part(*fluid, axis, i)] = static_cast<float>(v[axis]);
-    }
-  }
-  fluid->restore(snapshot);
+  change_particles(*fluid, [&](int id, Vector3&, Vector3& velocity) {
+    velocity = velocities[static_cast<std::size_t>(id)];
+  });
 }
 
 Step Water::step_at(double dt) const {
@@ -83,11 +89,31 @@ std::size_t part(const Fluid& fluid, std::size_t axis, std::size_t i) {
 }
 
 Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size_t i) {
-  Vector3 v;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    v[axis] = static_cast<double>(parts[part(fluid, axis, i)]);
+  return vector_at(parts, static_cast<std::size_t>(fluid.params().capacity), i);
+}
+
+std::vector<Vector3> places_of(Fluid& fluid) {
+  const Snapshot now = fluid.snapshot();
+  return by_id(now, now.position);
+}
+
+std::vector<Vector3> velocities_of(Fluid& fluid) {
+  const Snapshot now = fluid.snapshot();
+  return by_id(now, now.velocity);
+}
+
+void change_particles(Fluid& fluid, const std::function<void(int, Vector3&, Vector3&)>& change) {
+  Snapshot now = fluid.snapshot();
+  for (std::size_t i = 0; i < now.id.size(); ++i) {
+    Vector3 place = now.place(i);
+    Vector3 velocity = vector_of(fluid, now.velocity, i);
+    change(now.id[i], place, velocity);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      now.position[part(fluid, axis, i)] = static_cast<float>(place[axis]);
+      now.velocity[part(fluid, axis, i)] = static_cast<float>(velocity[axis]);
+    }
   }
-  return v;
+  fluid.restore(now);
 }
 
 Water fill(const Scene& scene, PressureKind solver) {
@@ -111,13 +137,10 @@ void let_settle(Water& water) {
 }
 
 double kinetic_energy(Fluid& fluid) {
-  const Snapshot snapshot = fluid.snapshot();
+  const std::vector<Vector3> velocities = velocities_of(fluid);
   double sum = 0.0;
-  for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
-    const Vector3 v = vector_of(fluid, snapshot.velocity, i);
-    sum += 0.5 * dot(v, v);
-  }
-  return sum / static_cast<double>(snapshot.id.size());
+  for (const Vector3& v : velocities) sum += 0.5 * dot(v, v);
+  return sum / static_cast<double>(velocities.size());
 }
 
 }  // namespace splash::sim

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Small bodies of water to test on: scenes, places, bodies and a fluid made of them.
+// Small bodies of water to test on: scenes, places, bodies and a fluid made of them; and the ways
+// to build it.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <functional>
 #include <memory>
@@ -11,8 +14,23 @@
 #include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/fluid/fluid.hpp"
 #include "sim-server/fluid/set_up.hpp"
+#include "sim-server/scene/solver_choice.hpp"
 
 namespace splash::sim {
+
+/// Every vector width on whatever device there is.
+inline const auto kLaneCounts = ::testing::Values(1, 8, 16);
+/// For what does not sum over neighbours: 8 lanes are 16 with other numbers.
+inline const auto kScalarAndVector = ::testing::Values(1, 16);
+inline std::string lanes_name(const ::testing::TestParamInfo<int>& info) {
+  return std::to_string(info.param) + "_lanes";
+}
+
+inline const auto kBothSolvers =
+    ::testing::Values(PressureKind::weakly_compressible, PressureKind::grid_projected);
+inline std::string solver_name(const ::testing::TestParamInfo<PressureKind>& info) {
+  return name_of(info.param);
+}
 
 /// A body that moves as a formula says.
 class FormulaMotion : public Motion {
@@ -60,6 +78,14 @@ struct Water {
 
 /// Velocity or place of one particle of a snapshot.
 [[nodiscard]] Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size_t i);
+
+/// Of all particles, by their ids [m], [m/s].
+[[nodiscard]] std::vector<Vector3> places_of(Fluid& fluid);
+[[nodiscard]] std::vector<Vector3> velocities_of(Fluid& fluid);
+
+/// Gives each particle the place and the velocity that `change` makes of its own.
+void change_particles(Fluid& fluid,
+                      const std::function<void(int id, Vector3& place, Vector3& velocity)>& change);
 
 /// The scene's water as it stands under its own weight, for either solver.
 [[nodiscard]] Water fill(const Scene& scene, PressureKind solver);

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "sim-server/scene/rotation.hpp"
-#include "tests/sim-server/fluid/lane_settings.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -17,10 +16,10 @@ namespace {
 const TankState kTank = {{0.0, 0.0, 0.0}, {0.7, -1.1, 2.3}, {4.0, 1.0, -3.0}};
 const Vector3 kPivot = {0.1, 0.2, -0.1};
 
-class TankTurns : public ::testing::TestWithParam<Build> {};
+class TankTurns : public ::testing::TestWithParam<int> {};
 
 TEST_P(TankTurns, AsTheFormulaSays) {
-  Device device(-1, false, GetParam().lanes);
+  Device device(-1, false, GetParam());
   Water water;
   water.scene = tank_scene(0.02, {0.3, 0.3, 0.4}, 0.1);
   water.particles = random_places(333, {0.02, 0.02, 0.02}, {0.28, 0.28, 0.2}, 7);
@@ -42,7 +41,7 @@ TEST_P(TankTurns, AsTheFormulaSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lanes, TankTurns, kScalarAndVector, build_name);
+INSTANTIATE_TEST_SUITE_P(Lanes, TankTurns, kScalarAndVector, lanes_name);
 
 TEST(TankTurn, LetsWhatFliesGoStraightOnForWhoStandsOutside) {
   // In double precision, step by step as the kernel does it: the world turns back by -w t.
