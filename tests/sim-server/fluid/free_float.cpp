@@ -18,16 +18,10 @@ Vector3 Balance::all() const {
 }
 
 void FreeFloat::add(const Shape& shape, double density, const BodyState& start) {
-  BodySettings body;
-  body.name = "body " + std::to_string(scene.bodies.size());
-  body.shape = shape;
-  body.rest.position = start.position;
-  body.rest.rotation = start.rotation;
-  body.motion.kind = MotionKind::free;
-  body.motion.density = density;
-  body.motion.velocity = start.velocity;
-  body.motion.spin = start.spin;
-  scene.bodies.push_back(body);
+  const std::string name = "body " + std::to_string(scene.bodies.size());
+  scene.bodies.push_back(body_of(name, shape, start));
+  scene.bodies.back().motion.kind = MotionKind::free;
+  scene.bodies.back().motion.density = density;
 }
 
 void FreeFloat::add_led(const Shape& shape, const BodyState& start) {

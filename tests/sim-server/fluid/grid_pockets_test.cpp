@@ -13,6 +13,7 @@
 #include "sim-server/device/device_error.hpp"
 #include "sim-server/fluid/pressure/grid_projected/grid_projected.hpp"
 #include "sim-server/scene/initial_fluid.hpp"
+#include "sim-server/scene/rotation.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -37,11 +38,8 @@ Scene scene_of(double spacing, const Vector3& tank, double depth) {
 /// The scene's water but for some of it.
 template <class Left>
 Water water_without(const Scene& scene, Left&& is_left_out) {
-  Water water;
-  water.scene = scene;
-  for (const Vector3& place : initial_particles(scene, {})) {
-    if (!is_left_out(place)) water.particles.push_back(place);
-  }
+  Water water = {.scene = scene, .particles = initial_particles(scene)};
+  std::erase_if(water.particles, is_left_out);
   return water;
 }
 
@@ -66,10 +64,10 @@ struct Bubble {
   double frequency = 0.0;  ///< of its swing, as Minnaert's but for the water's end [Hz]
 
  private:
-  static double off(const Vector3& x) { return std::hypot(x[0] - 0.3, x[1] - 0.3, x[2] - 0.3); }
+  static double off(const Vector3& x) { return length(x - Vector3{0.3, 0.3, 0.3}); }
   static double radius_of(double volume) { return std::cbrt(0.75 * volume / std::numbers::pi); }
   double volume_within(double most) const {
-    const auto all = initial_particles(scene_, {});
+    const auto all = initial_particles(scene_);
     const auto count =
         std::count_if(all.begin(), all.end(), [&](const Vector3& x) { return off(x) < most; });
     return static_cast<double>(count) * std::pow(spacing_, 3.0);
@@ -104,18 +102,12 @@ TEST(Bubbles, SwingAtTheirFrequency) {
   Bubble bubble(device, kRadius, kRadius / 5.0);
   const double dt = 0.002 / bubble.frequency;
   bubble.water.step(dt);
-  Snapshot pushed = bubble.water.fluid->snapshot();
-  for (std::size_t i = 0; i < pushed.id.size(); ++i) {
-    const Vector3 x = vector_of(*bubble.water.fluid, pushed.position, i);
-    const Vector3 from = {x[0] - 0.3, x[1] - 0.3, x[2] - 0.3};
-    const double far = std::hypot(from[0], from[1], from[2]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double speed = 1.0e-6 * kRadius * kRadius / (dt * far * far);  // [m/s]
-      pushed.velocity[part(*bubble.water.fluid, axis, i)] +=
-          static_cast<float>(speed * from[axis] / far);
-    }
-  }
-  bubble.water.fluid->restore(pushed);
+  change_particles(*bubble.water.fluid, [dt](int, Vector3& place, Vector3& velocity) {
+    const Vector3 from = place - Vector3{0.3, 0.3, 0.3};
+    const double far = length(from);
+    const double speed = 1.0e-6 * kRadius * kRadius / (dt * far * far);  // [m/s]
+    velocity = velocity + (speed / far) * from;
+  });
   double before = 0.0;
   std::vector<double> crossings;
   for (int k = 0; k < 1500 && crossings.size() < 3; ++k) {
@@ -136,30 +128,21 @@ constexpr double kSolid = 0.32 * (0.1 * 0.36 + 0.24 * 0.1);  ///< volume of both
 
 Scene hood() {
   Scene scene = scene_of(0.02, {kLength, kWidth, 1.0}, 0.56);
-  const auto add = [&](const char* name, const Vector3& size, const Vector3& middle) {
-    BodySettings body;
-    body.name = name;
-    body.shape = {ShapeKind::box, size, 0.0, 0.0};
-    body.rest.position = middle;
-    scene.bodies.push_back(body);
-  };
-  add("plate", {0.1, kWidth, 0.36}, {0.29, 0.16, 0.32});
-  add("lid", {0.34, kWidth, 0.1}, {0.17, 0.16, 0.45});
+  scene.bodies = {body_of("plate", {ShapeKind::box, {0.1, kWidth, 0.36}}, {{0.29, 0.16, 0.32}}),
+                  body_of("lid", {ShapeKind::box, {0.34, kWidth, 0.1}}, {{0.17, 0.16, 0.45}})};
   return scene;
 }
 
 /// That hood, `raised(time)` above its place [m], with air under its lid down to 0.2 m, where the
 /// water around stands at 0.56 m.
 Water under_the_hood(const Scene& scene, const std::function<double(double)>& raised) {
-  const std::vector<Keyframe> poses = {scene.bodies[0].rest, scene.bodies[1].rest};
-  Water water;
-  water.scene = scene;
-  for (const Vector3& place : initial_particles(scene, poses)) {
-    if (place[0] > 0.24 || place[2] < 0.2 || place[2] > 0.4) water.particles.push_back(place);
-  }
-  for (const Keyframe& pose : poses) {
-    water.motions.push_back([pose, raised](double time) {
-      BodyState state = {pose.position, pose.rotation};
+  Water water = {.scene = scene, .particles = initial_particles(scene)};
+  std::erase_if(water.particles, [](const Vector3& place) {
+    return place[0] <= 0.24 && place[2] >= 0.2 && place[2] <= 0.4;
+  });
+  for (const BodySettings& body : scene.bodies) {
+    water.motions.push_back([place = body.rest.position, raised](double time) {
+      BodyState state = {place};
       state.position[2] += raised(time);
       const double later = raised(time + 1.0e-4);
       state.velocity[2] = (later - raised(time)) / 1.0e-4;
@@ -171,14 +154,11 @@ Water under_the_hood(const Scene& scene, const std::function<double(double)>& ra
 
 /// Volume of the water under the lid, which is `raised` [m3].
 double water_inside(Fluid& fluid, double raised) {
-  const Snapshot now = fluid.snapshot();
-  const double each = static_cast<double>(fluid.params().mass / fluid.params().rest_density);
-  double volume = 0.0;
-  for (std::size_t i = 0; i < now.id.size(); ++i) {
-    const Vector3 place = vector_of(fluid, now.position, i);
-    if (place[0] < 0.24 && place[2] < 0.45 + raised) volume += each;
-  }
-  return volume;
+  const std::vector<Vector3> places = places_of(fluid);
+  const auto inside = [&](const Vector3& x) { return x[0] < 0.24 && x[2] < 0.45 + raised; };
+  const auto count = std::count_if(places.begin(), places.end(), inside);
+  return static_cast<double>(count) *
+         static_cast<double>(fluid.params().mass / fluid.params().rest_density);
 }
 
 /// Of the pressure that the water's level asks of the air, what the air has.

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "sim-server/fluid/health/health.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -43,20 +44,17 @@ MacFaces read_faces(Device& device, const GridProjected& solver, const Buffer<fl
 }
 
 /// The largest difference.
-double apart(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < b.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most;
-}
-
-double apart(const MacFaces& a, const MacFaces& b) {
-  return std::max({apart(a[0], b[0]), apart(a[1], b[1]), apart(a[2], b[2])});
-}
-
-double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < b.size(); ++i) most = std::max(most, length(a[i] - b[i]));
-  return most;
+template <class Part>
+double apart(const Part& a, const Part& b) {
+  if constexpr (std::is_arithmetic_v<Part>) {
+    return static_cast<double>(std::abs(a - b));
+  } else if constexpr (std::is_same_v<Part, Vector3>) {
+    return length(a - b);
+  } else {
+    double most = 0.0;
+    for (std::size_t i = 0; i < b.size(); ++i) most = std::max(most, apart(a[i], b[i]));
+    return most;
+  }
 }
 
 TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
@@ -81,15 +79,14 @@ TEST_P(GridProjectedReference, StepsAsTheTwinDoes) {
 
   MacFaces everywhere = gathered.weight;
   for (MacField& field : everywhere) std::fill(field.begin(), field.end(), 1.0);
-  std::vector<Vector3> deviation = before.velocity;
   const auto unseen = [&](const std::vector<Vector3>& values, const MacFaces& mean) {
     std::vector<Vector3> left = values;
     for (std::size_t i = 0; i < count; ++i) {
-      left[i] = left[i] - reference.at(before.position[i], mean, everywhere, {0.0, 0.0, 0.0});
+      left[i] = left[i] - reference.at(before.position[i], mean, everywhere, {});
     }
     return left;
   };
-  deviation = unseen(before.velocity, gathered.mean);
+  const std::vector<Vector3> deviation = unseen(before.velocity, gathered.mean);
   EXPECT_LT(apart(read_vectors(device, solver.deviation(), p.capacity, count), deviation), 1.0e-5);
   const ReferenceGathered seen = reference.gather(before.position, deviation);
   EXPECT_LT(apart(read_faces(device, solver, solver.seen()), seen.mean), 1.0e-5);
@@ -258,12 +255,7 @@ TEST(GridProjected, StepsOnADeviceOfManyWorkItemsAsOnACpu) {
     EXPECT_EQ(water.fluid->stats().not_finite, 0);
   }
   ASSERT_EQ(ends[0].id, ends[1].id);
-  double worst = 0.0;
-  for (std::size_t i = 0; i < ends[0].velocity.size(); ++i) {
-    worst =
-        std::max(worst, static_cast<double>(std::abs(ends[0].velocity[i] - ends[1].velocity[i])));
-  }
-  EXPECT_LT(worst, 1.0e-4);
+  EXPECT_LT(apart(ends[0].velocity, ends[1].velocity), 1.0e-4);
 }
 
 TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
@@ -354,18 +346,16 @@ TEST(GridProjected, ALoneDropFliesUntilItTouches) {
     water.settle = false;
     water.particles = drop;
     water.start(device);
-    Snapshot state = water.fluid->snapshot();
-    for (std::size_t i = 0; i < drop.size(); ++i) {
-      state.velocity[part(*water.fluid, 0, i)] = static_cast<float>(-kTowards);
-    }
-    water.fluid->restore(state);
+    change_particles(*water.fluid,
+                     [](int, Vector3&, Vector3& velocity) { velocity[0] = -kTowards; });
     for (int k = 1; k <= 100; ++k) {
       water.step(kStep);
-      const Snapshot now = water.fluid->snapshot();
+      const std::vector<Vector3> places = places_of(*water.fluid);
+      const std::vector<Vector3> velocities = velocities_of(*water.fluid);
       for (std::size_t i = 0; i < drop.size(); ++i) {
-        const Vector3& from = drop[static_cast<std::size_t>(now.id[i])];
-        const Vector3 x = vector_of(*water.fluid, now.position, i);
-        const Vector3 v = vector_of(*water.fluid, now.velocity, i);
+        const Vector3& from = drop[i];
+        const Vector3& x = places[i];
+        const Vector3& v = velocities[i];
         const double fall = 0.5 * 9.81 * kStep * kStep * k * (k + 1);
         const bool down = from[2] - fall < kRadius;
         EXPECT_NEAR(x[2], down ? kRadius : from[2] - fall, 1.0e-5) << k;
@@ -389,23 +379,15 @@ TEST(GridProjected, AWaveLasts) {
   Water water = fill(tank_scene(0.05, {1.0, 0.1, 1.0}, kDepth), PressureKind::grid_projected);
   water.start(device);
   let_settle(water);
-  Snapshot state = water.fluid->snapshot();
-  for (std::size_t i = 0; i < state.id.size(); ++i) {
-    const Vector3 x = vector_of(*water.fluid, state.position, i);
-    const double c = 0.025 * omega / std::sinh(kNumber * kDepth);
-    state.velocity[part(*water.fluid, 0, i)] =
-        static_cast<float>(-c * std::cosh(kNumber * x[2]) * std::sin(kNumber * x[0]));
-    state.velocity[part(*water.fluid, 2, i)] =
-        static_cast<float>(c * std::sinh(kNumber * x[2]) * std::cos(kNumber * x[0]));
-  }
-  water.fluid->restore(state);
+  const double c = 0.025 * omega / std::sinh(kNumber * kDepth);
+  change_particles(*water.fluid, [c](int, Vector3& x, Vector3& v) {
+    v[0] = -c * std::cosh(kNumber * x[2]) * std::sin(kNumber * x[0]);
+    v[2] = c * std::sinh(kNumber * x[2]) * std::cos(kNumber * x[0]);
+  });
   // Amplitudes of the mode between its zero crossings.
   const auto mode = [&] {
-    const Snapshot now = water.fluid->snapshot();
     double sum = 0.0;
-    for (std::size_t i = 0; i < now.id.size(); ++i) {
-      sum += std::cos(kNumber * vector_of(*water.fluid, now.position, i)[0]);
-    }
+    for (const Vector3& x : places_of(*water.fluid)) sum += std::cos(kNumber * x[0]);
     return 2.0 * sum * std::pow(0.05, 3) / 0.1;
   };
   const double level = mode();

@@ -28,16 +28,8 @@ Water with_solid(double spacing, const Vector3& tank, double depth, const Shape&
                  const BodyState& place) {
   Scene scene = tank_scene(spacing, tank, depth);
   scene.fluid.solver = PressureKind::grid_projected;
-  BodySettings body;
-  body.name = "solid";
-  body.shape = shape;
-  body.rest.position = place.position;
-  body.rest.rotation = place.rotation;
-  scene.bodies = {body};
-  Water water;
-  water.scene = scene;
-  const std::vector<Keyframe> poses = {body.rest};
-  water.particles = initial_particles(scene, poses);
+  scene.bodies = {body_of("solid", shape, place)};
+  Water water = {.scene = scene, .particles = initial_particles(scene)};
   water.motions = {[place](double) { return place; }};
   return water;
 }
@@ -265,14 +257,12 @@ TEST(GridSolids, WaterOnASlopeStaysStill) {
 
 /// Mean height of the highest so many particles within a box around the tank's middle, or outside
 /// it.
-double top_of(const Snapshot& now, std::size_t particles, const Vector3& half, bool within,
+double top_of(const std::vector<Vector3>& places, const Vector3& half, bool within,
               std::size_t highest) {
-  const std::size_t stride = now.position.size() / 3;
   std::vector<double> heights;
-  for (std::size_t i = 0; i < particles; ++i) {
-    const bool inside = std::abs(static_cast<double>(now.position[i]) - 0.225) < half[0] &&
-                        std::abs(static_cast<double>(now.position[stride + i]) - 0.18) < half[1];
-    if (inside == within) heights.push_back(static_cast<double>(now.position[2 * stride + i]));
+  for (const Vector3& x : places) {
+    const bool inside = std::abs(x[0] - 0.225) < half[0] && std::abs(x[1] - 0.18) < half[1];
+    if (inside == within) heights.push_back(x[2]);
   }
   std::sort(heights.rbegin(), heights.rend());
   return std::accumulate(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(highest),
@@ -296,9 +286,9 @@ TEST_P(Hovering, LeavesTheWaterLevel) {
   water.start(device);
   let_settle(water);
   for (int k = 0; k < 40; ++k) water.step(1.0e-2);
-  const Snapshot now = water.fluid->snapshot();
-  const double beneath = top_of(now, water.particles.size(), {0.07, 0.03, 0.0}, true, 8);
-  const double elsewhere = top_of(now, water.particles.size(), {0.15, 0.18, 0.0}, false, 50);
+  const std::vector<Vector3> places = places_of(*water.fluid);
+  const double beneath = top_of(places, {0.07, 0.03, 0.0}, true, 8);
+  const double elsewhere = top_of(places, {0.15, 0.18, 0.0}, false, 50);
   std::printf("%.2f spacings lower beneath it\n", (elsewhere - beneath) / kSpacing);
   EXPECT_NEAR(beneath, elsewhere, 0.15 * kSpacing);
 }
@@ -316,12 +306,9 @@ TEST(GridSolids, APistonLiftsTheWater) {
   water.start(device);
   let_settle(water);
   const auto mean_height = [&] {
-    const Snapshot now = water.fluid->snapshot();
     double sum = 0.0;
-    for (std::size_t i = 0; i < now.id.size(); ++i) {
-      sum += vector_of(*water.fluid, now.position, i)[2];
-    }
-    return sum / static_cast<double>(now.id.size());
+    for (const Vector3& x : places_of(*water.fluid)) sum += x[2];
+    return sum / static_cast<double>(water.particles.size());
   };
   const double before = mean_height();
   for (int k = 0; k < 300; ++k) {

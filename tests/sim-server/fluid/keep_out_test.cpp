@@ -38,13 +38,8 @@ double depth_of(const Shape& shape, const Vector3& local) {
 
 Water body_among_particles(const Shape& shape) {
   Scene scene = tank_scene(0.05, {1.0, 1.0, 1.0}, 0.2);
-  BodySettings body;
-  body.name = "body";
-  body.shape = shape;
-  scene.bodies = {body};
-  Water water;
-  water.scene = scene;
-  water.particles = initial_particles(scene);
+  scene.bodies = {body_of("body", shape)};
+  Water water = {.scene = scene, .particles = initial_particles(scene)};
   water.motions = {[](double) { return BodyState{kCentre, turned(), kMotion, kSpin}; }};
   return water;
 }
@@ -53,20 +48,14 @@ Water body_among_particles(const Shape& shape) {
 std::vector<Vector3> scatter(Water& water) {
   const std::vector<Vector3> places =
       random_places(water.particles.size(), {0.35, 0.35, 0.35}, {0.65, 0.65, 0.65}, 5);
-  Snapshot snapshot = water.fluid->snapshot();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      snapshot.position[part(*water.fluid, axis, i)] =
-          static_cast<float>(places[static_cast<std::size_t>(snapshot.id[i])][axis]);
-    }
-  }
-  water.fluid->restore(snapshot);
+  change_particles(*water.fluid, [&](int id, Vector3& place, Vector3&) {
+    place = places[static_cast<std::size_t>(id)];
+  });
   return places;
 }
 
 Vector3 in_body(const Vector3& place) {
-  const Quaternion q = turned();
-  return rotate({-q[0], -q[1], -q[2], q[3]}, place - kCentre);
+  return rotate(inverse(turned()), place - kCentre);
 }
 
 Shape star_shape() {
@@ -77,10 +66,10 @@ Shape star_shape() {
   return mesh_shape(make_solid(star, 0.05));
 }
 
-const std::vector<Shape> kShapes = {Shape{ShapeKind::box, {0.2, 0.14, 0.1}, 0.0, 0.0},
+const std::vector<Shape> kShapes = {Shape{ShapeKind::box, {0.2, 0.14, 0.1}},
                                     Shape{ShapeKind::box, {0.3, 0.14, 0.1}, 0.03, 0.4},
-                                    Shape{ShapeKind::sphere, {0.2, 0.2, 0.2}, 0.0, 0.0},
-                                    Shape{ShapeKind::cylinder, {0.2, 0.2, 0.12}, 0.0, 0.0},
+                                    Shape{ShapeKind::sphere, {0.2, 0.2, 0.2}},
+                                    Shape{ShapeKind::cylinder, {0.2, 0.2, 0.12}},
                                     mesh_shape(make_solid(box_mesh({0.2, 0.14, 0.1}), 0.05)),
                                     mesh_shape(make_solid(sphere_mesh(0.1, 2), 0.05)),
                                     star_shape()};
@@ -100,25 +89,16 @@ std::vector<Vector3> before_the_sides(const Shape& shape) {
 
 /// Throws each at the body's middle, so that it would get `far` beyond, in its way to there.
 void throw_through(Water& water, const std::vector<Vector3>& places, double far, double dt) {
-  Snapshot snapshot = water.fluid->snapshot();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Vector3& place = places[static_cast<std::size_t>(snapshot.id[i])];
-    const Vector3 v = (-(1.0 + far) / dt) * rotate(turned(), place);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      snapshot.velocity[part(*water.fluid, axis, i)] = static_cast<float>(v[axis]);
-    }
-  }
-  water.fluid->restore(snapshot);
+  change_particles(*water.fluid, [&](int id, Vector3&, Vector3& velocity) {
+    const Vector3& place = places[static_cast<std::size_t>(id)];
+    velocity = (-(1.0 + far) / dt) * rotate(turned(), place);
+  });
 }
 
 /// Unit vector out of the body, in the world: the gradient of its distance.
 Vector3 outward(const Shape& shape, const Vector3& x) {
-  Vector3 rise = {};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vector3 way = {};
-    way[axis] = 1.0e-6;
-    rise[axis] = distance_to(shape, in_body(x) + way) - distance_to(shape, in_body(x) - way);
-  }
+  const auto distance = [&](const Vector3& place) { return distance_to(shape, place); };
+  const Vector3 rise = differences(distance, in_body(x), 1.0e-6);
   return rotate(turned(), (1.0 / length(rise)) * rise);
 }
 

@@ -30,7 +30,7 @@ class Pack : public ::testing::TestWithParam<PressureKind> {
     water_.scene = scene;
     water_.particles = initial_particles(scene);
     water_.start(device_);
-    before_ = places();
+    before_ = places_of(*water_.fluid);
     dt_ = largest_time_step(water_.params, 0.0, 9.81, 1.0);
   }
 
@@ -39,14 +39,6 @@ class Pack : public ::testing::TestWithParam<PressureKind> {
     std::vector<bool> loose(water_.particles.size(), false);
     for (std::size_t i = pool_; i < loose.size(); ++i) loose[i] = true;
     pack(*water_.fluid, {}, 0.0, dt_, loose, seed);
-  }
-
-  /// By id [m].
-  std::vector<Vector3> places() {
-    return by_id([](const Snapshot& s) { return s.position; });
-  }
-  std::vector<Vector3> velocities() {
-    return by_id([](const Snapshot& s) { return s.velocity; });
   }
 
   /// |sum exp(i k x)| / N over the ball for waves of one spacing along `axis`: 1 on the lattice,
@@ -64,29 +56,18 @@ class Pack : public ::testing::TestWithParam<PressureKind> {
   std::size_t pool_ = 0;  ///< particles with smaller ids are the pool's
   std::vector<Vector3> before_;
   double dt_ = 0.0;  ///< [s]
-
- private:
-  template <typename Pick>
-  std::vector<Vector3> by_id(const Pick& pick) {
-    const Snapshot now = water_.fluid->snapshot();
-    std::vector<Vector3> all(now.id.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      all[static_cast<std::size_t>(now.id[i])] = vector_of(*water_.fluid, pick(now), i);
-    }
-    return all;
-  }
 };
 
 TEST_P(Pack, LeavesNoRows) {
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_GT(rows(before_, axis), 0.9);
   pack_ball(1);
-  const std::vector<Vector3> packed = places();
+  const std::vector<Vector3> packed = places_of(*water_.fluid);
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_LT(rows(packed, axis), 0.2) << axis;
 }
 
 TEST_P(Pack, KeepsTheBallsPlaceAndSize) {
   pack_ball(1);
-  const std::vector<Vector3> packed = places();
+  const std::vector<Vector3> packed = places_of(*water_.fluid);
   Vector3 moved = {};
   double square = 0.0;
   double square_before = 0.0;
@@ -126,16 +107,16 @@ TEST_P(Pack, LeavesItAsDenseAsAtRest) {
 
 TEST_P(Pack, MovesNothingElse) {
   pack_ball(1);
-  const std::vector<Vector3> packed = places();
+  const std::vector<Vector3> packed = places_of(*water_.fluid);
   for (std::size_t i = 0; i < pool_; ++i) ASSERT_EQ(packed[i], before_[i]) << i;
 }
 
 TEST_P(Pack, EndsAtRestAndWithWeight) {
   pack_ball(1);
-  for (const Vector3& v : velocities()) ASSERT_EQ(v, (Vector3{0.0, 0.0, 0.0}));
+  for (const Vector3& v : velocities_of(*water_.fluid)) ASSERT_EQ(v, (Vector3{0.0, 0.0, 0.0}));
   water_.step(dt_);
   Vector3 mean = {};
-  const std::vector<Vector3> falling = velocities();
+  const std::vector<Vector3> falling = velocities_of(*water_.fluid);
   for (std::size_t i = pool_; i < falling.size(); ++i) mean = mean + falling[i];
   const auto count = static_cast<double>(falling.size() - pool_);
   EXPECT_NEAR(mean[2] / count, -9.81 * dt_, 1e-4 * 9.81 * dt_);
@@ -143,17 +124,17 @@ TEST_P(Pack, EndsAtRestAndWithWeight) {
 
 TEST_P(Pack, IsTheSameForTheSameSeed) {
   pack_ball(7);
-  const std::vector<Vector3> first = places();
+  const std::vector<Vector3> first = places_of(*water_.fluid);
   for (const std::uint32_t seed : {7U, 8U}) {
     water_.start(device_);
     pack_ball(seed);
-    EXPECT_EQ(places() == first, seed == 7U);
+    EXPECT_EQ(places_of(*water_.fluid) == first, seed == 7U);
   }
 }
 
 TEST_P(Pack, DoesNothingWhereNothingIsLoose) {
   pack(*water_.fluid, {}, 0.0, dt_, std::vector<bool>(water_.particles.size(), false), 1);
-  EXPECT_EQ(places(), before_);
+  EXPECT_EQ(places_of(*water_.fluid), before_);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Pack, kBothSolvers, solver_name);

@@ -16,12 +16,10 @@ namespace splash::sim {
 namespace {
 
 void expect_in_tank(Water& water) {
-  const Snapshot snapshot = water.fluid->snapshot();
   const FluidStats stats = water.fluid->stats();
   EXPECT_EQ(stats.not_finite, 0);
   EXPECT_EQ(stats.runaway, 0);
-  for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
-    const Vector3 x = vector_of(*water.fluid, snapshot.position, i);
+  for (const Vector3& x : places_of(*water.fluid)) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
       ASSERT_GE(x[axis], 0.0);
       ASSERT_LE(x[axis], water.scene.tank.upper[axis]);
@@ -31,11 +29,8 @@ void expect_in_tank(Water& water) {
 }
 
 double highest(Water& water) {
-  const Snapshot snapshot = water.fluid->snapshot();
   double top = 0.0;
-  for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
-    top = std::max(top, vector_of(*water.fluid, snapshot.position, i)[2]);
-  }
+  for (const Vector3& x : places_of(*water.fluid)) top = std::max(top, x[2]);
   return top;
 }
 
@@ -79,15 +74,13 @@ TEST(WeaklyCompressible, FreeFallKeepsMomentum) {
                                         Outlines{});
   constexpr double dt = 1.0e-4;
   for (int k = 0; k < 200; ++k) water.step(dt);
-  const Snapshot after = water.fluid->snapshot();
   Vector3 sum = {0.0, 0.0, 0.0};
   double scale = 0.0;
-  for (std::size_t i = 0; i < after.id.size(); ++i) {
-    const Vector3 v = vector_of(*water.fluid, after.velocity, i);
+  for (const Vector3& v : velocities_of(*water.fluid)) {
     sum = sum + v;
     scale += length(v);
   }
-  const auto count = static_cast<double>(after.id.size());
+  const auto count = static_cast<double>(water.particles.size());
   EXPECT_GT(scale / count, 0.1);  // the crowd pushes itself apart
   EXPECT_LT(std::abs(sum[0]) / scale, 1.0e-5);
   EXPECT_LT(std::abs(sum[1]) / scale, 1.0e-5);
@@ -138,16 +131,12 @@ TEST(WeaklyCompressible, ASlopeHoldsAPool) {
 /// A box of 12 x 12 x 8 cm driven down into a basin at 1.5 m/s.
 Water plunge(PressureKind solver) {
   Scene scene = tank_scene(0.02, {0.4, 0.4, 0.6}, 0.2);
-  BodySettings box;
-  box.name = "box";
-  box.shape = {ShapeKind::box, {0.12, 0.12, 0.08}, 0.0, 0.0};
-  box.rest.position = {0.2, 0.2, 0.3};
-  scene.bodies = {box};
+  scene.bodies = {body_of("box", {ShapeKind::box, {0.12, 0.12, 0.08}}, {{0.2, 0.2, 0.3}})};
   Water water = fill(scene, solver);
   water.motions = {[](double t) {
     const double depth = std::min(1.5 * t, 0.2);
-    return BodyState{
-        {0.2, 0.2, 0.3 - depth}, {0, 0, 0, 1}, {0.0, 0.0, depth < 0.2 ? -1.5 : 0.0}, {0, 0, 0}};
+    return BodyState{.position = {0.2, 0.2, 0.3 - depth},
+                     .velocity = {0.0, 0.0, depth < 0.2 ? -1.5 : 0.0}};
   }};
   return water;
 }
@@ -161,10 +150,8 @@ TEST(WeaklyCompressible, WaterGivesWayToABody) {
   const double dt = largest_time_step(water.params, 3.0, 10.0, 1.0);
   while (water.time < 0.3) {
     water.step(dt);
-    const Snapshot snapshot = water.fluid->snapshot();
     const Vector3 centre = water.motions[0](water.time).position;
-    for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
-      const Vector3 x = vector_of(*water.fluid, snapshot.position, i);
+    for (const Vector3& x : places_of(*water.fluid)) {
       deepest = std::min(deepest, distance_to(shape, x - centre));
     }
   }

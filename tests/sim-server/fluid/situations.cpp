@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/sim-server/fluid/situations.hpp"
 
-#include <utility>
-
 #include "sim-server/scene/initial_fluid.hpp"
 #include "sim-server/scene/mesh/mesh_solid.hpp"
 #include "sim-server/scene/rotation.hpp"
@@ -14,14 +12,6 @@ namespace {
 
 constexpr double kSpacing = 0.02;
 
-Water make(std::string name, Scene scene, std::vector<Vector3> particles) {
-  Water water;
-  water.name = std::move(name);
-  water.scene = std::move(scene);
-  water.particles = std::move(particles);
-  return water;
-}
-
 /// A count that is neither a multiple of 4 nor of 16.
 void make_odd(std::vector<Vector3>& particles) {
   while (particles.size() % 4 != 3 || particles.size() % 16 == 0) particles.pop_back();
@@ -31,24 +21,24 @@ Water lattice() {
   const Scene scene = tank_scene(kSpacing, {0.3, 0.2, 0.4}, 0.16);
   auto particles = initial_particles(scene);
   make_odd(particles);
-  return make("lattice", scene, particles);
+  return {"lattice", scene, particles};
 }
 
 Water crowd() {
   Scene scene = tank_scene(kSpacing, {0.4, 0.3, 0.4}, 0.2);
   scene.fluid.pull = {5.0, 0.0, 12.0};
   scene.fluid.pull_centre = {0.2, 0.0, 0.1};
-  return make("crowd", scene, random_places(1501, {0, 0, 0}, {0.25, 0.2, 0.2}, 1));
+  return {"crowd", scene, random_places(1501, {0, 0, 0}, {0.25, 0.2, 0.2}, 1)};
 }
 
 Water spray() {
   const Scene scene = tank_scene(kSpacing, {0.4, 0.3, 0.4}, 0.2);
-  return make("spray", scene, random_places(301, {0, 0, 0}, {0.4, 0.3, 0.9}, 2));
+  return {"spray", scene, random_places(301, {0, 0, 0}, {0.4, 0.3, 0.9}, 2)};
 }
 
 Water lone_particles() {
   const Scene scene = tank_scene(kSpacing, {0.4, 0.3, 0.4}, 0.2);
-  return make("lone particles", scene, {{0.2, 0.15, 0.2}, {0.21, 0.16, 0.2}, {0.01, 0.01, 0.01}});
+  return {"lone particles", scene, {{0.2, 0.15, 0.2}, {0.21, 0.16, 0.2}, {0.01, 0.01, 0.01}}};
 }
 
 /// Above the slope's foot the floor and the slope change places; the piston stands in the tank.
@@ -60,9 +50,7 @@ Water beach() {
   const auto loose = random_places(350, {0.03, 0.0, 0.0}, {0.6, 0.2, 0.3}, 3);
   particles.insert(particles.end(), loose.begin(), loose.end());
   make_odd(particles);
-  Water water = make("beach", scene, particles);
-  water.piston = {0.037, 0.4};
-  return water;
+  return {.name = "beach", .scene = scene, .particles = particles, .piston = {0.037, 0.4}};
 }
 
 /// Behind walls, above and far beyond the grid, and pairs at one place.
@@ -80,7 +68,7 @@ Water strays() {
     particles.insert(particles.end(), some.begin(), some.end());
   }
   for (std::size_t i = 0; i < 5; ++i) particles.push_back(particles[i]);
-  return make("strays", scene, particles);
+  return {"strays", scene, particles};
 }
 
 }  // namespace
@@ -91,21 +79,16 @@ Water spray_curtain() {
   for (int k = 0; k < 19; ++k) {
     for (int j = 0; j < 23; ++j) particles.push_back({0.24, 0.02 + 0.02 * j, 0.01 + 0.02 * k});
   }
-  return make("spray curtain", scene, particles);
+  return {"spray curtain", scene, particles};
 }
 
 Water two_bodies() {
   Scene scene = tank_scene(kSpacing, {0.4, 0.4, 0.4}, 0.14);
-  BodySettings box;
-  box.name = "box";
-  box.shape = {ShapeKind::box, {0.16, 0.07, 0.05}, 0.01, 0.3};
-  BodySettings ball;
-  ball.name = "ball";
-  ball.shape = {ShapeKind::sphere, {0.09, 0.09, 0.09}, 0.0, 0.0};
-  scene.bodies = {box, ball};
+  scene.bodies = {body_of("box", {ShapeKind::box, {0.16, 0.07, 0.05}, 0.01, 0.3}),
+                  body_of("ball", {ShapeKind::sphere, {0.09, 0.09, 0.09}})};
   auto particles = random_places(1100, {0, 0, 0}, {0.4, 0.4, 0.2}, 6);
   make_odd(particles);
-  Water water = make("two bodies", scene, particles);
+  Water water = {"two bodies", scene, particles};
   water.motions = {
       [](double t) {
         return BodyState{{0.17 + 0.5 * t, 0.2, 0.12 - t},

@@ -20,10 +20,7 @@ class Sleeping : public ::testing::TestWithParam<int> {
  protected:
   Sleeping() : device_(-1, false, GetParam()) {
     water_.scene = tank_scene(0.03, {1.2, 0.24, 0.6}, 0.12);
-    BodySettings box;
-    box.name = "box";
-    box.shape = {ShapeKind::box, {0.12, 0.12, 0.06}, 0.0, 0.0};
-    water_.scene.bodies = {box};
+    water_.scene.bodies = {body_of("box", {ShapeKind::box, {0.12, 0.12, 0.06}})};
     water_.particles = initial_particles(water_.scene);
     water_.settle = true;
     water_.motions = {[this](double) {

@@ -16,7 +16,7 @@ namespace {
 std::vector<Vector3> by_id(const Snapshot& snapshot, const std::vector<float>& parts) {
   std::vector<Vector3> all(snapshot.id.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    all[static_cast<std::size_t>(snapshot.id[i])] = vector_at(parts, parts.size() / 3, i);
+    all.at(static_cast<std::size_t>(snapshot.id[i])) = vector_at(parts, parts.size() / 3, i);
   }
   return all;
 }
@@ -32,6 +32,17 @@ Scene tank_scene(double spacing, const Vector3& upper, double depth) {
   scene.tank.upper = upper;
   scene.water = {{scene.tank.lower, {upper[0], upper[1], depth}}};
   return scene;
+}
+
+BodySettings body_of(const std::string& name, const Shape& shape, const BodyState& start) {
+  BodySettings body;
+  body.name = name;
+  body.shape = shape;
+  body.rest.position = start.position;
+  body.rest.rotation = start.rotation;
+  body.motion.velocity = start.velocity;
+  body.motion.spin = start.spin;
+  return body;
 }
 
 std::vector<Vector3> random_places(std::size_t count, const Vector3& lower, const Vector3& upper,
@@ -117,11 +128,8 @@ void change_particles(Fluid& fluid, const std::function<void(int, Vector3&, Vect
 }
 
 Water fill(const Scene& scene, PressureKind solver) {
-  Water water;
-  water.scene = scene;
+  Water water = {.scene = scene, .particles = initial_particles(scene), .settle = true};
   water.scene.fluid.solver = solver;
-  water.particles = initial_particles(scene);
-  water.settle = true;
   return water;
 }
 

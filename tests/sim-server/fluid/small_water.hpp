@@ -45,16 +45,20 @@ class FormulaMotion : public Motion {
 /// A tank from the origin to `upper`, filled up to `depth`; sound speed 15 m/s.
 [[nodiscard]] Scene tank_scene(double spacing, const Vector3& upper, double depth);
 
+/// A body that begins there.
+[[nodiscard]] BodySettings body_of(const std::string& name, const Shape& shape,
+                                   const BodyState& start = {});
+
 /// `count` places in a box, the same for the same seed.
 [[nodiscard]] std::vector<Vector3> random_places(std::size_t count, const Vector3& lower,
                                                  const Vector3& upper, unsigned seed);
 
 /// Everything a test needs of a running fluid.
 struct Water {
-  std::string name;
-  Scene scene;
-  std::vector<Vector3> particles;
-  std::vector<std::function<BodyState(double)>> motions;  ///< of scene.bodies
+  std::string name = {};
+  Scene scene = {};
+  std::vector<Vector3> particles = {};
+  std::vector<std::function<BodyState(double)>> motions = {};  ///< of scene.bodies
   bool settle = false;      ///< start as the water stands under its own weight
   PistonState piston = {};  ///< held there
 
@@ -68,8 +72,8 @@ struct Water {
   [[nodiscard]] Step step_at(double dt) const;
 
   FluidParams params = {};
-  std::unique_ptr<Bodies> bodies;
-  std::unique_ptr<Fluid> fluid;
+  std::unique_ptr<Bodies> bodies = {};
+  std::unique_ptr<Fluid> fluid = {};
   double time = 0.0;  ///< [s]
 };
 

@@ -21,29 +21,16 @@ constexpr Vector3 kMiddle = {0.4, 0.4, 0.4};
 
 /// A ball of six spacings in radius that nothing pulls down, in the middle of a tank of 0.8 m.
 Water ball() {
-  Water water;
-  water.scene = tank_scene(kSpacing, {0.8, 0.8, 0.8}, 0.1);
-  water.scene.water = {{{0.28, 0.28, 0.28}, {0.52, 0.52, 0.52}, WaterForm::sphere}};
-  water.scene.fluid.gravity = {0.0, 0.0, 0.0};
-  water.particles = initial_particles(water.scene);
-  return water;
+  Scene scene = tank_scene(kSpacing, {0.8, 0.8, 0.8}, 0.1);
+  scene.water = {{{0.28, 0.28, 0.28}, {0.52, 0.52, 0.52}, WaterForm::sphere}};
+  scene.fluid.gravity = {0.0, 0.0, 0.0};
+  return {.scene = scene, .particles = initial_particles(scene)};
 }
 
-/// Moves each particle, or gives it a speed: `change` has its part of the snapshot and its way from
-/// the middle.
-template <typename Change>
-void change_all(Fluid& fluid, const Change& change) {
-  Snapshot now = fluid.snapshot();
-  for (std::size_t i = 0; i < now.id.size(); ++i) {
-    const Vector3 from = vector_of(fluid, now.position, i) - kMiddle;
-    for (std::size_t axis = 0; axis < 3; ++axis) change(now, part(fluid, axis, i), from[axis]);
-  }
-  fluid.restore(now);
-}
-
+/// From its middle.
 void stretch(Fluid& fluid, double factor) {
-  change_all(fluid, [factor](Snapshot& now, std::size_t k, double from) {
-    now.position[k] += static_cast<float>((factor - 1.0) * from);
+  change_particles(fluid, [factor](int, Vector3& place, Vector3&) {
+    place = kMiddle + factor * (place - kMiddle);
   });
 }
 
@@ -98,8 +85,8 @@ INSTANTIATE_TEST_SUITE_P(Lanes, Stretch, ::testing::Values(1, 0));
 /// Gives the ball a speed of rate times the way from its middle, and runs for `seconds`.
 void part_and_run(Device& device, Water& water, double rate, double seconds) {
   water.start(device);
-  change_all(*water.fluid, [rate](Snapshot& now, std::size_t k, double from) {
-    now.velocity[k] = static_cast<float>(rate * from);
+  change_particles(*water.fluid, [rate](int, Vector3& place, Vector3& velocity) {
+    velocity = rate * (place - kMiddle);
   });
   run(water, seconds);
 }
