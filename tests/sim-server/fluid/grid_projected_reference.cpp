@@ -28,26 +28,25 @@ double way_to_surface(double water, double air) {
 MacReference::MacReference(const MacGrid& grid)
     : cells_{grid.level[0].nx, grid.level[0].ny, grid.level[0].nz},
       step_{1, grid.level[0].row, grid.level[0].layer},
-      lower_{static_cast<double>(grid.x), static_cast<double>(grid.y), static_cast<double>(grid.z)},
-      edge_{static_cast<double>(grid.hx), static_cast<double>(grid.hy),
-            static_cast<double>(grid.hz)},
+      lower_(vector(grid.x, grid.y, grid.z)),
+      edge_(vector(grid.hx, grid.hy, grid.hz)),
       share_(static_cast<double>(grid.share)) {}
 
-int MacReference::number(int i, int j, int k) const {
-  return (k + 1) * step_[2] + (j + 1) * step_[1] + i + 1;
+std::size_t MacReference::number(const Cell& cell) const {
+  return static_cast<std::size_t>((cell[2] + 1) * step_[2] + (cell[1] + 1) * step_[1] + cell[0] +
+                                  1);
 }
 
 template <class Visit>
 void MacReference::each(const Visit& visit) const {
   for (int k = 0; k <= cells_[2]; ++k) {
     for (int j = 0; j <= cells_[1]; ++j) {
-      for (int i = 0; i <= cells_[0]; ++i) visit(std::array<int, 3>{i, j, k});
+      for (int i = 0; i <= cells_[0]; ++i) visit(Cell{i, j, k}, number({i, j, k}));
     }
   }
 }
 
-double MacReference::hat(const Vector3& place, const std::array<int, 3>& cell,
-                         std::size_t axis) const {
+double MacReference::hat(const Vector3& place, const Cell& cell, std::size_t axis) const {
   double weight = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
     double d = (place[a] - lower_[a]) / edge_[a] - cell[a];
@@ -62,7 +61,7 @@ double MacReference::hat(const Vector3& place, const std::array<int, 3>& cell,
   return weight;
 }
 
-bool MacReference::is_wall(const std::array<int, 3>& cell, std::size_t axis) const {
+bool MacReference::is_wall(const Cell& cell, std::size_t axis) const {
   return cell[axis] == 0 || (axis < 2 && cell[axis] == cells_[axis]);
 }
 
@@ -75,8 +74,7 @@ ReferenceGathered MacReference::gather(const std::vector<Vector3>& position,
     g.mean[axis].assign(all, 0.0);
     g.weight[axis].assign(all, 0.0);
   }
-  each([&](const std::array<int, 3>& cell) {
-    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+  each([&](const Cell& cell, std::size_t c) {
     const bool inside = cell[0] < cells_[0] && cell[1] < cells_[1] && cell[2] < cells_[2];
     for (std::size_t i = 0; i < position.size(); ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -97,8 +95,7 @@ Vector3 MacReference::at(const Vector3& place, const MacFaces& faces, const MacF
                          const Vector3& otherwise) const {
   Vector3 sum = {0.0, 0.0, 0.0};
   Vector3 weight = {0.0, 0.0, 0.0};
-  each([&](const std::array<int, 3>& cell) {
-    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+  each([&](const Cell& cell, std::size_t c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double w = hat(place, cell, axis) * known[axis][c];
       sum[axis] += w * faces[axis][c];
@@ -112,14 +109,10 @@ Vector3 MacReference::at(const Vector3& place, const MacFaces& faces, const MacF
 }
 
 MacFaces MacReference::known(const ReferenceGathered& water) const {
-  MacFaces known = water.weight;
-  for (MacField& field : known) std::fill(field.begin(), field.end(), 0.0);
-  each([&](const std::array<int, 3>& cell) {
-    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+  MacFaces known = water.weight;  // 0 beyond the grid
+  each([&](const Cell& cell, std::size_t c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto holds = [&](const std::array<int, 3>& at) {
-        return water.fill[static_cast<std::size_t>(number(at[0], at[1], at[2]))] > kFull;
-      };
+      const auto holds = [&](const Cell& at) { return water.fill[number(at)] > kFull; };
       auto below = cell;
       --below[axis];
       bool beside = holds(cell) || holds(below);
@@ -143,21 +136,20 @@ MacFaces MacReference::known(const ReferenceGathered& water) const {
 MacFaces MacReference::sharpened(const ReferenceGathered& water, const MacFaces& known,
                                  const MacFaces& field) const {
   MacFaces sharp = field;
-  const auto in_water = [&](std::array<int, 3> cell, std::size_t axis) {
-    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+  const auto in_water = [&](Cell cell, std::size_t axis) {
+    const std::size_t c = number(cell);
     --cell[axis];
-    const auto below = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+    const std::size_t below = number(cell);
     return water.fill[c] > kFull && water.fill[below] > kFull && known[axis][c] > 0.0;
   };
-  each([&](const std::array<int, 3>& cell) {
+  each([&](const Cell& cell, std::size_t c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (is_wall(cell, axis) || !in_water(cell, axis)) continue;
-      const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
       for (std::size_t along = 0; along < 3; ++along) {
         for (const int side : {-1, 1}) {
           auto next = cell;
           next[along] += side;
-          const auto n = static_cast<std::size_t>(number(next[0], next[1], next[2]));
+          const std::size_t n = number(next);
           const double part = std::min(1.0, water.weight[axis][n] / water.weight[axis][c]);
           if (along == axis && is_wall(next, axis)) {
             sharp[axis][c] += field[axis][c] / 6.0;
@@ -173,14 +165,11 @@ MacFaces MacReference::sharpened(const ReferenceGathered& water, const MacFaces&
 
 MacFaces MacReference::change(const ReferenceGathered& water, const FluidParams& params,
                               const MacField& pressure, double dt) const {
-  const Vector3 gravity = {static_cast<double>(params.gravity_x),
-                           static_cast<double>(params.gravity_y),
-                           static_cast<double>(params.gravity_z)};
+  const Vector3 gravity = vector(params.gravity_x, params.gravity_y, params.gravity_z);
   const double nu = 0.1 * static_cast<double>(params.viscous);
   const double rho = static_cast<double>(params.rest_density);
   MacFaces change = water.mean;
-  each([&](const std::array<int, 3>& cell) {
-    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+  each([&](const Cell& cell, std::size_t c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const MacField& u = water.mean[axis];
       if (is_wall(cell, axis)) {
@@ -212,22 +201,20 @@ MacFaces MacReference::change(const ReferenceGathered& water, const FluidParams&
 
 MacFaces MacReference::shared(const ReferenceGathered& water, const MacFaces& change) const {
   MacFaces shared = change;
-  each([&](const std::array<int, 3>& cell) {
-    const auto c = number(cell[0], cell[1], cell[2]);
-    const auto fill = [&](int at) { return water.fill[static_cast<std::size_t>(at)]; };
+  const MacField& fill = water.fill;
+  each([&](const Cell& cell, std::size_t c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const int below = c - step_[axis];
-      if (is_wall(cell, axis) || (fill(c) > kFull) == (fill(below) > kFull)) continue;
-      const bool here = fill(c) > kFull;
-      const int deep = here ? c + step_[axis] : below - step_[axis];
-      const int next = here ? c + step_[axis] : below;  // face
-      if (!(fill(deep) > kFull)) continue;
-      const auto face = static_cast<std::size_t>(c);
+      const auto step = static_cast<std::size_t>(step_[axis]);
+      const std::size_t below = c - step;
+      if (is_wall(cell, axis) || (fill[c] > kFull) == (fill[below] > kFull)) continue;
+      const bool here = fill[c] > kFull;
+      const std::size_t deep = here ? c + step : below - step;
+      const std::size_t next = here ? c + step : below;  // face
+      if (!(fill[deep] > kFull)) continue;
       const double way =
-          here ? way_to_surface(fill(c), fill(below)) : way_to_surface(fill(below), fill(c));
-      const double part = std::min(1.0, way / (share_ * water.weight[axis][face]));
-      shared[axis][face] =
-          part * change[axis][face] + (1.0 - part) * change[axis][static_cast<std::size_t>(next)];
+          here ? way_to_surface(fill[c], fill[below]) : way_to_surface(fill[below], fill[c]);
+      const double part = std::min(1.0, way / (share_ * water.weight[axis][c]));
+      shared[axis][c] = part * change[axis][c] + (1.0 - part) * change[axis][next];
     }
   });
   return shared;
@@ -235,13 +222,12 @@ MacFaces MacReference::shared(const ReferenceGathered& water, const MacFaces& ch
 
 MacField MacReference::left(const ReferenceGathered& water, const MacFaces& velocity) const {
   MacField left(water.fill.size(), 0.0);
-  each([&](const std::array<int, 3>& cell) {
-    const auto c = static_cast<std::size_t>(number(cell[0], cell[1], cell[2]));
+  each([&](const Cell& cell, std::size_t c) {
     if (!(water.fill[c] > kFull)) return;
     double out = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto above = c + static_cast<std::size_t>(step_[axis]);
-      std::array<int, 3> next = cell;
+      Cell next = cell;
       ++next[axis];
       const double low = is_wall(cell, axis) ? 0.0 : velocity[axis][c];
       const double high = is_wall(next, axis) ? 0.0 : velocity[axis][above];
@@ -251,7 +237,7 @@ MacField MacReference::left(const ReferenceGathered& water, const MacFaces& velo
     for (int z = std::max(cell[2] - 1, 0); z <= cell[2] + 1; ++z) {
       for (int y = std::max(cell[1] - 1, 0); y <= std::min(cell[1] + 1, cells_[1] - 1); ++y) {
         for (int x = std::max(cell[0] - 1, 0); x <= std::min(cell[0] + 1, cells_[0] - 1); ++x) {
-          inner = inner && water.fill[static_cast<std::size_t>(number(x, y, z))] > kFull;
+          inner = inner && water.fill[number({x, y, z})] > kFull;
         }
       }
     }

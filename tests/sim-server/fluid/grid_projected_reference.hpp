@@ -28,6 +28,8 @@ struct ReferenceGathered {
 
 class MacReference {
  public:
+  using Cell = std::array<int, 3>;
+
   explicit MacReference(const MacGrid& grid);
 
   [[nodiscard]] ReferenceGathered gather(const std::vector<Vector3>& position,
@@ -49,21 +51,19 @@ class MacReference {
   /// In cells with water what is left to demand of these velocities, 0 in others [1/s].
   [[nodiscard]] MacField left(const ReferenceGathered& water, const MacFaces& velocity) const;
 
-  [[nodiscard]] int number(int i, int j, int k) const;
-  [[nodiscard]] const std::array<int, 3>& cells() const noexcept { return cells_; }
+  [[nodiscard]] std::size_t number(const Cell& cell) const;
 
  private:
   /// Weight of a place for one of a cell's three lower faces, or for its middle (axis 3).
-  [[nodiscard]] double hat(const Vector3& place, const std::array<int, 3>& cell,
-                           std::size_t axis) const;
-  [[nodiscard]] bool is_wall(const std::array<int, 3>& cell, std::size_t axis) const;
+  [[nodiscard]] double hat(const Vector3& place, const Cell& cell, std::size_t axis) const;
+  [[nodiscard]] bool is_wall(const Cell& cell, std::size_t axis) const;
   template <class Visit>
   void each(const Visit& visit) const;
 
-  std::array<int, 3> cells_;
+  Cell cells_;
   std::array<int, 3> step_;  ///< to the next cell along each axis
-  std::array<double, 3> lower_;
-  std::array<double, 3> edge_;
+  Vector3 lower_;
+  Vector3 edge_;
   double share_;
 };
 

@@ -276,8 +276,8 @@ TEST(GridProjected, StillWaterStaysStillAndWeighsWhatItShould) {
   double sum = 0.0;
   for (int j = 0; j < grid.level[0].ny; ++j) {
     for (int i = 0; i < grid.level[0].nx; ++i) {
-      sum += pressure[static_cast<std::size_t>(reference.number(i, j, 0))] +
-             998.0 * 9.81 * 0.5 * static_cast<double>(grid.hz);
+      sum +=
+          pressure[reference.number({i, j, 0})] + 998.0 * 9.81 * 0.5 * static_cast<double>(grid.hz);
     }
   }
   const double floor = sum / (grid.level[0].nx * grid.level[0].ny);

@@ -58,7 +58,7 @@ Displaced displaced(Device& device, const Fluid& fluid) {
   for (int k = 0; k < level.nz; ++k) {
     for (int j = 0; j < level.ny; ++j) {
       for (int i = 0; i < level.nx; ++i) {
-        const auto c = static_cast<std::size_t>(reference.number(i, j, k));
+        const std::size_t c = reference.number({i, j, k});
         sum.by_cells += volume * (1.0 - space[c]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
           sum.by_faces[axis] += volume * (1.0 - gap[axis * cells + c] - excess[axis * cells + c]);

@@ -7,19 +7,18 @@
 #include <numbers>
 #include <utility>
 
+#include "sim-server/bodies/body_steps.hpp"
 #include "sim-server/fluid/params/smoothing.hpp"
 #include "sim-server/fluid/set_up.hpp"
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
-#include "tests/support/vectors.hpp"
 
 namespace splash::sim {
 namespace {
 
 Vector3 normal_of(const FluidParams& params, int wall) {
   const WallPlane& plane = params.walls[wall];
-  return {static_cast<double>(plane.nx), static_cast<double>(plane.ny),
-          static_cast<double>(plane.nz)};
+  return vector(plane.nx, plane.ny, plane.nz);
 }
 
 /// Walls that count at a place: the floor or the slope, whichever is nearer, and all others.
@@ -82,8 +81,7 @@ struct ReferenceImage {
 Shape shape_of(const BodyShape& s) {
   Shape shape;
   shape.kind = static_cast<ShapeKind>(s.kind);
-  shape.size = {2.0 * static_cast<double>(s.half_x), 2.0 * static_cast<double>(s.half_y),
-                2.0 * static_cast<double>(s.half_z)};
+  shape.size = 2.0 * vector(s.half_x, s.half_y, s.half_z);
   shape.rocker = static_cast<double>(s.rocker);
   shape.flat = static_cast<double>(s.flat);
   return shape;
@@ -102,12 +100,8 @@ double outline_distance(const Shape& shape, const Vector3& x) {
 double nearest(const FluidState& s, const Vector3& place) {
   double found = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < s.shapes.size(); ++b) {
-    const BodyStep& step = s.bodies[b];
-    const Vector3 centre = {static_cast<double>(step.px), static_cast<double>(step.py),
-                            static_cast<double>(step.pz)};
-    const Quaternion turned = {static_cast<double>(step.qx), static_cast<double>(step.qy),
-                               static_cast<double>(step.qz), static_cast<double>(step.qw)};
-    const Vector3 own = rotate(inverse(turned), place - centre);
+    const BodyState body = state_of(s.bodies[b]);
+    const Vector3 own = rotate(inverse(body.rotation), place - body.position);
     const double d = s.shapes[b].kind == SPLASH_MESH ? s.fields[b].at(own)
                                                      : outline_distance(shape_of(s.shapes[b]), own);
     found = std::min(found, d);
@@ -133,28 +127,17 @@ double factor_at(const FluidParams& params, double distance) {
 
 /// Without bodies: 1 everywhere.
 ReferenceImage reference_image(const FluidState& s, const Vector3& place) {
-  ReferenceImage image;
-  if (s.shapes.empty()) return image;
-  image.factor = factor_at(s.params, nearest(s, place));
+  if (s.shapes.empty()) return {};
+  const auto factor = [&](const Vector3& x) { return factor_at(s.params, nearest(s, x)); };
   const double step = 1.0e-5 * static_cast<double>(s.params.spacing);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vector3 more = place;
-    Vector3 less = place;
-    more[axis] += step;
-    less[axis] -= step;
-    image.gradient[axis] =
-        (factor_at(s.params, nearest(s, more)) - factor_at(s.params, nearest(s, less))) /
-        (2.0 * step);
-  }
-  return image;
+  return {factor(place), (0.5 / step) * differences(factor, place, step)};
 }
 
 /// A mesh's distances, out of the device's numbers.
 DistanceField field_of(const BodyShape& shape, const std::vector<float>& meshes) {
   DistanceField field;
   if (shape.kind != SPLASH_MESH) return field;
-  field.lower = {static_cast<double>(shape.lower_x), static_cast<double>(shape.lower_y),
-                 static_cast<double>(shape.lower_z)};
+  field.lower = vector(shape.lower_x, shape.lower_y, shape.lower_z);
   field.cell = static_cast<double>(shape.cell);
   field.nodes = {shape.nodes_x, shape.nodes_y, shape.nodes_z};
   const auto first = meshes.begin() + shape.field;
@@ -171,7 +154,8 @@ std::vector<double> read_numbers(Device& device, const Buffer<float>& buffer, st
 
 std::vector<Vector3> read_vectors(Device& device, const Buffer<float>& buffer, int stride,
                                   std::size_t count) {
-  return tests::vectors_of(buffer.read(device, 3 * static_cast<std::size_t>(stride)), count);
+  const auto apart = static_cast<std::size_t>(stride);
+  return as_vectors(buffer.read(device, 3 * apart), apart, count);
 }
 
 FluidState read_state(Fluid& fluid, double piston) {
@@ -292,12 +276,10 @@ std::vector<ReferenceAcceleration> reference_acceleration(const FluidState& s) {
     }
     const ReferenceWalls walls = reference_walls(p, s.position[i], s.piston);
     add(-s.pressure_term[i] * rest * walls.gradient);
-    add({static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
-         static_cast<double>(p.gravity_z)});
-    const Vector3& x = s.position[i];
-    add({static_cast<double>(p.pull_x) * (static_cast<double>(p.centre_x) - x[0]),
-         static_cast<double>(p.pull_y) * (static_cast<double>(p.centre_y) - x[1]),
-         static_cast<double>(p.pull_z) * (static_cast<double>(p.centre_z) - x[2])});
+    add(vector(p.gravity_x, p.gravity_y, p.gravity_z));
+    const Vector3 pull = vector(p.pull_x, p.pull_y, p.pull_z);
+    const Vector3 way = vector(p.centre_x, p.centre_y, p.centre_z) - s.position[i];
+    add({pull[0] * way[0], pull[1] * way[1], pull[2] * way[2]});
   }
   return result;
 }
