@@ -16,9 +16,9 @@
 namespace splash::sim {
 namespace {
 
-const Shape kBall = {ShapeKind::sphere, {0.1, 0.1, 0.1}, 0.0, 0.0};
-const Shape kBrick = {ShapeKind::box, {0.16, 0.12, 0.08}, 0.0, 0.0};
-const Shape kDrum = {ShapeKind::cylinder, {0.12, 0.12, 0.14}, 0.0, 0.0};
+const Shape kBall = {ShapeKind::sphere, {0.1, 0.1, 0.1}};
+const Shape kBrick = {ShapeKind::box, {0.16, 0.12, 0.08}};
+const Shape kDrum = {ShapeKind::cylinder, {0.12, 0.12, 0.14}};
 
 /// For water so fine that a mesh's distance is off by no more than a millimetre at its edges.
 Shape as_mesh(TriangleMesh surface) {
@@ -78,8 +78,8 @@ double depth_of(const FreeFloat& world, std::size_t one, std::size_t two) {
 TEST(BodyContact, SpheresPartAsNewtonSays) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(0.0);
-  world.add(kBall, 1000.0, {{1.0, 1.5, 1.0}, {0, 0, 0, 1}, {2.0, 0.0, 0.0}, {}});
-  world.add(kBall, 3000.0, {{1.3, 1.5, 1.0}, {0, 0, 0, 1}, {-1.0, 0.0, 0.0}, {}});
+  world.add(kBall, 1000.0, {{1.0, 1.5, 1.0}, {0, 0, 0, 1}, {2.0, 0.0, 0.0}});
+  world.add(kBall, 3000.0, {{1.3, 1.5, 1.0}, {0, 0, 0, 1}, {-1.0, 0.0, 0.0}});
   set_surface(world, 0.5, 0.0);
   world.start(device);
   world.run(0.2);
@@ -164,7 +164,7 @@ TEST_P(Stack, OfTenStands) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
   for (int k = 0; k < 10; ++k) {
-    world.add(kBrick, 600.0, {{1.5, 1.5, 0.04 + 0.08 * k}, {0, 0, 0, 1}, {}, {}});
+    world.add(kBrick, 600.0, {{1.5, 1.5, 0.04 + 0.08 * k}});
   }
   world.start(device);
   world.dt = std::max(world.dt, GetParam());
@@ -187,9 +187,9 @@ INSTANTIATE_TEST_SUITE_P(Steps, Stack, ::testing::Values(0.0, 0.01), [](const au
 TEST(BodyContact, ARowTakesAKnockAtOnce) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(0.0);
-  world.add(kBall, 1000.0, {{1.395, 1.5, 1.0}, {0, 0, 0, 1}, {3.0, 0.0, 0.0}, {}});
-  world.add(kBall, 1000.0, {{1.5, 1.5, 1.0}, {0, 0, 0, 1}, {}, {}});
-  world.add(kBall, 1000.0, {{1.6, 1.5, 1.0}, {0, 0, 0, 1}, {}, {}});
+  world.add(kBall, 1000.0, {{1.395, 1.5, 1.0}, {0, 0, 0, 1}, {3.0, 0.0, 0.0}});
+  world.add(kBall, 1000.0, {{1.5, 1.5, 1.0}});
+  world.add(kBall, 1000.0, {{1.6, 1.5, 1.0}});
   set_surface(world, 0.0, 0.0);
   world.start(device);
   world.dt = 0.002;
@@ -204,11 +204,10 @@ TEST(BodyContact, ARowTakesAKnockAtOnce) {
 TEST(BodyContact, SlideOnEachOtherAsFarAsFrictionLetsThem) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
-  world.add({ShapeKind::box, {0.2, 0.2, 0.05}, 0.0, 0.0}, 500.0,
-            {{1.0, 1.5, 0.125}, {0, 0, 0, 1}, {2.0, 0.0, 0.0}, {}});
+  world.add({ShapeKind::box, {0.2, 0.2, 0.05}}, 500.0,
+            {{1.0, 1.5, 0.125}, {0, 0, 0, 1}, {2.0, 0.0, 0.0}});
   // So heavy that it does not go along.
-  world.add({ShapeKind::box, {2.6, 0.6, 0.1}, 0.0, 0.0}, 1.0e6,
-            {{1.6, 1.5, 0.05}, {0, 0, 0, 1}, {}, {}});
+  world.add({ShapeKind::box, {2.6, 0.6, 0.1}}, 1.0e6, {{1.6, 1.5, 0.05}});
   set_surface(world, 0.0, 0.3);
   world.start(device);
   world.run(1.0);
@@ -220,9 +219,9 @@ TEST(BodyContact, SlideOnEachOtherAsFarAsFrictionLetsThem) {
 TEST(BodyContact, ALedBodyShovesAFreeOne) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(0.0);
-  world.add(kBall, 500.0, {{1.2, 1.5, 1.0}, {0, 0, 0, 1}, {}, {}});
-  world.add_led({ShapeKind::box, {0.05, 0.4, 0.4}, 0.0, 0.0},
-                {{1.0, 1.5, 1.0}, {0, 0, 0, 1}, {1.0, 0.0, 0.0}, {}});
+  world.add(kBall, 500.0, {{1.2, 1.5, 1.0}});
+  world.add_led({ShapeKind::box, {0.05, 0.4, 0.4}},
+                {{1.0, 1.5, 1.0}, {0, 0, 0, 1}, {1.0, 0.0, 0.0}});
   set_surface(world, 0.0, 0.0);
   world.start(device);
   world.run(0.5);
@@ -235,10 +234,10 @@ TEST(BodyContact, ALedBodyShovesAFreeOne) {
 TEST(BodyContact, ABallLiesOnAPlateInLongSteps) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
-  const Shape plate = {ShapeKind::box, {0.6, 0.3, 0.02}, 0.0, 0.0};
-  world.add(kBall, 300.0, {{1.3, 1.5, 1.1}, {0, 0, 0, 1}, {}, {}});
-  world.add(kBall, 300.0, {{1.79, 1.5, 1.1}, {0, 0, 0, 1}, {}, {}});
-  world.add_led(plate, {{1.5, 1.5, 1.0}, {0, 0, 0, 1}, {}, {}});
+  const Shape plate = {ShapeKind::box, {0.6, 0.3, 0.02}};
+  world.add(kBall, 300.0, {{1.3, 1.5, 1.1}});
+  world.add(kBall, 300.0, {{1.79, 1.5, 1.1}});
+  world.add_led(plate, {{1.5, 1.5, 1.0}});
   set_surface(world, 0.0, 0.3);
   ASSERT_EQ(longest_contact_step(world.scene.bodies, 9.81), HUGE_VAL);
   world.start(device);
@@ -255,8 +254,7 @@ TEST(BodyContact, AStackOfMeshesStands) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
   for (int k = 0; k < 4; ++k) {
-    world.add(k % 2 == 0 ? kMeshBrick : kBrick, 600.0,
-              {{1.5, 1.5, 0.04 + 0.08 * k}, {0, 0, 0, 1}, {}, {}});
+    world.add(k % 2 == 0 ? kMeshBrick : kBrick, 600.0, {{1.5, 1.5, 0.04 + 0.08 * k}});
   }
   world.start(device);
   world.run(2.0);
@@ -268,10 +266,10 @@ TEST(BodyContact, ATrayCarriesWhatLiesInIt) {
   Device device(-1, false, SPLASH_TEST_LANES);
   FreeFloat world = dry_world(-9.81);
   constexpr double kWall = 0.03;
-  world.add(kBall, 500.0, {{1.5, 1.5, 1.1}, {0, 0, 0, 1}, {}, {}});
-  world.add(kMeshBrick, 500.0, {{1.65, 1.5, 1.08}, {0, 0, 0, 1}, {}, {}});
+  world.add(kBall, 500.0, {{1.5, 1.5, 1.1}});
+  world.add(kMeshBrick, 500.0, {{1.65, 1.5, 1.08}});
   world.add_led(as_mesh(tray_mesh({0.5, 0.3, 0.12}, kWall)),
-                {{1.5, 1.5, 1.0}, {0, 0, 0, 1}, {0.5, 0.0, 0.0}, {}});
+                {{1.5, 1.5, 1.0}, {0, 0, 0, 1}, {0.5, 0.0, 0.0}});
   set_surface(world, 0.0, 0.5);
   world.start(device);
   world.run(1.5);

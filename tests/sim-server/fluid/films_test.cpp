@@ -15,30 +15,19 @@
 namespace splash::sim {
 namespace {
 
-const Shape kBall = {ShapeKind::sphere, {0.12, 0.12, 0.12}, 0.0, 0.0};
-const Shape kBox = {ShapeKind::box, {0.1, 0.08, 0.06}, 0.0, 0.0};
-const Shape kDisc = {ShapeKind::cylinder, {0.1, 0.1, 0.05}, 0.0, 0.0};
-
-BodyState at(const Vector3& place, const Quaternion& turn = {0, 0, 0, 1}) {
-  return {place, turn, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-}
+const Shape kBall = {ShapeKind::sphere, {0.12, 0.12, 0.12}};
+const Shape kBox = {ShapeKind::box, {0.1, 0.08, 0.06}};
+const Shape kDisc = {ShapeKind::cylinder, {0.1, 0.1, 0.05}};
 
 FreeFloat pool() {
-  FreeFloat world;
-  world.scene = tank_scene(0.02, {0.5, 0.4, 0.5}, 0.3);
-  return world;
+  return {tank_scene(0.02, {0.5, 0.4, 0.5}, 0.3)};
 }
 
 /// What the films of the last step did to a body.
 BodyForce film_on(FreeFloat& world, std::size_t body) {
   const std::vector<float> push =
       world.fluid->free_bodies()->films().push().read(world.fluid->device(), 6 * (body + 1));
-  BodyForce force;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    force.force[axis] = static_cast<double>(push[6 * body + axis]);
-    force.torque[axis] = static_cast<double>(push[6 * body + 3 + axis]);
-  }
-  return force;
+  return {vector_at(push, 1, 6 * body), vector_at(push, 1, 6 * body + 3)};
 }
 
 BodyForce expected(FreeFloat& world, const WaterState& water, std::size_t body) {
@@ -56,10 +45,10 @@ TEST_P(Films, PushAsTheSumsInDoublePrecisionSay) {
   Device device(-1, false, GetParam());
   FreeFloat world = pool();
   world.scene.slope = {true, 0.35, 0.3};
-  world.add(kBall, 500.0, at({0.1, 0.1, 0.061}));
-  world.add(kBox, 500.0, at({0.29, 0.1, 0.05}, from_turn({0.0, 0.25, 0.0})));
-  world.add(kDisc, 500.0, at({0.1, 0.345, 0.2}));  // at a side
-  world.add(kBall, 500.0, at({0.38, 0.3, 0.1}));   // on the slope, dry in part
+  world.add(kBall, 500.0, {{0.1, 0.1, 0.061}});
+  world.add(kBox, 500.0, {{0.29, 0.1, 0.05}, from_turn({0.0, 0.25, 0.0})});
+  world.add(kDisc, 500.0, {{0.1, 0.345, 0.2}});  // at a side
+  world.add(kBall, 500.0, {{0.38, 0.3, 0.1}});   // on the slope, dry in part
   world.start(device);
   world.run(0.05);
   world.fluid->free_bodies()->films().forget(device);  // the sums know of no past
@@ -83,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Lanes, Films, kLaneCounts, lanes_name);
 TEST(Films, OfBodiesThatTouchOnlyEachOtherAreEqualAndOpposite) {
   Device device(-1, false, 0);
   FreeFloat world = pool();
-  world.add(kBall, 500.0, at({0.19, 0.2, 0.14}));
-  world.add(kBall, 1500.0, at({0.3, 0.21, 0.185}));
+  world.add(kBall, 500.0, {{0.19, 0.2, 0.14}});
+  world.add(kBall, 1500.0, {{0.3, 0.21, 0.185}});
   world.start(device);
   world.run(0.05);
   const Vector3 apart = world.state(1).position - world.state(0).position;
@@ -102,7 +91,7 @@ TEST(Films, ChangeNoBitWhereNothingIsNear) {
   std::vector<BodyState> ends;
   for (const bool films : {true, false}) {
     FreeFloat world = pool();
-    world.add(kBall, 700.0, at({0.25, 0.2, 0.2}));
+    world.add(kBall, 700.0, {{0.25, 0.2, 0.2}});
     world.start(device);
     if (!films) world.fluid->release(free_bodies(world.scene.bodies), {});
     world.run(0.05);

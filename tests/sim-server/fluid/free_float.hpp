@@ -37,11 +37,19 @@ struct FreeFloat {
   [[nodiscard]] Balance balance();
 };
 
+/// A drop of water in the middle of a large tank, nothing near the walls, no gravity; and a body.
+inline FreeFloat drop_and_body(const Shape& shape, double density, const BodyState& start) {
+  FreeFloat world = {tank_scene(0.02, {1.0, 1.0, 1.0}, 0.2)};
+  world.scene.fluid.gravity = {0.0, 0.0, 0.0};
+  world.scene.water = {{{0.4, 0.4, 0.4}, {0.6, 0.6, 0.56}}};
+  world.add(shape, density, start);
+  return world;
+}
+
 /// A large tank with one particle of water in its corner, far from where the bodies are: more would
 /// not bear steps of 10 ms.
 inline FreeFloat dry_world(double gravity) {
-  FreeFloat world;
-  world.scene = tank_scene(0.05, {3.0, 3.0, 2.0}, 0.1);
+  FreeFloat world = {tank_scene(0.05, {3.0, 3.0, 2.0}, 0.1)};
   world.scene.water = {{{0.0, 0.0, 0.0}, {0.05, 0.05, 0.05}}};
   world.scene.fluid.gravity = {0.0, 0.0, gravity};
   return world;

@@ -78,8 +78,8 @@ TEST(GridSolids, DisplaceTheirVolume) {
   const Vector3 tank = {0.3, 0.3, 0.3};
   const Vector3 middle = {0.161, 0.147, 0.142};
   const Quaternion askew = from_turn({0.4, -0.7, 0.3});
-  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}, 0.0, 0.0};
-  const Shape box = {ShapeKind::box, {0.13, 0.09, 0.07}, 0.0, 0.0};
+  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}};
+  const Shape box = {ShapeKind::box, {0.13, 0.09, 0.07}};
   const auto expect = [&](const Shape& shape, const Quaternion& turn, double volume,
                           double within) {
     Water water = with_solid(0.015, tank, 0.27, shape, {middle, turn});
@@ -97,10 +97,10 @@ TEST(GridSolids, DisplaceTheirVolume) {
 /// Lying on the floor, too: nothing but its weight keeps it there.
 TEST(GridSolids, AreBorneByTheWeightOfWhatTheyDisplace) {
   Device device;
-  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}, 0.0, 0.0};
+  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}};
   const double volume = std::numbers::pi * std::pow(0.12, 3) / 6.0;
   for (const double height : {0.142, 0.061}) {
-    Water water = with_solid(0.015, {0.3, 0.3, 0.5}, 0.3, ball, {{0.161, 0.147, height}, {}});
+    Water water = with_solid(0.015, {0.3, 0.3, 0.5}, 0.3, ball, {{0.161, 0.147, height}});
     water.start(device);
     settle(*water.fluid, water.bodies->at(0.0), 0.0, 0.5, 1.0e-2);
     for (int k = 0; k < 50; ++k) water.step(1.0e-2);
@@ -129,8 +129,7 @@ TEST(GridSolids, ThinPlatesLetNoWaterThrough) {
       };
       Water water = with_solid(
           kSpacing, {0.64, 0.64, 0.6}, 0.5,
-          {ShapeKind::cylinder, {2.0 * kRadius, 2.0 * kRadius, thick * kSpacing}, 0.0, 0.0},
-          at(0.0));
+          {ShapeKind::cylinder, {2.0 * kRadius, 2.0 * kRadius, thick * kSpacing}}, at(0.0));
       water.motions = {at};
       water.start(device);
       water.step(1.0e-2);
@@ -159,9 +158,9 @@ TEST(GridSolids, ADiscThatTouchesTheWaterFlatSlapsIt) {
                        .rotation = {0.0, 0.0, 0.0, 1.0},
                        .velocity = {0.0, 0.0, -kSpeed}};
     };
-    Water water = with_solid(
-        0.02, {0.8, 0.8, 0.4}, depth,
-        {ShapeKind::cylinder, {2.0 * kRadius, 2.0 * kRadius, kThick}, 0.0, 0.0}, at(0.0));
+    Water water =
+        with_solid(0.02, {0.8, 0.8, 0.4}, depth,
+                   {ShapeKind::cylinder, {2.0 * kRadius, 2.0 * kRadius, kThick}}, at(0.0));
     water.motions = {at};
     water.start(device);
     double impulse = 0.0;
@@ -182,11 +181,9 @@ class GridBodies : public ::testing::TestWithParam<double> {};
 TEST_P(GridBodies, BeginAsTheirAddedMassSays) {
   Device device;
   const double density = GetParam();
-  FreeFloat world;
-  world.scene = tank_scene(0.02, {0.6, 0.6, 0.8}, 0.6);
+  FreeFloat world = {tank_scene(0.02, {0.6, 0.6, 0.8}, 0.6)};
   world.scene.fluid.solver = PressureKind::grid_projected;
-  world.add({ShapeKind::sphere, {0.16, 0.16, 0.16}, 0.0, 0.0}, density,
-            {{0.31, 0.29, 0.3}, {0, 0, 0, 1}, {}, {}});
+  world.add({ShapeKind::sphere, {0.16, 0.16, 0.16}}, density, {{0.31, 0.29, 0.3}});
   world.start(device);
   world.dt = 2.0e-3;
   world.run(world.dt);
@@ -201,11 +198,9 @@ INSTANTIATE_TEST_SUITE_P(Densities, GridBodies, ::testing::Values(20.0, 500.0, 2
 /// Pressures have no moment about a ball's centre.
 TEST(GridSolids, ABallThatFloatsDoesNotSpin) {
   Device device;
-  FreeFloat world;
-  world.scene = tank_scene(0.025, {0.4, 0.4, 0.6}, 0.2);
+  FreeFloat world = {tank_scene(0.025, {0.4, 0.4, 0.6}, 0.2)};
   world.scene.fluid.solver = PressureKind::grid_projected;
-  world.add({ShapeKind::sphere, {0.12, 0.12, 0.12}, 0.0, 0.0}, 0.5 * kDensity,
-            {{0.2, 0.2, 0.1}, {0, 0, 0, 1}, {}, {}});
+  world.add({ShapeKind::sphere, {0.12, 0.12, 0.12}}, 0.5 * kDensity, {{0.2, 0.2, 0.1}});
   world.start(device);
   world.dt = 1.0e-2;
   world.run(3.0);
@@ -218,11 +213,9 @@ TEST(GridSolids, ABoxFloatsAsDeepAsItIsHeavy) {
   Device device;
   constexpr double kSide = 0.16;
   constexpr double kHeight = 0.12;
-  FreeFloat world;
-  world.scene = tank_scene(0.02, {0.4, 0.4, 0.5}, 0.2);
+  FreeFloat world = {tank_scene(0.02, {0.4, 0.4, 0.5}, 0.2)};
   world.scene.fluid.solver = PressureKind::grid_projected;
-  world.add({ShapeKind::box, {kSide, kSide, kHeight}, 0.0, 0.0}, 0.5 * kDensity,
-            {{0.2, 0.2, 0.217}, {0, 0, 0, 1}, {}, {}});
+  world.add({ShapeKind::box, {kSide, kSide, kHeight}}, 0.5 * kDensity, {{0.2, 0.2, 0.217}});
   world.start(device);
   world.dt = 1.0e-2;
   world.run(3.0);
@@ -245,7 +238,6 @@ TEST(GridSolids, ABoxFloatsAsDeepAsItIsHeavy) {
 TEST(GridSolids, WaterOnASlopeStaysStill) {
   Device device;
   Scene scene = tank_scene(0.02, {1.0, 0.2, 0.4}, 0.2);
-  scene.fluid.solver = PressureKind::grid_projected;
   scene.slope = {true, 0.4, 0.5};
   Water water = fill(scene, PressureKind::grid_projected);
   water.start(device);
@@ -281,8 +273,7 @@ TEST_P(Hovering, LeavesTheWaterLevel) {
   Shape shape;
   shape.kind = ShapeKind::box;
   shape.size = {0.18, 0.09, 0.04};
-  Water water = with_solid(kSpacing, {0.45, 0.36, 0.84}, 0.24, shape,
-                           {{0.225, 0.18, 0.26 + gap}, {0, 0, 0, 1}, {}, {}});
+  Water water = with_solid(kSpacing, {0.45, 0.36, 0.84}, 0.24, shape, {{0.225, 0.18, 0.26 + gap}});
   water.start(device);
   let_settle(water);
   for (int k = 0; k < 40; ++k) water.step(1.0e-2);
@@ -300,7 +291,6 @@ TEST(GridSolids, APistonLiftsTheWater) {
   Device device;
   constexpr double kSpeed = 0.02;
   Scene scene = tank_scene(0.02, {0.4, 0.2, 0.4}, 0.2);
-  scene.fluid.solver = PressureKind::grid_projected;
   scene.wave_maker = {true, 0.1, 2.0};
   Water water = fill(scene, PressureKind::grid_projected);
   water.start(device);

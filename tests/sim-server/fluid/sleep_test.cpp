@@ -30,7 +30,7 @@ class Sleeping : public ::testing::TestWithParam<int> {
     water_.particles = initial_particles(water_.scene);
     water_.settle = true;
     water_.motions = {[this](double) {
-      return BodyState{{0.12, 0.12, height_}, {0, 0, 0, 1}, {0.0, 0.0, -drop_}, {0, 0, 0}};
+      return BodyState{{0.12, 0.12, height_}, {0, 0, 0, 1}, {0.0, 0.0, -drop_}};
     }};
     water_.start(device_);
     water_.fluid->zero_velocities();

@@ -134,13 +134,13 @@ constexpr Quaternion kUpright = {0.0, 0.0, 0.0, 1.0};
 constexpr Vector3 kCube = {0.12, 0.12, 0.12};
 
 TEST(BodyForce, OfWaterAtRestIsTheWeightOfWhatTheBodyDisplaces) {
-  expect_weight_of_water({ShapeKind::box, kCube, 0.0, 0.0}, kUpright);
+  expect_weight_of_water({ShapeKind::box, kCube}, kUpright);
 }
 
 TEST(BodyForce, OfWaterAtRestIsTheWeightOfWhatAMeshDisplaces) {
   expect_weight_of_water(mesh_shape(make_solid(box_mesh(kCube), 0.02)), kUpright);
   expect_weight_of_water(mesh_shape(make_solid(sphere_mesh(0.075, 3), 0.02)), kUpright);
-  expect_weight_of_water({ShapeKind::sphere, {0.15, 0.15, 0.15}, 0.0, 0.0}, kUpright);
+  expect_weight_of_water({ShapeKind::sphere, {0.15, 0.15, 0.15}}, kUpright);
 }
 
 // The box stands as before, but its file has it askew: its points lie on no faces.
