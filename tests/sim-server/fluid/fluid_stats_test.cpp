@@ -34,8 +34,7 @@ class FluidStatsOf : public ::testing::TestWithParam<int> {
   }
 
   Device device_{-1, false, GetParam()};
-  std::vector<Water> all_ = situations();
-  Water& water_ = all_.at(1);
+  Water water_ = crowd();
 };
 
 TEST_P(FluidStatsOf, ACleanStateFindsNothing) {

@@ -47,13 +47,8 @@ class HealthOf : public ::testing::TestWithParam<int> {
   }
 
   Device device_{-1, false, GetParam()};
-  std::vector<Water> all_ = situations();
-  Water& water_ = all_.front();  // a lattice
+  Water water_ = resting_lattice();
 };
-
-TEST_P(HealthOf, SoundWaterHasNoFault) {
-  EXPECT_FALSE(after([](Fluid&) {}));
-}
 
 TEST_P(HealthOf, AFaultNamesItsParticleAndItsStep) {
   const auto last = static_cast<std::size_t>(water_.params.count) - 1;

@@ -68,11 +68,10 @@ class NeighbourGrids : public ::testing::TestWithParam<Path> {
     return (z * params_.cells_y + y) * slices() + x;
   }
 
-  Sorted sort(int chunks) {
+  Sorted sort(int chunks = GetParam().chunks) {
     NeighbourGrid grid(device_, program_, params_, places_.size(), chunks);
     return sort_with(grid);
   }
-  Sorted sort() { return sort(GetParam().chunks); }
 
   /// What a host finds: by cell, else in the order they came.
   [[nodiscard]] std::vector<int> sorted_by_host() const {
@@ -89,6 +88,11 @@ class NeighbourGrids : public ::testing::TestWithParam<Path> {
     for (const Vector3& place : places_) ++starts[static_cast<std::size_t>(cell_of(place)) + 1];
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
     return starts;
+  }
+
+  void expect_as_by_host(const Sorted& sorted) const {
+    EXPECT_EQ(sorted.id, sorted_by_host());
+    EXPECT_EQ(sorted.cell_start, starts_by_host());
   }
 
   Sorted sort_with(NeighbourGrid& grid) {
@@ -138,17 +142,14 @@ TEST_P(NeighbourGrids, SortAnyNumber) {
   for (const std::size_t count : std::initializer_list<std::size_t>{
            0, 1, 2, 8, 15, 16, 17, 63, 64, 65, 127, 128, 129, 1023, 1024, 1025, all.size()}) {
     places_.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
-    const Sorted sorted = sort();
-    ASSERT_EQ(sorted.id, sorted_by_host()) << count << " points";
-    ASSERT_EQ(sorted.cell_start, starts_by_host()) << count << " points";
+    SCOPED_TRACE(count);
+    expect_as_by_host(sort());
   }
 }
 
 TEST_P(NeighbourGrids, SortAllPointsOfOneCell) {
   places_.assign(3000, {0.1, 0.1, 0.1});
-  const Sorted sorted = sort();
-  EXPECT_EQ(sorted.id, sorted_by_host());
-  EXPECT_EQ(sorted.cell_start, starts_by_host());
+  expect_as_by_host(sort());
 }
 
 // Where there is no water any more, all is in one cell: nobody is lost, and it takes no hour.
@@ -156,8 +157,7 @@ TEST_P(NeighbourGrids, LoseNobodyInACrowd) {
   places_.assign(40'000, {0.1, 0.1, 0.1});
   Sorted sorted = sort();
   std::sort(sorted.id.begin(), sorted.id.end());
-  EXPECT_EQ(sorted.id, sorted_by_host());
-  EXPECT_EQ(sorted.cell_start, starts_by_host());
+  expect_as_by_host(sorted);
 }
 
 // A hundred times as many cells as points, and some that do not fill the last team.
@@ -166,9 +166,7 @@ TEST_P(NeighbourGrids, SortFewPointsInManyCells) {
   places_ = random_places(700, {0, 0, 0}, {3.1, 1.1, 0.7}, 14);
   params_ = make_params(scene_, places_);
   ASSERT_GT(cells(), 100 * places_.size());
-  const Sorted sorted = sort();
-  EXPECT_EQ(sorted.id, sorted_by_host());
-  EXPECT_EQ(sorted.cell_start, starts_by_host());
+  expect_as_by_host(sort());
 }
 
 // What is no number is in the first cell inside the margin.
@@ -178,8 +176,7 @@ TEST_P(NeighbourGrids, SortWhatIsNoNumber) {
   }
   const Sorted sorted = sort();
   for (std::size_t i = 0; i < places_.size(); i += 7) places_[i] = {-1.0, -1.0, -1.0};
-  EXPECT_EQ(sorted.id, sorted_by_host());
-  EXPECT_EQ(sorted.cell_start, starts_by_host());
+  expect_as_by_host(sorted);
 }
 
 TEST_P(NeighbourGrids, CarryPlacesAndVelocitiesAlong) {

@@ -52,8 +52,7 @@ TEST_P(Density, OfOthersOutlivesNoNumbers) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
                           std::numeric_limits<float>::infinity(), -3.0e38F, 3.0e38F}) {
     SCOPED_TRACE(bad);
-    std::vector<Water> all = situations();
-    Water& water = all.front();
+    Water water = resting_lattice();
     water.start(device);
     Snapshot snapshot = water.fluid->snapshot();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -107,8 +106,7 @@ TEST_P(Acceleration, IsTheTwins) {
 // both.
 TEST_P(Acceleration, OfAllTogetherIsGravity) {
   Device device(-1, false, GetParam());
-  std::vector<Water> all = situations();
-  Water& water = all.at(1);
+  Water water = crowd();
   water.scene.fluid.gravity = {0.0, 0.0, 0.0};
   water.scene.fluid.pull = {0.0, 0.0, 0.0};
   water.start(device);

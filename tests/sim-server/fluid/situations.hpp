@@ -11,13 +11,15 @@ namespace splash::sim {
 
 [[nodiscard]] std::vector<Water> situations();
 
-/// Particles at one x, few in each row of cells: a vector of neighbours that starts in one row runs
-/// on into the next, whose particles are neighbours too and must not count twice.
-[[nodiscard]] Water spray_curtain();
+[[nodiscard]] Water resting_lattice();
+/// Random places in the corner of a tank, drawn to a point.
+[[nodiscard]] Water crowd();
+/// Random places in and above a tank.
+[[nodiscard]] Water spray();
+/// Above the slope's foot the floor and the slope change places; the piston stands in the tank.
+[[nodiscard]] Water beach();
 
 /// Two turned, moving bodies in shallow water.
 [[nodiscard]] Water two_bodies();
-/// The same of meshes, one of them askew and beside its own origin.
-[[nodiscard]] Water two_meshes();
 
 }  // namespace splash::sim
