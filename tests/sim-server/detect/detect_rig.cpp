@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/sim-server/detect/detect_rig.hpp"
 
-#include <algorithm>
-
 namespace splash::sim {
 namespace kernels {
 std::vector<KernelSource> detect();
@@ -22,9 +20,7 @@ Step prepare(Water& water) {
 
 Water hanging_block() {
   constexpr double kSpacing = 0.02;
-  Water water;
-  water.name = "hanging block";
-  water.scene = tank_scene(kSpacing, {1.0, 1.0, 1.0}, 1.0);
+  Water water = {"hanging block", tank_scene(kSpacing, {1.0, 1.0, 1.0}, 1.0)};
   for (int kz = 0; kz < 5; ++kz) {
     for (int ky = 0; ky < 10; ++ky) {
       for (int kx = 0; kx < 10; ++kx) {
@@ -38,14 +34,11 @@ Water hanging_block() {
 }
 
 void move_particle(Water& water, int id, const Vector3& place, const Vector3& velocity) {
-  Snapshot snapshot = water.fluid->snapshot();
-  const auto found = std::find(snapshot.id.begin(), snapshot.id.end(), id);
-  const auto i = static_cast<std::size_t>(found - snapshot.id.begin());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    snapshot.position[part(*water.fluid, axis, i)] = static_cast<float>(place[axis]);
-    snapshot.velocity[part(*water.fluid, axis, i)] = static_cast<float>(velocity[axis]);
-  }
-  water.fluid->restore(snapshot);
+  change_particles(*water.fluid, [&](int at, Vector3& x, Vector3& v) {
+    if (at != id) return;
+    x = place;
+    v = velocity;
+  });
 }
 
 void fill_pool(Bubbles& bubbles, const std::vector<Vector3>& places, double born) {

@@ -88,10 +88,7 @@ TEST(Again, AfterTheWaterHasLongSunk) {
 
 // One that comes down tilted is led by a few of its points: it stays in its cavity, too.
 TEST(Again, NotInItsOwnCavityWhenTilted) {
-  ImpactWatch watch({kUnderside}, {}, surface_distance());
-  int impacts = 0;
-  for (int k = 0; k * kStoryFrame < 0.45; ++k) {
-    const double time = k * kStoryFrame;
+  const auto all = live_through(0.45, [](double time) {
     std::vector<SurfacePoint> points;
     const bool cavity = time > 0.15 && time < 0.40;
     const Scenery at = {.underside = std::max(0.1 - time, -0.1),
@@ -108,57 +105,50 @@ TEST(Again, NotInItsOwnCavityWhenTilted) {
       points[i].touch.colour = one[i].touch.colour;
       points[i].touch.gz = one[i].touch.gz;
     }
-    impacts += static_cast<int>(watch.observe(time, kStoryFrame, points).size());
-  }
-  EXPECT_EQ(impacts, 1);
+    return points;
+  });
+  EXPECT_EQ(all.size(), 1U);
 }
 
 /// Impacts of a body with a step in its underside, 5 cm high.
-int impacts_of_a_step(const Story& story, double seconds) {
-  ImpactWatch watch({kUnderside}, {}, surface_distance());
-  int impacts = 0;
-  for (int k = 0; k * kStoryFrame < seconds; ++k) {
-    const double time = k * kStoryFrame;
+std::size_t impacts_of_a_step(const Story& story, double seconds) {
+  const auto all = live_through(seconds, [&](double time) {
     std::vector<SurfacePoint> points;
     Scenery at = story(time);
     add_body(points, 0, at);
     at.underside += 0.05;
     add_body(points, 0, at);
-    impacts += static_cast<int>(watch.observe(time, kStoryFrame, points).size());
-  }
-  return impacts;
+    return points;
+  });
+  return all.size();
 }
 
 // Each part of a body counts by itself: while the lower half is in, the upper half is heard.
 TEST(Again, ForAnotherPartOfABodyThatIsPartlyIn) {
-  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.2, -0.02}, {1.0, -0.02}, {1.2, -0.2}}), 1.5), 2);
-  EXPECT_EQ(impacts_of_a_step(path(0.02, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 1);
-  EXPECT_EQ(impacts_of_a_step(path(-0.01, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 1);
+  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.2, -0.02}, {1.0, -0.02}, {1.2, -0.2}}), 1.5), 2U);
+  EXPECT_EQ(impacts_of_a_step(path(0.02, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 1U);
+  EXPECT_EQ(impacts_of_a_step(path(-0.01, {{1.0, -0.01}, {1.2, -0.2}}), 1.5), 1U);
 }
 
 // Both halves at once are one blow.
 TEST(Again, NotForTheRestOfABlowThatGoesOn) {
-  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.05, -0.2}}), 1.0), 1);  // 6 m/s
+  EXPECT_EQ(impacts_of_a_step(path(0.1, {{0.05, -0.2}}), 1.0), 1U);  // 6 m/s
 }
 
 // A heel comes out of the water while the ball stays in, and slaps back: it need not rise above
 // anything but the water.
 TEST(Again, ForTheHeelOfAFootThatStaysIn) {
   ImpactWatch watch({2.0 * kUnderside}, {}, surface_distance());
-  std::vector<double> told;
   const auto heel = path(-0.02, {{0.3, -0.02}, {0.5, 0.03}, {0.6, -0.02}, {0.9, -0.02}});
-  for (int k = 0; k * kStoryFrame < 1.0; ++k) {
-    const double time = k * kStoryFrame;
+  const auto told = live_through(watch, 1.0, [&](double time) {
     std::vector<SurfacePoint> points;
     add_body(points, 0, heel(time));
-    add_body(points, 0, Scenery{.underside = -0.02});
-    for (const DetectedImpact& impact : watch.observe(time, kStoryFrame, points)) {
-      told.push_back(impact.time);
-      EXPECT_NEAR(impact.approach, 0.5, 1.0e-6);
-    }
-  }
+    add_body(points, 0, {.underside = -0.02});
+    return points;
+  });
   ASSERT_EQ(told.size(), 1U);
-  EXPECT_NEAR(told[0], 0.56, 1.0e-3);
+  EXPECT_NEAR(told[0].impact.time, 0.56, 1.0e-3);
+  EXPECT_NEAR(told[0].impact.approach, 0.5, 1.0e-6);
 }
 
 // Patting: a palm that leaves the water by 2 cm, four times a second.

@@ -39,22 +39,33 @@ void add_body(std::vector<SurfacePoint>& points, int body, const Scenery& at) {
   }
 }
 
-std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
-                             const DetectSettings& settings, double nearer) {
-  ImpactWatch watch(std::vector<double>(bodies.size(), kUnderside), settings, surface_distance(),
-                    nearer);
+std::vector<Announced> live_through(ImpactWatch& watch, double seconds, const Sights& sights) {
   std::vector<Announced> all;
   for (int k = 0; k * kStoryFrame < seconds; ++k) {
     const double time = k * kStoryFrame;
-    std::vector<SurfacePoint> points;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      add_body(points, static_cast<int>(b), bodies[b](time));
-    }
-    for (const DetectedImpact& impact : watch.observe(time, kStoryFrame, points)) {
+    for (const DetectedImpact& impact : watch.observe(time, kStoryFrame, sights(time))) {
       all.push_back({time, impact});
     }
   }
   return all;
+}
+
+std::vector<Announced> live_through(double seconds, const Sights& sights) {
+  ImpactWatch watch({kUnderside}, {}, surface_distance());
+  return live_through(watch, seconds, sights);
+}
+
+std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,
+                             const DetectSettings& settings, double nearer) {
+  ImpactWatch watch(std::vector<double>(bodies.size(), kUnderside), settings, surface_distance(),
+                    nearer);
+  return live_through(watch, seconds, [&](double time) {
+    std::vector<SurfacePoint> points;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      add_body(points, static_cast<int>(b), bodies[b](time));
+    }
+    return points;
+  });
 }
 
 std::vector<Announced> watch(const Story& body, double seconds, const DetectSettings& settings,

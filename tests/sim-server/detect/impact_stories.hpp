@@ -38,8 +38,14 @@ struct Announced {
   DetectedImpact impact;
 };
 
-/// What is to be seen at a time.
+/// What is to be seen at a time, or what the skin's points see then.
 using Story = std::function<Scenery(double)>;
+using Sights = std::function<std::vector<SurfacePoint>(double)>;
+
+/// Lives through what they see, frame by frame.
+std::vector<Announced> live_through(ImpactWatch& watch, double seconds, const Sights& sights);
+/// The same of one body of one underside's area.
+[[nodiscard]] std::vector<Announced> live_through(double seconds, const Sights& sights);
 
 /// Lives through the stories of all bodies, frame by frame. `nearer`: as in ImpactWatch.
 [[nodiscard]] std::vector<Announced> watch(const std::vector<Story>& bodies, double seconds,

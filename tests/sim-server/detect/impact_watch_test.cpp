@@ -18,37 +18,42 @@ auto falling(double speed, double meets) {
   return [=](double time) { return Scenery{.underside = speed * (meets - time), .speed = -speed}; };
 }
 
-class Plunge : public ::testing::TestWithParam<double> {};
+class Plunge : public ::testing::TestWithParam<double> {
+ protected:
+  /// The only one there is.
+  static Announced told(const Story& story, double seconds, double nearer = 0.0) {
+    const auto all = watch(story, seconds, {}, nearer);
+    EXPECT_EQ(all.size(), 1U);
+    return all.at(0);
+  }
+  Announced told(double nearer = 0.0) const {
+    return told(falling(speed_, meets_), meets_ + 0.1, nearer);
+  }
+
+  double speed_ = GetParam();
+  double meets_ = 0.0613 + 0.1 / speed_;  ///< never on a frame
+};
 
 TEST_P(Plunge, IsOneImpactAtItsMomentAndSpeed) {
-  const double speed = GetParam();
-  const double meets = 0.0613 + 0.1 / speed;  // never on a frame
-  const auto all = watch(
-      [&](double time) {
-        const double depth = std::min(speed * (time - meets), 0.3);
-        return Scenery{
-            .underside = -depth, .speed = depth < 0.3 ? -speed : 0.0, .drift = 0.75 * speed};
-      },
-      meets + 0.5);
-  ASSERT_EQ(all.size(), 1U);
-  const DetectedImpact& impact = all[0].impact;
-  EXPECT_NEAR(impact.time, meets, 2.0e-4 * kSpacing / speed + 1.0e-6);
-  EXPECT_NEAR(impact.speed, 1.25 * speed, 1.0e-6);
-  EXPECT_NEAR(impact.approach, speed, 1.0e-6);
+  const auto stops = [this](double time) {
+    const double depth = std::min(speed_ * (time - meets_), 0.3);
+    return Scenery{
+        .underside = -depth, .speed = depth < 0.3 ? -speed_ : 0.0, .drift = 0.75 * speed_};
+  };
+  const DetectedImpact impact = told(stops, meets_ + 0.5).impact;
+  EXPECT_NEAR(impact.time, meets_, 2.0e-4 * kSpacing / speed_ + 1.0e-6);
+  EXPECT_NEAR(impact.speed, 1.25 * speed_, 1.0e-6);
+  EXPECT_NEAR(impact.approach, speed_, 1.0e-6);
   EXPECT_EQ(impact.body, 0);
   // All of the underside at once: the momentum of the water that it drags along.
-  EXPECT_NEAR(impact.momentum, speed * added_mass(kUnderside, 1.0), 0.01 * impact.momentum);
+  EXPECT_NEAR(impact.momentum, speed_ * added_mass(kUnderside, 1.0), 0.01 * impact.momentum);
   EXPECT_NEAR(impact.area, kUnderside, 1.0e-9);
   EXPECT_NEAR(impact.rise, 0.001, 1.0e-9);
 }
 
 // protocol::Impact: where the surfaces meet, not where the body is when that is told.
 TEST_P(Plunge, IsPlacedWhereTheSurfacesMeet) {
-  const double speed = GetParam();
-  const double meets = 0.0613 + 0.1 / speed;
-  const auto all = watch(falling(speed, meets), meets + 0.1);
-  ASSERT_EQ(all.size(), 1U);
-  const Vector3& place = all[0].impact.position;
+  const Vector3 place = told().impact.position;
   EXPECT_GE(place[0], -1.0e-6);
   EXPECT_LE(place[0], 0.06 + 1.0e-6);
   EXPECT_GE(place[1], -1.0e-6);
@@ -58,28 +63,22 @@ TEST_P(Plunge, IsPlacedWhereTheSurfacesMeet) {
 
 // Where the surface lies farther off than its colour tells, they meet later, and deeper.
 TEST_P(Plunge, IsLaterWhereTheSurfaceIsFarther) {
-  const double speed = GetParam();
-  const double meets = 0.0613 + 0.1 / speed;
   const double nearer = 0.2 * kSpacing;
-  const auto all = watch(falling(speed, meets), meets + 0.1, {}, nearer);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_NEAR(all[0].impact.time, meets + nearer / speed, 2.0e-4 * kSpacing / speed + 1.0e-6);
-  EXPECT_NEAR(all[0].impact.position[2], -nearer, 1.0e-3);
-  EXPECT_LE(all[0].at, meets) << "an impact is never reported later than the surfaces meet";
+  const auto [at, impact] = told(nearer);
+  EXPECT_NEAR(impact.time, meets_ + nearer / speed_, 2.0e-4 * kSpacing / speed_ + 1.0e-6);
+  EXPECT_NEAR(impact.position[2], -nearer, 1.0e-3);
+  EXPECT_LE(at, meets_) << "an impact is never reported later than the surfaces meet";
 }
 
 // Said in the first frame from which the meeting is no farther than the look-ahead.
 TEST_P(Plunge, IsAnnouncedAhead) {
-  const double speed = GetParam();
-  const double meets = 0.0613 + 0.1 / speed;
-  const auto all = watch(falling(speed, meets), meets + 0.1);
-  ASSERT_EQ(all.size(), 1U);
+  const auto [at, impact] = told();
   const DetectSettings settings;
-  EXPECT_LE(all[0].impact.time, all[0].at + settings.impact_lookahead);
+  EXPECT_LE(impact.time, at + settings.impact_lookahead);
   // As soon as the water is seen (1.2 spacings) or within the look-ahead, whichever is later.
-  const double seen = (1.2 * kSpacing) / speed;
+  const double seen = (1.2 * kSpacing) / speed_;
   const double ahead = std::min(settings.impact_lookahead, seen);
-  EXPECT_GT(all[0].impact.time, all[0].at + ahead - kStoryFrame - 1.0e-5);
+  EXPECT_GT(impact.time, at + ahead - kStoryFrame - 1.0e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, Plunge, ::testing::Values(0.06, 0.3, 1.0, 2.0, 4.0));
@@ -108,8 +107,7 @@ TEST(FastBody, IsTimedWithinTheFrame) {
 // and falls as fast as the body.
 TEST(Entry, IsIntoTheWaterAsItWasBefore) {
   ImpactWatch watch({kUnderside}, {}, surface_distance());
-  for (int k = 0; k * kStoryFrame < 0.2; ++k) {
-    const double time = k * kStoryFrame;
+  live_through(watch, 0.2, [](double time) {
     const double height = 0.1 - time;
     std::vector<SurfacePoint> points;
     const bool drop = height > 1.05 * kSpacing;
@@ -121,8 +119,8 @@ TEST(Entry, IsIntoTheWaterAsItWasBefore) {
                       : height > 0.85 * kSpacing ? 0.1
                                                  : 0.3,
               .ahead = drop ? 0.0 : 1.0});
-    static_cast<void>(watch.observe(time, kStoryFrame, points));
-  }
+    return points;
+  });
   ASSERT_TRUE(watch.entry(0));
   EXPECT_NEAR(watch.entry(0)->water[2], 0.1, 1.0e-6);
 }
@@ -193,13 +191,11 @@ TEST(Glancing, SlapsAreThoseOfTheirNormalSpeed) {
 
 /// Impacts of an underside that goes along at 3 m/s and down at 1, its leading edge up by so many
 /// degrees, with a level corner of a fiftieth of its area.
-std::vector<DetectedImpact> of_a_sole(double degrees) {
+std::vector<Announced> of_a_sole(double degrees) {
   const double turn = degrees * 3.14159265 / 180.0;
-  ImpactWatch watch({kUnderside}, {}, surface_distance());
-  std::vector<DetectedImpact> all;
-  for (int k = 0; k * kStoryFrame < 0.1; ++k) {
+  return live_through(0.1, [turn](double time) {
     std::vector<SurfacePoint> points;
-    add_body(points, 0, {.underside = 0.05 - k * kStoryFrame, .speed = -1.0, .drift = 3.0});
+    add_body(points, 0, {.underside = 0.05 - time, .speed = -1.0, .drift = 3.0});
     for (SurfacePoint& point : points) {
       point.touch.nx = static_cast<float>(std::sin(turn));
       point.touch.nz = static_cast<float>(-std::cos(turn));
@@ -208,11 +204,8 @@ std::vector<DetectedImpact> of_a_sole(double degrees) {
     points.back().area = kUnderside / 50.0;
     points.back().touch.nx = 0.0F;
     points.back().touch.nz = -1.0F;
-    for (const DetectedImpact& impact : watch.observe(k * kStoryFrame, kStoryFrame, points)) {
-      all.push_back(impact);
-    }
-  }
-  return all;
+    return points;
+  });
 }
 
 // With its toe up, the sole planes: it presses harder than it sinks. With its toe down it goes back
@@ -222,10 +215,11 @@ TEST(Glancing, SolesPressByTheirNormalSpeed) {
   const auto planing = of_a_sole(10.0);
   ASSERT_EQ(level.size(), 1U);
   ASSERT_EQ(planing.size(), 1U);
-  EXPECT_NEAR(planing[0].approach, level[0].approach, 1.0e-6);
+  EXPECT_NEAR(planing[0].impact.approach, level[0].impact.approach, 1.0e-6);
   const double turn = 10.0 * 3.14159265 / 180.0;
   const double mass = std::pow(std::cos(turn), 1.5);  // of the projected face
-  EXPECT_NEAR(planing[0].momentum / level[0].momentum, (1.0 + 3.0 * std::tan(turn)) * mass, 0.05);
+  EXPECT_NEAR(planing[0].impact.momentum / level[0].impact.momentum,
+              (1.0 + 3.0 * std::tan(turn)) * mass, 0.05);
   EXPECT_TRUE(of_a_sole(-30.0).empty());
 }
 
@@ -233,10 +227,8 @@ TEST(Glancing, SolesPressByTheirNormalSpeed) {
 // sinks at 1 m/s. Each part of the skin gives the water its own speed.
 TEST(Glancing, MomentumIsThatOfAllSkinNotOfTheFirstToMeet) {
   const double turn = 50.0 * 3.14159265 / 180.0;
-  ImpactWatch watch({kUnderside}, {}, surface_distance());
-  std::vector<DetectedImpact> all;
-  for (int k = 0; k * kStoryFrame < 0.1; ++k) {
-    const double corner = 0.04 - k * kStoryFrame;
+  const auto all = live_through(0.1, [turn](double time) {
+    const double corner = 0.04 - time;
     std::vector<SurfacePoint> points;
     add_body(points, 0, {.underside = corner + 0.012, .speed = -1.0, .drift = 3.0});
     std::vector<SurfacePoint> first;
@@ -245,16 +237,14 @@ TEST(Glancing, MomentumIsThatOfAllSkinNotOfTheFirstToMeet) {
     points.back().area = kUnderside / 50.0;
     points.back().touch.nx = static_cast<float>(std::sin(turn));
     points.back().touch.nz = static_cast<float>(-std::cos(turn));
-    for (const DetectedImpact& impact : watch.observe(k * kStoryFrame, kStoryFrame, points)) {
-      all.push_back(impact);
-    }
-  }
+    return points;
+  });
   ASSERT_EQ(all.size(), 1U);
-  EXPECT_NEAR(all[0].time, 0.04, 1.0e-3);
+  EXPECT_NEAR(all[0].impact.time, 0.04, 1.0e-3);
   const double plough =
       (3.0 * std::sin(turn) + std::cos(turn)) / 50.0;                  // its speed times its share
   const double mean = (1.0 + plough) / (1.0 + std::cos(turn) / 50.0);  // [m/s]
-  EXPECT_NEAR(all[0].momentum / added_mass(kUnderside, 1.0), mean, 0.1);
+  EXPECT_NEAR(all[0].impact.momentum / added_mass(kUnderside, 1.0), mean, 0.1);
 }
 
 TEST(NoImpact, FromABodyThatSlidesAlongTheWater) {

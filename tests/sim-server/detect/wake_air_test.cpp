@@ -22,19 +22,29 @@ struct Taken {
   double work = 0.0;  ///< [J]
 };
 
-Taken taken(const Story& story, double seconds, const DetectSettings& settings = {}) {
+/// Lives through a story and shows the air of each frame. `cosine`: of how far the skin looks
+/// askew, for its wake.
+template <class Show>
+void live(const Story& story, double seconds, const DetectSettings& settings, const Show& show,
+          double cosine = 1.0) {
   ImpactWatch watch({kUnderside}, settings, surface_distance());
   Wakes wakes(kGravity, kDensity, 1000);
-  Taken sum;
   for (int k = 0; k * kStoryFrame < seconds; ++k) {
     const double time = k * kStoryFrame;
     std::vector<SurfacePoint> points;
     add_body(points, 0, story(time));
     static_cast<void>(watch.observe(time, kStoryFrame, points));
-    const WakeAir air = wakes.observe(time, kStoryFrame, points, watch, settings);
+    for (SurfacePoint& point : points) point.touch.nz = static_cast<float>(-cosine);
+    show(time, wakes.observe(time, kStoryFrame, points, watch, settings));
+  }
+}
+
+Taken taken(const Story& story, double seconds, const DetectSettings& settings = {}) {
+  Taken sum;
+  live(story, seconds, settings, [&](double, const WakeAir& air) {
     for (const AirFold& fold : air.folds) sum.air += kStoryFrame * static_cast<double>(fold.rate);
     sum.work += air.work;
-  }
+  });
   return sum;
 }
 
@@ -79,17 +89,9 @@ INSTANTIATE_TEST_SUITE_P(Speeds, WakeOf, ::testing::Values(0.4, 1.0, 2.0, 5.0));
 
 /// With what a body at 1 m/s takes down in a frame, once its skin looks so far askew: the cosine.
 double work_of(double cosine) {
-  const DetectSettings settings = {.bubble_onset = 0.0};
-  ImpactWatch watch({kUnderside}, settings, surface_distance());
-  Wakes wakes(kGravity, kDensity, 1000);
   double work = 0.0;
-  for (int k = 0; k < 25; ++k) {
-    std::vector<SurfacePoint> points;
-    add_body(points, 0, plunge(1.0)(k * kStoryFrame));
-    static_cast<void>(watch.observe(k * kStoryFrame, kStoryFrame, points));
-    for (SurfacePoint& point : points) point.touch.nz = static_cast<float>(-cosine);
-    work = wakes.observe(k * kStoryFrame, kStoryFrame, points, watch, settings).work;
-  }
+  const auto last = [&](double, const WakeAir& air) { work = air.work; };
+  live(plunge(1.0), 0.098, {.bubble_onset = 0.0}, last, cosine);
   return work;
 }
 
@@ -101,18 +103,11 @@ TEST(Wake, OfSkinAskewIsByTheCubeOfItsNormalSpeed) {
 
 // The hollow collapses before its air breaks up.
 TEST(Wake, BreaksUpWhereItWasTakenHalfAClosingTimeLater) {
-  ImpactWatch watch({kUnderside}, {}, surface_distance());
-  Wakes wakes(kGravity, kDensity, 1000);
-  const Story story = plunge(1.0);
   const double enters = 0.0513;
   double first = 0.0;
   double last = 0.0;
-  for (int k = 0; k < 150; ++k) {
-    const double time = k * kStoryFrame;
-    std::vector<SurfacePoint> points;
-    add_body(points, 0, story(time));
-    static_cast<void>(watch.observe(time, kStoryFrame, points));
-    for (const AirFold& fold : wakes.observe(time, kStoryFrame, points, watch, {}).folds) {
+  live(plunge(1.0), 0.598, {}, [&](double time, const WakeAir& air) {
+    for (const AirFold& fold : air.folds) {
       if (first == 0.0) first = time;
       last = time;
       const double taken = time - 0.5 * closes_after();
@@ -120,7 +115,7 @@ TEST(Wake, BreaksUpWhereItWasTakenHalfAClosingTimeLater) {
       EXPECT_GE(fold.id, 1000);
       EXPECT_LT(fold.id, 1016);
     }
-  }
+  });
   EXPECT_NEAR(first - enters, 0.5 * closes_after(), 2.0 * kStoryFrame);
   EXPECT_NEAR(last - enters, 1.5 * closes_after(), 2.0 * kStoryFrame);
 }
