@@ -19,6 +19,7 @@ namespace splash::sim {
 namespace {
 
 constexpr double kLeastAir = 0.03;  ///< LEAST_AIR of air_fold.cl
+constexpr double kFrame = 0.004;    ///< [s]
 
 DetectSettings settings() {
   DetectSettings settings;
@@ -69,9 +70,7 @@ TEST_P(FoldAir, IsAShareOfTheEnergyThatEddiesLoseBesideAir) {
     const FluidState state = read_state(*water.fluid, water.piston.offset);
     const FluidParams& p = state.params;
     const double width = eddy_width(s, static_cast<double>(p.spacing));
-    const double gravity =
-        std::hypot(static_cast<double>(p.gravity_x), static_cast<double>(p.gravity_y),
-                   static_cast<double>(p.gravity_z));
+    const double gravity = length(vector(p.gravity_x, p.gravity_y, p.gravity_z));
     const double volume = static_cast<double>(p.mass) / static_cast<double>(p.rest_density);
     for (std::size_t i = 0; i < state.id.size(); ++i) {
       const ReferenceEddies eddies = reference_eddies(state, i, width);
@@ -102,8 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Lanes, FoldAir, kLaneCounts, lanes_name);
 Water eddying_block(Device& device, double spacing) {
   constexpr double kSide = 0.24;  // [m]
   constexpr double kSpeed = 1.0;  // [m/s]
-  Water water;
-  water.scene = tank_scene(spacing, {1.0, 1.0, 1.0}, 1.0);
+  Water water = {.scene = tank_scene(spacing, {1.0, 1.0, 1.0}, 1.0)};
   const int across = static_cast<int>(std::lround(kSide / spacing));
   for (int k = 0; k < across * across * across; ++k) {
     const auto along = [&](int cells) { return 0.4 + (cells + 0.5) * spacing; };
@@ -111,19 +109,11 @@ Water eddying_block(Device& device, double spacing) {
         {along(k % across), along(k / across % across), along(k / across / across)});
   }
   water.start(device);
-  Snapshot snapshot = water.fluid->snapshot();
-  const double wave = std::numbers::pi / 0.08;
-  for (std::size_t i = 0; i < water.particles.size(); ++i) {
-    const Vector3 place = vector_of(*water.fluid, snapshot.position, i);
-    const double x = wave * place[0];
-    const double z = wave * place[2];
-    const Vector3 velocity = {kSpeed * std::sin(x) * std::cos(z), 0.0,
-                              -kSpeed * std::cos(x) * std::sin(z)};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      snapshot.velocity[part(*water.fluid, axis, i)] = static_cast<float>(velocity[axis]);
-    }
-  }
-  water.fluid->restore(snapshot);
+  change_particles(*water.fluid, [](int, Vector3& place, Vector3& velocity) {
+    const double x = std::numbers::pi / 0.08 * place[0];
+    const double z = std::numbers::pi / 0.08 * place[2];
+    velocity = {kSpeed * std::sin(x) * std::cos(z), 0.0, -kSpeed * std::cos(x) * std::sin(z)};
+  });
   return water;
 }
 
@@ -146,34 +136,52 @@ TEST(Folds, NeedMotionThatIsNarrowerThanAnEddy) {
   Device device;
   Water water = hanging_block();
   water.start(device);
-  Snapshot snapshot = water.fluid->snapshot();
-  for (std::size_t i = 0; i < water.particles.size(); ++i) {
-    snapshot.velocity[part(*water.fluid, 2, i)] = -5.0F;  // all of it falls
-  }
-  water.fluid->restore(snapshot);
+  change_particles(*water.fluid, [](int, Vector3&, Vector3& velocity) {
+    velocity[2] = -5.0;  // all of it falls
+  });
   EXPECT_TRUE(folds_of(water, s).empty());
   water.stir(1.0, 5);
   EXPECT_FALSE(folds_of(water, s).empty());
 }
+
+/// Stirred water, and what is told of it.
+struct StirredBlock {
+  explicit StirredBlock(const DetectSettings& settings)
+      : water(stirred(device)), bubbles(*water.fluid, detect_program(device), settings, 7, 2000) {}
+
+  std::vector<DetectedBubble> next_frame() {
+    detect(water, bubbles, kFrame);
+    ++frames;
+    return bubbles.collect(kFrame * frames, kFrame, frames);
+  }
+
+  static Water stirred(Device& device) {
+    Water water = hanging_block();
+    water.start(device);
+    water.stir(1.0, 6);
+    return water;
+  }
+
+  Device device;
+  Water water;
+  Bubbles bubbles;
+  std::uint32_t frames = 0;
+};
 
 // The pool's bubbles are one matter, the told ones another: these use up the air that is folded in.
 TEST(Folds, AreToldToTheLastBubble) {
   DetectSettings s;
   s.bubble_energy = 0.3;
   s.bubbles_per_second = 1.0e6;
-  Device device;
-  Water water = hanging_block();
-  water.start(device);
-  water.stir(1.0, 6);
-  Bubbles bubbles(*water.fluid, detect_program(device), s, 7, 2000);
+  StirredBlock block(s);
+  Bubbles& bubbles = block.bubbles;
   std::set<int> places;
-  for (std::uint32_t step = 1; step <= 100; ++step) {
-    detect(water, bubbles, 0.004);
-    for (const DetectedBubble& bubble : bubbles.collect(0.004 * step, 0.004, step)) {
+  for (int k = 0; k < 100; ++k) {
+    for (const DetectedBubble& bubble : block.next_frame()) {
       EXPECT_GE(bubble.radius, s.radius_min);
       EXPECT_LE(bubble.radius, s.radius_max);
-      EXPECT_GT(bubble.time, 0.004 * (step - 1.0) - 1e-9);
-      EXPECT_LE(bubble.time, 0.004 * step);
+      EXPECT_GT(bubble.time, kFrame * k - 1e-9);
+      EXPECT_LE(bubble.time, kFrame * (k + 1));
       places.insert(bubble.particle);
     }
     ASSERT_GE(bubbles.air().told, bubbles.air().entrapped * (1.0 - 1e-9));
@@ -189,44 +197,31 @@ TEST(Folds, AreToldToTheLastBubble) {
 // The share may be set to 0 while a scene runs, and back; with a body at work besides.
 TEST(Folds, ComeBackAfterTheirShareWasZero) {
   DetectSettings s;
-  Device device;
-  Water water = hanging_block();
-  water.start(device);
-  water.stir(1.0, 6);
-  Bubbles bubbles(*water.fluid, detect_program(device), s, 7, 2000);
-  const auto air_of_frames = [&](double share, std::uint32_t first) {
-    const double before = bubbles.air().entrapped;
+  StirredBlock block(s);
+  const auto air_of_frames = [&](double share) {
+    const double before = block.bubbles.air().entrapped;
     s.bubble_energy = share;
-    bubbles.set(s);
-    for (std::uint32_t step = first; step < first + 20; ++step) {
-      detect(water, bubbles, 0.004);
-      static_cast<void>(bubbles.collect(0.004 * step, 0.004, step));
-    }
-    return bubbles.air().entrapped - before;
+    block.bubbles.set(s);
+    for (int k = 0; k < 20; ++k) block.next_frame();
+    return block.bubbles.air().entrapped - before;
   };
-  const double some = air_of_frames(0.38, 1);
+  const double some = air_of_frames(0.38);
   EXPECT_GT(some, 0.0);
-  EXPECT_EQ(air_of_frames(0.0, 21), 0.0);
-  EXPECT_NEAR(air_of_frames(0.38, 41), some, 1e-6 * some);
+  EXPECT_EQ(air_of_frames(0.0), 0.0);
+  EXPECT_NEAR(air_of_frames(0.38), some, 1e-6 * some);
 }
 
 TEST(Folds, AboveTheBudgetAreToldInLargerBubbles) {
   DetectSettings s;
   s.bubble_energy = 0.3;
   s.bubbles_per_second = 500.0;
-  Device device;
-  Water water = hanging_block();
-  water.start(device);
-  water.stir(1.0, 6);
-  Bubbles bubbles(*water.fluid, detect_program(device), s, 7, 2000);
-  int told = 0;
-  for (std::uint32_t step = 1; step <= 100; ++step) {
-    detect(water, bubbles, 0.004);
-    told += static_cast<int>(bubbles.collect(0.004 * step, 0.004, step).size());
-  }
-  EXPECT_LE(told, 200 + 26);  // and what 50 ms left at first
-  EXPECT_GT(bubbles.air().thinned, 0U);
-  EXPECT_LE(bubbles.air().told, bubbles.air().entrapped + bubble_volume(s.radius_max));
+  StirredBlock block(s);
+  std::size_t told = 0;
+  for (int k = 0; k < 100; ++k) told += block.next_frame().size();
+  EXPECT_LE(told, 200U + 26U);  // and what 50 ms left at first
+  const AirTotals& air = block.bubbles.air();
+  EXPECT_GT(air.thinned, 0U);
+  EXPECT_LE(air.told, air.entrapped + bubble_volume(s.radius_max));
 }
 
 }  // namespace

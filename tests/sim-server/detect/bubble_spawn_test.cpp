@@ -97,14 +97,15 @@ TEST_P(SpawnBubbles, AtTheMomentTheGradientCrossesTheThreshold) {
     detect(water, bubbles, kFrame);
     const FluidState after = read_state(*water.fluid, water.piston.offset);
 
-    std::map<int, double> last;
-    for (std::size_t i = 0; i < before.id.size(); ++i) {
-      last[before.id[i]] = reference_upward(before, {}, before.position[i]).value;
-    }
-    std::map<int, double> now;
-    for (std::size_t i = 0; i < after.id.size(); ++i) {
-      now[after.id[i]] = reference_upward(after, {}, after.position[i]).value;
-    }
+    const auto upward_of = [](const FluidState& state) {
+      std::map<int, double> upward;
+      for (std::size_t i = 0; i < state.id.size(); ++i) {
+        upward[state.id[i]] = reference_upward(state, {}, state.position[i]).value;
+      }
+      return upward;
+    };
+    std::map<int, double> last = upward_of(before);
+    std::map<int, double> now = upward_of(after);
     for (const DetectedBubble& bubble : bubbles.collect(1.004, kFrame, 2)) {
       const double part = (always.bubble_gradient - last[bubble.particle]) /
                           (now[bubble.particle] - last[bubble.particle]);
@@ -155,6 +156,14 @@ class Memory : public ::testing::Test {
     return reference_upward(state, {}, state.position[i]).value;
   }
 
+  /// In the next frame, where the line from the gradient `last` crosses the threshold.
+  void expect_spawn_after(double last) {
+    const auto found = at(kBelow, kFast);
+    ASSERT_EQ(found.size(), 1U);
+    const double part = (settings().bubble_gradient - last) / (upward() - last);
+    EXPECT_NEAR(found[0].time, time() - kFrame * (1.0 - part), 1.0e-4 * kFrame);
+  }
+
   Device device_;
   Water water_;
   int tracer_;
@@ -162,35 +171,26 @@ class Memory : public ::testing::Test {
   std::uint32_t step_ = 0;
 };
 
-TEST_F(Memory, SlowParticlesSpawnNothing) {
-  EXPECT_TRUE(at(kBelow, kSlow).empty());
-}
-
-TEST_F(Memory, SpawnsWhereTheParticleIs) {
+TEST_F(Memory, SpawnsWhereTheParticleIsAsTheDrawsSay) {
   const auto found = at(kBelow, kFast);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].particle, tracer_);
   EXPECT_EQ(found[0].position, as_floats({kBelow}).front());
-}
-
-// What is not known when it was first seen fast is spread over the frame, by a draw.
-TEST_F(Memory, ComingFromSlownessTakesADrawnMoment) {
-  static_cast<void>(at(kBelow, kSlow));
-  const auto found = at(kBelow, kFast);
-  ASSERT_EQ(found.size(), 1U);
-  const double moment = draw(kSeed, step_, static_cast<std::uint32_t>(tracer_)).moment;
-  EXPECT_DOUBLE_EQ(found[0].time, time() - kFrame * (1.0 - moment));
-}
-
-TEST_F(Memory, RadiusAndExcitationAreTheDraws) {
-  const auto found = at(kBelow, kFast);
-  ASSERT_EQ(found.size(), 1U);
   const Draws draws = draw(kSeed, step_, static_cast<std::uint32_t>(tracer_));
   const DetectSettings s = settings();
   EXPECT_EQ(found[0].radius,
             power_law(draws.radius, s.radius_min, s.radius_max, s.radius_exponent));
   EXPECT_EQ(found[0].epsilon,
             power_law(draws.epsilon, s.epsilon_min, s.epsilon_max, s.epsilon_exponent));
+}
+
+// What is not known when it was first seen fast is spread over the frame, by a draw.
+TEST_F(Memory, ComingFromSlownessTakesADrawnMoment) {
+  EXPECT_TRUE(at(kBelow, kSlow).empty());
+  const auto found = at(kBelow, kFast);
+  ASSERT_EQ(found.size(), 1U);
+  const double moment = draw(kSeed, step_, static_cast<std::uint32_t>(tracer_)).moment;
+  EXPECT_DOUBLE_EQ(found[0].time, time() - kFrame * (1.0 - moment));
 }
 
 TEST_F(Memory, SpawnsOnce) {
@@ -207,20 +207,13 @@ TEST_F(Memory, AWeakerUpwardGradientDoesNotRearm) {
 TEST_F(Memory, AnOppositeGradientRearms) {
   EXPECT_EQ(at(kBelow, kFast).size(), 1U);
   EXPECT_TRUE(at(kAbove, kFast).empty());
-  const double last = upward();
-  const auto found = at(kBelow, kFast);
-  ASSERT_EQ(found.size(), 1U);
-  const double part = (settings().bubble_gradient - last) / (upward() - last);
-  EXPECT_NEAR(found[0].time, time() - kFrame * (1.0 - part), 1.0e-4 * kFrame);
+  expect_spawn_after(upward());
 }
 
 TEST_F(Memory, NoGradientAtAllRearms) {
   EXPECT_EQ(at(kBelow, kFast).size(), 1U);
   EXPECT_TRUE(at(kNowhere, kFast).empty());
-  const auto found = at(kBelow, kFast);
-  ASSERT_EQ(found.size(), 1U);
-  const double part = settings().bubble_gradient / upward();
-  EXPECT_NEAR(found[0].time, time() - kFrame * (1.0 - part), 1.0e-4 * kFrame);
+  expect_spawn_after(0.0);
 }
 
 TEST_F(Memory, SlownessRearms) {
@@ -232,11 +225,7 @@ TEST_F(Memory, SlownessRearms) {
 // One that never spawned and rises from a weak gradient crosses where the line between both does.
 TEST_F(Memory, AWeakGradientIsRemembered) {
   EXPECT_TRUE(at(kSideways, kFast).empty());
-  const double last = upward();
-  const auto found = at(kBelow, kFast);
-  ASSERT_EQ(found.size(), 1U);
-  const double part = (settings().bubble_gradient - last) / (upward() - last);
-  EXPECT_NEAR(found[0].time, time() - kFrame * (1.0 - part), 1.0e-4 * kFrame);
+  expect_spawn_after(upward());
 }
 
 }  // namespace
