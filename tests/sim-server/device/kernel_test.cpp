@@ -29,6 +29,9 @@ const KernelSource kLine = {"some/line.cl",
 class Arguments : public ::testing::Test {
  protected:
   void run(std::initializer_list<KernelArg> args) { line_.run(device_.queue(), 3, args); }
+  void expect_refused(std::initializer_list<KernelArg> args, const char* words) {
+    EXPECT_THAT([&] { run(args); }, ThrowsMessage<std::logic_error>(HasSubstr(words)));
+  }
   std::vector<float> result() { return y_.read(device_, 3); }
 
   Device device_;
@@ -72,58 +75,33 @@ TEST_F(Arguments, AreThoseOfTheLaunchNotOfAnEarlierOne) {
 }
 
 TEST_F(Arguments, OfAnotherNameAreRefused) {
-  EXPECT_THAT(
-      [&] {
-        run({{"count", 3}, {"raise", 2.0F}, {"x", x_}, {"shift", shift_}, {"y", y_}});
-      },
-      ThrowsMessage<std::logic_error>(HasSubstr("the kernel line has no parameter raise")));
+  expect_refused({{"count", 3}, {"raise", 2.0F}, {"x", x_}, {"shift", shift_}, {"y", y_}},
+                 "the kernel line has no parameter raise");
 }
 
 TEST_F(Arguments, OfAnotherTypeAreRefused) {
-  EXPECT_THAT(
-      [&] {
-        run({{"count", 3}, {"rise", 2}, {"x", x_}, {"shift", shift_}, {"y", y_}});
-      },
-      ThrowsMessage<std::logic_error>(
-          HasSubstr("the parameter rise of the kernel line is float, and was given int")));
-  EXPECT_THAT(
-      [&] {
-        run({{"count", 3}, {"rise", 2.0F}, {"x", shift_}, {"shift", x_}, {"y", y_}});
-      },
-      ThrowsMessage<std::logic_error>(
-          HasSubstr("the parameter x of the kernel line is float*, and was given int*")));
-  EXPECT_THAT(
-      [&] {
-        run({{"count", 3}, {"rise", 2.0F}, {"x", 1.0F}, {"shift", shift_}, {"y", y_}});
-      },
-      ThrowsMessage<std::logic_error>(HasSubstr("is float*, and was given float")));
+  expect_refused({{"count", 3}, {"rise", 2}, {"x", x_}, {"shift", shift_}, {"y", y_}},
+                 "the parameter rise of the kernel line is float, and was given int");
+  expect_refused({{"count", 3}, {"rise", 2.0F}, {"x", shift_}, {"shift", x_}, {"y", y_}},
+                 "the parameter x of the kernel line is float*, and was given int*");
+  expect_refused({{"count", 3}, {"rise", 2.0F}, {"x", 1.0F}, {"shift", shift_}, {"y", y_}},
+                 "is float*, and was given float");
 }
 
 // A launch that differs from the one before in this alone.
 TEST_F(Arguments, OfANumberWhereABufferWasAreRefused) {
   run({{"count", 3}, {"rise", 2.0F}, {"x", x_}, {"shift", shift_}, {"y", y_}});
-  EXPECT_THAT(
-      [&] {
-        run({{"count", 3}, {"rise", 2.0F}, {"x", 1.0F}, {"shift", shift_}, {"y", y_}});
-      },
-      ThrowsMessage<std::logic_error>(HasSubstr("is float*, and was given float")));
+  expect_refused({{"count", 3}, {"rise", 2.0F}, {"x", 1.0F}, {"shift", shift_}, {"y", y_}},
+                 "is float*, and was given float");
 }
 
 TEST_F(Arguments, AreAllThereAndOnce) {
   for (int again = 0; again < 2; ++again) {
-    EXPECT_THAT(
-        [&] {
-          run({{"count", 3}, {"rise", 2.0F}, {"x", x_}, {"y", y_}});
-        },
-        ThrowsMessage<std::logic_error>(
-            HasSubstr("the parameter shift of the kernel line was given nothing")));
+    expect_refused({{"count", 3}, {"rise", 2.0F}, {"x", x_}, {"y", y_}},
+                   "the parameter shift of the kernel line was given nothing");
   }
-  EXPECT_THAT(
-      [&] {
-        run({{"count", 3}, {"rise", 2.0F}, {"x", x_}, {"shift", shift_}, {"y", y_}, {"x", x_}});
-      },
-      ThrowsMessage<std::logic_error>(
-          HasSubstr("the parameter x of the kernel line was given twice")));
+  expect_refused({{"count", 3}, {"rise", 2.0F}, {"x", x_}, {"shift", shift_}, {"y", y_}, {"x", x_}},
+                 "the parameter x of the kernel line was given twice");
   run({{"count", 3}, {"rise", 2.0F}, {"x", x_}, {"shift", shift_}, {"y", y_}});
   EXPECT_THAT(result(), ElementsAre(12.0F, 14.0F, 16.0F));
 }
