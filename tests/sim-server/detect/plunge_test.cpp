@@ -20,14 +20,17 @@ constexpr double kFall = 0.40;       ///< how far it falls [m]
 constexpr double kStarts = 1.0;      ///< when [s]
 constexpr double kSpacing = 0.0238;  ///< of the scene's particles [m]
 
+/// The scene with its keyframe `from` at another time [s].
+std::string with_key(const std::string& text, const std::string& from, double to) {
+  return changed(text, "{time: " + from + ",", "{time: " + std::to_string(to) + ",");
+}
+
 /// The scene with the fall at `speed`; it stays down for 0.6 s and rises at half a metre a second.
 std::string plunge_at(double speed) {
   const double down = kStarts + kFall / speed;
   const std::string text = scene_text("plunge.yaml");
   if (speed == 1.0) return text;
-  const auto key = [](double time) { return "{time: " + std::to_string(time) + ","; };
-  return changed(changed(changed(text, "{time: 1.4,", key(down)), "{time: 2.0,", key(down + 0.6)),
-                 "{time: 2.8,", key(down + 1.4));
+  return with_key(with_key(with_key(text, "1.4", down), "2.0", down + 0.6), "2.8", down + 1.4);
 }
 
 /// When and where the underside reaches the water's surface, as the particles' volume has it.
@@ -52,11 +55,8 @@ Meeting meeting_of(const std::vector<Gauge>& gauges) {
 constexpr double kAsleep = 3.5;  // [s]
 std::string plunge_after(double rest) {
   std::string text = scene_text("plunge.yaml");
-  for (const double time : {1.0, 1.4, 2.0, 2.8}) {
-    char from[32], to[32];
-    std::snprintf(from, sizeof from, "{time: %.1f,", time);
-    std::snprintf(to, sizeof to, "{time: %.1f,", time - kStarts + rest);
-    text = changed(text, from, to);
+  for (const char* time : {"1.0", "1.4", "2.0", "2.8"}) {
+    text = with_key(text, time, std::stod(time) - kStarts + rest);
   }
   return text;
 }
