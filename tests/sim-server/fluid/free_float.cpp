@@ -78,17 +78,15 @@ void FreeFloat::run(double seconds) {
 
 Balance FreeFloat::balance() {
   Balance sum;
-  const Snapshot water = fluid->snapshot();
+  const std::vector<Vector3> places = places_of(*fluid);
+  const std::vector<Vector3> velocities = velocities_of(*fluid);
   const auto mass = static_cast<double>(fluid->params().mass);
   const auto add = [&sum](double m, const Vector3& x, const Vector3& v, Vector3& to) {
     to = to + m * v;
     sum.turning = sum.turning + m * cross(x, v);
     sum.scale += m * length(v);
   };
-  for (std::size_t i = 0; i < water.id.size(); ++i) {
-    add(mass, vector_of(*fluid, water.position, i), vector_of(*fluid, water.velocity, i),
-        sum.water);
-  }
+  for (std::size_t i = 0; i < places.size(); ++i) add(mass, places[i], velocities[i], sum.water);
   for (std::size_t b = 0; b < steps.size(); ++b) {
     const BodyState s = state(b);
     const double m = mass_of(scene.bodies[b]);

@@ -240,8 +240,7 @@ TEST(GridSolids, WaterOnASlopeStaysStill) {
   Scene scene = tank_scene(0.02, {1.0, 0.2, 0.4}, 0.2);
   scene.slope = {true, 0.4, 0.5};
   Water water = fill(scene, PressureKind::grid_projected);
-  water.start(device);
-  let_settle(water);
+  start_at_rest(device, water);
   for (int k = 0; k < 100; ++k) water.step(1.0e-2);
   std::printf("fastest %.4f of sqrt(gH)\n", water.fluid->stats().speed / std::sqrt(kGravity * 0.2));
   EXPECT_LT(water.fluid->stats().speed, 0.02 * std::sqrt(kGravity * 0.2));
@@ -274,8 +273,7 @@ TEST_P(Hovering, LeavesTheWaterLevel) {
   shape.kind = ShapeKind::box;
   shape.size = {0.18, 0.09, 0.04};
   Water water = with_solid(kSpacing, {0.45, 0.36, 0.84}, 0.24, shape, {{0.225, 0.18, 0.26 + gap}});
-  water.start(device);
-  let_settle(water);
+  start_at_rest(device, water);
   for (int k = 0; k < 40; ++k) water.step(1.0e-2);
   const std::vector<Vector3> places = places_of(*water.fluid);
   const double beneath = top_of(places, {0.07, 0.03, 0.0}, true, 8);
@@ -293,8 +291,7 @@ TEST(GridSolids, APistonLiftsTheWater) {
   Scene scene = tank_scene(0.02, {0.4, 0.2, 0.4}, 0.2);
   scene.wave_maker = {true, 0.1, 2.0};
   Water water = fill(scene, PressureKind::grid_projected);
-  water.start(device);
-  let_settle(water);
+  start_at_rest(device, water);
   const auto mean_height = [&] {
     double sum = 0.0;
     for (const Vector3& x : places_of(*water.fluid)) sum += x[2];

@@ -96,7 +96,7 @@ TEST_P(Pack, LeavesItAsDenseAsAtRest) {
     if (static_cast<std::size_t>(now.id[i]) < pool_) continue;
     const double excess = static_cast<double>(density[i] / water_.params.rest_density) - 1.0;
     most = std::max(most, excess);
-    if (length(vector_of(*water_.fluid, now.position, i) - kMiddle) > 0.12) continue;
+    if (length(now.place(i) - kMiddle) > 0.12) continue;
     inner += excess;
     ++count;
   }

@@ -51,8 +51,7 @@ TEST_P(EitherSolver, AColumnAtRestStaysAtRest) {
   Device device;
   const double depth = 0.36;
   Water water = fill(tank_scene(0.02, {0.24, 0.2, 0.5}, depth), GetParam());
-  water.start(device);
-  let_settle(water);
+  start_at_rest(device, water);
   ASSERT_GT(water.params.count, 2000);
   const double first = liveliest(water, 0.5);
   run(water, 1.0);
@@ -70,8 +69,7 @@ TEST(WeaklyCompressible, AColumnIsAsDenseAndPressesAsItsWeightAsks) {
   Device device;
   const double depth = 0.36;
   Water water = fill(tank_scene(0.02, {0.24, 0.2, 0.5}, depth), PressureKind::weakly_compressible);
-  water.start(device);
-  let_settle(water);
+  start_at_rest(device, water);
   run(water, 0.5);
   const FluidStats stats = water.fluid->stats();
   const double bottom = 9.81 * depth / 225.0;

@@ -54,13 +54,12 @@ TEST_P(Density, OfOthersOutlivesNoNumbers) {
     SCOPED_TRACE(bad);
     Water water = resting_lattice();
     water.start(device);
-    Snapshot snapshot = water.fluid->snapshot();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const std::size_t i : {7U, 300U}) {
-        snapshot.position[part(*water.fluid, axis, i + axis)] = bad;
+    change_particles(*water.fluid, [bad](int id, Vector3& place, Vector3&) {
+      for (const int first : {7, 300}) {
+        const int axis = id - first;
+        if (axis >= 0 && axis < 3) place[static_cast<std::size_t>(axis)] = double{bad};
       }
-    }
-    water.fluid->restore(snapshot);
+    });
     water.step(1.0e-4);
     water.step(1.0e-4, [&](Fluid& fluid) {
       const FluidState state = read_state(fluid);

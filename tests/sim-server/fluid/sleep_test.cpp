@@ -113,7 +113,7 @@ TEST_P(Sleeping, ABodyThatMovesWakesWhatItReachesAndNoMore) {
   const Snapshot state = water_.fluid->snapshot();
   const std::vector<int> moves = moving();
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    const double x = vector_of(*water_.fluid, state.position, i)[0];
+    const double x = state.place(i)[0];
     if (x > 0.9) {
       EXPECT_EQ(moves[i], 0) << "at " << x;
     }
@@ -126,7 +126,7 @@ TEST_P(Sleeping, AFastParticleKeepsItsSurroundingsAwake) {
   Snapshot state = water_.fluid->snapshot();
   for (int k = 0; k < kRule.frames + 3; ++k) {
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0F);
-    state.velocity[part(*water_.fluid, 1, where(state, fast))] = 0.06F;
+    state.velocity[state.velocity.size() / 3 + where(state, fast)] = 0.06F;  // along y
     if (k == 0) water_.fluid->restore(state);  // which wakes everything
     set_velocity(state.velocity);
     frame();
@@ -134,10 +134,10 @@ TEST_P(Sleeping, AFastParticleKeepsItsSurroundingsAwake) {
   }
   const double cell = static_cast<double>(water_.params.support);
   const std::vector<int> moves = moving();
-  const Vector3 source = vector_of(*water_.fluid, state.position, where(state, fast));
+  const Vector3 source = state.place(where(state, fast));
   int asleep = 0;
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    const Vector3 off = vector_of(*water_.fluid, state.position, i) - source;
+    const Vector3 off = state.place(i) - source;
     const double apart = std::max({std::abs(off[0]), std::abs(off[1]), std::abs(off[2])});
     if (apart < 0.9 * cell) {
       EXPECT_NE(moves[i], 0) << "next to the fast one";

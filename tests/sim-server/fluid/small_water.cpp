@@ -95,14 +95,6 @@ void Water::step(double dt, const std::function<void(Fluid&)>& between) {
   time += dt;
 }
 
-std::size_t part(const Fluid& fluid, std::size_t axis, std::size_t i) {
-  return axis * static_cast<std::size_t>(fluid.params().capacity) + i;
-}
-
-Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size_t i) {
-  return vector_at(parts, static_cast<std::size_t>(fluid.params().capacity), i);
-}
-
 std::vector<Vector3> places_of(Fluid& fluid) {
   const Snapshot now = fluid.snapshot();
   return by_id(now, now.position);
@@ -115,13 +107,14 @@ std::vector<Vector3> velocities_of(Fluid& fluid) {
 
 void change_particles(Fluid& fluid, const std::function<void(int, Vector3&, Vector3&)>& change) {
   Snapshot now = fluid.snapshot();
+  const std::size_t stride = now.position.size() / 3;
   for (std::size_t i = 0; i < now.id.size(); ++i) {
     Vector3 place = now.place(i);
-    Vector3 velocity = vector_of(fluid, now.velocity, i);
+    Vector3 velocity = vector_at(now.velocity, stride, i);
     change(now.id[i], place, velocity);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      now.position[part(fluid, axis, i)] = static_cast<float>(place[axis]);
-      now.velocity[part(fluid, axis, i)] = static_cast<float>(velocity[axis]);
+      now.position[axis * stride + i] = static_cast<float>(place[axis]);
+      now.velocity[axis * stride + i] = static_cast<float>(velocity[axis]);
     }
   }
   fluid.restore(now);
@@ -139,7 +132,8 @@ void run(Water& water, double seconds) {
   while (water.time < end) water.step(dt);
 }
 
-void let_settle(Water& water) {
+void start_at_rest(Device& device, Water& water) {
+  water.start(device);
   const double dt = largest_time_step(water.params, 0.0, 9.81, 1.0);
   settle(*water.fluid, {}, 0.0, 1.0, dt);
 }

@@ -77,12 +77,6 @@ struct Water {
   double time = 0.0;  ///< [s]
 };
 
-/// Index of the x, y, z parts of particle `i` in a snapshot of a fluid.
-[[nodiscard]] std::size_t part(const Fluid& fluid, std::size_t axis, std::size_t i);
-
-/// Velocity or place of one particle of a snapshot.
-[[nodiscard]] Vector3 vector_of(const Fluid& fluid, const std::vector<float>& parts, std::size_t i);
-
 /// Of all particles, by their ids [m], [m/s].
 [[nodiscard]] std::vector<Vector3> places_of(Fluid& fluid);
 [[nodiscard]] std::vector<Vector3> velocities_of(Fluid& fluid);
@@ -95,8 +89,8 @@ void change_particles(Fluid& fluid,
 [[nodiscard]] Water fill(const Scene& scene, PressureKind solver);
 /// Runs for `seconds` in steps for particles of up to 3 m/s, pushed by gravity alone.
 void run(Water& water, double seconds);
-/// As a simulation does before its time begins.
-void let_settle(Water& water);
+/// Starts it as a simulation does, at rest before its time begins.
+void start_at_rest(Device& device, Water& water);
 
 /// Kinetic energy per mass [J/kg].
 [[nodiscard]] double kinetic_energy(Fluid& fluid);
