@@ -109,12 +109,6 @@ std::array<double, 3> numbers(std::uint32_t seed, std::uint32_t step, std::uint3
   return {draws.radius, draws.epsilon, draws.moment};
 }
 
-TEST(Draw, DoesNotDependOnWhatIsDrawnBesides) {
-  std::vector<std::array<double, 3>> upwards;
-  for (std::uint32_t k = 0; k < 100; ++k) upwards.push_back(numbers(7, 9, k));
-  for (std::uint32_t k = 100; k-- > 0;) EXPECT_EQ(numbers(7, 9, k), upwards[k]);
-}
-
 TEST(Draw, DiffersBySeedStepAndParticle) {
   std::set<double> radii;
   int draws = 0;

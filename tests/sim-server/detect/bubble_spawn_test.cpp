@@ -141,7 +141,11 @@ class Memory : public ::testing::Test {
 
   /// Next frame, with the tracer there.
   std::vector<DetectedBubble> at(const Vector3& place, const Vector3& velocity) {
-    move_particle(water_, tracer_, place, velocity);
+    change_particles(*water_.fluid, [&](int id, Vector3& x, Vector3& v) {
+      if (id != tracer_) return;
+      x = place;
+      v = velocity;
+    });
     detect(water_, *bubbles_, kFrame);
     ++step_;
     return bubbles_->collect(time(), kFrame, step_);

@@ -33,14 +33,6 @@ Water hanging_block() {
   return water;
 }
 
-void move_particle(Water& water, int id, const Vector3& place, const Vector3& velocity) {
-  change_particles(*water.fluid, [&](int at, Vector3& x, Vector3& v) {
-    if (at != id) return;
-    x = place;
-    v = velocity;
-  });
-}
-
 void fill_pool(Bubbles& bubbles, const std::vector<Vector3>& places, double born) {
   for (const Vector3& place : places) {
     const int serial = static_cast<int>(bubbles.pool().size());

@@ -24,9 +24,6 @@ Step prepare(Water& water);
 inline constexpr double kBlockBottom = 0.45;  ///< [m]
 inline constexpr double kBlockTop = 0.55;     ///< [m]
 
-/// Puts the particle with this id there.
-void move_particle(Water& water, int id, const Vector3& place, const Vector3& velocity);
-
 /// Bubbles at these places, born at `born`.
 void fill_pool(Bubbles& bubbles, const std::vector<Vector3>& places, double born = 0.0);
 

@@ -19,18 +19,17 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-}  // namespace
-
+/// Height of the water's surface [m]: what the volume of all particles around the tank's middle
+/// fills, weighted by a cone so that hardly any stands on an edge. Independent of any colour field,
+/// and of how the surface is packed.
 double water_level(Simulation& simulation, double floor) {
   Fluid& fluid = simulation.fluid();
   const FluidParams& p = fluid.params();
   const Snapshot snapshot = fluid.snapshot();
-  const auto stride = static_cast<std::size_t>(p.capacity);
   double weights = 0.0;
   for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
-    const double r = std::hypot(static_cast<double>(snapshot.position[i]),
-                                static_cast<double>(snapshot.position[stride + i]));
-    weights += std::max(1.0 - r / kConeRadius, 0.0);
+    const Vector3 place = snapshot.place(i);
+    weights += std::max(1.0 - std::hypot(place[0], place[1]) / kConeRadius, 0.0);
   }
   const double cone = std::numbers::pi * kConeRadius * kConeRadius / 3.0;
   const double volume = static_cast<double>(p.mass / p.rest_density);
@@ -40,6 +39,8 @@ double water_level(Simulation& simulation, double floor) {
   return floor + height +
          static_cast<double>(p.gravity_z) * height * height / (2.0 * sound * sound);
 }
+
+}  // namespace
 
 SceneRun run_scene(const std::string& text, double seconds) {
   Device device;

@@ -30,9 +30,4 @@ struct SceneRun {
 };
 [[nodiscard]] SceneRun run_scene(const std::string& text, double seconds);
 
-/// Height of the water's surface [m]: what the volume of all particles around the tank's middle
-/// fills, weighted by a cone so that hardly any stands on an edge. Independent of any colour field,
-/// and of how the surface is packed.
-[[nodiscard]] double water_level(Simulation& simulation, double floor);
-
 }  // namespace splash::sim

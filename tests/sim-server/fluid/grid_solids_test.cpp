@@ -124,7 +124,6 @@ TEST(GridSolids, ThinPlatesLetNoWaterThrough) {
     for (const double off : {0.0, 0.01, 0.02, 0.03}) {
       const auto at = [&](double time) {
         return BodyState{.position = {0.32, 0.32, 0.24 + off - kSpeed * time},
-                         .rotation = {0.0, 0.0, 0.0, 1.0},
                          .velocity = {0.0, 0.0, -kSpeed}};
       };
       Water water = with_solid(
@@ -155,7 +154,6 @@ TEST(GridSolids, ADiscThatTouchesTheWaterFlatSlapsIt) {
   for (const double depth : {0.24, 0.26}) {
     const auto at = [&](double time) {
       return BodyState{.position = {0.4, 0.4, depth + 0.5 * kThick + 0.02 - kSpeed * time},
-                       .rotation = {0.0, 0.0, 0.0, 1.0},
                        .velocity = {0.0, 0.0, -kSpeed}};
     };
     Water water =

@@ -35,6 +35,14 @@ double highest(Water& water) {
   return top;
 }
 
+/// Per mass [J/kg].
+double kinetic_energy(Fluid& fluid) {
+  const std::vector<Vector3> velocities = velocities_of(fluid);
+  double sum = 0.0;
+  for (const Vector3& v : velocities) sum += 0.5 * dot(v, v);
+  return sum / static_cast<double>(velocities.size());
+}
+
 /// The largest kinetic energy that is seen in the coming `seconds` [J/kg].
 double liveliest(Water& water, double seconds) {
   double most = 0.0;

@@ -209,7 +209,6 @@ ReferenceWalls reference_walls(const FluidParams& params, const Vector3& place, 
       others *= 1.0 - layers_behind(params, l, wall_distance(params, l, place, piston)).first;
     }
     result.gradient = result.gradient - others * fall * normal_of(params, k);
-    if (k == params.piston) result.swept = others * fall;
     open *= 1.0 - share;
   }
   result.share = 1.0 - open;

@@ -43,7 +43,6 @@ struct FluidState {
 struct ReferenceWalls {
   double share = 0.0;
   Vector3 gradient = {0.0, 0.0, 0.0};
-  double swept = 0.0;  ///< growth of the piston's part per its way [1/m]
 };
 [[nodiscard]] double wall_distance(const FluidParams& params, int wall, const Vector3& place,
                                    double piston);

@@ -13,6 +13,16 @@
 namespace splash::sim {
 namespace {
 
+/// A body that moves as a formula says.
+class FormulaMotion : public Motion {
+ public:
+  explicit FormulaMotion(std::function<BodyState(double)> formula) : formula_(std::move(formula)) {}
+  [[nodiscard]] BodyState at(double seconds) const override { return formula_(seconds); }
+
+ private:
+  std::function<BodyState(double)> formula_;
+};
+
 std::vector<Vector3> by_id(const Snapshot& snapshot, const std::vector<float>& parts) {
   std::vector<Vector3> all(snapshot.id.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -136,13 +146,6 @@ void start_at_rest(Device& device, Water& water) {
   water.start(device);
   const double dt = largest_time_step(water.params, 0.0, 9.81, 1.0);
   settle(*water.fluid, {}, 0.0, 1.0, dt);
-}
-
-double kinetic_energy(Fluid& fluid) {
-  const std::vector<Vector3> velocities = velocities_of(fluid);
-  double sum = 0.0;
-  for (const Vector3& v : velocities) sum += 0.5 * dot(v, v);
-  return sum / static_cast<double>(velocities.size());
 }
 
 }  // namespace splash::sim

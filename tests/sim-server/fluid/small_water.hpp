@@ -32,16 +32,6 @@ inline std::string solver_name(const ::testing::TestParamInfo<PressureKind>& inf
   return name_of(info.param);
 }
 
-/// A body that moves as a formula says.
-class FormulaMotion : public Motion {
- public:
-  explicit FormulaMotion(std::function<BodyState(double)> formula) : formula_(std::move(formula)) {}
-  [[nodiscard]] BodyState at(double seconds) const override { return formula_(seconds); }
-
- private:
-  std::function<BodyState(double)> formula_;
-};
-
 /// A tank from the origin to `upper`, filled up to `depth`; sound speed 15 m/s.
 [[nodiscard]] Scene tank_scene(double spacing, const Vector3& upper, double depth);
 
@@ -91,8 +81,5 @@ void change_particles(Fluid& fluid,
 void run(Water& water, double seconds);
 /// Starts it as a simulation does, at rest before its time begins.
 void start_at_rest(Device& device, Water& water);
-
-/// Kinetic energy per mass [J/kg].
-[[nodiscard]] double kinetic_energy(Fluid& fluid);
 
 }  // namespace splash::sim

@@ -43,6 +43,21 @@ WaterState one_particle() {
   return water;
 }
 
+/// Of the floor's face around the particle, or of a body's [N].
+double thrust_on_all(const WaterState& water, int body = -1,
+                     const std::vector<BodyPoint>& points = {},
+                     const std::vector<BodyState>& states = {}) {
+  double sum = 0.0;
+  for (double x = -0.03; x < 0.03; x += kStep) {
+    for (double y = -0.03; y < 0.03; y += kStep) {
+      Face face = floor_at({x, y, 0.0});
+      face.body = body;
+      sum += thrust_on(face, water, points, states) * kStep * kStep;
+    }
+  }
+  return sum;
+}
+
 TEST(Thrust, OfOneParticleIsItsPushByTheWeightOfItsFoot) {
   const WaterState water = one_particle();
   ASSERT_EQ(water.position.size(), 1U);
@@ -54,13 +69,7 @@ TEST(Thrust, OfOneParticleIsItsPushByTheWeightOfItsFoot) {
 
 TEST(Thrust, OnAllOfAFloorIsTheWholePush) {
   const WaterState water = one_particle();
-  double sum = 0.0;
-  for (double x = -0.03; x < 0.03; x += kStep) {
-    for (double y = -0.03; y < 0.03; y += kStep) {
-      sum += thrust_on(floor_at({x, y, 0.0}), water, {}, {}) * kStep * kStep;
-    }
-  }
-  EXPECT_NEAR(sum / (water.mass * 250.0), 1.0, 1.0e-3);
+  EXPECT_NEAR(thrust_on_all(water) / (water.mass * 250.0), 1.0, 1.0e-3);
 }
 
 TEST(Thrust, OnAllOfABodysFaceIsItsWholeForce) {
@@ -73,15 +82,7 @@ TEST(Thrust, OnAllOfABodysFaceIsItsWholeForce) {
   const std::vector<BodyState> states(1);
   const double force = body_force(water, points, 0, states[0]).force[2];
   ASSERT_LT(force, 0.0);
-  double sum = 0.0;
-  for (double x = -0.03; x < 0.03; x += kStep) {
-    for (double y = -0.03; y < 0.03; y += kStep) {
-      Face face = floor_at({x, y, 0.0});
-      face.body = 0;
-      sum += thrust_on(face, water, points, states) * kStep * kStep;
-    }
-  }
-  EXPECT_NEAR(sum / -force, 1.0, 1.0e-3);
+  EXPECT_NEAR(thrust_on_all(water, 0, points, states) / -force, 1.0, 1.0e-3);
 }
 
 TEST(Thrust, IsFilledUpWhereAnEdgeCutsTheFace) {
