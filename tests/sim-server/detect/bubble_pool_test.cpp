@@ -35,9 +35,9 @@ class Pool : public ::testing::Test {
   }
 
   /// One frame that ends at `time`.
-  std::vector<DetectedBubble> live_until(double time, std::uint32_t step = 1) {
+  std::vector<DetectedBubble> live_until(double time) {
     detect(water_, *bubbles_, kFrame);
-    auto fresh = bubbles_->collect(time, kFrame, step);
+    auto fresh = bubbles_->collect(time, kFrame, 1);
     bubbles_->renew(time);
     return fresh;
   }

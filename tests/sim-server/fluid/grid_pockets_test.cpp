@@ -23,6 +23,7 @@ constexpr double kGravity = 9.81;         ///< [m/s2]
 constexpr double kDensity = 998.0;        ///< [kg/m3]
 constexpr double kAtmosphere = 101325.0;  ///< [Pa]
 constexpr double kHeatRatio = 1.4;        ///< of air [1]
+constexpr double kBubbleRadius = 0.06;    ///< of bubbles [m]
 
 std::vector<AirPocket> pockets_in(Fluid& fluid) {
   return dynamic_cast<const GridProjected&>(fluid.solver()).air().read(fluid.device());
@@ -45,14 +46,15 @@ Water water_without(const Scene& scene, Left&& is_left_out) {
 
 /// A ball of air in the middle of a ball of water four times as wide, which nothing pulls.
 struct Bubble {
-  Bubble(Device& device, double radius, double spacing)
+  Bubble(Device& device, double spacing)
       : scene_(scene_of(spacing, {0.6, 0.6, 0.6}, 0.6)), spacing_(spacing) {
     scene_.fluid.gravity = {0.0, 0.0, 0.0};
-    water = water_without(
-        scene_, [&](const Vector3& x) { return off(x) < radius || off(x) > 4.0 * radius; });
-    air = volume_within(radius);
+    water = water_without(scene_, [&](const Vector3& x) {
+      return off(x) < kBubbleRadius || off(x) > 4.0 * kBubbleRadius;
+    });
+    air = volume_within(kBubbleRadius);
     const double inner = radius_of(air);
-    const double outer = radius_of(volume_within(4.0 * radius));
+    const double outer = radius_of(volume_within(4.0 * kBubbleRadius));
     // An incompressible fluid between them flows by 4 pi / (1/R - 1/R_water) for f = 1 inside.
     const double flow = 4.0 * std::numbers::pi / (1.0 / inner - 1.0 / outer);
     frequency =
@@ -81,8 +83,7 @@ class Sizes : public ::testing::TestWithParam<double> {};
 
 TEST_P(Sizes, OfABubbleAreItsAirs) {
   Device device;
-  constexpr double kRadius = 0.06;  // [m]
-  Bubble bubble(device, kRadius, kRadius / GetParam());
+  Bubble bubble(device, kBubbleRadius / GetParam());
   bubble.water.step(1.0e-4);
   const auto pockets = pockets_in(*bubble.water.fluid);
   ASSERT_EQ(pockets.size(), 1U);
@@ -98,14 +99,13 @@ INSTANTIATE_TEST_SUITE_P(Bubbles, Sizes, ::testing::Values(3.0, 4.0, 5.0));
 // than the air's, and coarser ones swing more slowly: 0.75 and 0.86 of this at R/dp 3 and 4.
 TEST(Bubbles, SwingAtTheirFrequency) {
   Device device;
-  constexpr double kRadius = 0.06;  // [m]
-  Bubble bubble(device, kRadius, kRadius / 5.0);
+  Bubble bubble(device, kBubbleRadius / 5.0);
   const double dt = 0.002 / bubble.frequency;
   bubble.water.step(dt);
   change_particles(*bubble.water.fluid, [dt](int, Vector3& place, Vector3& velocity) {
     const Vector3 from = place - Vector3{0.3, 0.3, 0.3};
     const double far = length(from);
-    const double speed = 1.0e-6 * kRadius * kRadius / (dt * far * far);  // [m/s]
+    const double speed = 1.0e-6 * kBubbleRadius * kBubbleRadius / (dt * far * far);  // [m/s]
     velocity = velocity + (speed / far) * from;
   });
   double before = 0.0;

@@ -34,14 +34,11 @@ const std::map<std::string, const char*> kFew = {
 };
 
 /// Two bodies in a pool of some ten thousand particles.
-Water pool(PressureKind solver) {
+Water pool() {
   Water water = two_bodies();
-  water.scene = [&] {
-    Scene scene = tank_scene(0.02, {0.8, 0.6, 0.6}, 0.2);
-    scene.bodies = water.scene.bodies;
-    return scene;
-  }();
-  water.scene.fluid.solver = solver;
+  const std::vector<BodySettings> bodies = water.scene.bodies;
+  water.scene = tank_scene(0.02, {0.8, 0.6, 0.6}, 0.2);
+  water.scene.bodies = bodies;
   water.particles = random_places(11'777, {0, 0, 0}, {0.8, 0.6, 0.2}, 31);
   return water;
 }
@@ -83,14 +80,14 @@ class LaunchShape : public ::testing::Test {
 };
 
 TEST_F(LaunchShape, OfAStepIsWide) {
-  Water water = pool(PressureKind::weakly_compressible);
+  Water water = pool();
   const auto kernels = steps(water, 3, false);
   expect_many_items(kernels, water.params.count);
   EXPECT_LE(launches_per_step(kernels, 3), 16.0);
 }
 
 TEST_F(LaunchShape, OfAStepWithFreeBodiesIsWide) {
-  Water water = pool(PressureKind::weakly_compressible);
+  Water water = pool();
   const auto kernels = steps(water, 2, true);
   EXPECT_TRUE(kernels.contains("weigh_water"));
   expect_many_items(kernels, water.params.count);
@@ -99,7 +96,7 @@ TEST_F(LaunchShape, OfAStepWithFreeBodiesIsWide) {
 
 // The statistics is taken once a frame.
 TEST_F(LaunchShape, OfTheStatisticsIsWide) {
-  Water water = pool(PressureKind::weakly_compressible);
+  Water water = pool();
   water.start(device_);
   bench::begin_ledger();
   static_cast<void>(water.fluid->stats());
@@ -110,7 +107,7 @@ TEST_F(LaunchShape, OfTheStatisticsIsWide) {
 
 // Which cells stay awake is found once a frame: a team of work-items goes along each row of them.
 TEST_F(LaunchShape, OfALookAtWhatMaySleepIsWide) {
-  Water water = pool(PressureKind::weakly_compressible);
+  Water water = pool();
   water.start(device_);
   water.fluid->let_sleep({0.02, 160});
   water.fluid->set_bodies(water.bodies->at(water.time));

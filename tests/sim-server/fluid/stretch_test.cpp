@@ -52,19 +52,19 @@ TEST_P(Stretch, IsTheTwins) {
   Water water = ball();
   water.start(device);
   std::vector<double> peak(water.particles.size(), 0.0);  // by id
-  constexpr double kDt = 5.0e-4;
+  constexpr double dt = 5.0e-4;
   int pulling = 0;
   int torn = 0;
   // Denser, stretched, held there, looser, torn, and together again.
   for (const double factor : {0.99, 1.02, 1.0, 0.995, 1.03, 0.95}) {
     stretch(*water.fluid, factor);
-    water.fluid->prepare(water.step_at(kDt));
+    water.fluid->prepare(water.step_at(dt));
     const FluidState state = read_state(*water.fluid);
     const double bound = 1.0e-5 * static_cast<double>(state.params.rest_density);
     const double sound2 = std::pow(static_cast<double>(state.params.sound_speed), 2);
     for (std::size_t i = 0; i < state.id.size(); ++i) {
       double& before = peak[static_cast<std::size_t>(state.id[i])];
-      const double now = reference_peak_density(state.params, kDt, state.density[i], before);
+      const double now = reference_peak_density(state.params, dt, state.density[i], before);
       ASSERT_NEAR(state.peak_density[i], now, bound) << "particle " << state.id[i];
       before = state.peak_density[i];
       const double rest = static_cast<double>(state.params.rest_density);

@@ -54,11 +54,11 @@ int two_steps(int lanes, PressureKind solver, bool free, int steps) {
     hung.coupling = CouplingKind::spring;
     hung.stiffness = 50.0;
     hung.damping = 1.0;
-    water.fluid->release(free_bodies(water.scene.bodies),
-                         film_skins(water.scene.bodies, water.scene.fluid.spacing));
     std::vector<FreeBody> felt = free_bodies(water.scene.bodies);
+    const auto skins = film_skins(water.scene.bodies, water.scene.fluid.spacing);
+    water.fluid->release(felt, skins);
     for (FreeBody& body : felt) body.mass = 0.0F;
-    pushes.emplace(*water.fluid, felt, film_skins(water.scene.bodies, water.scene.fluid.spacing));
+    pushes.emplace(*water.fluid, felt, skins);
     water.fluid->feel(true);
     water.fluid->free_bodies()->hang(
         device, std::vector<Anchor>(felt.size(), {0.2F, 0.2F, 0.2F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F,
