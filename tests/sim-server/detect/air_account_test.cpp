@@ -56,8 +56,7 @@ TEST(AirAccount, ItsLargestBubbleHoldsTheAirOfATenthOfASecond) {
 }
 
 TEST(AirAccount, StaysWithinTheSettingsRadii) {
-  DetectSettings settings;
-  settings.radius_max = 0.004;
+  DetectSettings settings = {.radius_max = 0.004};
   EXPECT_EQ(AirAccount().largest(settings), 0.004);
   settings.radius_min = 0.02;
   settings.radius_max = 0.05;

@@ -21,14 +21,6 @@ namespace {
 constexpr double kLeastAir = 0.03;  ///< LEAST_AIR of air_fold.cl
 constexpr double kFrame = 0.004;    ///< [s]
 
-DetectSettings settings() {
-  DetectSettings settings;
-  settings.bubble_energy = 0.3;
-  settings.bubble_eddy = 0.07;
-  settings.bubble_onset = 0.4;
-  return settings;
-}
-
 /// Those of all particles, each with the rate of its own water.
 std::vector<AirFold> folds_of(Water& water, const DetectSettings& settings) {
   AirFolds folds(*water.fluid, detect_program(water.fluid->device()));
@@ -56,7 +48,7 @@ class FoldAir : public ::testing::TestWithParam<int> {};
 
 // Water of all kinds, with walls, slope, piston and bodies around.
 TEST_P(FoldAir, IsAShareOfTheEnergyThatEddiesLoseBesideAir) {
-  const DetectSettings s = settings();
+  const DetectSettings s = {.bubble_energy = 0.3, .bubble_eddy = 0.07, .bubble_onset = 0.4};
   const double least = 1.5 * s.bubble_onset * s.bubble_onset;
   Device device(-1, false, GetParam());
   std::size_t checked = 0;
@@ -118,8 +110,7 @@ Water eddying_block(Device& device, double spacing) {
 }
 
 TEST(Folds, AreAsMuchWithHalfTheSpacing) {
-  DetectSettings s;
-  s.bubble_energy = 0.3;
+  const DetectSettings s = {.bubble_energy = 0.3};
   Device device;
   Water coarse = eddying_block(device, 0.02);
   Water fine = eddying_block(device, 0.01);
@@ -131,8 +122,7 @@ TEST(Folds, AreAsMuchWithHalfTheSpacing) {
 }
 
 TEST(Folds, NeedMotionThatIsNarrowerThanAnEddy) {
-  DetectSettings s;
-  s.bubble_energy = 0.3;
+  const DetectSettings s = {.bubble_energy = 0.3};
   Device device;
   Water water = hanging_block();
   water.start(device);
@@ -170,9 +160,7 @@ struct StirredBlock {
 
 // The pool's bubbles are one matter, the told ones another: these use up the air that is folded in.
 TEST(Folds, AreToldToTheLastBubble) {
-  DetectSettings s;
-  s.bubble_energy = 0.3;
-  s.bubbles_per_second = 1.0e6;
+  const DetectSettings s = {.bubble_energy = 0.3, .bubbles_per_second = 1.0e6};
   StirredBlock block(s);
   Bubbles& bubbles = block.bubbles;
   std::set<int> places;
@@ -212,9 +200,7 @@ TEST(Folds, ComeBackAfterTheirShareWasZero) {
 }
 
 TEST(Folds, AboveTheBudgetAreToldInLargerBubbles) {
-  DetectSettings s;
-  s.bubble_energy = 0.3;
-  s.bubbles_per_second = 500.0;
+  const DetectSettings s = {.bubble_energy = 0.3, .bubbles_per_second = 500.0};
   StirredBlock block(s);
   std::size_t told = 0;
   for (int k = 0; k < 100; ++k) told += block.next_frame().size();

@@ -19,10 +19,7 @@ constexpr double kFrame = 0.004;
 
 /// One bubble for each particle that spawns.
 DetectSettings literal() {
-  DetectSettings settings;
-  settings.bubble_per_particle = true;
-  settings.bubbles_per_second = 1.0e6;
-  return settings;
+  return {.bubble_per_particle = true, .bubbles_per_second = 1.0e6};
 }
 
 class Pool : public ::testing::Test {
@@ -173,8 +170,7 @@ class Flood : public Spawns {
   /// From 400 places alike, `times` the air that the budget's bubbles of mean size hold.
   void flood(double times) {
     told_.clear();
-    DetectSettings settings;
-    settings.bubbles_per_second = kBudget;
+    const DetectSettings settings = {.bubbles_per_second = kBudget};
     WakeAir wakes;
     for (int place = 0; place < 400; ++place) {
       const double rate = times * kBudget * mean_volume(settings) / 400.0;

@@ -22,12 +22,10 @@ constexpr std::size_t kRoom = 2000;
 constexpr double kFrame = 0.004;
 
 DetectSettings settings() {
-  DetectSettings settings;
-  settings.bubble_speed = 0.8;  // not its own square
-  settings.bubble_gradient = 0.3;
-  settings.bubble_per_particle = true;
-  settings.bubbles_per_second = 1.0e6;
-  return settings;
+  return {.bubble_per_particle = true,
+          .bubble_speed = 0.8,  // not its own square
+          .bubble_gradient = 0.3,
+          .bubbles_per_second = 1.0e6};
 }
 
 class SpawnBubbles : public ::testing::TestWithParam<int> {};

@@ -21,11 +21,7 @@ constexpr std::size_t kRoom = 2000;
 
 /// Every group that has a seed is a cavity.
 DetectSettings all_groups() {
-  DetectSettings settings;
-  settings.cavity_by_count = true;
-  settings.cavity_bubbles_min = 1;
-  settings.cavity_colour = 0.5;
-  return settings;
+  return {.cavity_by_count = true, .cavity_colour = 0.5, .cavity_bubbles_min = 1};
 }
 
 /// A clump of bubbles in each other's reach: a seed for sure, all within 8 mm of `centre`.
@@ -183,13 +179,11 @@ INSTANTIATE_TEST_SUITE_P(Lanes, Grow, kLaneCounts, lanes_name);
 
 /// Three bubbles are enough.
 DetectSettings of_three() {
-  DetectSettings settings;
-  settings.cavity_by_count = true;
-  settings.cavity_bubbles_min = 3;
-  settings.cavity_bubbles_max = 13;
-  settings.cavity_radius_min = 0.01;
-  settings.cavity_radius_max = 0.06;
-  return settings;
+  return {.cavity_by_count = true,
+          .cavity_bubbles_min = 3,
+          .cavity_bubbles_max = 13,
+          .cavity_radius_min = 0.01,
+          .cavity_radius_max = 0.06};
 }
 
 /// A pool of bubbles along x, and the names given so far.

@@ -356,8 +356,7 @@ TEST(Bodies, AreWatchedEachForItself) {
 
 TEST(Settings, OfSpeedAndLookAheadCount) {
   const auto fall = path(0.1, {{0.5, -0.1}});  // 0.4 m/s
-  DetectSettings settings;
-  settings.impact_speed = 0.41;
+  DetectSettings settings = {.impact_speed = 0.41};
   EXPECT_TRUE(watch(fall, 1.0, settings).empty());
   settings.impact_speed = 0.39;
   settings.impact_lookahead = 0.030;
@@ -368,8 +367,7 @@ TEST(Settings, OfSpeedAndLookAheadCount) {
 
 // Nothing is told before it happens.
 TEST(Settings, OfNoLookAheadMeansAfterwards) {
-  DetectSettings settings;
-  settings.impact_lookahead = 0.0;
+  const DetectSettings settings = {.impact_lookahead = 0.0};
   const auto all = watch(path(0.1, {{0.5, -0.1}}), 1.0, settings);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_LE(all[0].impact.time, all[0].at);
