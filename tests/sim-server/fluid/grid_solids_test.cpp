@@ -236,6 +236,7 @@ TEST(GridSolids, ABoxFloatsAsDeepAsItIsHeavy) {
 TEST(GridSolids, WaterOnASlopeStaysStill) {
   Device device;
   Scene scene = tank_scene(0.02, {1.0, 0.2, 0.4}, 0.2);
+  scene.fluid.solver = PressureKind::grid_projected;
   scene.slope = {true, 0.4, 0.5};
   Water water = fill(scene, PressureKind::grid_projected);
   start_at_rest(device, water);
@@ -287,6 +288,7 @@ TEST(GridSolids, APistonLiftsTheWater) {
   Device device;
   constexpr double kSpeed = 0.02;
   Scene scene = tank_scene(0.02, {0.4, 0.2, 0.4}, 0.2);
+  scene.fluid.solver = PressureKind::grid_projected;
   scene.wave_maker = {true, 0.1, 2.0};
   Water water = fill(scene, PressureKind::grid_projected);
   start_at_rest(device, water);
