@@ -4,8 +4,6 @@
 // a device that throws the sound away. Prints the real-time factor, beside that without a receiver.
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "program/text.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/support/median.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -70,43 +70,36 @@ Run run(const fs::path& scene, double seconds, const std::optional<std::string>&
   return found;
 }
 
-double median_factor(std::vector<Run> runs) {
-  std::sort(runs.begin(), runs.end(),
-            [](const Run& a, const Run& b) { return a.factor < b.factor; });
-  return runs[runs.size() / 2].factor;
-}
-
 bool measure(bench::Bench& bench, const Options& options) {
-  char what[160];
-  std::snprintf(
-      what, sizeof what,
+  bench.say(program::format(
       "Median real-time factors of %d runs of %g s of the pool, in turn; without start and "
       "settling.",
-      options.runs, options.seconds);
-  std::printf("%s\n\n", what);
+      options.runs, options.seconds));
   Synth synth({"--rig", rig_path("tiles36.yaml"), "--device", "null"});
   const std::string target = protocol::to_string(synth.endpoint());
   auto table = bench.table("both.csv", {"particles", "solver", "time_step_factor", "with the synth",
                                         "without", "events a second"});
   const auto add = [&](int particles, const std::string& solver, double factor) {
     const fs::path scene = pool(bench.out(), particles, solver, factor);
-    std::vector<Run> with;
-    std::vector<Run> without;
+    std::vector<double> with;
+    std::vector<double> without;
+    Run first;  // all are of the same water
     for (int k = 0; k < options.runs; ++k) {
-      with.push_back(run(scene, options.seconds, target));
-      without.push_back(run(scene, options.seconds, {}));
+      const Run played = run(scene, options.seconds, target);
+      if (k == 0) first = played;
+      with.push_back(played.factor);
+      without.push_back(run(scene, options.seconds, {}).factor);
     }
-    table.add({std::to_string(with.front().particles), solver, bench::number(factor),
-               bench::number(median_factor(with)), bench::number(median_factor(without)),
-               bench::number(static_cast<double>(with.front().events) / options.seconds)});
+    table.add({std::to_string(first.particles), solver, bench::number(factor),
+               bench::number(median(with)), bench::number(median(without)),
+               bench::number(static_cast<double>(first.events) / options.seconds)});
   };
   for (const int particles : options.particles) {
     for (const std::string& solver : options.solvers) {
       for (const double factor : options.factors) add(particles, solver, factor);
     }
   }
-  bench.tell(what);
-  bench.tell(table.text());
+  bench.tell(table);
   return synth.process().running();
 }
 

@@ -96,7 +96,6 @@ void report(bench::Bench& bench, const std::vector<Comparison>& all) {
   }
   auto table = bench.table("crosscheck.csv", head);
   bench::Plot plot(bench.out() / "crosscheck.png", 1000, 600);
-  std::string curves;
   for (const Comparison& c : all) {
     bench::Row row = {c.engine, c.scene, bench::number(c.worst)};
     std::vector<double> x;
@@ -107,16 +106,15 @@ void report(bench::Bench& bench, const std::vector<Comparison>& all) {
       row.push_back(bench::number(y.back()));
     }
     table.add(row);
-    curves += (curves.empty() ? "" : ", ") + plot.data(x, y) + " with linespoints title '" +
-              c.engine + ", " + c.scene + '\'';
+    plot.add({x, y}, "with linespoints title '" + c.engine + ", " + c.scene + "'");
   }
   bench.tell(
       "What of the difference to synth-server falls into which band, over the signal in it [dB]; "
       "the largest sample over the peak.");
-  bench.tell(table.text());
+  bench.tell(table);
   plot.script() << "set logscale x 2\nset xtics (20,40,80,160,320,640,1280)\nset yrange [-140:0]\n"
                 << "set xlabel 'band, from [Hz]'\nset ylabel 'residual over signal [dB]'\n"
-                << "set key outside\nplot " << curves << '\n';
+                << "set key outside\n";
   plot.draw();
 }
 

@@ -211,7 +211,7 @@ bool report(bench::Bench& bench, const std::vector<Result>& results) {
                std::to_string(result.stalls), result.first});
     findings += result.findings;
   }
-  bench.tell(table.text());
+  bench.tell(table);
   return findings == 0;
 }
 

@@ -3,44 +3,36 @@
 // without a device, over loopback, at several periods. The sample's time is that of JACK's cycle
 // plus its place in it; a sound card adds the playback latency of its own that JACK reports.
 #include <jack/jack.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "protocol/message.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/bench/plot.hpp"
 #include "tests/bench/report.hpp"
-#include "tests/support/child_process.hpp"
+#include "tests/support/jack.hpp"
+#include "tests/support/programs.hpp"
 #include "tests/support/waiting.hpp"
 
 namespace {
 
 using namespace splash;
-using tests::ChildProcess;
 using tests::sleep;
 
 constexpr int kRate = 48000;
 constexpr int kEvents = 200;
-constexpr double kSeconds = 14.0;  ///< recorded
-constexpr double kOpening = 4.0;   ///< the gate opens slowly, the clock settles [s]
-constexpr double kTimeout = 20.0;
+constexpr double kSeconds = 14.0;    ///< recorded
+constexpr double kOpening = 4.0;     ///< the gate opens slowly, the clock settles [s]
 constexpr double kMargin = 0.0002;   ///< over one block, for events with a time tag [s]
 constexpr double kLongest = 0.030;   ///< an onset later than this belongs to no event [s]
 constexpr double kDistance = 0.031;  ///< between events, at least [s]
-
-void ignore(const char* /*text*/) {}
 
 /// A JACK client that keeps what the synth plays on its first channel, and the cycles' times.
 class Recorder {
@@ -103,25 +95,6 @@ class Recorder {
   std::atomic<int> xruns_{0};
 };
 
-std::unique_ptr<ChildProcess> start_jack(const std::string& name, int period, bool realtime) {
-  setenv("JACK_DEFAULT_SERVER", name.c_str(), 1);
-  setenv("JACK_NO_AUDIO_RESERVATION", "1", 1);
-  jack_set_error_function(ignore);
-  jack_set_info_function(ignore);
-  auto jackd = std::make_unique<ChildProcess>(std::vector<std::string>{
-      "jackd", realtime ? "--realtime" : "--no-realtime", "-S", "-n", name, "-d", "dummy", "-C",
-      "0", "-P", "2", "-r", std::to_string(kRate), "-p", std::to_string(period)});
-  for (double waited = 0.0; waited < kTimeout && jackd->running(); waited += 0.1) {
-    if (auto* probe = jack_client_open("probe", JackNoStartServer, nullptr)) {
-      jack_client_close(probe);
-      return jackd;
-    }
-    sleep(0.1);
-  }
-  throw std::runtime_error("jackd did not start; is it installed (apt-get install jackd2)?\n" +
-                           jackd->output());
-}
-
 struct Mode {
   std::string name;
   bool tagged = false;
@@ -136,15 +109,6 @@ struct Result {
     return latencies.at(static_cast<std::size_t>(part * static_cast<double>(latencies.size() - 1)));
   }
 };
-
-protocol::Endpoint listening(ChildProcess& synth) {
-  const std::string label = "listening: ";
-  if (!synth.wait_for_text(label, kTimeout)) throw std::runtime_error(synth.output());
-  sleep(0.1);
-  const std::string text = synth.output();
-  const auto from = text.find(label) + label.size();
-  return protocol::parse_endpoint(text.substr(from, text.find('\n', from) - from), 0);
-}
 
 /// Sends the events; when each was sent [s, monotonic].
 std::vector<double> send_events(const protocol::Endpoint& synth, bool tagged) {
@@ -188,23 +152,16 @@ Result match(const std::vector<double>& sent, const Recorder& recorder) {
 }
 
 Result measure(int period, const Mode& mode, bool realtime) {
-  const auto jackd = start_jack("splash-bench-" + std::to_string(getpid()), period, realtime);
-  std::vector<std::string> command{std::string(SPLASH_BINARY_DIR) + "/synth-server",
-                                   "--rig",
-                                   std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml",
-                                   "--api",
-                                   "jack",
-                                   "--listen",
-                                   "127.0.0.1:0"};
+  const tests::JackServer jackd("bench", {.period = period, .rate = kRate, .realtime = realtime});
+  tests::Arguments arguments = {"--rig", tests::rig_path("stereo.yaml"), "--api", "jack"};
   if (mode.tagged) {
     const double latency = static_cast<double>(period) / kRate + kMargin;
-    command.insert(command.end(), {"--latency-ms", std::to_string(1e3 * latency)});
+    arguments.insert(arguments.end(), {"--latency-ms", std::to_string(1e3 * latency)});
   }
-  ChildProcess synth(command);
-  const protocol::Endpoint endpoint = listening(synth);
+  tests::Synth synth(arguments);
   sleep(kOpening);
   Recorder recorder;
-  const std::vector<double> sent = send_events(endpoint, mode.tagged);
+  const std::vector<double> sent = send_events(synth.endpoint(), mode.tagged);
   sleep(0.2);
   recorder.stop();
   return match(sent, recorder);
@@ -216,9 +173,9 @@ void draw(const std::filesystem::path& png, const std::vector<Mode>& modes,
   constexpr double kBin = 0.1;  // [ms]
   constexpr std::size_t kBins = 80;
   bench::Plot plot(png, 1000, 800);
-  std::vector<std::string> panels;
+  plot.script() << "set multiplot layout " << modes.size() << ",1\nset ylabel 'events'\n"
+                << "set xlabel 'from sending to sample [ms]'\n";
   for (std::size_t mode = 0; mode < modes.size(); ++mode) {
-    std::string curves;
     for (std::size_t k = 0; k < periods.size(); ++k) {
       std::vector<double> x(kBins);
       std::vector<double> y(kBins, 0.0);
@@ -226,26 +183,20 @@ void draw(const std::filesystem::path& png, const std::vector<Mode>& modes,
       for (const double latency : results[mode][k].latencies) {
         y[std::min(kBins - 1, static_cast<std::size_t>(1e3 * latency / kBin))] += 1.0;
       }
-      curves += (curves.empty() ? "" : ", ") + plot.data(x, y) + " with steps linewidth 1.6 " +
-                "linecolor rgb '" + bench::colour(k) + "' title '" + std::to_string(periods[k]) +
-                " frames'";
+      plot.add({x, y}, std::string("with steps linewidth 1.6 linecolor rgb '") + bench::colour(k) +
+                           "' title '" + std::to_string(periods[k]) + " frames'");
     }
-    panels.push_back("set title '" + modes[mode].name + "'\nplot " + curves + '\n');
+    plot.script() << "set title '" << modes[mode].name << "'\n";
+    plot.panel();
   }
-  plot.script() << "set multiplot layout " << modes.size() << ",1\nset ylabel 'events'\n"
-                << "set xlabel 'from sending to sample [ms]'\n";
-  for (const std::string& panel : panels) plot.script() << panel;
-  plot.script() << "unset multiplot\n";
   plot.draw();
 }
 
 void run(bench::Bench& bench, bool realtime) {
   const std::vector<int> periods{64, 128, 256};
   const std::vector<Mode> modes{{"no time tag", false}, {"time tag of now", true}};
-  const std::string what = std::to_string(kEvents) + " events each over loopback; JACK without a " +
-                           "device at " + std::to_string(kRate) + " Hz" +
-                           (realtime ? ", at real-time priority." : ".");
-  std::printf("%s\n", what.c_str());
+  bench.say(std::to_string(kEvents) + " events each over loopback; JACK without a device at " +
+            std::to_string(kRate) + " Hz" + (realtime ? ", at real-time priority." : "."));
   auto table = bench.table("latency.csv", {"sent with", "frames", "median [ms]", "5 % [ms]",
                                            "95 % [ms]", "most [ms]", "unheard", "xruns"});
   std::vector<std::vector<Result>> results(modes.size());
@@ -260,8 +211,7 @@ void run(bench::Bench& bench, bool realtime) {
       results[mode].push_back(r);
     }
   }
-  bench.tell(what);
-  bench.tell(table.text());
+  bench.tell(table);
   draw(bench.out() / "latency.png", modes, results, periods);
 }
 

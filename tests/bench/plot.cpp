@@ -3,6 +3,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace splash::bench {
 
@@ -26,15 +27,28 @@ set grid linecolor rgb "#dde1e7" linewidth 0.6
           << "set output \"" << std::filesystem::absolute(png).string() << "\"\n";
 }
 
-std::string Plot::data(const std::vector<double>& x, const std::vector<double>& y) {
-  std::string name = "$block" + std::to_string(blocks_++);
+void Plot::add(const std::string& item) {
+  items_ += (items_.empty() ? "" : ", ") + item;
+}
+
+void Plot::add(const std::vector<std::vector<double>>& columns, const std::string& style) {
+  const std::string name = "$block" + std::to_string(blocks_++);
   script_ << name << " << EOD\n";
-  for (std::size_t k = 0; k < x.size(); ++k) script_ << x[k] << ' ' << y[k] << '\n';
+  for (std::size_t k = 0; k < columns.front().size(); ++k) {
+    for (const std::vector<double>& column : columns) script_ << column[k] << ' ';
+    script_ << '\n';
+  }
   script_ << "EOD\n";
-  return name;
+  add(name + ' ' + style);
+}
+
+void Plot::panel() {
+  script_ << "plot " << std::exchange(items_, {}) << '\n';
 }
 
 void Plot::draw() {
+  if (!items_.empty()) panel();
+  script_ << "unset multiplot\n";
   script_.close();
   if (!script_) throw std::runtime_error("cannot write " + scratch_.path().string());
   synth::run_gnuplot(scratch_.path() / "plot.gp");

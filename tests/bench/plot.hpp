@@ -21,14 +21,19 @@ class Plot {
 
   /// gnuplot's commands; `ink` is the colour of text.
   std::ostream& script() { return script_; }
-  /// Points as a data block: its name, for "plot".
-  std::string data(const std::vector<double>& x, const std::vector<double>& y);
-  /// Throws GnuplotError.
+  /// One more item of the next panel, as gnuplot's "plot" has it.
+  void add(const std::string& item);
+  /// The same of columns of equal length, with what follows their name.
+  void add(const std::vector<std::vector<double>>& columns, const std::string& style);
+  /// Draws what was added since the last panel, one of several (multiplot).
+  void panel();
+  /// Draws the last panel, if there is none yet, and the picture. Throws GnuplotError.
   void draw();
 
  private:
   synth::ScratchFolder scratch_;
   std::ofstream script_;
+  std::string items_;
   int blocks_ = 0;
 };
 

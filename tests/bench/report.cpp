@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <ctime>
@@ -12,6 +13,7 @@
 #include <thread>
 
 #include "tests/support/source_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace splash::bench {
 namespace {
@@ -55,13 +57,23 @@ std::string load() {
   return number(mean, 2);
 }
 
-std::string read(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
+/// The text of a file in docs/ with this bench's section replaced, or added at the end.
+std::string with_section(const std::string& text, const std::string& bench,
+                         const std::string& section) {
+  const std::string begin = "<!-- bench " + bench + " -->\n";
+  const std::string end = "<!-- end of bench " + bench + " -->\n";
+  const std::string whole = begin + section + end;
+  const std::size_t from = text.find(begin);
+  const std::size_t to = text.find(end);
+  if (from == std::string::npos || to == std::string::npos || to < from) return text + '\n' + whole;
+  return text.substr(0, from) + whole + text.substr(to + end.size());
 }
 
 }  // namespace
+
+bool is_wanted(const std::vector<std::string>& asked, const std::string& name) {
+  return asked.empty() || std::find(asked.begin(), asked.end(), name) != asked.end();
+}
 
 Bench::Bench(std::string name, std::string doc, std::string title, const std::string& what)
     : name_(std::move(name)),
@@ -70,7 +82,12 @@ Bench::Bench(std::string name, std::string doc, std::string title, const std::st
       out_(tests::source_folder() / "out" / name_),
       app_(what, "bench-" + name_) {
   app_.add_option("--out", out_, "Folder for tables and pictures")->capture_default_str();
+  if (doc_.empty()) return;
   app_.add_flag("--write-docs", to_docs_, "Writes its section of docs/" + doc_ + ", too");
+}
+
+void Bench::add_device_option(int& device) {
+  app_.add_option("--device", device, "OpenCL device as sim-server --list-devices counts");
 }
 
 int Bench::run(int argc, char** argv, const std::function<bool()>& measure) {
@@ -98,6 +115,11 @@ Table Bench::table(const std::string& file, Row head) const {
   return Table(std::move(head), out_ / file);
 }
 
+void Bench::say(const std::string& paragraph) {
+  std::printf("\n%s\n", paragraph.c_str());
+  tell(paragraph);
+}
+
 void Bench::show(const std::string& picture, const std::string& what) {
   pictures_.push_back(picture);
   tell("![" + what + "](" + picture + ")");
@@ -111,7 +133,7 @@ void Bench::write_docs(const std::string& begun) const {
                         std::to_string(std::thread::hardware_concurrency()) + " cores)";
   if (!device_.empty()) section += ", " + device_;
   section += "; load " + begun + " before, " + load() + " after.\n\n" + section_.str();
-  const std::string updated = with_section(read(path), name_, section);
+  const std::string updated = with_section(tests::text_of(path), name_, section);
   std::ofstream file(path);
   file << updated;
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());

@@ -4,12 +4,11 @@
 // same bits, and none may go wrong.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "program/text.hpp"
 #include "protocol/time_tag.hpp"
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/scene_reader.hpp"
@@ -112,27 +111,19 @@ bench::Row row(const Case& item, PressureKind solver, PressureKind own, const Re
           r.broken};
 }
 
-bool is_wanted(const Case& item, const Options& options) {
-  const auto& names = options.scenes;
-  return names.empty() || std::find(names.begin(), names.end(), item.scene) != names.end();
-}
-
 /// Whether nothing went wrong.
 bool run(bench::Bench& bench, const Options& options) {
   Device device;
   bench.set_device(describe(device.facts()));
-  char what[128];
-  std::snprintf(
-      what, sizeof what,
+  bench.say(program::format(
       "Median of %d runs of %g s; water, bodies and detectors; events are sent to no synth.",
-      options.runs, options.seconds);
-  std::printf("%s\n\n", what);
+      options.runs, options.seconds));
   auto table = bench.table("scenes.csv", {"scene", "solver", "as shipped", "particles", "steps/s",
                                           "paper's", "real-time factor", "million updates/s",
                                           "mean density error [%]", "largest [%]", "wrong"});
   bool sound = true;
   for (const Case& item : cases()) {
-    if (!is_wanted(item, options)) continue;
+    if (!bench::is_wanted(options.scenes, item.scene)) continue;
     Scene scene = read_scene(tests::scene_file(item.scene));
     const PressureKind own = scene.fluid.solver;
     for (const PressureKind solver : options.solvers.empty() ? std::vector{own} : options.solvers) {
@@ -142,8 +133,7 @@ bool run(bench::Bench& bench, const Options& options) {
       table.add(row(item, solver, own, r));
     }
   }
-  bench.tell(what);
-  bench.tell(table.text());
+  bench.tell(table);
   return sound;
 }
 
@@ -158,11 +148,9 @@ int main(int argc, char** argv) {
   CLI::App& app = bench.options();
   app.add_option("--scene", options.scenes, "Only this scene (repeatable)")
       ->check(CLI::IsMember(names));
-  const std::map<std::string, PressureKind> solvers = {
-      {"weakly_compressible", PressureKind::weakly_compressible},
-      {"grid_projected", PressureKind::grid_projected}};
-  app.add_option("--solver", options.solvers, "This one, whatever the scene has (repeatable)")
-      ->transform(CLI::CheckedTransformer(solvers));
+  bench.add_choice("--solver", options.solvers,
+                   {PressureKind::weakly_compressible, PressureKind::grid_projected},
+                   "This one, whatever the scene has (repeatable)");
   app.add_option("--seconds", options.seconds, "Of each run, simulated")
       ->check(CLI::Range(0.1, 1.0e4))
       ->capture_default_str();

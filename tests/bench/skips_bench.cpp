@@ -65,6 +65,7 @@ GaugeSettings probe(const char* name, GaugeKind kind, const Vector3& place) {
   return settings;
 }
 
+/// As shipped, with gauges.
 SkipScene plunge() {
   Scene scene = read_scene(tests::scene_file("plunge"));
   scene.gauges.rate = 50.0;
@@ -75,6 +76,7 @@ SkipScene plunge() {
   return {"plunge", scene, 4.0};
 }
 
+/// With particles 4 cm apart.
 SkipScene spheric2() {
   Scene scene = read_scene(tests::source_folder() / "tests/validation/scenes/spheric2.yaml");
   scene.fluid.spacing = 0.04;
@@ -100,8 +102,7 @@ std::vector<double> numbers_of(const Detections& found) {
   return all;
 }
 
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& some) {
+void append(auto& all, const auto& some) {
   all.insert(all.end(), some.begin(), some.end());
 }
 
@@ -123,11 +124,6 @@ struct Apart {
     }
   }
 };
-
-/// The plunge as shipped, with gauges; SPHERIC 2 with particles 4 cm apart.
-std::vector<SkipScene> skip_scenes() {
-  return {plunge(), spheric2()};
-}
 
 /// All on; each off; all off; and all off with steps shorter by a thousandth, which is the noise:
 /// what two runs of the same water differ by.
@@ -231,13 +227,7 @@ Scene stirred(int particles) {
 
 /// One of the two runs.
 struct Half {
-  Half(Device& device, Scene scene, bool sleeps)
-      : simulation(device,
-                   [&] {
-                     scene.skip.sleep = sleeps;
-                     return scene;
-                   }(),
-                   {}) {}
+  Half(Device& device, const Scene& scene) : simulation(device, scene, {}) {}
 
   /// A quarter of a second by the processors' clock, then one by the kernels' own: to note each
   /// launch costs some of the time, too.
@@ -277,9 +267,10 @@ struct Half {
 
 /// Both run the same seconds of the same scene by turns, after the settling.
 StirredPool measure_stirred_pool(Device& device, int particles) {
-  const Scene scene = stirred(particles);
-  Half sleeping(device, scene, true);
-  Half waking(device, scene, false);
+  Scene scene = stirred(particles);
+  Half sleeping(device, scene);
+  scene.skip.sleep = false;
+  Half waking(device, scene);
   for (Half* half : {&sleeping, &waking}) {
     while (half->simulation.seconds() < kSettled) static_cast<void>(half->simulation.advance());
   }
@@ -321,13 +312,9 @@ void print_stages(const StirredPool& pool) {
 }
 
 struct Options {
-  std::vector<std::string> parts = {"equality", "sleep"};
+  std::vector<std::string> parts;
   std::vector<int> sizes = {15'000, 60'000};
   int device = -1;
-
-  [[nodiscard]] bool wants(const char* part) const {
-    return std::find(parts.begin(), parts.end(), part) != parts.end();
-  }
 };
 
 Row row(const SkipScene& scene, const SkipVariant& variant, const SkipRun& run,
@@ -355,16 +342,15 @@ Row row(const SkipScene& scene, const SkipVariant& variant, const SkipRun& run,
 }
 
 void compare(Bench& bench, sim::Device& device) {
-  const std::string what =
+  bench.say(
       "Each skip on or off, against all off; the noise is all off with steps shorter by a "
       "thousandth. Pressures by the rms of their own; the last five columns are shares of "
-      "particles asleep and of frames without the work. \"Same\": each event, bit by bit.";
-  std::printf("\n%s\n", what.c_str());
+      "particles asleep and of frames without the work. \"Same\": each event, bit by bit.");
   auto table = bench.table("skips.csv",
                            {"scene", "skips", "processors [s]", "heights, most [mm]", "rms [mm]",
                             "pressures [%]", "impacts", "bubbles", "cavities", "same", "asleep [%]",
                             "idle [%]", "no contacts [%]", "no bubbles [%]", "no cavities [%]"});
-  for (const SkipScene& scene : skip_scenes()) {
+  for (const SkipScene& scene : {plunge(), spheric2()}) {
     std::vector<SkipVariant> variants = skip_variants();
     const auto off = std::find_if(variants.begin(), variants.end(),
                                   [](const SkipVariant& v) { return v.name == "all off"; });
@@ -373,15 +359,13 @@ void compare(Bench& bench, sim::Device& device) {
       table.add(row(scene, variant, run_with(device, scene, variant), all_off));
     }
   }
-  bench.tell(what);
-  bench.tell(table.text());
+  bench.tell(table);
 }
 
 void measure_sleep(Bench& bench, sim::Device& device, const std::vector<int>& sizes) {
-  const std::string what =
+  bench.say(
       "A settled pool (state equation) with a paddle in one corner that keeps about a tenth of it "
-      "moving; the same frames with sleep on and off, processor time per step:";
-  std::printf("\n%s\n", what.c_str());
+      "moving; the same frames with sleep on and off, processor time per step:");
   auto table = bench.table(
       "sleep.csv", {"particles", "awake [%]", "with sleep [ms]", "without [ms]", "saved [%]"});
   for (const int particles : sizes) {
@@ -391,15 +375,14 @@ void measure_sleep(Bench& bench, sim::Device& device, const std::vector<int>& si
                number(100.0 * (1.0 - pool.asleep_step / pool.awake_step))});
     print_stages(pool);
   }
-  bench.tell(what);
-  bench.tell(table.text());
+  bench.tell(table);
 }
 
 bool run(Bench& bench, const Options& options) {
   sim::Device device(options.device, true);
   bench.set_device(describe(device.facts()));
-  if (options.wants("equality")) compare(bench, device);
-  if (options.wants("sleep")) measure_sleep(bench, device, options.sizes);
+  if (is_wanted(options.parts, "equality")) compare(bench, device);
+  if (is_wanted(options.parts, "sleep")) measure_sleep(bench, device, options.sizes);
   return true;
 }
 
@@ -413,6 +396,6 @@ int main(int argc, char** argv) {
   app.add_option("--part", options.parts, "Only these: equality, sleep (repeatable)")
       ->check(CLI::IsMember({"equality", "sleep"}));
   app.add_option("--particles", options.sizes, "In the pool that a paddle moves (repeatable)");
-  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  bench.add_device_option(options.device);
   return bench.run(argc, argv, [&] { return run(bench, options); });
 }

@@ -294,7 +294,7 @@ class Soak {
     table.add({"growth of the simulator [MiB]", mebibytes(simulator_memory_)});
     table.add({"growth of the synth [MiB]", mebibytes(synth_memory_)});
     table.add({"unplanned exits", count(unplanned_)});
-    bench.tell(table.text());
+    bench.tell(table);
     return unplanned_ == 0;
   }
 

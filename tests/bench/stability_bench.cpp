@@ -5,11 +5,11 @@
 #include <concepts>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "program/text.hpp"
 #include "sim-server/scene/solver_choice.hpp"
 #include "tests/bench/plot.hpp"
 #include "tests/bench/report.hpp"
@@ -34,6 +34,8 @@ constexpr double kSpeeds[] = {0.5, 1.0, 2.0, 5.0, 10.0, 20.0};                 /
 constexpr double kViscosities[] = {0.0, 1.0e-6, 1.0e-4, 1.0e-3, 1.0e-2, 0.1};  // [m2/s]
 constexpr double kSpacings[] = {0.05, 0.035, 0.025};                           // [m]
 constexpr double kMapSpacing = 0.04;                                           // [m]
+/// The maps' solver.
+constexpr PressureKind kMapped = PressureKind::weakly_compressible;
 
 /// How a cell went.
 enum class Grade { sound, rough, again, given_up };
@@ -67,9 +69,7 @@ std::vector<double> values(const Map& map, double Cell::*axis) {
 std::string tics(const std::vector<double>& all) {
   std::string text;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    char tic[48];
-    std::snprintf(tic, sizeof tic, "%s\"%g\" %zu", k == 0 ? "" : ", ", all[k], k);
-    text += tic;
+    text += program::format("%s\"%g\" %zu", k == 0 ? "" : ", ", all[k], k);
   }
   return "(" + text + ")";
 }
@@ -78,53 +78,56 @@ void draw(const Map& map, const std::filesystem::path& file) {
   const std::vector<double> xs = values(map, &Cell::x);
   const std::vector<double> ys = values(map, &Cell::y);
   const auto index = [](const std::vector<double>& all, double value) {
-    return std::find(all.begin(), all.end(), value) - all.begin();
+    return static_cast<double>(std::find(all.begin(), all.end(), value) - all.begin());
   };
   bench::Plot plot(file, 900, 600);
-  std::ostream& out = plot.script();
-  out << "set palette maxcolors 4 defined (0 \"#009e73\", 1 \"#f0e442\", 2 \"#e69f00\", 3 "
+  plot.script()
+      << "set palette maxcolors 4 defined (0 \"#009e73\", 1 \"#f0e442\", 2 \"#e69f00\", 3 "
          "\"#d55e00\")\nset cbrange [-0.5:3.5]\n"
          "set cbtics (\"sound\" 0, \"rough\" 1, \"again\" 2, \"given up\" 3)\n"
       << "set title \"" << map.title << "\"\nset xlabel \"" << map.x_label << "\"\nset ylabel \""
       << map.y_label << "\"\nset xtics " << tics(xs) << "\nset ytics " << tics(ys)
       << "\nset xrange [-0.5:" << static_cast<double>(xs.size()) - 0.5
-      << "]\nset yrange [-0.5:" << static_cast<double>(ys.size()) - 0.5 << "]\n$map << EOD\n";
+      << "]\nset yrange [-0.5:" << static_cast<double>(ys.size()) - 0.5 << "]\n";
+  std::vector<std::vector<double>> columns(3);
   for (const Cell& c : map.cells) {
-    out << index(xs, c.x) << ' ' << index(ys, c.y) << ' ' << static_cast<int>(grade_of(c.verdict))
-        << '\n';
+    columns[0].push_back(index(xs, c.x));
+    columns[1].push_back(index(ys, c.y));
+    columns[2].push_back(static_cast<double>(grade_of(c.verdict)));
   }
-  out << "EOD\nplot $map with image notitle\n";
+  plot.add(columns, "with image notitle");
   plot.draw();
 }
 
-const Trial& named(const std::vector<Trial>& all, const std::string& name) {
+const Trial& named(const std::string& name) {
+  static const std::vector<Trial> kAll = all_trials();
   const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Trial& t) { return t.name == name; });
-  if (found == all.end()) throw std::logic_error("no trial is called " + name);
+      std::find_if(kAll.begin(), kAll.end(), [&](const Trial& t) { return t.name == name; });
+  if (found == kAll.end()) throw std::logic_error("no trial is called " + name);
   return *found;
 }
 
-Cell run_cell(sim::Device& device, const std::string& map, const Trial& trial,
-              const Settings& settings, double x, double y) {
-  Cell cell{x, y, run_trial(device, trial, settings)};
-  std::printf("%-24s %8g %8g  grade %d\n", map.c_str(), x, y,
-              static_cast<int>(grade_of(cell.verdict)));
-  std::fflush(stdout);
-  return cell;
+const Trial& plunge_at(double speed) {
+  return named("plunge at " + std::to_string(speed).substr(0, 4) + " m/s");
 }
 
-Map speed_map(sim::Device& device, sim::PressureKind solver) {
-  Map map{std::string("step-speed-") + short_name_of(solver),
-          std::string("A ball plunges, ") + short_name_of(solver),
+void run_cell(sim::Device& device, Map& map, const Trial& trial, const Settings& settings, double x,
+              double y) {
+  map.cells.push_back({x, y, run_trial(device, trial, settings)});
+  std::printf("%-24s %8g %8g  grade %d\n", map.name.c_str(), x, y,
+              static_cast<int>(grade_of(map.cells.back().verdict)));
+  std::fflush(stdout);
+}
+
+Map speed_map(sim::Device& device) {
+  Map map{"step-speed-WCSPH",
+          "A ball plunges, WCSPH",
           "time step (in the default)",
           "speed of the body (m/s)",
           {}};
-  const std::vector<Trial> all = all_trials();
   for (const double speed : kSpeeds) {
-    const Trial& trial = named(all, "plunge at " + std::to_string(speed).substr(0, 4) + " m/s");
     for (const double factor : kFactors) {
-      map.cells.push_back(
-          run_cell(device, map.name, trial, {solver, kMapSpacing, factor}, factor, speed));
+      run_cell(device, map, plunge_at(speed), {kMapped, kMapSpacing, factor}, factor, speed);
     }
   }
   return map;
@@ -132,35 +135,30 @@ Map speed_map(sim::Device& device, sim::PressureKind solver) {
 
 /// Longer steps without slower sound, which no scene can ask for: how far from its end the default
 /// is.
-Map margin_map(sim::Device& device, sim::PressureKind solver) {
-  Map map{std::string("margin-") + short_name_of(solver),
-          std::string("A ball plunges, or lies in still water (0); sound stays as fast, ") +
-              short_name_of(solver),
+Map margin_map(sim::Device& device) {
+  Map map{"margin-WCSPH",
+          "A ball plunges, or lies in still water (0); sound stays as fast, WCSPH",
           "time step (in the default)",
           "speed of the body (m/s)",
           {}};
-  const std::vector<Trial> all = all_trials();
   for (const double factor : kFixedSound) {
-    const Settings settings = {solver, kMapSpacing, factor, true};
-    map.cells.push_back(
-        run_cell(device, map.name, named(all, "rest, sunk"), settings, factor, 0.0));
+    const Settings settings = {kMapped, kMapSpacing, factor, true};
+    run_cell(device, map, named("rest, sunk"), settings, factor, 0.0);
     for (const double speed : kSpeeds) {
-      const Trial& trial = named(all, "plunge at " + std::to_string(speed).substr(0, 4) + " m/s");
-      map.cells.push_back(run_cell(device, map.name, trial, settings, factor, speed));
+      run_cell(device, map, plunge_at(speed), settings, factor, speed);
     }
   }
   return map;
 }
 
-Map viscosity_map(sim::Device& device, sim::PressureKind solver) {
-  Map map{std::string("viscosity-spacing-") + short_name_of(solver),
-          std::string("A dam breaks at twice the default step, ") + short_name_of(solver),
+Map viscosity_map(sim::Device& device) {
+  Map map{"viscosity-spacing-WCSPH",
+          "A dam breaks at twice the default step, WCSPH",
           "kinematic viscosity (m2/s)",
           "particle spacing (m)",
           {}};
-  const std::vector<Trial> all = all_trials();
   for (const double nu : kViscosities) {
-    Trial trial = named(all, "dam break");
+    Trial trial = named("dam break");
     trial.seconds = nu > 0.05 ? 0.1 : 0.5;
     trial.scene = [inner = trial.scene, nu](double s) {
       sim::Scene scene = inner(s);
@@ -168,19 +166,19 @@ Map viscosity_map(sim::Device& device, sim::PressureKind solver) {
       return scene;
     };
     for (const double spacing : kSpacings) {
-      map.cells.push_back(run_cell(device, map.name, trial, {solver, spacing, 2.0}, nu, spacing));
+      run_cell(device, map, trial, {kMapped, spacing, 2.0}, nu, spacing);
     }
   }
   return map;
 }
 
 /// Where the water stops being sound, over time step and speed, viscosity and resolution: runs all
-/// cells, telling each, and leaves map-*.csv and map-*.png in `out`.
-void draw_maps(sim::Device& device, const std::filesystem::path& out) {
+/// cells, telling each, and leaves map-*.csv and map-*.png.
+void draw_maps(bench::Bench& bench, sim::Device& device) {
   const auto leave = [&](const Map& map) {
-    bench::Table table({map.x_label, map.y_label, "grade", "fastest", "mean_excess", "max_excess",
-                        "retried", "calmed", "resets"},
-                       out / ("map-" + map.name + ".csv"));
+    auto table = bench.table("map-" + map.name + ".csv",
+                             {map.x_label, map.y_label, "grade", "fastest", "mean_excess",
+                              "max_excess", "retried", "calmed", "resets"});
     for (const Cell& c : map.cells) {
       const Verdict& v = c.verdict;
       table.add({bench::number(c.x), bench::number(c.y),
@@ -188,11 +186,12 @@ void draw_maps(sim::Device& device, const std::filesystem::path& out) {
                  bench::number(v.mean_excess), bench::number(v.max_excess),
                  std::to_string(v.retried), std::to_string(v.calmed), std::to_string(v.resets)});
     }
-    draw(map, out / ("map-" + map.name + ".png"));
-    std::printf("map: %s\n", (out / ("map-" + map.name + ".png")).c_str());
+    const std::filesystem::path picture = bench.out() / ("map-" + map.name + ".png");
+    draw(map, picture);
+    std::printf("map: %s\n", picture.c_str());
   };
   for (const auto make : {speed_map, viscosity_map, margin_map}) {
-    leave(make(device, sim::PressureKind::weakly_compressible));
+    leave(make(device));
   }
 }
 
@@ -207,11 +206,6 @@ struct Options {
                                        PressureKind::grid_projected};
   int device = -1;
 };
-
-bool wants(const Options& options, const char* part) {
-  return options.parts.empty() ||
-         std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
-}
 
 std::string join(const std::vector<std::string>& words) {
   std::string text;
@@ -297,11 +291,12 @@ int run_injections(bench::Bench& bench, sim::Device& device, const Options& opti
 bool run(bench::Bench& bench, const Options& options) {
   sim::Device device(options.device);
   bench.set_device(describe(device.facts()));
+  const auto wants = [&](const char* part) { return bench::is_wanted(options.parts, part); };
   int failed = 0;
-  if (wants(options, "faults")) failed += run_injections(bench, device, options);
-  if (wants(options, "trials")) failed += run_trials(bench, device, options);
-  if (wants(options, "maps")) draw_maps(device, bench.out());
-  if (wants(options, "endurance")) {
+  if (wants("faults")) failed += run_injections(bench, device, options);
+  if (wants("trials")) failed += run_trials(bench, device, options);
+  if (wants("maps")) draw_maps(bench, device);
+  if (wants("endurance")) {
     const int lost = endure(device, options.endurance, bench.out());
     bench.tell("Endurance, " + whole(options.endurance.steps) + " steps of each scene: " +
                (lost == 0 ? "nothing lost, no reset, memory flat." : whole(lost) + " failed."));
@@ -321,15 +316,6 @@ void add_endurance(CLI::App& app, Options& options) {
   app.add_option("--minutes", options.endurance.minutes,
                  "The endurance run ends after these; the next one goes on from there")
       ->check(CLI::Range(0.0, 1.0e5));
-}
-
-void add_solvers(CLI::App& app, Options& options) {
-  std::map<std::string, PressureKind> solvers;
-  for (const PressureKind solver : options.solvers) solvers[sim::name_of(solver)] = solver;
-  app.add_option("--solver", options.solvers,
-                 "Only with this one: weakly_compressible or grid_projected "
-                 "(repeatable); endurance with the first")
-      ->transform(CLI::CheckedTransformer(solvers));
 }
 
 }  // namespace
@@ -352,8 +338,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--places", options.places, "Of each fault")->check(CLI::Range(1, 100000));
   add_endurance(app, options);
-  add_solvers(app, options);
-  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  bench.add_choice("--solver", options.solvers,
+                   {PressureKind::weakly_compressible, PressureKind::grid_projected},
+                   "Only with this one: weakly_compressible or grid_projected "
+                   "(repeatable); endurance with the first");
+  bench.add_device_option(options.device);
   return bench.run(argc, argv, [&] {
     options.endurance.solver = options.solvers.front();
     return run(bench, options);

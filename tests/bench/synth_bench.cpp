@@ -47,7 +47,7 @@ std::vector<Capacity> measure_capacity(Bench& bench) {
   }
   bench.tell(
       "16,384 voices through the whole engine at 44.1 kHz, in blocks of 64, processor time:");
-  bench.tell(table.text());
+  bench.tell(table);
   return all;
 }
 
@@ -72,7 +72,7 @@ void measure_floods(Bench& bench) {
   bench.tell(
       "Bubbles of 3 to 30 mm on 36 channels up to 20 kHz; everything: coupled clouds, pitch from "
       "place, fine water, water under the foot, a gain:");
-  bench.tell(table.text());
+  bench.tell(table);
   bench.tell("Pitches of 10,000 bubbles a second in a cloud alone: " + percent(measure_clouds()) +
              " % of a core.");
 }
@@ -84,7 +84,7 @@ void measure_onsets_of_all(Bench& bench) {
     table.add({set, whole(measure_onsets(set, 0).onsets), whole(measure_onsets(set, 6).onsets)});
   }
   bench.tell("Bubbles of 10 to 300 ms (60 dB) that one core starts and plays:");
-  bench.tell(table.text());
+  bench.tell(table);
 }
 
 /// Cost against voices, channels and block.
@@ -102,7 +102,13 @@ void measure_engines(Bench& bench) {
   auto table = bench.table("engine.csv",
                            {"voices", "channels", "block", "channels per voice", "of a core [%]"});
   Plot plot(bench.out() / "engine.png", 1500, 500);
-  std::vector<std::string> blocks;
+  plot.script() << "unset key\nset multiplot layout 1,3\nset logscale x 2\n"
+                   "set ylabel 'of one core [%]'\n";
+  const std::vector<std::string> axes = {
+      "set logscale y\nset xtics 1,4\nset xlabel 'voices (one channel)'\n",
+      "unset logscale y\nset yrange [0:*]\nset xtics autofreq\n"
+      "set xlabel 'channels (16384 voices)'\n",
+      "set xlabel 'block [frames] (16384 voices, one channel)'\n"};
   for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep) {
     std::vector<double> x;
     std::vector<double> y;
@@ -113,15 +119,10 @@ void measure_engines(Bench& bench) {
       table.add({whole(c.voices), whole(channels(c.tiles)), whole(c.block), number(c.routes),
                  percent(c.cost)});
     }
-    blocks.push_back(plot.data(x, y));
+    plot.script() << axes[sweep];
+    plot.add({x, y}, "with linespoints");
+    plot.panel();
   }
-  plot.script() << "unset key\nset multiplot layout 1,3\nset logscale x 2\nset logscale y\n"
-                   "set ylabel 'of one core [%]'\nset xtics 1,4\n"
-                << "set xlabel 'voices (one channel)'\nplot " << blocks[0] << " with linespoints\n"
-                << "unset logscale y\nset yrange [0:*]\nset xtics autofreq\n"
-                << "set xlabel 'channels (16384 voices)'\nplot " << blocks[1]
-                << " with linespoints\nset xlabel 'block [frames] (16384 voices, one channel)'\n"
-                << "plot " << blocks[2] << " with linespoints\nunset multiplot\n";
   plot.draw();
   std::printf("%s\n", (bench.out() / "engine.png").c_str());
 }
@@ -144,7 +145,7 @@ void measure_peers(Bench& bench, const std::vector<Capacity>& ours) {
     }
   }
   bench.tell("Others, one channel, one core:");
-  bench.tell(table.text());
+  bench.tell(table);
 }
 
 }  // namespace

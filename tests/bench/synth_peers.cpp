@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/synth_peers.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,23 +9,12 @@
 #include "synth-server/figure/wav_reader.hpp"
 #include "synth-server/voices/bubble_tone.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/process_use.hpp"
 
 namespace splash::bench {
-namespace {
-
-double children_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-}  // namespace
 
 double run_peer(const std::vector<std::string>& arguments, const std::string& package) {
-  const double before = children_seconds();
+  const double before = tests::cpu_of_children();
   tests::ChildProcess program(arguments);
   const int status = program.wait_for_end(300.0);
   if (status == 127) {
@@ -37,7 +24,7 @@ double run_peer(const std::vector<std::string>& arguments, const std::string& pa
     throw std::runtime_error(arguments[0] + " ended with " + std::to_string(status) + ": " +
                              program.output());
   }
-  return children_seconds() - before;
+  return tests::cpu_of_children() - before;
 }
 
 double bubble_error(const std::filesystem::path& wav) {

@@ -2,9 +2,10 @@
 #include "tests/bench/tables.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <stdexcept>
+
+#include "program/text.hpp"
 
 namespace splash::bench {
 namespace {
@@ -16,12 +17,16 @@ std::string quoted(const std::string& cell) {
   return text + '"';
 }
 
+std::string line_of(const Row& row) {
+  std::string line;
+  for (std::size_t k = 0; k < row.size(); ++k) line += (k == 0 ? "" : ",") + quoted(row[k]);
+  return line;
+}
+
 }  // namespace
 
 std::string number(double value, int digits) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
+  return program::format("%.*g", digits, value);
 }
 
 std::string markdown(const std::vector<Row>& rows) {
@@ -38,6 +43,12 @@ std::string markdown(const std::vector<Row>& rows) {
   return text;
 }
 
+void write_csv(const std::filesystem::path& path, const std::vector<Row>& rows) {
+  std::ofstream file(path);
+  for (const Row& row : rows) file << line_of(row) << '\n';
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
 Table::Table(Row head, const std::filesystem::path& csv) {
   if (!csv.empty()) {
     csv_.open(csv);
@@ -49,9 +60,7 @@ Table::Table(Row head, const std::filesystem::path& csv) {
 void Table::add(const Row& row) {
   rows_.push_back(row);
   show(row);
-  if (!csv_.is_open()) return;
-  for (std::size_t k = 0; k < row.size(); ++k) csv_ << (k == 0 ? "" : ",") << quoted(row[k]);
-  csv_ << std::endl;
+  if (csv_.is_open()) csv_ << line_of(row) << std::endl;
 }
 
 void Table::show(const Row& row) {
@@ -61,17 +70,6 @@ void Table::show(const Row& row) {
   }
   std::printf("\n");
   std::fflush(stdout);
-}
-
-std::string with_section(const std::string& text, const std::string& bench,
-                         const std::string& section) {
-  const std::string begin = "<!-- bench " + bench + " -->\n";
-  const std::string end = "<!-- end of bench " + bench + " -->\n";
-  const std::string whole = begin + section + end;
-  const std::size_t from = text.find(begin);
-  const std::size_t to = text.find(end);
-  if (from == std::string::npos || to == std::string::npos || to < from) return text + '\n' + whole;
-  return text.substr(0, from) + whole + text.substr(to + end.size());
 }
 
 }  // namespace splash::bench

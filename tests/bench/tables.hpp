@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables on the screen, as CSV and as Markdown, and the sections of the files in docs/ that hold
-// them.
+// Tables on the screen, as CSV and as Markdown.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +17,9 @@ using Row = std::vector<std::string>;
 /// The first row is the head.
 [[nodiscard]] std::string markdown(const std::vector<Row>& rows);
 
+/// Throws std::runtime_error when the file cannot be written.
+void write_csv(const std::filesystem::path& path, const std::vector<Row>& rows);
+
 /// A table that grows: each row appears on the screen and in a CSV file as soon as it is known.
 class Table {
  public:
@@ -31,9 +33,5 @@ class Table {
   std::vector<Row> rows_;
   std::ofstream csv_;
 };
-
-/// The text of a file in docs/ with this bench's section replaced, or added at the end.
-[[nodiscard]] std::string with_section(const std::string& text, const std::string& bench,
-                                       const std::string& section);
 
 }  // namespace splash::bench

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
+#include "program/text.hpp"
 #include "sim-server/scene/solver_choice.hpp"
 #include "tests/bench/progress.hpp"
 #include "tests/bench/report.hpp"
@@ -59,11 +59,9 @@ void run(bench::Bench& bench, const Options& options) {
         std::min(static_cast<std::size_t>(std::max(options.resolutions, 1)), item->spacings.size());
     for (const sim::PressureKind solver : options.solvers) {
       for (std::size_t k = 0; k < count; ++k) {
-        char what[112];
-        std::snprintf(what, sizeof what, "%-18s %-20s %s/dp = %-4.0f", item->name.c_str(),
-                      name_of(solver).c_str(), item->size_name.c_str(),
-                      item->size / item->spacings[k]);
-        bench::Progress progress(what);
+        bench::Progress progress(program::format("%-18s %-20s %s/dp = %-4.0f", item->name.c_str(),
+                                                 name_of(solver).c_str(), item->size_name.c_str(),
+                                                 item->size / item->spacings[k]));
         Setting setting = options.setting;
         setting.solver = solver;
         setting.spacing = item->spacings[k];
@@ -94,16 +92,11 @@ int main(int argc, char** argv) {
   app.add_option("--case", options.cases, "Only this case (repeatable)")->type_name("NAME");
   app.add_option("--resolutions", options.resolutions, "Only so many, coarse ones first")
       ->check(CLI::Range(1, 100));
-  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
-  std::map<std::string, sim::PressureKind> solvers;
-  for (const auto solver :
-       {sim::PressureKind::weakly_compressible, sim::PressureKind::grid_projected}) {
-    solvers[name_of(solver)] = solver;
-  }
-  app.add_option("--solver", options.solvers,
-                 "Instead of the default: weakly_compressible or grid_projected "
-                 "(repeatable: side by side)")
-      ->transform(CLI::CheckedTransformer(solvers));
+  bench.add_device_option(options.device);
+  bench.add_choice("--solver", options.solvers,
+                   {sim::PressureKind::weakly_compressible, sim::PressureKind::grid_projected},
+                   "Instead of the default: weakly_compressible or grid_projected "
+                   "(repeatable: side by side)");
   app.add_option("--time-step-factor", options.setting.time_step_factor,
                  "Steps so much longer than the default ones")
       ->check(CLI::Range(0.05, 4.0));

@@ -3,23 +3,21 @@
 // asks for the next state as soon as the last has come, in turn. Prints how much of a simulated
 // second's processor time, and of the real-time factor, is left.
 #include <arpa/inet.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <cstdio>
-#include <stdexcept>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "protocol/time_tag.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/support/median.hpp"
 #include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace {
 
@@ -31,15 +29,6 @@ struct Settings {
   int rounds = 5;
   double seconds = 5.0;  ///< simulated, of a run [s]
 };
-
-double cpu_of_children() {
-  rusage use{};
-  getrusage(RUSAGE_CHILDREN, &use);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(use.ru_utime) + seconds(use.ru_stime);
-}
 
 /// Asks and reads until the simulator ends.
 void watch(const protocol::Endpoint& where) {
@@ -64,45 +53,23 @@ struct Run {
   long frames = 0;      ///< shown
 };
 
-/// The number behind a key of a report; 0: there is none.
-double number_of(const std::string& report, const std::string& key) {
-  const auto at = report.find('"' + key + "\":");
-  return at == std::string::npos ? 0.0 : std::stod(report.substr(at + key.size() + 3));
-}
-
-std::string text_of(const std::string& path) {
-  std::string text;
-  if (FILE* file = std::fopen(path.c_str(), "r")) {
-    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
-    std::fclose(file);
-  }
-  return text;
-}
-
 Run run(const std::string& scene, double seconds, bool watched) {
-  const std::string report = temporary_path("viewer.json");
+  const TemporaryFolder folder;
+  const std::string report = folder / "viewer.json";
   const double before = cpu_of_children();
   double ready = 0.0;  // processor time until then [s]
   {
-    ChildProcess process(
-        command("sim-server",
-                {"--scene", scene, "--faster-than-real-time", "--listen", "127.0.0.1:0", "--show",
-                 "127.0.0.1:0", "--duration", std::to_string(seconds), "--report", report}));
-    if (!process.wait_for_text("viewers: ")) throw std::runtime_error(process.output());
-    ready = cpu_seconds(process.id());
-    const std::string said = process.output();
-    const auto begin = said.find("viewers: ") + 9;
-    const auto where =
-        protocol::parse_endpoint(said.substr(begin, said.find('\n', begin) - begin), 0);
-    std::thread viewer;
-    if (watched) viewer = std::thread(watch, where);
-    process.wait_for_end(600.0);
-    if (viewer.joinable()) viewer.join();
+    Simulator simulator({"--scene", scene, "--faster-than-real-time", "--show", "127.0.0.1:0",
+                         "--duration", std::to_string(seconds), "--report", report});
+    const protocol::Endpoint where = simulator.viewers();
+    ready = cpu_seconds(simulator.process().id());
+    std::jthread viewer;
+    if (watched) viewer = std::jthread([&] { watch(where); });
+    simulator.process().wait_for_end(600.0);
   }
-  const std::string text = text_of(report);
-  unlink(report.c_str());
-  return {(cpu_of_children() - before - ready) / seconds, number_of(text, "real_time_factor"),
-          static_cast<long>(number_of(text, "shown_frames"))};
+  const nlohmann::json json = nlohmann::json::parse(text_of(report));
+  return {(cpu_of_children() - before - ready) / seconds, json.at("real_time_factor"),
+          json.at("shown_frames")};
 }
 
 void compare(bench::Table& table, const std::string& scene, const Settings& settings) {
@@ -144,7 +111,7 @@ int main(int argc, char** argv) {
     auto table = bench.table("viewer.csv", {"scene", "real-time factor without", "with one [%]",
                                             "processor [%]", "frames/s", "unasked"});
     for (const std::string& scene : settings.scenes) compare(table, scene, settings);
-    bench.tell(table.text());
+    bench.tell(table);
     return true;
   });
 }

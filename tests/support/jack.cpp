@@ -26,7 +26,7 @@ bool reachable() {
 }
 
 std::vector<std::string> command_of(const std::string& name, const JackServer::Settings& settings) {
-  std::vector<std::string> command = {"jackd", "--no-realtime"};
+  std::vector<std::string> command = {"jackd", settings.realtime ? "--realtime" : "--no-realtime"};
   if (settings.waits) command.emplace_back("-S");
   command.insert(command.end(),
                  {"-n", name, "-d", "dummy", "-C", std::to_string(settings.inputs), "-P",

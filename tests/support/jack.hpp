@@ -26,6 +26,7 @@ class JackServer {
     /// It waits for its clients, as a sound card would not: what they play is recorded whole on a
     /// busy machine, too.
     bool waits = true;
+    bool realtime = false;  ///< at real-time priority, which not everybody may ask for
   };
   /// The server's name is made of `name` and this process's number. Throws std::runtime_error
   /// saying what to install when jackd is missing or does not start.

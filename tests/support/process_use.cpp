@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/process_use.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -28,6 +29,15 @@ double cpu_seconds(pid_t process) {
   for (std::string word; words >> word;) fields.push_back(word);
   return (std::stod(fields.at(11)) + std::stod(fields.at(12))) /
          static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+double cpu_of_children() {
+  rusage use{};
+  getrusage(RUSAGE_CHILDREN, &use);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(use.ru_utime) + seconds(use.ru_stime);
 }
 
 }  // namespace splash::tests
