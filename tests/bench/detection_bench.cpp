@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What the detectors tell of scripted motions and recordings, against what is true of them:
 // report.md and cases.csv, a row for each sweep.
-#include <unistd.h>
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <map>
 #include <optional>
-#include <sstream>
 
+#include "sim-server/scene/solver_choice.hpp"
 #include "tests/bench/progress.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/detection/table.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/text_of.hpp"
 
 namespace {
 
@@ -28,7 +25,6 @@ const fs::path kSource = splash::tests::source_folder();
 struct Options {
   std::vector<std::string> sweeps;
   std::vector<std::string> cases;
-  fs::path out = kSource / "out" / "detection";
   fs::path scenes;
   fs::path readme;
   bool quick = false;
@@ -70,15 +66,11 @@ void complete(Options& options) {
   }
 }
 
-bool among(const std::vector<std::string>& names, const std::string& name) {
-  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
-
 std::vector<Case> chosen(const Options& options) {
   std::vector<Case> cases = all_cases(options.material);
   std::erase_if(cases, [&](const Case& item) {
-    return !among(options.sweeps, item.sweep) || !among(options.cases, item.name) ||
-           (options.quick && !item.quick);
+    return !bench::is_wanted(options.sweeps, item.sweep) ||
+           !bench::is_wanted(options.cases, item.name) || (options.quick && !item.quick);
   });
   if (cases.empty()) throw std::runtime_error("no such case: --list shows them");
   return cases;
@@ -117,17 +109,15 @@ void tell(const bench::Progress& progress, const Outcome& outcome) {
 }
 
 void update(const fs::path& path, const std::vector<Outcome>& outcomes, bool all) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  const std::string updated = with_rows(text.str(), outcomes, all);
+  const std::string updated = with_rows(tests::text_of(path), outcomes, all);
   std::ofstream file(path);
   file << updated;
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-void run(Options options) {
+void run(bench::Bench& bench, Options options) {
   complete(options);
-  options.material.folder = options.out / "files";
+  options.material.folder = bench.out() / "files";
   fs::create_directories(options.material.folder);
   const std::vector<Case> cases = chosen(options);
   if (!options.scenes.empty()) keep_scenes(options.scenes, cases);
@@ -139,7 +129,7 @@ void run(Options options) {
     return;
   }
   sim::Device device(options.device);
-  std::printf("device: %s\n", describe(device.facts()).c_str());
+  bench.set_device(describe(device.facts()));
   std::vector<Outcome> outcomes;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     bench::Progress progress(std::to_string(k + 1) + "/" + std::to_string(cases.size()) + "  " +
@@ -148,11 +138,11 @@ void run(Options options) {
         run_case(device, cases[k], options.solver, [&](double share) { progress(share); }));
     tell(progress, outcomes.back());
     // After every run, so that a run that is broken off leaves what it found.
-    write_report(options.out, device.facts().name, outcomes);
+    write_report(bench.out(), device.facts().name, outcomes);
   }
   const bool all = cases.size() == all_cases(options.material).size();
   if (!options.readme.empty()) update(options.readme, outcomes, all);
-  std::printf("\n%s\nreport: %s\n", summary(outcomes).c_str(), (options.out / "report.md").c_str());
+  std::printf("\n%s\nreport: %s\n", summary(outcomes).c_str(), (bench.out() / "report.md").c_str());
 }
 
 }  // namespace
@@ -160,8 +150,10 @@ void run(Options options) {
 int main(int argc, char** argv) {
   Options options;
   Walk& walk = options.material.walk;
-  CLI::App app("Holds impacts and cavities against the motions' own truth: report.md, cases.csv.",
-               "bench-detection");
+  bench::Bench bench(
+      "detection",
+      "Holds impacts and cavities against the motions' own truth: report.md, cases.csv.");
+  CLI::App& app = bench.options();
   app.add_option("--sweep", options.sweeps, "Only this sweep (repeatable)")->type_name("NAME");
   app.add_option("--case", options.cases, "Only this case (repeatable)")->type_name("NAME");
   app.add_flag("--quick", options.quick, "A few that stand for all");
@@ -172,7 +164,6 @@ int main(int argc, char** argv) {
          "--readme", options.readme,
          "Markdown file whose table gets the rows of this run, and no others if it is of all cases")
       ->check(CLI::ExistingFile);
-  app.add_option("--out", options.out, "Folder for the report")->capture_default_str();
   app.add_option("--walk", walk.file, "TRC file of two feet, in place of the tests' own")
       ->check(CLI::ExistingFile);
   app.add_option("--left", walk.left, "Its left foot's markers, heel and toe first")
@@ -186,17 +177,12 @@ int main(int argc, char** argv) {
   app.add_option("--hand-size", options.hand_size, "Edges of its box [m]")
       ->delimiter(',')
       ->expected(3);
-  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
-  app.add_option("--solver", options.solver, "Instead of what suits each case")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, sim::PressureKind>{
-          {"weakly_compressible", sim::PressureKind::weakly_compressible},
-          {"grid_projected", sim::PressureKind::grid_projected}}));
-  CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "bench-detection: " << error.what() << '\n';
-    return 70;
-  }
+  bench.add_device_option(options.device);
+  bench.add_choice("--solver", options.solver,
+                   {sim::PressureKind::weakly_compressible, sim::PressureKind::grid_projected},
+                   "Instead of what suits each case");
+  return bench.run(argc, argv, [&] {
+    run(bench, options);
+    return true;
+  });
 }

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sim-server/device/device.hpp"
 #include "sim-server/scene/solver_choice.hpp"
-#include "synth-server/figure/gnuplot.hpp"
 #include "tests/bench/error_sweep.hpp"
 #include "tests/bench/plot.hpp"
 #include "tests/bench/report.hpp"
@@ -35,8 +32,9 @@ struct ChartSettings {
   std::string device;  ///< its name, for the title
 };
 
-/// Of the paper's section 6: 15,000 particles in the pool and on the beach, 7,000 in the basin.
-constexpr const char* kPaper = "$paper << EOD\n15000 152\n15000 147\n7000 240\nEOD\n";
+/// Particles and steps per second of the paper's section 6: 15,000 in the pool and on the beach,
+/// 7,000 in the basin.
+const std::vector<std::vector<double>> kPaper = {{15000, 15000, 7000}, {152, 147, 240}};
 
 /// What two other programs took; about_peers() has how.
 struct Peer {
@@ -53,19 +51,6 @@ constexpr Peer kPeers[] = {
     {"spheric2", kDfsph, 13.75, 5.45, 4.62},   {"spheric2", kDfsph, 18.33, 20.4, 4.35},
     {"spheric2", kDual, 13.75, 40.7, 6.15},    {"float", kDfsph, 4.0, 10.1, 0.9},
     {"float", kDual, 4.0, 33.0, 1.7}};
-
-constexpr const char* kSetup = R"gp(
-set encoding utf8
-set minussign
-ink = "#30343b"
-set border 3 linecolor rgb ink linewidth 0.9
-set tics nomirror out scale 0.6 textcolor rgb ink
-set grid linecolor rgb "#dde1e7" linewidth 0.6
-set logscale xy
-set format xy "%g"
-set offsets graph 0.12, graph 0.25, graph 0.15, graph 0.15
-unset key
-)gp";
 
 std::string style(const Quality& q) {
   const bool scalar = q.kernels == sim::KernelKind::reference;
@@ -115,145 +100,122 @@ std::vector<const SweepCase*> cases_of(const std::vector<SweepPoint>& points) {
   return list;
 }
 
-/// Lines "x y label" of one quality as a data block; a case, or all of them when null.
-template <class XAndY>
-void write_block(std::ostream& out, const std::string& name, const std::vector<SweepPoint>& points,
-                 const SweepCase* item, const Quality& quality, const XAndY& x_and_y) {
-  out << '$' << name << " << EOD\n";
+/// The points of one quality; of a case, or all of them when null.
+std::vector<const SweepPoint*> points_of(const std::vector<SweepPoint>& points,
+                                         const SweepCase* item, const Quality& quality) {
+  std::vector<const SweepPoint*> list;
   for (const SweepPoint& point : points) {
-    if ((item != nullptr && point.item != item) || !(point.quality == quality)) continue;
-    const auto [x, y] = x_and_y(point);
-    out << x << ' ' << y << ' ' << resolution(point) << '\n';
+    if ((item == nullptr || point.item == item) && point.quality == quality) list.push_back(&point);
   }
-  out << "EOD\n";
+  return list;
 }
 
-void draw_case(std::ostream& out, const std::vector<SweepPoint>& points, const SweepCase& item,
+void draw_case(Plot& plot, const std::vector<SweepPoint>& points, const SweepCase& item,
                const std::vector<Quality>& qualities, const ChartSettings& settings) {
-  std::string plot;
-  for (std::size_t q = 0; q < qualities.size(); ++q) {
-    const std::string block = item.name + std::to_string(q);
-    write_block(out, block, points, &item, qualities[q], [&](const SweepPoint& point) {
-      return std::pair(cost(point, settings), std::max(point.error(), 1.0e-3));
-    });
-    plot += (plot.empty() ? "" : ", ") + ("$" + block) + " with linespoints " + style(qualities[q]);
-    if (q == 0) {
-      plot +=
-          ", $" + block +
-          " using 1:2:(sprintf(\"%.3g\", $3)) with labels offset 0,0.9 font \",9\" textcolor rgb "
-          "ink";
+  for (const Quality& quality : qualities) {
+    std::vector<std::vector<double>> columns(3);  // seconds, error, what is written beside it
+    for (const SweepPoint* point : points_of(points, &item, quality)) {
+      columns[0].push_back(cost(*point, settings));
+      columns[1].push_back(std::max(point->error(), 1.0e-3));
+      columns[2].push_back(resolution(*point));
     }
+    plot.add(columns, "with linespoints " + style(quality));
+    if (!(quality == qualities.front())) continue;
+    plot.add(columns,
+             "using 1:2:(sprintf(\"%.3g\", $3)) with labels offset 0,0.9 font \",9\" "
+             "textcolor rgb ink");
   }
   for (const char* name : {kDfsph, kDual}) {
-    const std::string block = item.name + (name == kDfsph ? "_dfsph" : "_dual");
-    std::ostringstream lines;
+    std::vector<std::vector<double>> columns(2);
     for (const Peer& peer : kPeers) {
       if (item.name != peer.item || std::string(peer.name) != name) continue;
-      lines << peer.cost << ' ' << peer.error << ' ' << peer.resolution << '\n';
+      columns[0].push_back(peer.cost);
+      columns[1].push_back(peer.error);
     }
-    if (lines.str().empty()) continue;
-    out << '$' << block << " << EOD\n" << lines.str() << "EOD\n";
-    plot += ", $" + block + " with linespoints " + peer_style(name);
+    if (!columns[0].empty()) plot.add(columns, "with linespoints " + peer_style(name));
   }
-  out << "set title \"" << item.name << ": " << item.figure << " [%]\" noenhanced\n"
-      << "set arrow 1 from 1, graph 0 to 1, graph 1 nohead linecolor rgb \"#cc79a7\" linewidth "
-         "1.6\n"
-      << "plot " << plot << "\nunset arrow 1\n";
+  plot.script() << "set title \"" << item.name << ": " << item.figure << " [%]\" noenhanced\n"
+                << "set arrow 1 from 1, graph 0 to 1, graph 1 nohead linecolor rgb \"#cc79a7\" "
+                   "linewidth 1.6\n";
+  plot.panel();
+  plot.script() << "unset arrow 1\n";
 }
 
-void draw_rates(std::ostream& out, const std::vector<SweepPoint>& points,
+void draw_rates(Plot& plot, const std::vector<SweepPoint>& points,
                 const std::vector<Quality>& qualities, const ChartSettings& settings) {
-  std::string plot;
-  for (std::size_t q = 0; q < qualities.size(); ++q) {
-    const std::string block = "rate" + std::to_string(q);
-    write_block(out, block, points, nullptr, qualities[q], [&](const SweepPoint& point) {
-      const double seconds = cost(point, settings) * point.result.simulated;
-      return std::pair(static_cast<double>(point.result.particles),
-                       static_cast<double>(point.result.steps) / seconds);
-    });
-    plot += (q == 0 ? "" : ", ") + ("$" + block) + " with points " + style(qualities[q]);
+  for (const Quality& quality : qualities) {
+    std::vector<std::vector<double>> columns(2);
+    for (const SweepPoint* point : points_of(points, nullptr, quality)) {
+      const double seconds = cost(*point, settings) * point->result.simulated;
+      columns[0].push_back(point->result.particles);
+      columns[1].push_back(static_cast<double>(point->result.steps) / seconds);
+    }
+    plot.add(columns, "with points " + style(quality));
   }
-  out << kPaper << "set title \"Steps per second; stars: the paper\"\n"
-      << "set xlabel \"particles\"\nset ylabel \"steps per second of computing\"\nplot " << plot
-      << ", $paper with points pointtype 3 pointsize 2 linewidth 2 linecolor rgb \"#000000\"\n";
+  plot.add(kPaper, "with points pointtype 3 pointsize 2 linewidth 2 linecolor rgb \"#000000\"");
+  plot.script() << "set title \"Steps per second; stars: the paper\"\nset xlabel \"particles\"\n"
+                << "set ylabel \"steps per second of computing\"\n";
+  plot.panel();
 }
 
-void draw_legend(std::ostream& out, const std::vector<Quality>& qualities) {
-  out << "unset border\nunset tics\nunset grid\nunset xlabel\nunset ylabel\nunset title\n"
-         "unset logscale\nset key center center reverse Left samplen 3\n"
-         "set xrange [0:1]\nset yrange [0:1]\nplot ";
-  for (const Quality& quality : qualities) {
-    out << "NaN with linespoints " << style(quality) << " title \"" << quality.name() << "\", ";
-  }
-  for (const char* name : {kDfsph, kDual}) {
-    out << "NaN with linespoints " << peer_style(name) << " title \"" << name << "\", ";
-  }
-  out << "NaN with lines linewidth 1.6 linecolor rgb \"#cc79a7\" title \"real time\", "
-         "NaN with points pointtype 3 linewidth 2 linecolor rgb \"#000000\" title "
-         "\"Cirio et al. 2013, a laptop's GPU\"\n";
+void draw_legend(Plot& plot, const std::vector<Quality>& qualities) {
+  plot.script() << "unset border\nunset tics\nunset grid\nunset xlabel\nunset ylabel\n"
+                   "unset title\nunset logscale\nset key center center reverse Left samplen 3\n"
+                   "set xrange [0:1]\nset yrange [0:1]\n";
+  const auto add = [&](const std::string& style, const std::string& title) {
+    plot.add("NaN with " + style + " title \"" + title + "\"");
+  };
+  for (const Quality& quality : qualities) add("linespoints " + style(quality), quality.name());
+  for (const char* name : {kDfsph, kDual}) add("linespoints " + peer_style(name), name);
+  add("lines linewidth 1.6 linecolor rgb \"#cc79a7\"", "real time");
+  add("points pointtype 3 linewidth 2 linecolor rgb \"#000000\"",
+      "Cirio et al. 2013, a laptop's GPU");
+  plot.panel();
 }
 
 void draw(const std::filesystem::path& folder, const ChartSettings& settings,
           const std::vector<SweepPoint>& points) {
-  const synth::ScratchFolder scratch;
-  const std::filesystem::path script = scratch.path() / "error.gp";
   const std::vector<Quality> qualities = qualities_of(points);
   const std::vector<const SweepCase*> cases = cases_of(points);
   const std::size_t panels = cases.size() + 2;
   const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(panels)));
   const std::size_t rows = (panels + columns - 1) / columns;
-  std::ofstream out(script);
-  out << "set terminal pngcairo size " << 450 * columns << ',' << 500 * rows
-      << " enhanced font \"DejaVu Sans,11\" background \"#ffffff\"\nset output \""
-      << std::filesystem::absolute(folder / "error.png").string() << "\"\n"
-      << kSetup << "set multiplot layout " << rows << ',' << columns
-      << " title \"Run time against error: " << settings.device
-      << "; numbers: size over particle spacing\" noenhanced\n"
-      << "set xlabel \"seconds of "
-      << (settings.clock == Clock::wall ? "computing" : "processor per core")
-      << " per simulated second\"\nset ylabel \"error [%]\"\n";
-  for (const SweepCase* item : cases) draw_case(out, points, *item, qualities, settings);
-  draw_rates(out, points, qualities, settings);
-  draw_legend(out, qualities);
-  out << "unset multiplot\n";
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + script.string());
-  synth::run_gnuplot(script);
+  Plot plot(folder / "error.png", static_cast<int>(450 * columns), static_cast<int>(500 * rows));
+  plot.script() << "set termoption font \"DejaVu Sans,11\"\nset logscale xy\n"
+                << "set format xy \"%g\"\n"
+                << "set offsets graph 0.12, graph 0.25, graph 0.15, graph 0.15\nunset key\n"
+                << "set multiplot layout " << rows << ',' << columns
+                << " title \"Run time against error: " << settings.device
+                << "; numbers: size over particle spacing\" noenhanced\n"
+                << "set xlabel \"seconds of "
+                << (settings.clock == Clock::wall ? "computing" : "processor per core")
+                << " per simulated second\"\nset ylabel \"error [%]\"\n";
+  for (const SweepCase* item : cases) draw_case(plot, points, *item, qualities, settings);
+  draw_rates(plot, points, qualities, settings);
+  draw_legend(plot, qualities);
+  plot.draw();
 }
 
-double per_solve(const sim::SolveWork& work) {
-  return static_cast<double>(work.iterations) /
-         static_cast<double>(std::max<std::int64_t>(work.solves, 1));
-}
-
-void write_csv(std::ostream& out, const std::vector<SweepPoint>& points) {
-  out << "case,figure,size_over_spacing,particles,solver,time_step_factor,kernels,"
-         "simulated_s,steps,wall_s,processor_s,error_percent,mean_density_error,"
-         "iterations,most_iterations,given_up\n";
+std::vector<Row> csv_rows(const std::vector<SweepPoint>& points) {
+  std::vector<Row> rows = {{"case", "figure", "size_over_spacing", "particles", "solver",
+                            "time_step_factor", "kernels", "simulated_s", "steps", "wall_s",
+                            "processor_s", "error_percent", "mean_density_error", "iterations",
+                            "most_iterations", "given_up"}};
   for (const SweepPoint& p : points) {
     const Quality& q = p.quality;
     const validation::Result& r = p.result;
-    out << p.item->name << ",\"" << p.item->figure << "\"," << resolution(p) << ',' << r.particles
-        << ',' << sim::name_of(q.solver) << ',' << q.time_step_factor << ','
-        << (q.kernels == sim::KernelKind::reference ? "reference" : "vector") << ',' << r.simulated
-        << ',' << r.steps << ',' << r.steps_alone.wall << ',' << r.steps_alone.processor << ','
-        << p.error() << ',' << r.mean_density_error << ',';
-    if (r.work.solves > 0) {
-      out << per_solve(r.work) << ',' << r.work.most << ',' << r.work.given_up;
-    } else {
-      out << ",,";
-    }
-    out << '\n';
+    rows.push_back({p.item->name, p.item->figure, number(resolution(p), 6),
+                    std::to_string(r.particles), sim::name_of(q.solver), number(q.time_step_factor),
+                    q.kernels == sim::KernelKind::reference ? "reference" : "vector",
+                    number(r.simulated, 6), std::to_string(r.steps), number(r.steps_alone.wall, 6),
+                    number(r.steps_alone.processor, 6), number(p.error(), 6),
+                    number(r.mean_density_error, 6), "", "", ""});
+    if (r.work.solves == 0) continue;
+    rows.back()[13] = number(p.iterations(), 6);
+    rows.back()[14] = std::to_string(r.work.most);
+    rows.back()[15] = std::to_string(r.work.given_up);
   }
-}
-
-/// Writes error.csv and error.png into `folder`. Throws std::runtime_error.
-void write_error_chart(const std::filesystem::path& folder, const ChartSettings& settings,
-                       const std::vector<SweepPoint>& points) {
-  std::ofstream csv(folder / "error.csv");
-  write_csv(csv, points);
-  if (!csv) throw std::runtime_error("cannot write into " + folder.string());
-  draw(folder, settings, points);
+  return rows;
 }
 
 /// What the picture and the table show: a paragraph.
@@ -320,9 +282,7 @@ SweepPlan plan_of(const Options& options) {
   plan.resolutions = options.all ? 100 : options.resolutions;
   plan.qualities = options.all ? all_qualities() : quick_qualities();
   for (const SweepCase& item : sweep_cases()) {
-    const bool named =
-        std::find(options.cases.begin(), options.cases.end(), item.name) != options.cases.end();
-    if (named || options.cases.empty()) plan.cases.push_back(&item);
+    if (is_wanted(options.cases, item.name)) plan.cases.push_back(&item);
   }
   return plan;
 }
@@ -334,7 +294,8 @@ bool run(Bench& bench, const Options& options) {
   // After every run, so that a sweep that is broken off leaves what it found.
   const auto points =
       sweep(plan_of(options), options.device, [&](const std::vector<SweepPoint>& so_far) {
-        write_error_chart(bench.out(), chart, so_far);
+        write_csv(bench.out() / "error.csv", csv_rows(so_far));
+        draw(bench.out(), chart, so_far);
       });
   bench.tell(explanation(chart));
   bench.show("error.png", "Run time against error");
@@ -365,6 +326,6 @@ int main(int argc, char** argv) {
   app.add_option("--clock", options.clock,
                  "What the chart is drawn over: wall, or processor where others are at work, too")
       ->transform(CLI::CheckedTransformer(clocks));
-  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  bench.add_device_option(options.device);
   return bench.run(argc, argv, [&] { return run(bench, options); });
 }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <stdexcept>
 
+#include "program/text.hpp"
 #include "tests/bench/progress.hpp"
 
 namespace splash::bench {
@@ -27,10 +27,7 @@ void tell(const Progress& progress, const SweepPoint& point) {
   const sim::SolveWork& work = point.result.work;
   std::printf("%s %7d  %8.3f  %8.3f  %9.3g", progress.end().c_str(), point.result.particles,
               point.wall_cost(), point.processor_cost(1), point.error());
-  if (work.solves > 0) {
-    std::printf("  %.1f (%d)",
-                static_cast<double>(work.iterations) / static_cast<double>(work.solves), work.most);
-  }
+  if (work.solves > 0) std::printf("  %.1f (%d)", point.iterations(), work.most);
   std::printf("\n");
   std::fflush(stdout);
 }
@@ -61,17 +58,17 @@ validation::Setting setting_of(const Quality& quality, double spacing) {
 std::string Quality::name() const {
   std::string text =
       solver == PressureKind::grid_projected ? "grid-projected" : "weakly compressible";
-  if (time_step_factor != 1.0) {
-    char factor[32];
-    std::snprintf(factor, sizeof factor, ", dt x %g", time_step_factor);
-    text += factor;
-  }
+  if (time_step_factor != 1.0) text += program::format(", dt x %g", time_step_factor);
   if (kernels == KernelKind::reference) text += ", reference kernels";
   return text;
 }
 
 double SweepPoint::error() const {
   return std::abs(figure_of(result.outcome, item->figure));
+}
+
+double SweepPoint::iterations() const {
+  return static_cast<double>(result.work.iterations) / static_cast<double>(result.work.solves);
 }
 
 double SweepPoint::wall_cost() const {
@@ -130,10 +127,9 @@ std::vector<SweepPoint> sweep(const SweepPlan& plan, int device,
     const std::size_t count = std::min(plan.resolutions, run.spacings.size());
     for (std::size_t k = 0; k < count; ++k) {
       for (const Quality& quality : plan.qualities) {
-        char what[128];
-        std::snprintf(what, sizeof what, "%-17s %s/dp = %-4.0f  %-38s", item->name.c_str(),
-                      run.size_name.c_str(), run.size / run.spacings[k], quality.name().c_str());
-        Progress progress(what);
+        Progress progress(program::format("%-17s %s/dp = %-4.0f  %-38s", item->name.c_str(),
+                                          run.size_name.c_str(), run.size / run.spacings[k],
+                                          quality.name().c_str()));
         sim::Device& where = quality.kernels == KernelKind::reference ? scalars : vectors;
         points.push_back({item, quality,
                           validation::run_case(where, run, setting_of(quality, run.spacings[k]), {},

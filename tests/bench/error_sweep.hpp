@@ -31,7 +31,8 @@ struct SweepPoint {
   Quality quality;
   validation::Result result;
 
-  [[nodiscard]] double error() const;  ///< in figure's unit, not negative
+  [[nodiscard]] double error() const;       ///< in figure's unit, not negative
+  [[nodiscard]] double iterations() const;  ///< of a solve, on average
   /// Seconds of computing per simulated second, set-up, settling and gauges left out [1]: of the
   /// clock, or of processors, shared among `cores`.
   [[nodiscard]] double wall_cost() const;

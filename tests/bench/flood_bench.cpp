@@ -4,15 +4,13 @@
 // commands through the queue into its audio thread. Nothing may be lost
 // but what the kernel dropped and says so; memory stays; afterwards all is as before. Ends with 1
 // when any of it is not so.
-#include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "program/text.hpp"
 #include "protocol/control.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/status.hpp"
@@ -62,7 +60,7 @@ class Pace {
     ++done_;
     const double due = start_ + static_cast<double>(done_) / rate_;
     const double early = due - protocol::monotonic_now();
-    if (early > 0.001) std::this_thread::sleep_for(std::chrono::duration<double>(early));
+    if (early > 0.001) sleep(early);
   }
   [[nodiscard]] double seconds() const { return protocol::monotonic_now() - start_; }
   [[nodiscard]] double rate() const { return static_cast<double>(done_) / seconds(); }
@@ -76,9 +74,7 @@ class Pace {
 class Flood {
  public:
   explicit Flood(bench::Bench& bench)
-      : bench_(bench),
-        synth_({"--rig", std::string(SPLASH_SOURCE_DIR) + "/configs/rigs/stereo.yaml", "--device",
-                "null"}) {
+      : bench_(bench), synth_({"--rig", tests::rig_path("stereo.yaml"), "--device", "null"}) {
     for (int i = 0; i < 50; ++i) say({bubble(0, 0.004F)});  // all that it allocates, it has
     settle();
   }
@@ -182,7 +178,7 @@ class Flood {
   /// Until all that was sent has been looked at, with heartbeats.
   void settle() {
     for (int i = 0; i < 10; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      sleep(0.1);
       say({});
     }
   }
@@ -238,10 +234,9 @@ class Flood {
 
   template <class... Values>
   void tell(const char* format, Values... values) {
-    std::array<char, 512> line{};
-    std::snprintf(line.data(), line.size(), format, values...);
-    std::printf("  %s\n", line.data());
-    bench_.tell(std::string(line.data()) + '.');
+    const std::string line = program::format(format, values...);
+    std::printf("  %s\n", line.c_str());
+    bench_.tell(line + '.');
   }
 
   bench::Bench& bench_;
@@ -251,22 +246,15 @@ class Flood {
   bool right_ = true;
 };
 
-/// True when all came in order, in ten portions.
+/// True when all came in order.
 bool run_commands(bench::Bench& bench, double commands) {
-  constexpr int kPortions = 10;
   std::printf("queue: %.0f commands from thread to thread\n", commands);
-  std::uint64_t wrong = 0;
   const double start = protocol::monotonic_now();
-  for (int i = 0; i < kPortions; ++i) {
-    const auto report = synth::run_queue(static_cast<std::uint64_t>(commands / kPortions));
-    wrong += report.wrong;
-  }
+  const std::uint64_t wrong = synth::run_queue(static_cast<std::uint64_t>(commands)).wrong;
   const double rate = commands / (protocol::monotonic_now() - start);
-  bench.tell(bench::number(commands) + " commands through the queue into the audio thread at " +
-             bench::number(rate) + " a second: " + std::to_string(wrong) +
-             " lost, torn or out of order.");
-  std::printf("  %.2g/s, %llu lost, torn or out of order\n", rate,
-              static_cast<unsigned long long>(wrong));
+  bench.say(bench::number(commands) + " commands through the queue into the audio thread at " +
+            bench::number(rate) + " a second: " + std::to_string(wrong) +
+            " lost, torn or out of order.");
   return wrong == 0;
 }
 

@@ -3,11 +3,8 @@
 // gives each its share of the inputs, and counts what they find; then asks oscpack and liblo what
 // they read in what the gate accepts. Prints progress and a report; what was found lies in a
 // folder, each input a file. Ends with 1 when anything was found.
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -158,16 +155,11 @@ void print_news(const Result& result) {
   std::fflush(stdout);
 }
 
-bool wanted(const Options& options, const std::string& name) {
-  return options.only.empty() ||
-         std::find(options.only.begin(), options.only.end(), name) != options.only.end();
-}
-
 /// As many targets at once as there are cores, in the order of the table.
 std::vector<Result> fuzz_all(const Options& options) {
   std::vector<const fuzz::Target*> queue;
   for (const fuzz::Target& target : fuzz::targets()) {
-    if (wanted(options, target.name)) queue.push_back(&target);
+    if (bench::is_wanted(options.only, target.name)) queue.push_back(&target);
   }
   std::vector<Result> results(queue.size());
   std::atomic<std::size_t> next{0};
@@ -276,7 +268,7 @@ bool run(bench::Bench& bench, Options options) {
     build_fuzzers(options.jobs);
     right = report(bench, fuzz_all(options));
   }
-  if (wanted(options, "readers")) {
+  if (bench::is_wanted(options.only, "readers")) {
     const auto inputs = static_cast<std::uint64_t>(0.1 * options.inputs);
     const bool alike = compare_readers(inputs);
     bench.tell("Of " + std::to_string(inputs) + " packets, oscpack, liblo and our decoder read " +

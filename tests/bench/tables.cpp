@@ -29,16 +29,17 @@ std::string number(double value, int digits) {
   return program::format("%.*g", digits, value);
 }
 
+std::string markdown(const Row& row) {
+  std::string text = "|";
+  for (const std::string& cell : row) text += ' ' + cell + " |";
+  return text + '\n';
+}
+
 std::string markdown(const std::vector<Row>& rows) {
   std::string text;
-  const auto add = [&](const Row& row) {
-    text += '|';
-    for (const std::string& cell : row) text += ' ' + cell + " |";
-    text += '\n';
-  };
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    add(rows[k]);
-    if (k == 0) add(Row(rows[0].size(), "---"));
+    text += markdown(rows[k]);
+    if (k == 0) text += markdown(Row(rows[0].size(), "---"));
   }
   return text;
 }

@@ -14,6 +14,7 @@ using Row = std::vector<std::string>;
 /// With so many significant digits.
 [[nodiscard]] std::string number(double value, int digits = 3);
 
+[[nodiscard]] std::string markdown(const Row& row);
 /// The first row is the head.
 [[nodiscard]] std::string markdown(const std::vector<Row>& rows);
 

@@ -3,18 +3,15 @@
 // are: all three programs on this machine, the page in Chromium without a screen and without a
 // graphics card, which draws points, since software is slow at water. Prints what the page measures
 // of itself.
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
-#include <iostream>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "protocol/udp_socket.hpp"
+#include "tests/bench/report.hpp"
 #include "tests/support/median.hpp"
-#include "tests/support/process_use.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/view/chromium.hpp"
@@ -35,7 +32,7 @@ struct Settings {
 /// Graphics have nothing to do, all else goes its usual way.
 constexpr const char* kBlind = "WebGL2RenderingContext.prototype.drawArrays = () => {};";
 
-void look(const std::string& scene, const Settings& settings) {
+void look(bench::Table& table, const std::string& scene, const Settings& settings) {
   Synth synth({"--rig", "stereo", "--device", "null", "--show", "127.0.0.1:0"});
   Simulator simulator({"--scene", scene, "--show", "127.0.0.1:0", "--target",
                        protocol::to_string(synth.endpoint())});
@@ -75,18 +72,20 @@ void look(const std::string& scene, const Settings& settings) {
     apart.push_back(std::abs(picture.back() - sound.back()));
   }
   const double pictures = browser.evaluate("splash.pictures()").get<double>() - before;
-  const auto ms = [](const std::vector<double>& values) { return 1e3 * median(values); };
-  std::printf("%-8s %10.1f %12.1f %12.1f %10.1f %14.1f %12.1f %10.1f %10.1f\n", scene.c_str(),
-              pictures / settings.seconds, ms(half), ms(arrival), ms(age), ms(picture), ms(sound),
-              ms(apart), 1e3 * *std::max_element(apart.begin(), apart.end()));
-  std::fflush(stdout);
+  const auto ms = [](const std::vector<double>& values) {
+    return bench::number(1e3 * median(values));
+  };
+  table.add({scene, bench::number(pictures / settings.seconds), ms(half), ms(arrival), ms(age),
+             ms(picture), ms(sound), ms(apart),
+             bench::number(1e3 * *std::max_element(apart.begin(), apart.end()))});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Settings settings;
-  CLI::App app("How old pictures are, and how far from the sound.", "bench-view");
+  bench::Bench bench("view", "How old pictures are, and how far from the sound.");
+  CLI::App& app = bench.options();
   app.add_option("--scene", settings.scenes, "Scenes (repeatable)")->capture_default_str();
   app.add_option("--seconds", settings.seconds, "Of looking, of each scene")
       ->check(CLI::Range(1, 1000))
@@ -95,21 +94,14 @@ int main(int argc, char** argv) {
   app.add_option("--query", settings.query, "Of the page's address: ?points or ?share=0.5")
       ->capture_default_str();
   app.add_flag("--blind", settings.blind, "Draw nothing: the way of a state to the page alone");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  return bench.run(argc, argv, [&] {
     if (!Chromium::is_there())
       throw std::runtime_error("there is no chromium: apt-get install chromium");
-    std::printf(
-        "scene    pictures/s  half arrive  95 %% arrive  are drawn  event-picture  event-sound     "
-        " apart"
-        "  most apart\n"
-        "                            [ms]         [ms]       [ms]           [ms]         [ms]      "
-        " [ms]"
-        "        [ms]\n");
-    for (const std::string& scene : settings.scenes) look(scene, settings);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "bench-view: " << error.what() << '\n';
-    return 1;
-  }
+    auto table =
+        bench.table("view.csv", {"scene", "pictures/s", "half arrive [ms]", "95 % arrive [ms]",
+                                 "are drawn [ms]", "event-picture [ms]", "event-sound [ms]",
+                                 "apart [ms]", "most apart [ms]"});
+    for (const std::string& scene : settings.scenes) look(table, scene, settings);
+    return true;
+  });
 }

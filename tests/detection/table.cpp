@@ -2,44 +2,52 @@
 #include "tests/detection/table.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "program/text.hpp"
+#include "tests/bench/tables.hpp"
+
 namespace splash::detection {
 namespace {
 
-const char* const kColumns =
-    " | impacts expected | detected | missed | false | moment, ms | approach, % | P / (m_a u) | "
-    "cavities of an entry | stray (above) | closing / law | V / law | bubbles | faulty";
+const bench::Row kColumns = {
+    "impacts expected", "detected",      "missed",      "false",
+    "moment, ms",       "approach, %",   "P / (m_a u)", "cavities of an entry",
+    "stray (above)",    "closing / law", "V / law",     "bubbles"};
 const char* const kBegin = "<!-- begin: detection-bench -->\n";
 const char* const kEnd = "<!-- end: detection-bench -->\n";
-const char* const kRule =
-    " | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | ---";
 
-/// "smallest / median / largest".
-std::string spread(std::vector<double> values, double factor, const char* format) {
-  if (values.empty()) return "";
-  std::sort(values.begin(), values.end());
-  char text[96];
-  std::snprintf(text, sizeof text, format, factor * values.front(),
-                factor * values[values.size() / 2], factor * values.back());
-  return text;
+bench::Row joined(const bench::Row& first, const bench::Row& middle, const bench::Row& last) {
+  bench::Row row = first;
+  row.insert(row.end(), middle.begin(), middle.end());
+  row.insert(row.end(), last.begin(), last.end());
+  return row;
 }
 
-std::string figures(const Score& s) {
-  char counts[64];
-  std::snprintf(counts, sizeof counts, " | %d | %d | %d | %d | ", s.wanted, s.hit, s.wanted - s.hit,
-                s.untrue);
-  char rest[64];
-  std::snprintf(rest, sizeof rest, " | %d | %d (%d) | ", s.cavities, s.stray, s.stray_above);
-  std::vector<double> percent = s.speed_error;
-  return counts + spread(s.late_ms, 1.0, "%+.1f / %+.1f / %+.1f") + " | " +
-         spread(percent, 100.0, "%+.0f / %+.0f / %+.0f") + " | " +
-         spread(s.momentum, 1.0, "%.2f / %.2f / %.2f") + rest +
-         spread(s.closing, 1.0, "%.2f / %.2f / %.2f") + " | " +
-         spread(s.air, 1.0, "%.2f / %.2f / %.2f") + " | " + std::to_string(s.bubbles);
+/// "smallest / median / largest", each as `one` has it.
+std::string spread(std::vector<double> values, double factor, const char* one) {
+  if (values.empty()) return "";
+  std::sort(values.begin(), values.end());
+  const auto text = [&](double value) { return program::format(one, factor * value); };
+  return text(values.front()) + " / " + text(values[values.size() / 2]) + " / " +
+         text(values.back());
+}
+
+bench::Row figures(const Score& s) {
+  return {std::to_string(s.wanted),
+          std::to_string(s.hit),
+          std::to_string(s.wanted - s.hit),
+          std::to_string(s.untrue),
+          spread(s.late_ms, 1.0, "%+.1f"),
+          spread(s.speed_error, 100.0, "%+.0f"),
+          spread(s.momentum, 1.0, "%.2f"),
+          std::to_string(s.cavities),
+          program::format("%d (%d)", s.stray, s.stray_above),
+          spread(s.closing, 1.0, "%.2f"),
+          spread(s.air, 1.0, "%.2f"),
+          std::to_string(s.bubbles)};
 }
 
 /// In the order of their first case.
@@ -60,8 +68,8 @@ std::string row(const std::string& name, const std::vector<const Outcome*>& outc
     add(sum, outcome->score);
     if (!outcome->score.faults.empty()) ++faulty;
   }
-  return "| " + name + " | " + std::to_string(outcomes.size()) + figures(sum) + " | " +
-         std::to_string(faulty) + " |\n";
+  return bench::markdown(
+      joined({name, std::to_string(outcomes.size())}, figures(sum), {std::to_string(faulty)}));
 }
 
 std::vector<const Outcome*> of_sweep(const std::vector<Outcome>& outcomes,
@@ -75,16 +83,15 @@ std::vector<const Outcome*> of_sweep(const std::vector<Outcome>& outcomes,
 
 void write_cases(std::ostream& out, const std::vector<Outcome>& outcomes) {
   for (const std::string& sweep : sweeps_of(outcomes)) {
-    out << "\n## " << sweep << "\n\n| case" << kColumns
-        << " | particles | processor time, s |\n| ---" << kRule << " | --- | --- |\n";
+    std::vector<bench::Row> rows = {
+        joined({"case"}, kColumns, {"faulty", "particles", "processor time, s"})};
     for (const Outcome* outcome : of_sweep(outcomes, sweep)) {
-      char effort[48];
-      std::snprintf(effort, sizeof effort, " | %d | %.1f |\n", outcome->particles,
-                    outcome->processor);
-      out << "| " << outcome->item.name << figures(outcome->score) << " | "
-          << (outcome->score.faults.empty() ? "" : "yes") << effort;
+      rows.push_back(
+          joined({outcome->item.name}, figures(outcome->score),
+                 {outcome->score.faults.empty() ? "" : "yes", std::to_string(outcome->particles),
+                  program::format("%.1f", outcome->processor)}));
     }
-    out << '\n';
+    out << "\n## " << sweep << "\n\n" << bench::markdown(rows) << '\n';
     for (const Outcome* outcome : of_sweep(outcomes, sweep)) {
       for (const std::string& fault : outcome->score.faults) {
         out << "* " << outcome->item.name << ": " << fault << '\n';
@@ -93,33 +100,35 @@ void write_cases(std::ostream& out, const std::vector<Outcome>& outcomes) {
   }
 }
 
-void write_csv(std::ostream& out, const std::vector<Outcome>& outcomes) {
-  out << "sweep,case,wanted,told,missed,false,allowed,waves,cavities,stray,stray_above,bubbles,"
-         "faults,late_ms,approach_error,momentum_ratio,closing_ratio,air_ratio,depth_ratio\n";
-  const auto list = [&](const std::vector<double>& values) {
-    out << ',';
-    for (std::size_t k = 0; k < values.size(); ++k) out << (k > 0 ? " " : "") << values[k];
-  };
+std::vector<bench::Row> csv_rows(const std::vector<Outcome>& outcomes) {
+  std::vector<bench::Row> rows = {{"sweep", "case", "wanted", "told", "missed", "false", "allowed",
+                                   "waves", "cavities", "stray", "stray_above", "bubbles", "faults",
+                                   "late_ms", "approach_error", "momentum_ratio", "closing_ratio",
+                                   "air_ratio", "depth_ratio"}};
   for (const Outcome& outcome : outcomes) {
     const Score& s = outcome.score;
-    out << outcome.item.sweep << ",\"" << outcome.item.name << '"';
+    bench::Row row = {outcome.item.sweep, outcome.item.name};
     for (const int count :
          {s.wanted, s.hit, s.wanted - s.hit, s.untrue, s.allowed, s.waves, s.cavities, s.stray,
           s.stray_above, s.bubbles, static_cast<int>(s.faults.size())}) {
-      out << ',' << count;
+      row.push_back(std::to_string(count));
     }
-    list(s.late_ms);
-    list(s.speed_error);
-    list(s.momentum);
-    list(s.closing);
-    list(s.air);
-    list(s.depth);
-    out << '\n';
+    for (const auto* values :
+         {&s.late_ms, &s.speed_error, &s.momentum, &s.closing, &s.air, &s.depth}) {
+      std::string list;
+      for (const double value : *values) {
+        list += (list.empty() ? "" : " ") + bench::number(value, 6);
+      }
+      row.push_back(list);
+    }
+    rows.push_back(row);
   }
+  return rows;
 }
 
 std::string head() {
-  return std::string("| sweep | runs") + kColumns + " |\n| --- | ---" + kRule + " |\n";
+  const bench::Row names = joined({"sweep", "runs"}, kColumns, {"faulty"});
+  return bench::markdown(names) + bench::markdown(bench::Row(names.size(), "---"));
 }
 
 /// A sweep is one row; its recordings, which all differ, are a row each.
@@ -193,11 +202,8 @@ void write_report(const std::filesystem::path& folder, const std::string& device
          << " s of processor time. Three figures are the smallest, the median and the largest.\n\n"
          << summary(outcomes);
   write_cases(report, outcomes);
-  std::ofstream csv(folder / "cases.csv");
-  write_csv(csv, outcomes);
-  if (!report.flush() || !csv.flush()) {
-    throw std::runtime_error("cannot write into " + folder.string());
-  }
+  if (!report.flush()) throw std::runtime_error("cannot write into " + folder.string());
+  bench::write_csv(folder / "cases.csv", csv_rows(outcomes));
 }
 
 }  // namespace splash::detection

@@ -2,11 +2,10 @@
 #include "tests/validation/report.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
+#include "program/text.hpp"
 #include "sim-server/scene/solver_choice.hpp"
 #include "tests/bench/plot.hpp"
 #include "tests/bench/tables.hpp"
@@ -16,10 +15,8 @@ namespace splash::validation {
 namespace {
 
 std::string resolution(const Result& result) {
-  char digits[64];
-  std::snprintf(digits, sizeof digits, "%s/dp = %.0f", result.item->size_name.c_str(),
-                result.item->size / result.spacing);
-  return digits;
+  return program::format("%s/dp = %.0f", result.item->size_name.c_str(),
+                         result.item->size / result.spacing);
 }
 
 /// With the solver's name, where there are several.
@@ -82,11 +79,9 @@ void draw_case(const std::filesystem::path& folder, const std::vector<const Resu
                 << "set title \"" << item.title << "\" noenhanced textcolor rgb ink\n"
                 << "set xlabel \"" << item.x_label << "\" noenhanced textcolor rgb ink\n"
                 << "set ylabel \"" << item.y_label << "\" noenhanced textcolor rgb ink\n";
-  std::string curves;
   std::size_t number = 0;
   const auto add = [&](const Curve& curve, const std::string& title, const std::string& style) {
-    curves += (curves.empty() ? "" : ", ") + plot.data(curve.x, curve.y) + " with " + style +
-              " title \"" + title + '"';
+    plot.add({curve.x, curve.y}, "with " + style + " title \"" + title + '"');
   };
   for (const Result* result : results) {
     for (const Curve& curve : result->outcome.curves) {
@@ -101,25 +96,24 @@ void draw_case(const std::filesystem::path& folder, const std::vector<const Resu
         marks ? "points pointtype 7 pointsize 0.8 linecolor rgb \"#000000\""
               : "lines dashtype 2 linecolor rgb \"#000000\"");
   }
-  plot.script() << "plot " << curves << '\n';
   plot.draw();
 }
 
-void write_figures(const std::filesystem::path& path, const std::vector<Result>& results) {
-  std::ofstream out(path);
-  out << "case,solver,spacing_m,size_over_spacing,particles,simulated_s,wall_s,processor_s,figure,"
-         "unit,"
-         "value,lowest,highest,passes\n";
+std::vector<bench::Row> figure_rows(const std::vector<Result>& results) {
+  std::vector<bench::Row> rows = {{"case", "solver", "spacing_m", "size_over_spacing", "particles",
+                                   "simulated_s", "wall_s", "processor_s", "figure", "unit",
+                                   "value", "lowest", "highest", "passes"}};
+  const auto exact = [](double value) { return bench::number(value, 6); };
   for (const Result& r : results) {
     for (const Figure& figure : r.outcome.figures) {
-      out << r.item->name << ',' << name_of(r.solver) << ',' << r.spacing << ','
-          << r.item->size / r.spacing << ',' << r.particles << ',' << r.simulated << ','
-          << r.all.wall << ',' << r.all.processor << ",\"" << figure.name << "\"," << figure.unit
-          << ',' << figure.value << ',' << figure.lowest << ',' << figure.highest << ','
-          << (figure.has_gate() ? (figure.passes() ? "1" : "0") : "") << '\n';
+      rows.push_back({r.item->name, name_of(r.solver), exact(r.spacing),
+                      exact(r.item->size / r.spacing), std::to_string(r.particles),
+                      exact(r.simulated), exact(r.all.wall), exact(r.all.processor), figure.name,
+                      figure.unit, exact(figure.value), exact(figure.lowest), exact(figure.highest),
+                      figure.has_gate() ? (figure.passes() ? "1" : "0") : ""});
     }
   }
-  if (!out) throw std::runtime_error("cannot write " + path.string());
+  return rows;
 }
 
 }  // namespace
@@ -179,7 +173,7 @@ void write_report(const std::filesystem::path& folder, const std::string& device
     }
   }
   if (!out) throw std::runtime_error("cannot write " + (folder / "report.md").string());
-  write_figures(folder / "figures.csv", results);
+  bench::write_csv(folder / "figures.csv", figure_rows(results));
 }
 
 }  // namespace splash::validation
