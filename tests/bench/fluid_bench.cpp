@@ -2,7 +2,6 @@
 // The fluid's cost on this machine: the two main kernels beside the same sums written by hand in
 // C++, the whole step from 2,000 to a million particles (16 million if asked for), its stages, and
 // what each kernel asks beside what the device can do. Prints tables and writes CSV and SVG.
-#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,7 +16,7 @@ using namespace splash;
 using namespace splash::bench;
 
 struct Options {
-  std::vector<std::string> parts = {"kernels", "size", "stages", "limits", "pool"};
+  std::vector<std::string> parts;
   int most_particles = 1'000'000;
   int device = -1;
   std::string profile;        ///< of profiles(); empty: as suits the device
@@ -30,10 +29,6 @@ struct Options {
   [[nodiscard]] Limits other_device() const {
     if (there.empty()) return {};
     return {.bandwidth = 1e9 * there[0], .arithmetic = 1e9 * there[1], .launch = 1e-6 * there[2]};
-  }
-
-  [[nodiscard]] bool wants(const char* part) const {
-    return std::find(parts.begin(), parts.end(), part) != parts.end();
   }
 };
 
@@ -53,14 +48,14 @@ sim::Device device_of(const Options& options) {
 bool run(Bench& bench, const Options& options) {
   sim::Device device = device_of(options);
   bench.set_device(describe(device.facts()));
-  if (options.wants("kernels")) beside_the_yardstick(bench, device, options.most_particles);
-  if (options.wants("size")) against_size(bench, device, options.most_particles, options.until());
-  const Asks asks = {options.wants("limits"), options.wants("pool")};
-  if (asks.cube || asks.pool) {
-    against_limits(bench, device, asks, options.most_particles, options.until(),
-                   options.other_device());
+  const auto wants = [&](const char* part) { return is_wanted(options.parts, part); };
+  if (wants("kernels")) beside_the_yardstick(bench, device, options.most_particles);
+  if (wants("size")) against_size(bench, device, options.most_particles, options.until());
+  if (wants("limits") || wants("pool")) {
+    against_limits(bench, device, wants("limits"), wants("pool"), options.most_particles,
+                   options.until(), options.other_device());
   }
-  if (options.wants("stages")) stage_by_stage(bench, device);
+  if (wants("stages")) stage_by_stage(bench, device);
   return true;
 }
 
@@ -85,7 +80,7 @@ int main(int argc, char** argv) {
          "GB/s, G operations/s and us a launch of a GPU: what limits and pool would be there")
       ->expected(3)
       ->check(CLI::PositiveNumber);
-  app.add_option("--device", options.device, "OpenCL device as sim-server --list-devices counts");
+  bench.add_device_option(options.device);
   app.add_option(
          "--profile", options.profile,
          "How kernels, size, stages, limits and pool cut work: cpu, cpu-ranks (cpu with the "

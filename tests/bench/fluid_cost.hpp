@@ -4,17 +4,13 @@
 // can do at most. Each is a table of the benchmark.
 #pragma once
 
+#include <utility>
+
 #include "sim-server/device/device.hpp"
 #include "tests/bench/fluid_work.hpp"
 #include "tests/bench/report.hpp"
 
 namespace splash::bench {
-
-/// Water that is held against limits.
-struct Asks {
-  bool cube = false;
-  bool pool = false;
-};
 
 /// When a measurement over growing sizes has to be over.
 struct Until {
@@ -26,6 +22,8 @@ struct Until {
 
 /// By kernels that do nothing else; `device` with profiling. The bandwidth is that of its memory.
 [[nodiscard]] Limits limits_of(sim::Device& device);
+/// Of a kernel that does nothing: what passes, and what processors take [s].
+[[nodiscard]] std::pair<double, double> empty_launch(sim::Device& device);
 /// Of three arrays that together have so many bytes, from where they are after a first pass [B/s].
 [[nodiscard]] double bandwidth_of(sim::Device& device, std::size_t bytes);
 
@@ -36,7 +34,7 @@ void beside_the_yardstick(Bench& bench, sim::Device& device, int most_particles)
 void against_size(Bench& bench, sim::Device& device, int most_particles, const Until& until);
 /// Kernel by kernel; `device` with profiling. `there`: another device, of which the least times are
 /// told, too, or nothing.
-void against_limits(Bench& bench, sim::Device& device, const Asks& asks, int most_particles,
+void against_limits(Bench& bench, sim::Device& device, bool cube, bool pool, int most_particles,
                     const Until& until, const Limits& there);
 /// Of a cube of water, and of the pool with its bodies and detectors; `device` with profiling.
 void stage_by_stage(Bench& bench, sim::Device& device);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a step asks of the device, kernel by kernel, beside what the device can do: one rule for all
 // kernels and devices, in which no number is fitted and none belongs to a kernel.
-//   time = launches x begin + (groups, counts, runs, held) / their rates
-//          + max(bytes / bandwidth, operations / arithmetic + scalar instructions / their rate)
+//   time = max(bytes / bandwidth, operations / arithmetic) + runs / their rate
 // What overlaps is within the brackets, the rest waits. A step has what the host takes for its
 // launches besides. Each rate is that of a probe that does nothing else; bytes stream at the rate
 // of arrays that together are as large as all of a step, each written in turn, since a kernel finds
@@ -15,13 +14,13 @@
 #include <string>
 #include <vector>
 
+#include "program/text.hpp"
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/fluid_work.hpp"
-#include "tests/bench/frame_work.hpp"
 #include "tests/bench/opencl_ledger.hpp"
 #include "tests/support/scene_text.hpp"
 
@@ -30,17 +29,17 @@ namespace {
 
 using namespace splash::sim;
 
-/// Of what a device that is not at hand is not said to do, nothing is told but this: a run that is
-/// looked up takes a sector of 32 bytes from memory. Its kernels have no scalar part and no counts.
+/// Of a device that is not at hand: a run that is looked up takes a sector of 32 bytes from memory.
 Limits with_runs(Limits there) {
   there.runs = there.bandwidth / 32.0;
   return there;
 }
 
-/// For each step [s].
+/// For each step: times [s].
 struct Measured {
   std::map<std::string, double> kernels;
   double step = 0.0;
+  double commands = 0.0;  ///< besides kernels
 };
 
 /// Of water that begins anew, and for how long it does so, at least three times. Much water takes
@@ -71,6 +70,7 @@ class Measure {
     const double end = protocol::monotonic_now();
     spent_ += end - begin;
     steps_ += steps;
+    commands_ += static_cast<double>(noted_commands().all());
     for (const auto& [name, launches] : end_ledger()) {
       const double seconds = launches.seconds / steps;
       const auto [at, is_new] = found_.kernels.emplace(name, seconds);
@@ -80,6 +80,7 @@ class Measure {
   [[nodiscard]] Measured found() const {
     Measured found = found_;
     found.step = spent_ / steps_;
+    found.commands = commands_ / steps_;
     return found;
   }
 
@@ -89,6 +90,7 @@ class Measure {
   Measured found_;
   double spent_ = 0.0;  ///< [s]
   double steps_ = 0.0;
+  double commands_ = 0.0;
   int times_ = 0;
 };
 
@@ -98,35 +100,33 @@ struct Asked {
   int particles = 0;
   std::map<std::string, Work> work;   ///< of a step
   std::map<std::string, Work> there;  ///< of one with the kernels that GPUs get
-  double commands = 0.0;              ///< of a step, besides kernels
   double copied = 0.0;                ///< of a step [B]
 };
 
 /// With what the host takes for so many commands besides [ms].
-double with_launches(double kernels, double launches, const Asked& asked, const Limits& limits) {
-  return 1e3 *
-         (kernels + (launches + asked.commands) * limits.launch + asked.copied / limits.bandwidth);
+double with_commands(double kernels, double commands, const Asked& asked, const Limits& limits) {
+  return 1e3 * (kernels + commands * limits.launch + asked.copied / limits.bandwidth);
 }
 
-void foretell(const Asked& asked, const Limits& there) {
+void foretell(const Asked& asked, double commands, const Limits& there) {
   std::printf("  there                launches      MB  M operations        ms\n");
-  double sum = 0.0, launches = 0.0;
+  double sum = 0.0;
   for (const auto& [name, work] : asked.there) {
     const double least = expected(work, there);
-    launches += work.launches;
+    commands += work.launches;
     sum += least;
     std::printf("  %-20s %8.2f %7.2f  %12.2f  %8.4f\n", name.c_str(), work.launches,
                 1e-6 * work.bytes, 1e-6 * work.operations, 1e3 * least);
   }
-  std::printf("  a step with its %.1f launches is expected to take %.3f ms there\n",
-              launches + asked.commands, with_launches(sum, launches, asked, there));
+  std::printf("  a step with its %.1f commands is expected to take %.3f ms there\n", commands,
+              with_commands(sum, commands, asked, there));
 }
 
 void add(Table& table, const Asked& asked, const Measured& found, const Limits& here,
          const Limits& there) {
   std::printf("\n%s, %d particles, bytes at %.1f GB/s\n", asked.what, asked.particles,
               1e-9 * here.bandwidth);
-  double sum = 0.0, launches = 0.0;
+  double sum = 0.0, commands = found.commands;
   for (const auto& [name, seconds] : found.kernels) {
     if (!asked.work.contains(name)) {
       std::printf("%s ran, but not in the frame that was looked at\n", name.c_str());
@@ -134,19 +134,16 @@ void add(Table& table, const Asked& asked, const Measured& found, const Limits& 
     }
     const Work& work = asked.work.at(name);
     const double least = expected(work, here);
-    launches += work.launches;
+    commands += work.launches;
     sum += least;
     table.add({asked.what, std::to_string(asked.particles), name, number(work.launches),
-               number(1e-6 * work.bytes), number(1e-6 * work.operations),
-               number(1e-6 * work.scalar), number(1e-6 * work.counts), number(1e-6 * work.runs),
-               number(1e-6 * work.held), number(1e3 * seconds), number(1e3 * least),
-               number(least / seconds, 2)});
+               number(1e-6 * work.bytes), number(1e-6 * work.operations), number(1e-6 * work.runs),
+               number(1e3 * seconds), number(1e3 * least), number(least / seconds, 2)});
   }
-  const double least = with_launches(sum, launches, asked, here);
-  table.add({asked.what, std::to_string(asked.particles), "the step",
-             number(launches + asked.commands), "", "", "", "", "", "", number(1e3 * found.step),
-             number(least), number(1e-3 * least / found.step, 2)});
-  if (there.bandwidth > 0.0) foretell(asked, there);
+  const double least = with_commands(sum, commands, asked, here);
+  table.add({asked.what, std::to_string(asked.particles), "the step", number(commands), "", "", "",
+             number(1e3 * found.step), number(least), number(1e-3 * least / found.step, 2)});
+  if (there.bandwidth > 0.0) foretell(asked, found.commands, there);
 }
 
 struct Place {
@@ -217,7 +214,6 @@ void of_pool(Place& at, int count) {
   for (const auto& [name, work] : frame_work(seen, gpu_profile())) {
     asked.there[name] = work.times(1.0 / seen.steps);
   }
-  asked.commands = static_cast<double>(frame_commands(seen).all()) / seen.steps;
   asked.copied = copied_bytes(seen) / seen.steps;
   std::printf(
       "\nThe pool: %d steps a frame, %.0f bubbles, %.0f fast particles, %.0f points of skin",
@@ -239,30 +235,21 @@ void each(Place at, void (*run)(Place&, int), std::initializer_list<int> sizes, 
 
 }  // namespace
 
-void against_limits(Bench& bench, Device& device, const Asks& asks, int most_particles,
+void against_limits(Bench& bench, Device& device, bool cube, bool pool, int most_particles,
                     const Until& until, const Limits& there) {
   const Limits here = limits_of(device);
-  char what[600];
-  std::snprintf(
-      what, sizeof what,
+  bench.say(program::format(
       "What a step of the state equation asks of the device. It streams %.1f GB/s from memory "
-      "(triad), "
-      "computes %.1f G operations/s, %.1f G "
-      "scalar instructions/s, %.2f G counts/s, %.3f G runs/s, %.3f G held/s, %.3f G "
-      "work-groups/s; a launch takes %.1f us of the host, %.1f us of the device. The rule is "
-      "that at the head of tests/bench/fluid_limits.cpp:",
-      1e-9 * here.bandwidth, 1e-9 * here.arithmetic, 1e-9 * here.scalar, 1e-9 * here.counts,
-      1e-9 * here.runs, 1e-9 * here.held, 1e-9 * here.groups, 1e6 * here.launch, 1e6 * here.begin);
-  std::printf("\n%s\n", what);
-  auto table =
-      bench.table("limits.csv", {"water", "particles", "kernel", "launches", "MB", "M operations",
-                                 "M scalar", "M counts", "M runs", "M held", "measured [ms]",
-                                 "expected [ms]", "expected / measured"});
+      "(triad), computes %.1f G operations/s, goes through %.3f G runs/s; a launch takes %.1f us "
+      "of the host. The rule is that at the head of tests/bench/fluid_limits.cpp:",
+      1e-9 * here.bandwidth, 1e-9 * here.arithmetic, 1e-9 * here.runs, 1e6 * here.launch));
+  auto table = bench.table(
+      "limits.csv", {"water", "particles", "kernel", "launches", "MB", "M operations", "M runs",
+                     "measured [ms]", "expected [ms]", "expected / measured"});
   const Place at = {device, here, with_runs(there), table};
-  if (asks.pool) each(at, of_pool, {0, 250'000, 4'000'000}, most_particles, until);
-  if (asks.cube) each(at, of_cube, {15'625, 250'000, 1'000'000, 4'000'000}, most_particles, until);
-  bench.tell(what);
-  bench.tell(table.text());
+  if (pool) each(at, of_pool, {0, 250'000, 4'000'000}, most_particles, until);
+  if (cube) each(at, of_cube, {15'625, 250'000, 1'000'000, 4'000'000}, most_particles, until);
+  bench.tell(table);
 }
 
 }  // namespace splash::bench

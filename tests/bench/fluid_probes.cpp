@@ -9,7 +9,6 @@
 #include "protocol/time_tag.hpp"
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
-#include "sim-server/fluid/params/parts.hpp"
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/fluid_cost.hpp"
 #include "tests/bench/opencl_ledger.hpp"
@@ -45,19 +44,6 @@ kernel void compute(global float* out, float s, int rounds) {
   }
   a += b + c + d + e + h + i + j + k + l + m + n;
   out[get_global_id(0)] = LAST(a);
-}
-// Scalar instructions that do not wait for each other: shifts, which no vector saves.
-kernel void shift(global int* out, int rounds) {
-  uint a = get_global_id(0), b = a + 1, c = a + 2, d = a + 3, e = a + 4, f = a + 5;
-  for (int round = 0; round < rounds; ++round) {
-    a += b >> 1, b ^= c << 3, c += d >> 5, d ^= e << 7, e += f >> 9, f ^= a << 11;
-  }
-  out[get_global_id(0)] = a + b + c + d + e + f;
-}
-// As a counting sort does: each work-item has histograms of its own.
-kernel void count_up(global const int* cells, global int* count, int points, int size) {
-  const int item = get_global_id(0);
-  for (int i = item * points; i < (item + 1) * points; ++i) ++count[item * size + cells[i]];
 }
 // As near.h goes through the runs around a group: where each begins and ends is looked up, and its
 // length, of one to three vectors, is not foreseen.
@@ -106,47 +92,22 @@ std::size_t busy_items(const Device& device) {
   return device.facts().compute_units * std::size_t{device.lanes() == 1 ? 4096U : 16U};
 }
 
-constexpr int kRounds = 2048;
-/// Of a round in each lane: of twelve numbers, three instructions that count as two.
-constexpr double kOfRound = 12.0 * 3.0 * 2.0;
-
-/// Of a launch of kRounds [s].
-double computing(Device& device, const cl::Program& program, std::size_t items) {
+double arithmetic(Device& device, const cl::Program& program) {
+  constexpr int kRounds = 2048;
+  // Of a round in each lane: of twelve numbers, three instructions that count as two.
+  constexpr double kOfRound = 12.0 * 3.0 * 2.0;
+  const std::size_t items = 4 * busy_items(device);
   Kernel compute(program, "compute", device.profile().group);
   Buffer<float> out(device, items);
-  return fastest(device, [&] {
+  const double seconds = fastest(device, [&] {
     compute.run(device.queue(), items, {{"out", out}, {"s", 0.999F}, {"rounds", kRounds}});
   });
+  return kOfRound * static_cast<double>(items * width(device)) * kRounds / seconds;
 }
 
 /// A number that looks drawn by lot.
 int mixed(std::size_t k) {
   return static_cast<int>(static_cast<std::uint32_t>(k) * 2654435761U >> 9U);
-}
-
-double scalar(Device& device, const cl::Program& program) {
-  constexpr int kShifts = 8192;
-  const std::size_t items = std::size_t{16} * device.facts().compute_units;
-  Buffer<int> out(device, items);
-  Kernel shift(program, "shift", 1);
-  const double seconds = fastest(device, [&] {
-    shift.run(device.queue(), items, {{"out", out}, {"rounds", kShifts}});
-  });
-  return 12.0 * static_cast<double>(items) * kShifts / seconds;
-}
-
-double counts(Device& device, const cl::Program& program) {
-  constexpr int kPoints = 8192, kCells = 4096;
-  const std::size_t items = std::size_t{16} * device.facts().compute_units;
-  std::vector<int> cells(items * kPoints);
-  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = mixed(i) % kCells;
-  Buffer<int> of(device, std::span<const int>(cells)), count(device, items * kCells);
-  Kernel count_up(program, "count_up", 1);
-  const double seconds = fastest(device, [&] {
-    count_up.run(device.queue(), items,
-                 {{"cells", of}, {"count", count}, {"points", kPoints}, {"size", kCells}});
-  });
-  return static_cast<double>(cells.size()) / seconds;
 }
 
 double runs(Device& device, const cl::Program& program) {
@@ -174,64 +135,6 @@ double runs(Device& device, const cl::Program& program) {
   return static_cast<double>(items) * rounds / seconds;
 }
 
-/// Of vectors of particles near a body, none of which it stops (boundary/keep_out.h).
-const char* const kHold = R"(
-kernel void hold_out(constant FluidParams* p, constant BodyShape* shapes, global const float* none,
-                     global const BodyStep* bodies, int rounds, global const float* in,
-                     global float* out) {
-  const Bodies near = {shapes, none, bodies, 0, 1};
-  lanes x[3] = {LOAD(in, 0), LOAD(in, 0), LOAD(in, 0)}, v[3] = {0.0f, 0.0f, 0.0f};
-  for (int round = 0; round < rounds; ++round) {
-    const lanes from[3] = {x[0], x[1], x[2]};
-    x[0] += 1e-7f;
-    keep_lanes_out(p, &near, from, x, v);
-  }
-  STORE(x[0] + x[1] + x[2] + v[0] + v[1] + v[2], out, 0);
-}
-)";
-
-/// By one work-item: particles near a body follow each other, and a core gets many at once.
-double held(Device& device) {
-  if (device.lanes() == 1) return 0.0;
-  constexpr int kTimes = 1024;
-  std::vector<KernelSource> sources = kernels::fluid();
-  sources.push_back({"tests/bench/hold_out", kHold});
-  Kernel hold_out(build_program(device, sources, kernel_defines({})), "hold_out", 1);
-  FluidParams p = {};
-  p.spacing = 0.03F;
-  BodyShape box = {};
-  box.half_x = box.half_y = box.half_z = 0.1F;
-  box.rocker = 0.01F;
-  BodyStep step = {};
-  step.qw = 1.0F;
-  step.lower_x = step.lower_y = step.lower_z = -1.0F;
-  step.upper_x = step.upper_y = step.upper_z = 1.0F;
-  const Buffer<FluidParams> params(device, std::span<const FluidParams>(&p, 1));
-  const Buffer<BodyShape> shapes(device, std::span<const BodyShape>(&box, 1));
-  const Buffer<BodyStep> steps(device, std::span<const BodyStep>(&step, 1));
-  const Buffer<float> none(device, 1);
-  const auto lanes = static_cast<std::size_t>(device.lanes());
-  const Buffer<float> in(device, std::vector<float>(lanes, 0.15F)), out(device, lanes);
-  const double seconds = fastest(device, [&] {
-    hold_out.run(device.queue(), 1,
-                 {{"p", params},
-                  {"shapes", shapes},
-                  {"none", none},
-                  {"bodies", steps},
-                  {"rounds", kTimes},
-                  {"in", in},
-                  {"out", out}});
-  });
-  return static_cast<double>(lanes) * kTimes / seconds;
-}
-
-/// Of a launch of so many work-groups that do nothing [s].
-double idle(Device& device, const cl::Program& program, std::size_t groups) {
-  const std::size_t group = device.profile().group;
-  Kernel nothing(program, "nothing", group);
-  return fastest(device, [&] { nothing.run(device.queue(), groups * group, {{"n", 0}}); });
-}
-
 }  // namespace
 
 double bandwidth_of(Device& device, std::size_t bytes) {
@@ -255,31 +158,25 @@ double bandwidth_of(Device& device, std::size_t bytes) {
   return 9.0 * static_cast<double>(size) / seconds;
 }
 
-Limits limits_of(Device& device) {
-  const cl::Program program = probes(device);
-  Limits limits;
-  // Three arrays of 128 MiB: beyond caches.
-  limits.bandwidth = bandwidth_of(device, std::size_t{384} << 20U);
-  const std::size_t items = 4 * busy_items(device);
-  const double computes = computing(device, program, items);
-  limits.arithmetic = kOfRound * static_cast<double>(items * width(device)) * kRounds / computes;
-  limits.scalar = scalar(device, program);
-  limits.counts = counts(device, program);
-  limits.runs = runs(device, program);
-  limits.held = held(device);
-  constexpr std::size_t kFew = 16, kMany = 4096;
-  limits.begin = idle(device, program, kFew);
-  const double more = idle(device, program, kMany) - limits.begin;
-  limits.groups = more > 0.0 ? static_cast<double>(kMany - kFew) / more : 0.0;
-  Kernel nothing(program, "nothing");
-  constexpr int kLaunches = 1000;
-  const auto empty = [&] {
+std::pair<double, double> empty_launch(Device& device) {
+  Kernel nothing(probes(device), "nothing");
+  constexpr int kLaunches = 2000, kRuns = 5;
+  const auto run = [&] {
     for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, {{"n", k}});
     device.queue().finish();
   };
-  empty();
-  limits.launch = wall_time(empty, 5) / kLaunches;
-  return limits;
+  run();
+  const double before = processor_time();
+  const double wall = wall_time(run, kRuns);
+  return {wall / kLaunches, (processor_time() - before) / (kRuns * kLaunches)};
+}
+
+Limits limits_of(Device& device) {
+  const cl::Program program = probes(device);
+  return {.bandwidth = bandwidth_of(device, std::size_t{384} << 20U),  // beyond caches
+          .arithmetic = arithmetic(device, program),
+          .runs = runs(device, program),
+          .launch = empty_launch(device).first};
 }
 
 }  // namespace splash::bench

@@ -14,6 +14,11 @@ namespace {
 
 using namespace splash::sim;
 
+std::size_t cells_of(const FluidParams& p) {
+  return static_cast<std::size_t>(p.cells_x) * static_cast<std::size_t>(p.cells_y) *
+         static_cast<std::size_t>(p.cells_z);
+}
+
 Particles copy_of(Device& device, Block& block) {
   Particles p;
   const auto stride = static_cast<std::size_t>(block.fluid.particles().stride);
@@ -23,28 +28,19 @@ Particles copy_of(Device& device, Block& block) {
   p.velocity = block.fluid.particles().velocity.read(device, 3 * stride);
   p.pressure = block.fluid.pressure_term().read(device, stride);
   for (auto* part : {&p.position, &p.velocity, &p.pressure}) part->resize(part->size() + 32);
-  const std::size_t cells = SPLASH_SLICES * static_cast<std::size_t>(p.params.cells_x) *
-                            static_cast<std::size_t>(p.params.cells_y) *
-                            static_cast<std::size_t>(p.params.cells_z);
-  p.cell_start.resize(cells + 1);
-  device.queue().enqueueReadBuffer(block.fluid.grid().cell_start().memory(), CL_TRUE, 0,
-                                   4 * p.cell_start.size(), p.cell_start.data());
+  p.cell_start =
+      block.fluid.grid().cell_start().read(device, SPLASH_SLICES * cells_of(p.params) + 1);
   return p;
 }
 
-/// Times of a kernel on the device, from its own clock [s].
-double kernel_time(Device& device, cl::Kernel& kernel, std::size_t items, int runs) {
-  std::vector<double> times;
-  for (int k = 0; k < runs; ++k) {
-    cl::Event event;
-    device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items),
-                                        cl::NDRange(device.profile().group), nullptr, &event);
-    event.wait();
-    times.push_back(1e-9 *
-                    static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                                        event.getProfilingInfo<CL_PROFILING_COMMAND_START>()));
-  }
-  return median(times);
+/// Of a kernel on the device, from its own clock [s].
+double kernel_time(Device& device, cl::Kernel& kernel, std::size_t items) {
+  cl::Event event;
+  device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items),
+                                      cl::NDRange(device.profile().group), nullptr, &event);
+  event.wait();
+  return 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                    event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
 }
 
 /// Largest difference, over the largest value.
@@ -94,12 +90,6 @@ struct MainKernels {
         push.memory(), moving.memory());
   }
 
-  /// Each says what goes on in it (sleep/sleep.h).
-  static std::size_t cells_of(const FluidParams& p) {
-    return static_cast<std::size_t>(p.cells_x) * static_cast<std::size_t>(p.cells_y) *
-           static_cast<std::size_t>(p.cells_z);
-  }
-
   template <class... Args>
   static void set(cl::Kernel& kernel, const Args&... args) {
     cl_uint index = 0;
@@ -109,7 +99,7 @@ struct MainKernels {
   cl::Program program;
   cl::Kernel density;
   cl::Kernel acceleration;
-  Buffer<int> activity;
+  Buffer<int> activity;  ///< of each cell, what goes on in it (sleep/sleep.h)
   Buffer<int> resting;
   Buffer<float> none;
   Buffer<BodyStep> nobody;
@@ -122,10 +112,9 @@ struct MainKernels {
 void beside_the_yardstick(Bench& bench, sim::Device& device, int most_particles) {
   const int threads = static_cast<int>(
       std::min<std::size_t>(device.facts().compute_units, std::thread::hardware_concurrency()));
-  const std::string what =
+  bench.say(
       "The two main kernels of the state equation beside C++ by hand (explicit vectors, OpenMP), " +
-      std::to_string(threads) + " threads; interleaved, the fastest tenth:";
-  std::printf("\n%s\n", what.c_str());
+      std::to_string(threads) + " threads; interleaved, the fastest tenth:");
   auto table =
       bench.table("kernels.csv", {"particles", "density [ms]", "by hand [ms]", "forces [ms]",
                                   "by hand [ms]", "by hand / ours", "difference, of the largest"});
@@ -146,9 +135,9 @@ void beside_the_yardstick(Bench& bench, sim::Device& device, int most_particles)
     std::vector<double> ours_d, ours_f, hand_d, hand_f;
     const int rounds = count > 100'000 ? 11 : 41;
     for (int round = 0; round < rounds; ++round) {
-      ours_d.push_back(kernel_time(device, kernels.density, items, 1));
+      ours_d.push_back(kernel_time(device, kernels.density, items));
       hand_d.push_back(wall_time([&] { density_by_hand(p, threads, density); }, 1));
-      ours_f.push_back(kernel_time(device, kernels.acceleration, items, 1));
+      ours_f.push_back(kernel_time(device, kernels.acceleration, items));
       hand_f.push_back(wall_time([&] { acceleration_by_hand(p, threads, push); }, 1));
     }
     const double d = undisturbed(ours_d), hd = undisturbed(hand_d);
@@ -163,8 +152,7 @@ void beside_the_yardstick(Bench& bench, sim::Device& device, int most_particles)
                number(1e3 * hf), number((hd + hf) / (d + f)), number(off, 1)});
     if (!(off < 1e-4)) throw std::runtime_error("the yardstick and the kernels disagree");
   }
-  bench.tell(what);
-  bench.tell(table.text());
+  bench.tell(table);
 }
 
 }  // namespace splash::bench

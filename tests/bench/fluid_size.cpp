@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "program/text.hpp"
 #include "protocol/time_tag.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
@@ -106,21 +106,6 @@ StageTimes of_pool(Device& device) {
   return times;
 }
 
-/// Of a kernel that does nothing, wall and processor [s].
-std::pair<double, double> empty_launch(Device& device) {
-  const KernelSource source = {"tests/bench/nothing", "kernel void nothing(int n) { (void)n; }\n"};
-  Kernel nothing(build_program(device, {source}, {}), "nothing");
-  constexpr int kLaunches = 2000;
-  const auto run = [&] {
-    for (int k = 0; k < kLaunches; ++k) nothing.run(device.queue(), 64, {{"n", k}});
-    device.queue().finish();
-  };
-  run();
-  const double before = processor_time();
-  const double wall = wall_time(run, 5);
-  return {wall / kLaunches, (processor_time() - before) / (5 * kLaunches)};
-}
-
 }  // namespace
 
 bool Until::allows(double seconds) const {
@@ -128,11 +113,8 @@ bool Until::allows(double seconds) const {
 }
 
 void against_size(Bench& bench, Device& device, int most_particles, const Until& until) {
-  const std::string what =
-      "The whole step with the state equation, without walls and bodies, in "
-      "batches of " +
-      std::to_string(kSteps) + "; median of 7, of large sizes of 3:";
-  std::printf("\n%s\n", what.c_str());
+  bench.say("The whole step with the state equation, without walls and bodies, in batches of " +
+            std::to_string(kSteps) + "; median of 7, of large sizes of 3:");
   auto table = bench.table("size.csv", {"particles", "ms per step", "of processors", "steps/s",
                                         "million updates/s", "MiB", "bytes per particle"});
   Cost last;
@@ -153,24 +135,19 @@ void against_size(Bench& bench, Device& device, int most_particles, const Until&
                number(1.0 / last.step), number(1e-6 * last.particles / last.step),
                number(last.memory / 1048576.0), number(last.memory / last.particles)});
   }
-  bench.tell(what);
-  bench.tell(table.text());
+  bench.tell(table);
 }
 
 void stage_by_stage(Bench& bench, Device& device) {
   const auto [wall, processor] = empty_launch(device);
-  char launch[96];
-  std::snprintf(
-      launch, sizeof launch,
+  bench.say(program::format(
       "A launch that does nothing takes %.1f us, %.1f us of processors. Kernel by kernel:",
-      1e6 * wall, 1e6 * processor);
-  std::printf("\n%s\n", launch);
+      1e6 * wall, 1e6 * processor));
   auto table = bench.table("stages.csv",
                            {"water", "kernel", "launches per step", "ms per step", "of all [%]"});
   add(table, "cube of 15,625", of_cube(device, 15'625));
   add(table, "pool", of_pool(device));
-  bench.tell(launch);
-  bench.tell(table.text());
+  bench.tell(table);
 }
 
 }  // namespace splash::bench

@@ -3,12 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <stdexcept>
 #include <tuple>
+
+#include "sim-server/bodies/skin.hpp"
+#include "sim-server/detect/bubble_state.h"
 
 namespace splash::bench {
 namespace {
 
 using namespace splash::sim;
+
+/// What the search around all particles meets (neighbours/near.h).
+struct Met {
+  double tested = 0.0;   ///< points held against a group's box, a vector at a time
+  double visited = 0.0;  ///< pairs whose formula is computed
+  double turns = 0.0;    ///< searches of the nine runs around some particles of a row
+};
 
 struct Box {
   float lower[3], upper[3];  ///< [m]
@@ -29,9 +41,6 @@ class Search {
     });
     return met_;
   }
-
-  /// Whether the box around these particles is near a body.
-  [[nodiscard]] bool is_near(int first, int last) const { return is_near_bodies(box(first, last)); }
 
   /// Calls `turn(row, first, last)`: a work-item goes up to its last particle, or the row's.
   template <class Turn>
@@ -130,64 +139,51 @@ constexpr double kOfParticle = 50.0, kOfLeast = 16.0, kOfBox = 6.0 * kOfLeast;
 constexpr double kOfWall = 8.0, kOfBehind = 150.0, kOfFace = 130.0, kOfImage = 2.0 * kOfBehind;
 // Of a particle that moves on (integrate.cl), of one whose health is looked at (health.cl).
 constexpr double kOfMotion = 80.0, kOfHealth = 200.0;
-// Scalar instructions: of a turn (group.h, rest.h), of a run (grid.h, near.h: two addresses and
-// look-ups, where to go on), of a point's cell (grid.h) with its loads and store, of a point that
-// is moved alone (points.h: eight numbers in and out) or a vector that stays together, of a point's
-// place in the sort, of a number that is fetched from where its particle was (sleep.h, health.cl),
+// Instructions that no vector saves: of a turn (group.h, rest.h), of a run (grid.h, near.h: two
+// addresses and look-ups, where to go on), of a point's cell (grid.h) with its loads and store, of
+// a point's place in the sort, of a number that is fetched from where its particle was (sleep.h),
 // of a box that is held against a body's (bodies.h).
-constexpr double kOfTurn = 100.0, kOfRun = 25.0, kOfCell = 28.0, kOfMove = 16.0, kOfPlace = 4.0;
+constexpr double kOfTurn = 100.0, kOfRun = 25.0, kOfCell = 28.0, kOfPlace = 4.0;
 constexpr double kOfFetch = 4.0, kOfNearness = 14.0;
-// Of a particle that is held against a body, where it is alone (keep_out.h: two rotations, a
-// depth).
+// Of a point that moves to its place, in a vector of those that stay together (points.h: eight
+// numbers in and out).
+constexpr double kOfMove = 32.0;
+// Of a particle that is held against a body (keep_out.h: two rotations, a depth); on a CPU each is
+// held alone.
 constexpr double kOfLeaving = 200.0;
 
-double share(double work, double rate) {
-  return work > 0.0 && rate > 0.0 ? work / rate : 0.0;
-}
+// Of a frame.
 
-/// `scalar` instructions of a CPU: on a GPU operations as the others, two to each.
-void add_scalar(Work& work, double scalar, const sim::Profile& profile) {
-  (profile.lanes > 1 ? work.scalar : work.operations) += profile.lanes > 1 ? scalar : 2.0 * scalar;
+constexpr double kEddy = 0.06;  ///< its width, bubble_eddy [m]
+
+/// Per particle: places, speeds, id, peak, and what spawning remembers [B].
+constexpr double kState = 36.0;
+
+// Operations of a pair that a detector looks at: where it is and the kernel (colour.h), what else
+// it sums (body_touch.cl, bubble_state.cl, air_fold.cl). Of a particle in the statistics.
+constexpr double kOfPair = 18.0, kOfTouch = 22.0, kOfCarried = 8.0, kOfEddy = 14.0, kOfMean = 3.0,
+                 kOfSurvey = 60.0;
+// Instructions that no vector saves: of the nine runs around a place, of a particle that is slow,
+// of a cell that wakes others.
+constexpr double kOfRuns = 9.0 * 25.0, kOfSlow = 10.0, kOfAwake = 30.0;
+
+/// An instruction that no vector saves takes the place of two operations of each lane.
+double alone(double instructions, const Profile& profile) {
+  return 2.0 * profile.lanes * instructions;
 }
 
 /// What both pair loops have in common beside their pairs.
-Work search_work(const Met& met, const sim::Profile& profile) {
+Work search_work(const Met& met, const Profile& profile) {
   // The list of those found is gone through, too.
   const double found = profile.lanes > 1 ? met.turns : 0.0;
-  Work work = {.operations = kOfTest * met.tested, .runs = 9.0 * met.turns + found};
-  add_scalar(work, kOfTurn * met.turns + kOfRun * 9.0 * met.turns, profile);
-  return work;
+  return {.operations =
+              kOfTest * met.tested + alone(kOfTurn * met.turns + kOfRun * 9.0 * met.turns, profile),
+          .runs = 9.0 * met.turns + found};
 }
 
-double pairs_work(double pairs, double operations, double loads, const sim::Profile& profile) {
+/// Of pairs whose formula is computed.
+double pairs_work(double pairs, double operations, double loads, const Profile& profile) {
   return pairs * (operations + (profile.lanes > 1 ? 0.0 : 2.0 * loads));
-}
-
-/// Particles of the vectors whose box is near a body, ends of two rows or not (keep_out.h).
-double held_against_bodies(const Places& p, int lanes) {
-  double held = 0.0;
-  for (int i = 0; i < p.params.count; i += lanes) {
-    held += Search(p, lanes, p.body_position, p.body_start)
-                    .is_near(i, std::min(i + lanes, p.params.count))
-                ? lanes
-                : 0.0;
-  }
-  return held;
-}
-
-/// Groups of particles that were next to each other before the sort, too (health.cl).
-double fetched_alone(const Places& p, std::size_t lanes) {
-  const std::size_t count = p.source.size();
-  if (lanes == 1) return 0.0;
-  double alone = 0.0;
-  for (std::size_t i = 0; i < count; i += lanes) {
-    bool together = i + lanes <= count;
-    for (std::size_t k = 1; together && k < lanes; ++k) {
-      together = p.source[i + k] == p.source[i] + static_cast<int>(k);
-    }
-    alone += together ? 0.0 : static_cast<double>(lanes);
-  }
-  return alone;
 }
 
 int used_cells(const std::vector<int>& cell_start) {
@@ -195,119 +191,18 @@ int used_cells(const std::vector<int>& cell_start) {
   return static_cast<int>(full - cell_start.begin());
 }
 
-/// `turns`: of the search among particles.
-void add_bodies(std::map<std::string, Work>& all, const Places& p, double turns,
-                const sim::Profile& profile) {
-  const double points = static_cast<double>(p.body_position.size()) / 3.0;
-  if (points == 0.0) return;
-  const auto bodies = static_cast<double>(p.bodies.size());
-  const Met met = meet_bodies(p, profile.lanes);
-  const double near = met.turns * profile.lanes;
-  Work& density = all["compute_density"];
-  Work& forces = all["compute_acceleration"];
-  add_scalar(density, 2.0 * kOfNearness * bodies * turns, profile);
-  add_scalar(forces, kOfNearness * bodies * turns, profile);
-  add_scalar(all["integrate"], kOfNearness * bodies * turns, profile);
-  if (profile.lanes > 1) {
-    all["integrate"].held = bodies * held_against_bodies(p, profile.lanes);
-  } else {
-    all["integrate"].operations += kOfLeaving * bodies * near;
-  }
-  const Work search = search_work(met, profile);
-  for (const auto& [work, operations, loads] :
-       {std::tuple{&density, kOfBodyDensity, kLoadsOfDensity + 1.0},
-        std::tuple{&forces, kOfBodyForce, kLoadsOfForce + 1.0}}) {
-    work->operations += search.operations + pairs_work(met.visited, operations, loads, profile);
-    work->scalar += search.scalar;
-    work->runs += search.runs;
-  }
-  density.operations += near * (bodies * kOfFace + kOfImage);
-  density.bytes += 20.0 * near;
-  forces.bytes += 20.0 * near;
-  const double groups = std::ceil(points / 64.0);
-  all["place_bodies"] = {.groups = groups, .bytes = 44.0 * points};
-  add_scalar(all["place_bodies"], 80.0 * points, profile);
-  all["gather_body_volumes"] = {.groups = groups, .bytes = 16.0 * points};
-  add_scalar(all["gather_body_volumes"], 20.0 * points, profile);
-  const auto cells = static_cast<double>(p.body_start.size());
-  for (const auto& [name, work] :
-       sort_work({points, cells, static_cast<double>(used_cells(p.body_start)),
-                  std::min(1.0, static_cast<double>(profile.sort_chunks)), points},
-                 profile)) {
-    all[name] += work;
-  }
-}
-
-}  // namespace
-
-Work& Work::operator+=(const Work& other) {
-  launches += other.launches;
-  groups += other.groups;
-  bytes += other.bytes;
-  operations += other.operations;
-  scalar += other.scalar;
-  counts += other.counts;
-  runs += other.runs;
-  held += other.held;
-  return *this;
-}
-
-Work Work::times(double factor) const {
-  return {factor * launches, factor * groups, factor * bytes, factor * operations,
-          factor * scalar,   factor * counts, factor * runs,  factor * held};
-}
-
-double expected(const Work& work, const Limits& limits) {
-  const double computing =
-      share(work.operations, limits.arithmetic) + share(work.scalar, limits.scalar);
-  return work.launches * limits.begin + share(work.groups, limits.groups) +
-         std::max(share(work.bytes, limits.bandwidth), computing) +
-         share(work.counts, limits.counts) + share(work.runs, limits.runs) +
-         share(work.held, limits.held);
-}
-
-Places places_of(sim::Fluid& fluid, const sim::Step& step) {
-  sim::Device& device = fluid.device();
-  const auto stride = static_cast<std::size_t>(fluid.particles().stride);
-  Places p;
-  p.params = fluid.params();
-  p.position = fluid.particles().position.read(device, 3 * stride);
-  const std::size_t cells = SPLASH_SLICES * static_cast<std::size_t>(p.params.cells_x) *
-                            static_cast<std::size_t>(p.params.cells_y) *
-                            static_cast<std::size_t>(p.params.cells_z);
-  p.cell_start = fluid.grid().cell_start().read(device, cells + 1);
-  p.source = fluid.grid().source().read(device, static_cast<std::size_t>(p.params.count));
-  p.used = used_cells(p.cell_start);
-  const sim::Boundary& boundary = fluid.boundary();
-  if (boundary.point_count() == 0) return p;
-  const auto points = static_cast<std::size_t>(boundary.point_count());
-  const auto apart = static_cast<std::size_t>(boundary.points().stride);
-  const std::vector<float> all = boundary.points().position.read(device, 3 * apart);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(axis * apart);
-    p.body_position.insert(p.body_position.end(), first,
-                           first + static_cast<std::ptrdiff_t>(points));
-  }
-  p.body_start = boundary.grid().cell_start().read(device, cells + 1);
-  const auto first = boundary.given_steps().begin() + step.first_body;
-  p.bodies.assign(first, first + boundary.body_count());
-  return p;
-}
-
-Places places_of(Block& block) {
-  block.fluid.prepare(block.step);
-  return places_of(block.fluid, block.step);
-}
-
+/// With `lanes` particles to a work-item.
 Met meet_all(const Places& places, int lanes) {
   return Search(places, lanes, places.position, places.cell_start).all(false);
 }
 
+/// The bodies' points, by those that are near a body.
 Met meet_bodies(const Places& places, int lanes) {
   if (places.body_start.empty()) return {};
   return Search(places, lanes, places.body_position, places.body_start).all(true);
 }
 
+/// Pairs of a turn and a wall within its reach.
 double meet_walls(const Places& p, int lanes) {
   double met = 0.0;
   const std::size_t stride = p.position.size() / 3;
@@ -330,86 +225,263 @@ double meet_walls(const Places& p, int lanes) {
   return met;
 }
 
-double moved_alone(const Places& places, const sim::Profile& profile) {
-  const auto count = places.source.size();
-  const auto lanes = static_cast<std::size_t>(profile.lanes);
-  const auto chunks = static_cast<std::size_t>(std::max(profile.sort_chunks, 1));
-  std::vector<std::size_t> place(count);
-  for (std::size_t k = 0; k < count; ++k) place[static_cast<std::size_t>(places.source[k])] = k;
-  const std::size_t size = (count + chunks - 1) / chunks;
-  std::size_t together = 0;
-  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    const std::size_t end = std::min((chunk + 1) * size, count);
-    for (std::size_t i = chunk * size; i + lanes <= end; i += lanes) {
-      bool apart = false;
-      for (std::size_t k = 1; k < lanes; ++k) apart = apart || place[i + k] != place[i] + k;
-      together += apart ? 0 : lanes;
-    }
-  }
-  return static_cast<double>(count - together);
-}
+/// A sort of so many points.
+struct SortSize {
+  double points = 0.0;
+  double cells = 0.0;   ///< of the grid
+  double used = 0.0;    ///< up to the last that has a point
+  double chunks = 0.0;  ///< runs of points that are sorted side by side; 0: by rank
+};
 
-std::map<std::string, Work> sort_work(const SortSize& size, const sim::Profile& profile) {
+std::map<std::string, Work> sort_work(const SortSize& size, const Profile& profile) {
   const double n = size.points;
-  const double groups = std::ceil(n / 64.0);
   if (profile.sort_chunks == 0) {
-    return {
-        {"count_points", {.groups = groups, .bytes = 28.0 * n, .operations = 2.0 * kOfCell * n}},
-        {"sum_cells", {.bytes = 4.0 * size.cells, .operations = size.cells}},
-        {"start_cells", {.bytes = 12.0 * size.cells, .operations = size.cells}},
-        {"gather_cells", {.groups = groups, .bytes = 16.0 * n}},
-        {"rank_points",
-         {.groups = groups,
-          .bytes = 76.0 * n,
-          .operations = 2.0 * (kOfMove + 4.0 * kOfPlace) * n}}};
+    return {{"count_points", {.bytes = 28.0 * n, .operations = 2.0 * kOfCell * n}},
+            {"sum_cells", {.bytes = 4.0 * size.cells, .operations = size.cells}},
+            {"start_cells", {.bytes = 12.0 * size.cells, .operations = size.cells}},
+            {"gather_cells", {.bytes = 16.0 * n}},
+            {"rank_points", {.bytes = 76.0 * n, .operations = (kOfMove + 8.0 * kOfPlace) * n}}};
   }
   const double counts = size.used * size.chunks;
-  return {{"count_cells", {.bytes = 16.0 * n + 12.0 * counts, .scalar = kOfCell * n, .counts = n}},
-          {"sum_blocks", {.bytes = 4.0 * counts, .scalar = counts}},
-          {"place_cells", {.bytes = 8.0 * counts + 4.0 * size.used, .scalar = 5.0 * counts}},
+  return {{"count_cells",
+           {.bytes = 16.0 * n + 12.0 * counts, .operations = alone(kOfCell * n, profile)}},
+          {"sum_blocks", {.bytes = 4.0 * counts, .operations = alone(counts, profile)}},
+          {"place_cells",
+           {.bytes = 8.0 * counts + 4.0 * size.used, .operations = alone(5.0 * counts, profile)}},
           {"sort_points",
            {.bytes = 64.0 * n + 8.0 * counts,
-            .scalar = kOfPlace * n + kOfMove * (size.alone + (n - size.alone) / profile.lanes),
-            .counts = n}}};
+            .operations = kOfMove * n + alone(kOfPlace * n, profile)}}};
 }
 
-std::map<std::string, Work> work_of(const Places& p, const sim::Profile& profile) {
+/// `turns`: of the search among particles.
+void add_bodies(std::map<std::string, Work>& all, const Places& p, double turns,
+                const Profile& profile) {
+  const double points = static_cast<double>(p.body_position.size()) / 3.0;
+  if (points == 0.0) return;
+  const auto bodies = static_cast<double>(p.bodies.size());
+  const Met met = meet_bodies(p, profile.lanes);
+  const double near = met.turns * profile.lanes;
+  const double nearness = alone(kOfNearness * bodies * turns, profile);
+  Work& density = all["compute_density"];
+  Work& forces = all["compute_acceleration"];
+  const Work search = search_work(met, profile);
+  for (const auto& [work, operations, loads] :
+       {std::tuple{&density, kOfBodyDensity, kLoadsOfDensity + 1.0},
+        std::tuple{&forces, kOfBodyForce, kLoadsOfForce + 1.0}}) {
+    work->operations += search.operations + pairs_work(met.visited, operations, loads, profile);
+    work->runs += search.runs;
+    work->bytes += 20.0 * near;
+  }
+  density.operations += 2.0 * nearness + near * (bodies * kOfFace + kOfImage);
+  forces.operations += nearness;
+  all["integrate"].operations += nearness + kOfLeaving * profile.lanes * bodies * near;
+  all["place_bodies"] = {.bytes = 44.0 * points, .operations = alone(80.0 * points, profile)};
+  all["gather_body_volumes"] = {.bytes = 16.0 * points,
+                                .operations = alone(20.0 * points, profile)};
+  const auto cells = static_cast<double>(p.body_start.size());
+  for (const auto& [name, work] :
+       sort_work({points, cells, static_cast<double>(used_cells(p.body_start)),
+                  std::min(1.0, static_cast<double>(profile.sort_chunks))},
+                 profile)) {
+    all[name] += work;
+  }
+}
+
+double count_fast(Fluid& fluid, double speed) {
+  const auto stride = static_cast<std::size_t>(fluid.particles().stride);
+  const auto count = static_cast<std::size_t>(fluid.params().count);
+  const std::vector<float> v = fluid.particles().velocity.read(fluid.device(), 3 * stride);
+  double fast = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto u = static_cast<double>(std::hypot(v[i], v[stride + i], v[2 * stride + i]));
+    fast += u >= speed ? 1.0 : 0.0;
+  }
+  return fast;
+}
+
+/// Particles in any body's box, in which neighbours may be those of its skin.
+double count_near(Fluid& fluid, const Step& step) {
+  const auto stride = static_cast<std::size_t>(fluid.particles().stride);
+  const auto count = static_cast<std::size_t>(fluid.params().count);
+  const auto bodies = static_cast<std::size_t>(fluid.boundary().body_count());
+  if (bodies == 0) return 0.0;
+  const std::vector<float> x = fluid.particles().position.read(fluid.device(), 3 * stride);
+  std::vector<BodyStep> steps(bodies);
+  fluid.boundary().steps().read(fluid.device(), std::span<BodyStep>(steps),
+                                static_cast<std::size_t>(step.first_body));
+  double near = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    near += std::any_of(steps.begin(), steps.end(), [&](const BodyStep& b) {
+      return x[i] > b.lower_x && x[i] < b.upper_x && x[stride + i] > b.lower_y &&
+             x[stride + i] < b.upper_y && x[2 * stride + i] > b.lower_z &&
+             x[2 * stride + i] < b.upper_z;
+    });
+  }
+  return near;
+}
+
+/// Lanes that a search for one place visits, on average.
+double lanes_of_a_search(const Places& p, int lanes) {
+  const Met met = meet_all(p, 1);
+  // Each of the nine runs fills its vectors, and the last one half.
+  const double in_runs = met.visited / met.turns;
+  return lanes == 1 ? in_runs : in_runs + 9.0 * 0.5 * (lanes - 1);
+}
+
+Work pairs_of(double places, double lanes, double operations, const Profile& profile) {
+  return {.operations = places * lanes * operations + alone(places * kOfRuns, profile),
+          .runs = 9.0 * places};
+}
+
+}  // namespace
+
+Work& Work::operator+=(const Work& other) {
+  launches += other.launches;
+  bytes += other.bytes;
+  operations += other.operations;
+  runs += other.runs;
+  return *this;
+}
+
+Work Work::times(double factor) const {
+  return {factor * launches, factor * bytes, factor * operations, factor * runs};
+}
+
+double expected(const Work& work, const Limits& limits) {
+  return std::max(work.bytes / limits.bandwidth, work.operations / limits.arithmetic) +
+         work.runs / limits.runs;
+}
+
+Places places_of(Fluid& fluid, const Step& step) {
+  Device& device = fluid.device();
+  const auto stride = static_cast<std::size_t>(fluid.particles().stride);
+  Places p;
+  p.params = fluid.params();
+  p.position = fluid.particles().position.read(device, 3 * stride);
+  const std::size_t cells = SPLASH_SLICES * static_cast<std::size_t>(p.params.cells_x) *
+                            static_cast<std::size_t>(p.params.cells_y) *
+                            static_cast<std::size_t>(p.params.cells_z);
+  p.cell_start = fluid.grid().cell_start().read(device, cells + 1);
+  p.used = used_cells(p.cell_start);
+  const Boundary& boundary = fluid.boundary();
+  if (boundary.point_count() == 0) return p;
+  const auto points = static_cast<std::size_t>(boundary.point_count());
+  const auto apart = static_cast<std::size_t>(boundary.points().stride);
+  const std::vector<float> all = boundary.points().position.read(device, 3 * apart);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(axis * apart);
+    p.body_position.insert(p.body_position.end(), first,
+                           first + static_cast<std::ptrdiff_t>(points));
+  }
+  p.body_start = boundary.grid().cell_start().read(device, cells + 1);
+  const auto first = boundary.given_steps().begin() + step.first_body;
+  p.bodies.assign(first, first + boundary.body_count());
+  return p;
+}
+
+Places places_of(Block& block) {
+  block.fluid.prepare(block.step);
+  return places_of(block.fluid, block.step);
+}
+
+std::map<std::string, Work> work_of(const Places& p, const Profile& profile) {
   const Met met = meet_all(p, profile.lanes);
   const double n = p.params.count;
   const double used = p.used;
-  const double groups = std::ceil(n / profile.lanes / static_cast<double>(profile.group));
   std::map<std::string, Work> all = sort_work(
-      {n, static_cast<double>(p.cell_start.size()), used, static_cast<double>(profile.sort_chunks),
-       profile.sort_chunks > 0 ? moved_alone(p, profile) : 0.0},
+      {n, static_cast<double>(p.cell_start.size()), used, static_cast<double>(profile.sort_chunks)},
       profile);
   const double wide = profile.lanes > 1 ? 1.0 : 0.0;  // one lane alone has no least number to find
   const double walls = static_cast<double>(p.params.wall_count) * (kOfWall + wide * kOfLeast);
   Work pairs = search_work(met, profile);
-  pairs.groups = groups;
   pairs.operations += kOfParticle * n + profile.lanes * ((walls + wide * kOfBox) * met.turns +
                                                          kOfBehind * meet_walls(p, profile.lanes));
   Work density = pairs;
   density.bytes = 36.0 * n + 4.0 * used;
-  density.operations += pairs_work(met.visited, kOfDensity, kLoadsOfDensity, profile);
-  add_scalar(density, kOfFetch * n, profile);
+  density.operations +=
+      pairs_work(met.visited, kOfDensity, kLoadsOfDensity, profile) + alone(kOfFetch * n, profile);
   Work forces = pairs;
   forces.bytes = 44.0 * n + 4.0 * used;
   forces.operations += pairs_work(met.visited, kOfForce, kLoadsOfForce, profile);
   all["compute_density"] = density;
   all["compute_acceleration"] = forces;
   const double box = p.bodies.empty() ? 0.0 : wide * kOfBox;
-  all["integrate"] = {
-      .groups = groups, .bytes = 64.0 * n, .operations = (kOfMotion + box + walls) * n};
-  if (p.watched) {
-    Work health = {.groups = static_cast<double>(profile.parts),
-                   .bytes = 64.0 * n,
-                   .operations = kOfHealth * n};
-    add_scalar(health, 3.0 * kOfFetch * fetched_alone(p, static_cast<std::size_t>(profile.lanes)),
-               profile);
-    all["check_health"] = health;
-  }
+  all["integrate"] = {.bytes = 64.0 * n, .operations = (kOfMotion + box + walls) * n};
   add_bodies(all, p, met.turns, profile);
   return all;
+}
+
+FrameSeen see_frame(Simulation& simulation) {
+  FrameSeen seen;
+  const Scene& scene = simulation.scene();
+  const RunTotals before = simulation.totals();
+  seen.bubbles = static_cast<double>(before.bubbles_alive);
+  simulation.set_hook([&](Fluid& fluid, Step& step, Moment moment) {
+    if (moment != Moment::between) return;
+    seen.places = places_of(fluid, step);
+    seen.fast = count_fast(fluid, scene.detect.bubble_speed);
+    seen.near = count_near(fluid, step);
+  });
+  const FrameResult frame = simulation.advance();
+  simulation.set_hook({});
+  const RunTotals& after = simulation.totals();
+  seen.steps = static_cast<int>(after.steps - before.steps);
+  if (seen.steps == 0 || frame.step_fault) throw std::runtime_error("the frame is no usual one");
+  seen.sleeps = scene.skip.sleep && scene.fluid.solver == PressureKind::weakly_compressible;
+  seen.looks = after.skipped.bubbles == before.skipped.bubbles;
+  if (!seen.looks) seen.bubbles = seen.fast = 0.0;
+  if (after.skipped.contacts == before.skipped.contacts) {
+    seen.skin = static_cast<double>(
+        sample_skins(scene.bodies, static_cast<double>(seen.places.params.spacing)).size());
+  }
+  return seen;
+}
+
+std::map<std::string, Work> frame_work(const FrameSeen& seen, const Profile& profile) {
+  const Places& p = seen.places;
+  const double n = p.params.count;
+  std::map<std::string, Work> all = work_of(p, profile);
+  all["check_health"] = {.bytes = 64.0 * n, .operations = kOfHealth * n};
+  for (auto& [name, work] : all) work = work.times(seen.steps);
+  all["reduce_stats"] = {.bytes = 44.0 * n, .operations = kOfSurvey * n};
+  if (seen.sleeps) {
+    const double cells =
+        static_cast<double>(p.params.cells_x) * p.params.cells_y * p.params.cells_z;
+    const double waking = alone(kOfAwake * cells, profile);
+    all["keep_awake"] = {.bytes = 12.0 * n + 16.0 * cells, .operations = 6.0 * n + waking};
+    all["spread_activity"] = {.bytes = 12.0 * cells, .operations = waking};
+  }
+  const double lanes = seen.looks || seen.skin > 0.0 ? lanes_of_a_search(p, profile.lanes) : 0.0;
+  if (seen.skin > 0.0) {
+    all["touch_water"] = pairs_of(2.0 * seen.skin, lanes, kOfPair + 0.5 * kOfTouch, profile);
+    all["touch_water"].bytes = 116.0 * seen.skin;
+    all["average_density"] = pairs_of(seen.near, lanes, kOfPair + kOfMean, profile);
+    all["average_density"].bytes = 12.0 * n + 4.0 * seen.near;
+  }
+  if (seen.looks) {
+    all["spawn_bubbles"] = pairs_of(seen.fast, lanes, kOfPair, profile);
+    all["spawn_bubbles"].bytes = 20.0 * n;
+    all["spawn_bubbles"].operations += alone(kOfSlow * n, profile);
+    // One particle in so many looks within an eddy's width, as a search does within the support.
+    const double wide = std::pow(kEddy / static_cast<double>(p.params.support), 3.0);
+    const double few = std::ceil(n / SPLASH_FOLDS_APART);
+    all["fold_air"] = pairs_of(few, std::max(1.0, wide) * lanes, kOfPair + kOfEddy, profile);
+    all["fold_air"].bytes = 24.0 * few;
+  }
+  if (seen.bubbles == 0.0) return all;
+  all["carry_bubbles"] = pairs_of(2.0 * seen.bubbles, lanes, kOfPair + kOfCarried, profile);
+  all["carry_bubbles"].bytes = 40.0 * seen.bubbles;
+  const auto cells = static_cast<double>(p.cell_start.size());
+  const double chunks = std::min(1.0, static_cast<double>(profile.sort_chunks));
+  // Their number changes from frame to frame: all cells are gone through (cell_count.cl).
+  for (const auto& [name, work] : sort_work({seen.bubbles, cells, cells, chunks}, profile)) {
+    all[name] += work;
+  }
+  return all;
+}
+
+double copied_bytes(const FrameSeen& seen) {
+  return 2.0 * kState * seen.places.params.count;
 }
 
 }  // namespace splash::bench

@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "tests/bench/fluid_yardstick_loops.hpp"
-
 namespace splash::bench {
 
 YardstickLoops yardstick_portable();

@@ -29,4 +29,20 @@ void density_by_hand(const Particles& particles, int threads, std::vector<float>
 void acceleration_by_hand(const Particles& particles, int threads,
                           std::vector<float>& acceleration);
 
+// The sums for one instruction set each.
+
+/// First particles of the groups that share a list of neighbours.
+struct Starts {
+  const int* first = nullptr;
+  int count = 0;
+};
+
+using Sums = void (*)(const Particles& particles, const Starts& starts, int threads, float* sums);
+
+struct YardstickLoops {
+  Sums density = nullptr;
+  Sums acceleration = nullptr;
+  int group = 0;  ///< particles that share a list of neighbours
+};
+
 }  // namespace splash::bench

@@ -3,7 +3,7 @@
 // follow each other in a row of cells, share one list of neighbours, culled against the box around
 // them (neighbours/near.h has the same idea); AVX-512 compresses the list, elsewhere a branch-free
 // scalar loop does.
-#include "tests/bench/fluid_yardstick_loops.hpp"
+#include "tests/bench/fluid_yardstick.hpp"
 
 #ifdef __AVX512F__
 #include <immintrin.h>
