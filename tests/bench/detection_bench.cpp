@@ -38,19 +38,6 @@ struct Options {
   std::vector<double> hand_size = {0.18, 0.09, 0.04};
 };
 
-/// The walk that the tests have, and one of its feet upside down as a hand.
-Walk own_walk() {
-  Walk walk;
-  walk.file = kSource / "configs" / "scenes" / "walk.trc";
-  for (const char* place :
-       {"Heel", "Toe.Tip", "Toe.Lat", "Toe.Med", "Midfoot.Sup", "Midfoot.Lat"}) {
-    walk.left.push_back(std::string("L.") + place);
-    walk.right.push_back(std::string("R.") + place);
-  }
-  walk.contacts = kSource / "tests" / "data" / "walk_contacts.csv";
-  return walk;
-}
-
 void complete(Options& options) {
   Material& material = options.material;
   const Walk own = own_walk();

@@ -27,7 +27,6 @@ struct Stroke {
   double level = 0.0;    ///< [m]; 0: 15 cm more than that
   double width = 0.5;    ///< of the basin [m]
   double spacing = 0.025;
-  std::string solver = "";  ///< empty: the default
 };
 
 /// What the laws say of it.
@@ -86,14 +85,11 @@ Case case_of(const std::string& sweep, const Stroke& stroke) {
   basin.length = stroke.width + along;
   basin.level = stroke.level > 0.0 ? stroke.level : depth + 0.15;
   basin.spacing = stroke.spacing;
-  basin.solver = stroke.solver;
   Way way({-0.5 * along, 0.0, basin.level + gap - low}, at_origin.rotation);
   way.go({stroke.speed * std::cos(turn), 0.0, -down}, (gap + depth) / down).wait(1.0);
-  Case item;
-  item.sweep = sweep;
-  item.name = stroke.name;
-  item.scene = basin.scene({body_text("body", shape_text(stroke.shape), way.text())});
-  item.seconds = gap / down + sinks + 0.5;
+  Case item = {sweep, stroke.name,
+               basin.scene({body_text("body", shape_text(stroke.shape), way.text())}),
+               gap / down + sinks + 0.5};
   const double reached =
       std::min(stroke.speed * law.closes, (depth - down * sinks) / std::sin(turn));
   item.wishes.cavities = cavities_of(law, reached);

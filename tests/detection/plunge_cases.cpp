@@ -42,19 +42,12 @@ Case case_of(const std::string& sweep, const Plunge& plunge) {
   const double middle = 0.5 * (before + inside);
   Way way({-middle * plunge.velocity[0], 0.0, plunge.basin.level + gap - low}, plunge.turn);
   way.go(plunge.velocity, before + inside).wait(1.0);
-  Case item;
-  item.sweep = sweep;
-  item.name = plunge.name;
   const std::string shape = plunge.as_text.empty() ? shape_text(plunge.shape) : plunge.as_text;
-  item.scene = plunge.basin.scene({body_text("body", shape, way.text())});
-  item.seconds = before + kAfter;
+  Case item = {sweep, plunge.name, plunge.basin.scene({body_text("body", shape, way.text())}),
+               before + kAfter};
   item.wishes.added_mass = plunge.added_mass;
   item.quick = plunge.quick;
   return item;
-}
-
-std::string metres_per_second(double speed) {
-  return digits(speed) + " m/s";
 }
 
 /// Of one side of a flat rectangle (events that a disc makes: 0.24 rho A^1.5) [kg].
@@ -67,7 +60,7 @@ constexpr double kHandSlenderness = 0.88;  ///< of two to one
 
 Plunge of_hand(double speed) {
   Plunge plunge;
-  plunge.name = metres_per_second(speed);
+  plunge.name = digits(speed) + " m/s";
   plunge.velocity = {0.0, 0.0, -speed};
   plunge.added_mass = plate_mass(0.18, 0.09, kHandSlenderness);
   return plunge;

@@ -6,8 +6,8 @@
 #include "sim-server/bodies/motion/make_motion.hpp"
 #include "sim-server/scene/scene_reader.hpp"
 #include "tests/detection/script.hpp"
-#include "tests/detection/shipped.hpp"
 #include "tests/detection/sweeps.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::detection {
 namespace {
@@ -41,30 +41,13 @@ double spacing_for(double volume, double finest, double most) {
   return std::max(finest, std::cbrt(volume / most));
 }
 
-/// A basin of the region, wide enough for what moves in it.
-struct Place {
-  sim::Vector3 lower = {0.0, 0.0, 0.0};  ///< of the water at rest [m]
-  sim::Vector3 upper = {0.0, 0.0, 0.0};
-  double spacing = 0.025;
-};
-
-std::string scene_in(const Place& place, const std::vector<std::string>& bodies) {
-  sim::Vector3 top = place.upper;
-  top[2] += 0.4;
-  std::string text = "fluid: {spacing: " + digits(place.spacing) +
-                     "}\ntank: {lower: " + digits(place.lower) + ", upper: " + digits(top) +
-                     "}\nwater:\n  - {lower: " + digits(place.lower) +
-                     ", upper: " + digits(place.upper) + "}\nbodies:\n";
-  for (const std::string& body : bodies) text += body;
-  return text;
-}
-
-Place around(const Region& region, double margin, double floor, double level) {
+/// A pool of the region, wide enough for what moves in it.
+Pool around(const Region& region, double margin, double floor, double level) {
   return {{region.lower[0] - margin, region.lower[1] - margin, floor},
           {region.upper[0] + margin, region.upper[1] + margin, level}};
 }
 
-double volume_of(const Place& place) {
+double volume_of(const Pool& place) {
   double volume = 1.0;
   for (std::size_t k = 0; k < 3; ++k) volume *= place.upper[k] - place.lower[k];
   return volume;
@@ -74,18 +57,15 @@ Case walk_case(const Walk& walk, const sim::MarkerRecording& recording,
                const std::filesystem::path& file, double depth, double length) {
   std::vector<std::string> markers = walk.left;
   markers.insert(markers.end(), walk.right.begin(), walk.right.end());
-  Place place = around(region_of(recording, markers), 0.2, -kUnderFeet, depth);
+  Pool place = around(region_of(recording, markers), 0.2, -kUnderFeet, depth);
   place.spacing = spacing_for(volume_of(place), depth < 0.03 ? 0.016 : 0.02, 11000.0);
   sim::Shape shoe = box({length, 0.1, 0.07});
   shoe.rocker = 0.03;
   shoe.flat = 0.5;
-  Case item;
-  item.scene =
-      scene_in(place, {body_text("foot_left", shape_text(shoe), tracked(walk.left, true)),
-                       body_text("foot_right", shape_text(shoe), tracked(walk.right, true))});
-  item.sweep = "walk";
-  item.name = digits(100.0 * depth) + " cm, shoe " + digits(100.0 * length) + " cm";
-  item.seconds = duration(recording);
+  Case item = {"walk", digits(100.0 * depth) + " cm, shoe " + digits(100.0 * length) + " cm",
+               place.scene({body_text("foot_left", shape_text(shoe), tracked(walk.left, true)),
+                            body_text("foot_right", shape_text(shoe), tracked(walk.right, true))}),
+               duration(recording)};
   item.feet = true;
   item.tracker = file;
   if (depth >= 0.16) item.wishes.cavities = Count{0, 0};
@@ -124,27 +104,24 @@ void add_walks(std::vector<Case>& all, const Material& material) {
     }
   }
   if (walk.contacts.empty()) return;
-  Case shipped_walk;
-  shipped_walk.sweep = "walk";
-  shipped_walk.name = "walk.yaml, against force plates";
-  shipped_walk.scene = scene_text("walk.yaml");
-  shipped_walk.seconds = duration(recording);
+  Case shipped_walk = {"walk", "walk.yaml, against force plates", tests::scene_text("walk.yaml"),
+                       duration(recording)};
   shipped_walk.feet = true;
   shipped_walk.tracker = plain;
   shipped_walk.truth = walk.contacts;
   all.push_back(shipped_walk);
   // Splashes are chaotic: other steps and spacings are other runs.
-  for (const char* other : {"time_step_factor: 0.999", "time_step_factor: 0.998",
-                            "time_step_factor: 0.997", "time_step_factor: 0.996"}) {
+  const auto add = [&](const std::string& other, const std::string& from, const std::string& to) {
     all.push_back(shipped_walk);
-    all.back().name += std::string(", ") + other;
-    all.back().scene =
-        changed(shipped_walk.scene, "fluid:\n", std::string("fluid:\n  ") + other + "\n");
+    all.back().name += ", " + other;
+    all.back().scene = tests::changed(shipped_walk.scene, from, to);
+  };
+  for (const char* factor : {"0.999", "0.998", "0.997", "0.996"}) {
+    const std::string other = std::string("time_step_factor: ") + factor;
+    add(other, "fluid:\n", "fluid:\n  " + other + "\n");
   }
   for (const char* other : {"particles: 9000", "particles: 16000"}) {
-    all.push_back(shipped_walk);
-    all.back().name += std::string(", ") + other;
-    all.back().scene = changed(shipped_walk.scene, "particles: 12000", other);
+    add(other, "particles: 12000", other);
   }
 }
 
@@ -182,14 +159,12 @@ void add_hand(std::vector<Case>& all, const HandRecording& hand,
     const auto file = play_to(folder, name, other);
     const double level = middle_height(hand, file, duration(other));
     const Region region = region_of(other, hand.markers);
-    Place place = around(region, 0.25, std::min(region.lower[2], level) - 0.15, level);
+    Pool place = around(region, 0.25, std::min(region.lower[2], level) - 0.15, level);
     place.spacing = spacing_for(volume_of(place), 0.02, 9000.0);
-    Case item;
-    item.sweep = "hand";
-    item.name = name.substr(5);
-    item.scene = scene_in(
-        place, {body_text("hand", shape_text(box(hand.size)), tracked(hand.markers, false))});
-    item.seconds = duration(other);
+    Case item = {
+        "hand", name.substr(5),
+        place.scene({body_text("hand", shape_text(box(hand.size)), tracked(hand.markers, false))}),
+        duration(other)};
     item.tracker = file;
     item.quick = manner.name == "upside down";
     all.push_back(item);

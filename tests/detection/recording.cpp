@@ -2,10 +2,12 @@
 #include "tests/detection/recording.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+
+#include "program/text.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::detection {
 namespace {
@@ -46,14 +48,13 @@ sim::MarkerRecording played(sim::MarkerRecording recording, const Play& play) {
 
 void write_trc(const sim::MarkerRecording& recording, const std::filesystem::path& path) {
   std::ofstream file(path);
-  char text[160];
-  std::snprintf(text, sizeof text, "%.9g\t%.9g\t%zu\t%zu\tmm\t%.9g\t1\t%zu\n", recording.rate,
-                recording.rate, recording.frames.size(), recording.names.size(), recording.rate,
-                recording.frames.size());
   file << "PathFileType\t4\t(X/Y/Z)\t" << path.filename().string()
        << "\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
           "OrigNumFrames\n"
-       << text << "Frame#\tTime";
+       << program::format("%.9g\t%.9g\t%zu\t%zu\tmm\t%.9g\t1\t%zu\n", recording.rate,
+                          recording.rate, recording.frames.size(), recording.names.size(),
+                          recording.rate, recording.frames.size())
+       << "Frame#\tTime";
   for (const std::string& name : recording.names) file << '\t' << name << "\t\t";
   file << "\n\t";
   for (std::size_t k = 1; k <= recording.names.size(); ++k) {
@@ -61,13 +62,11 @@ void write_trc(const sim::MarkerRecording& recording, const std::filesystem::pat
   }
   file << "\n\n";
   for (std::size_t k = 0; k < recording.frames.size(); ++k) {
-    std::snprintf(text, sizeof text, "%zu\t%.6f", k + 1, recording.times[k]);
-    file << text;
+    file << program::format("%zu\t%.6f", k + 1, recording.times[k]);
     for (const auto& place : recording.frames[k]) {
       if (place) {
-        std::snprintf(text, sizeof text, "\t%.4f\t%.4f\t%.4f", kMillimetres * (*place)[0],
-                      kMillimetres * (*place)[2], -kMillimetres * (*place)[1]);
-        file << text;
+        file << program::format("\t%.4f\t%.4f\t%.4f", kMillimetres * (*place)[0],
+                                kMillimetres * (*place)[2], -kMillimetres * (*place)[1]);
       } else {
         file << "\t\t\t";
       }
@@ -94,6 +93,18 @@ Region region_of(const sim::MarkerRecording& recording, const std::vector<std::s
     throw std::invalid_argument("the recording shows none of the markers named");
   }
   return region;
+}
+
+Walk own_walk() {
+  Walk walk;
+  walk.file = tests::scene_folder() / "walk.trc";
+  for (const char* place :
+       {"Heel", "Toe.Tip", "Toe.Lat", "Toe.Med", "Midfoot.Sup", "Midfoot.Lat"}) {
+    walk.left.push_back(std::string("L.") + place);
+    walk.right.push_back(std::string("R.") + place);
+  }
+  walk.contacts = tests::source_folder() / "tests" / "data" / "walk_contacts.csv";
+  return walk;
 }
 
 }  // namespace splash::detection

@@ -38,6 +38,9 @@ struct Walk {
   std::filesystem::path contacts;        ///< truth of a walk in a thin layer, or empty
 };
 
+/// The walk that the tests have, with what force plates saw of it.
+[[nodiscard]] Walk own_walk();
+
 /// One body that goes into the water by hand.
 struct HandRecording {
   std::filesystem::path file;

@@ -28,13 +28,11 @@ Case plunges(const sim::Shape& shape, double degrees, double speed, double pause
   Way way(top, at_origin.rotation);
   way.wait(0.05);
   for (int k = 0; k < kPlunges; ++k) way.to(bottom, speed).wait(kHold).to(top, speed).wait(pause);
-  Case item;
-  item.sweep = "repeated";
-  item.name = digits(speed) + " m/s, pause " + digits(pause) + " s" +
-              (degrees > 0.0 ? ", " + digits(degrees) + " degrees" : "") +
-              (shape.kind == sim::ShapeKind::sphere ? ", sphere" : "");
-  item.scene = basin.scene({body_text("body", shape_text(shape), way.text())});
-  item.seconds = way.end();
+  Case item = {"repeated",
+               digits(speed) + " m/s, pause " + digits(pause) + " s" +
+                   (degrees > 0.0 ? ", " + digits(degrees) + " degrees" : "") +
+                   (shape.kind == sim::ShapeKind::sphere ? ", sphere" : ""),
+               basin.scene({body_text("body", shape_text(shape), way.text())}), way.end()};
   item.quick = pause == 0.05;
   // Without a pause it turns round in the column of water that it has pulled up.
   if (item.quick) item.pulled = kAbove / speed;
@@ -57,11 +55,8 @@ Case pats(double height, double frequency) {
     const sim::Vector3 next = {0.0, 0.0, middle + amplitude * std::cos(turn)};
     way.go({0.0, 0.0, (next[2] - way.place()[2]) / part}, part);
   }
-  Case item;
-  item.sweep = "patting";
-  item.name = digits(100.0 * height) + " cm at " + digits(frequency) + " Hz";
-  item.scene = basin.scene({body_text("hand", shape_text(hand()), way.text())});
-  item.seconds = way.end();
+  Case item = {"patting", digits(100.0 * height) + " cm at " + digits(frequency) + " Hz",
+               basin.scene({body_text("hand", shape_text(hand()), way.text())}), way.end()};
   item.quick = height == 0.015;
   return item;
 }
@@ -82,11 +77,7 @@ Case rain(double diameter, double spacing) {
     balls.push_back(
         free_text("ball" + std::to_string(k), shape_text(ball(diameter)), place, 600.0));
   }
-  Case item;
-  item.sweep = "rain";
-  item.name = "16 balls of " + digits(100.0 * diameter) + " cm";
-  item.scene = basin.scene(balls);
-  item.seconds = 1.1;
+  Case item = {"rain", "16 balls of " + digits(100.0 * diameter) + " cm", basin.scene(balls), 1.1};
   item.quick = diameter > 0.045;
   return item;
 }

@@ -16,8 +16,8 @@
 #include "sim-server/scene/scene_reader.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/detection/run_water.hpp"
-#include "tests/detection/shipped.hpp"
 #include "tests/detection/steps.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::detection {
 namespace {
@@ -47,11 +47,6 @@ struct Trace {
     return state;
   }
 };
-
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
 
 /// The paths of all bodies: those that the water moves as traces.
 struct Paths {
@@ -172,7 +167,7 @@ std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
 }
 
 sim::Scene scene_of(const Case& item) {
-  return sim::parse_scene(item.scene, (scene_folder() / (item.sweep + ".yaml")).string());
+  return sim::parse_scene(item.scene, (tests::scene_folder() / (item.sweep + ".yaml")).string());
 }
 
 }  // namespace

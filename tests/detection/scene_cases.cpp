@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The scenes as they ship.
-#include "tests/detection/shipped.hpp"
 #include "tests/detection/sweeps.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::detection {
 namespace {
 
 Case shipped_case(const std::string& name, double seconds, Count cavities, bool quick = false) {
-  Case item;
-  item.sweep = "scenes";
-  item.name = name;
-  item.scene = scene_text(name + ".yaml");
-  item.seconds = seconds;
+  Case item = {"scenes", name, tests::scene_text(name + ".yaml"), seconds};
   item.wishes.cavities = cavities;
   item.quick = quick;
   return item;
 }
 
 }  // namespace
-
-std::string without_wave_impacts(const std::string& text) {
-  const std::string key = "impact_waves: true";
-  return text.find(key) == std::string::npos ? text : changed(text, key, "impact_waves: false");
-}
 
 /// How many cavities: the basin's third plunge is too slow, the pool's feet stop too soon, floating
 /// balls and boats do not go under. A ball that is braked and hands that stop 12 cm deep are at the

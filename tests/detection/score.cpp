@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "program/text.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::detection {
@@ -27,13 +27,6 @@ struct Pair {
   std::size_t impact = 0;
   double apart = 0.0;  ///< [s]
 };
-
-template <class... Values>
-std::string said(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 class Judge {
  public:
@@ -98,8 +91,9 @@ class Judge {
       if (!entries_[e].wanted) continue;
       ++result_.wanted;
       if (told_[e]) continue;
-      result_.faults.push_back(said("missed: body %zu at %.3f s, %.2f m/s down", entries_[e].body,
-                                    entries_[e].time, entries_[e].down));
+      result_.faults.push_back(program::format("missed: body %zu at %.3f s, %.2f m/s down",
+                                               entries_[e].body, entries_[e].time,
+                                               entries_[e].down));
     }
   }
 
@@ -114,16 +108,16 @@ class Judge {
         continue;
       }
       ++result_.untrue;
-      result_.faults.push_back(
-          said("false: body %d at %.3f s, %.2f m/s, %.0f mm above the level, its middle moving at "
-               "%+.2f m/s upwards",
-               impact.body, impact.time, impact.approach,
-               1.0e3 * (impact.position[2] - wishes_.level), state.velocity[2]));
+      result_.faults.push_back(program::format(
+          "false: body %d at %.3f s, %.2f m/s, %.0f mm above the level, its middle moving at "
+          "%+.2f m/s upwards",
+          impact.body, impact.time, impact.approach, 1.0e3 * (impact.position[2] - wishes_.level),
+          state.velocity[2]));
     }
     if (!wishes_.waves) return;
     if (result_.waves >= wishes_.waves->least && result_.waves <= wishes_.waves->most) return;
-    result_.faults.push_back(said("%d impacts of waves, wanted %d to %d", result_.waves,
-                                  wishes_.waves->least, wishes_.waves->most));
+    result_.faults.push_back(program::format("%d impacts of waves, wanted %d to %d", result_.waves,
+                                             wishes_.waves->least, wishes_.waves->most));
   }
 
   void look_at_cavities() {
@@ -139,17 +133,18 @@ class Judge {
       }
       ++result_.stray;
       if (above) ++result_.stray_above;
-      result_.faults.push_back(said("stray cavity at %.3f s, r %.0f mm, %.0f mm above the level",
-                                    cavity.time, 1.0e3 * cavity.radius,
-                                    1.0e3 * (cavity.position[2] - wishes_.level)));
+      result_.faults.push_back(
+          program::format("stray cavity at %.3f s, r %.0f mm, %.0f mm above the level", cavity.time,
+                          1.0e3 * cavity.radius, 1.0e3 * (cavity.position[2] - wishes_.level)));
     }
     look_at_closing();
     if (!wishes_.cavities) return;
     if (result_.cavities >= wishes_.cavities->least && result_.cavities <= wishes_.cavities->most) {
       return;
     }
-    result_.faults.push_back(said("%d cavities after entries, wanted %d to %d", result_.cavities,
-                                  wishes_.cavities->least, wishes_.cavities->most));
+    result_.faults.push_back(program::format("%d cavities after entries, wanted %d to %d",
+                                             result_.cavities, wishes_.cavities->least,
+                                             wishes_.cavities->most));
   }
 
   /// Of the first cavity: the hollow closes at half the body's depth (Bergmann et al. 2009), and
@@ -161,23 +156,25 @@ class Judge {
     const double after = cavity.time - entry.time - wishes_.sinks_after;
     result_.closing.push_back(after / wishes_.closes_after);
     if (std::abs(result_.closing.back() - 1.0) > kClosing) {
-      result_.faults.push_back(said("the cavity closes %.0f ms after the entry, expected %.0f",
-                                    1.0e3 * after, 1.0e3 * wishes_.closes_after));
+      result_.faults.push_back(
+          program::format("the cavity closes %.0f ms after the entry, expected %.0f", 1.0e3 * after,
+                          1.0e3 * wishes_.closes_after));
     }
     if (wishes_.most_air <= 0.0) return;
     const double air = 4.0 / 3.0 * std::numbers::pi * std::pow(cavity.radius, 3);
     result_.air.push_back((air + wishes_.body) / wishes_.hollow);
     if (air > wishes_.most_air || air < wishes_.least_air) {
-      result_.faults.push_back(said("%.2f litres of air in the cavity, expected %.2f to %.2f",
-                                    1.0e3 * air, 1.0e3 * wishes_.least_air,
-                                    1.0e3 * wishes_.most_air));
+      result_.faults.push_back(
+          program::format("%.2f litres of air in the cavity, expected %.2f to %.2f", 1.0e3 * air,
+                          1.0e3 * wishes_.least_air, 1.0e3 * wishes_.most_air));
     }
     const double half = 0.5 * entry.down * after;
     const double depth = wishes_.level - cavity.position[2];
     result_.depth.push_back(depth / half);
     if (depth < kShallow * half || depth > kDeep * half) {
-      result_.faults.push_back(said("the cavity lies %.0f mm deep, expected %.0f to %.0f",
-                                    1.0e3 * depth, 1.0e3 * kShallow * half, 1.0e3 * kDeep * half));
+      result_.faults.push_back(
+          program::format("the cavity lies %.0f mm deep, expected %.0f to %.0f", 1.0e3 * depth,
+                          1.0e3 * kShallow * half, 1.0e3 * kDeep * half));
     }
   }
 
@@ -188,11 +185,6 @@ class Judge {
   std::vector<bool> used_;  ///< of each impact
   Score result_;
 };
-
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
 
 }  // namespace
 

@@ -2,10 +2,10 @@
 #include "tests/detection/script.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <span>
 
+#include "program/text.hpp"
 #include "sim-server/scene/rotation.hpp"
 
 namespace splash::detection {
@@ -23,9 +23,7 @@ std::string in_brackets(std::span<const double> values) {
 }  // namespace
 
 std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
+  return program::format("%.9g", value);
 }
 
 std::string digits(const sim::Vector3& place) {
@@ -89,17 +87,19 @@ std::string Way::text() const {
   return text + "]}";
 }
 
-std::string Basin::scene(const std::vector<std::string>& bodies, const std::string& water) const {
-  const sim::Vector3 lower = {-0.5 * length, -0.5 * width, 0.0};
-  std::string text = "fluid: {spacing: " + digits(spacing);
-  if (!solver.empty()) text += ", solver: " + solver;
-  text += "}\ntank: {lower: " + digits(lower) +
-          ", upper: " + digits({0.5 * length, 0.5 * width, level + 0.6}) +
-          "}\nwater:\n  - {lower: " + digits(lower) +
-          ", upper: " + digits({0.5 * length, 0.5 * width, level}) + "}\n" + water;
-  if (!bodies.empty()) text += "bodies:\n";
+std::string Pool::scene(const std::vector<std::string>& bodies, const std::string& water) const {
+  std::string text = "fluid: {spacing: " + digits(spacing) + "}\ntank: {lower: " + digits(lower) +
+                     ", upper: " + digits({upper[0], upper[1], upper[2] + above}) +
+                     "}\nwater:\n  - {lower: " + digits(lower) + ", upper: " + digits(upper) +
+                     "}\n" + water + "bodies:\n";
   for (const std::string& body : bodies) text += body;
   return text;
+}
+
+std::string Basin::scene(const std::vector<std::string>& bodies, const std::string& water) const {
+  const Pool pool = {
+      {-0.5 * length, -0.5 * width, 0.0}, {0.5 * length, 0.5 * width, level}, spacing, 0.6};
+  return pool.scene(bodies, water);
 }
 
 std::string shape_text(const sim::Shape& shape) {

@@ -41,15 +41,26 @@ class Way {
   std::vector<sim::Keyframe> keys_;
 };
 
-/// An open box whose floor is at z = 0, its middle at x = y = 0, with water up to `level`.
+/// An open box of water.
+struct Pool {
+  sim::Vector3 lower = {0.0, 0.0, 0.0};  ///< of the water at rest [m]
+  sim::Vector3 upper = {0.0, 0.0, 0.0};
+  double spacing = 0.025;
+  double above = 0.4;  ///< of the walls above the level [m]
+
+  /// A whole scene; `bodies` as body_text gives them, `water`: more of it, lines of a list.
+  [[nodiscard]] std::string scene(const std::vector<std::string>& bodies,
+                                  const std::string& water = "") const;
+};
+
+/// One whose floor is at z = 0, its middle at x = y = 0, with water up to `level`.
 struct Basin {
   double length = 0.45;  ///< along x [m]
   double width = 0.36;   ///< along y [m]
   double level = 0.24;   ///< [m]
   double spacing = 0.025;
-  std::string solver;  ///< empty: the default
 
-  /// A whole scene; `bodies` as body_text gives them, `water`: more of it, lines of a list.
+  /// The same.
   [[nodiscard]] std::string scene(const std::vector<std::string>& bodies,
                                   const std::string& water = "") const;
 };

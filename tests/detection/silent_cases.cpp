@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
 // What must not be heard: easing in, sliding, pulling out, drops on a hand, feet that stand.
 #include "tests/detection/script.hpp"
-#include "tests/detection/shipped.hpp"
 #include "tests/detection/sweeps.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace splash::detection {
 namespace {
 
 const double kHalfHand = 0.5 * hand().size[2];
 
-Case of_way(const std::string& sweep, const std::string& name, const Basin& basin, const Way& way,
-            double seconds) {
-  Case item;
-  item.sweep = sweep;
-  item.name = name;
-  item.scene = basin.scene({body_text("hand", shape_text(hand()), way.text())});
-  item.seconds = seconds;
+/// A hand on its way, which makes no cavity.
+Case of_way(const std::string& sweep, const std::string& name, const Basin& basin, const Way& way) {
+  Case item = {sweep, name, basin.scene({body_text("hand", shape_text(hand()), way.text())}),
+               way.end()};
+  item.wishes.cavities = Count{0, 0};
   return item;
 }
 
@@ -23,8 +21,7 @@ Case immersion(double speed) {
   const Basin basin;
   Way way({0.0, 0.0, basin.level + 0.01 + kHalfHand});
   way.go({0.0, 0.0, -speed}, 0.03 / speed);
-  Case item = of_way("slow", digits(100.0 * speed) + " cm/s", basin, way, way.end());
-  item.wishes.cavities = Count{0, 0};
+  Case item = of_way("slow", digits(100.0 * speed) + " cm/s", basin, way);
   item.quick = speed == 0.03;
   return item;
 }
@@ -37,9 +34,7 @@ Case slide(double height) {
   Way way({-0.2, 0.0, basin.level + 0.05 + kHalfHand});
   way.to({-0.2, 0.0, basin.level + height + kHalfHand}, 0.3).wait(0.1);
   way.go({1.5, 0.0, 0.0}, 0.25).wait(0.2);
-  Case item =
-      of_way("sliding", "underside at " + digits(1.0e3 * height) + " mm", basin, way, way.end());
-  item.wishes.cavities = Count{0, 0};
+  Case item = of_way("sliding", "underside at " + digits(1.0e3 * height) + " mm", basin, way);
   item.quick = height == -0.02;
   return item;
 }
@@ -48,8 +43,7 @@ Case pull_out(double speed) {
   const Basin basin;
   Way way({0.0, 0.0, basin.level - 0.12 + kHalfHand});
   way.wait(0.1).go({0.0, 0.0, speed}, 0.27 / speed).wait(0.5);
-  Case item = of_way("pull_out", digits(speed) + " m/s", basin, way, way.end());
-  item.wishes.cavities = Count{0, 0};
+  Case item = of_way("pull_out", digits(speed) + " m/s", basin, way);
   item.quick = speed == 1.0;
   return item;
 }
@@ -65,11 +59,8 @@ Case lump(double speed) {
   const double half = 0.5 * basin.spacing;
   const std::string water = "  - {lower: " + digits({-half, -half, top + fall}) +
                             ", upper: " + digits({half, half, top + fall + basin.spacing}) + "}\n";
-  Case item;
-  item.sweep = "lump";
-  item.name = digits(speed) + " m/s";
-  item.scene = basin.scene({body_text("hand", shape_text(hand()), way.text())}, water);
-  item.seconds = way.end();
+  Case item = {"lump", digits(speed) + " m/s",
+               basin.scene({body_text("hand", shape_text(hand()), way.text())}, water), way.end()};
   item.quick = speed == 2.0;
   return item;
 }
@@ -87,11 +78,7 @@ Case standing_in_pool() {
     const Way way({0.0, y, 0.07});
     feet.push_back(body_text(y < 0.0 ? "right" : "left", shape_text(foot), way.text()));
   }
-  Case item;
-  item.sweep = "standing";
-  item.name = "still pool";
-  item.scene = basin.scene(feet);
-  item.seconds = 3.0;
+  Case item = {"standing", "still pool", basin.scene(feet), 3.0};
   item.wishes.cavities = Count{0, 0};
   item.quick = true;
   return item;
@@ -99,12 +86,10 @@ Case standing_in_pool() {
 
 /// Who stands makes no impact unless the scene wants those of waves.
 Case standing_in_waves() {
-  Case item;
-  item.sweep = "standing";
-  item.name = "beach waves";
-  item.scene = without_wave_impacts(
-      changed(scene_text("beach.yaml"), "particles: 15000", "particles: 8000"));
-  item.seconds = 6.0;
+  const std::string coarse =
+      tests::changed(tests::scene_text("beach.yaml"), "particles: 15000", "particles: 8000");
+  Case item = {"standing", "beach waves",
+               tests::changed(coarse, "impact_waves: true", "impact_waves: false"), 6.0};
   item.wishes.cavities = Count{0, 0};
   return item;
 }

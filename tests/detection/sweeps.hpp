@@ -16,12 +16,13 @@ struct Case {
   std::string name;
   std::string scene;     ///< YAML
   double seconds = 1.0;  ///< simulated
-  Wishes wishes;         ///< its level is the scene's
+  Wishes wishes = {};    ///< its level is the scene's
   bool quick = false;    ///< one of the few that stand for all
   bool feet = false;     ///< bodies are feet that roll in
   double pulled = 0.0;   ///< meets the water that it pulled up so long before the level [s]
-  std::filesystem::path tracker;  ///< a marker file for bodies of kind trc, or empty
-  std::filesystem::path truth;  ///< foot contacts as tests/data/walk_contacts.csv has them: wanted
+  std::filesystem::path tracker = {};  ///< a marker file for bodies of kind trc, or empty
+  /// Foot contacts as tests/data/walk_contacts.csv has them, all wanted; or empty.
+  std::filesystem::path truth = {};
 };
 
 /// What recordings to play, and where files may be put.

@@ -8,7 +8,6 @@
 #include "sim-server/scene/rotation.hpp"
 #include "tests/detection/run.hpp"
 #include "tests/detection/run_water.hpp"
-#include "tests/detection/shipped.hpp"
 
 namespace splash::detection {
 namespace {
@@ -17,12 +16,7 @@ Case case_of(const std::string& sweep, const std::string& name) {
   Material material;
   material.folder = std::filesystem::temp_directory_path() / ("splash_sweep_" + sweep);
   std::filesystem::create_directories(material.folder);
-  material.walk.file = scene_folder() / "walk.trc";
-  for (const char* place :
-       {"Heel", "Toe.Tip", "Toe.Lat", "Toe.Med", "Midfoot.Sup", "Midfoot.Lat"}) {
-    material.walk.left.push_back(std::string("L.") + place);
-    material.walk.right.push_back(std::string("R.") + place);
-  }
+  material.walk = own_walk();
   for (const Case& item : all_cases(material)) {
     if (item.sweep == sweep && item.name == name) return item;
   }
