@@ -11,7 +11,6 @@
 #include "tests/bench/progress.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/detection/table.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace {
@@ -19,8 +18,6 @@ namespace {
 using namespace splash;
 using namespace splash::detection;
 namespace fs = std::filesystem;
-
-const fs::path kSource = splash::tests::source_folder();
 
 struct Options {
   std::vector<std::string> sweeps;

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -81,8 +80,7 @@ JackDeaths kill_jack(int rounds) {
     deaths.back.push_back(wait_for(synth.process(), "'system' plays", k));
     progress(k);
   }
-  synth.process().signal(SIGTERM);
-  if (synth.process().wait_for_end() != 0) throw std::runtime_error(synth.process().output());
+  if (synth.end() != 0) throw std::runtime_error(synth.process().output());
   return deaths;
 }
 

@@ -4,7 +4,6 @@
 // commands through the queue into its audio thread. Nothing may be lost
 // but what the kernel dropped and says so; memory stays; afterwards all is as before. Ends with 1
 // when any of it is not so.
-#include <csignal>
 #include <cstdio>
 #include <random>
 #include <string>
@@ -157,8 +156,7 @@ class Flood {
   }
 
   [[nodiscard]] bool right() {
-    synth_.process().signal(SIGTERM);
-    check(synth_.process().wait_for_end() == 0, "it did not end cleanly");
+    check(synth_.end() == 0, "it did not end cleanly");
     const std::string said = synth_.process().output();
     std::printf("%s", said.substr(std::min(said.rfind("ran "), said.size())).c_str());
     return right_;
@@ -185,9 +183,7 @@ class Flood {
 
   protocol::SynthStatus status() {
     sleep(kBetweenAnswers);
-    const auto answer = protocol::to_synth_status(synth_.ask({"/status", {}}, "/status.reply"));
-    if (!answer) throw std::runtime_error("no status:\n" + synth_.process().output());
-    return *answer;
+    return synth_.status();
   }
 
   /// How soon after the storm an event is sent that is played as on the first day: taken, neither

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -217,8 +216,7 @@ class Soak {
   }
 
   void change_scene() {
-    simulator_->process().signal(SIGTERM);
-    if (simulator_->process().wait_for_end() != 0) ++unplanned_;
+    if (simulator_->end() != 0) ++unplanned_;
     ++planned_;  // the synth sees this one depart
     ++scene_;
     start_simulator();
@@ -227,8 +225,7 @@ class Soak {
   void kill_one() {
     if (random_() % 2 == 0) {
       std::printf("killing the simulator\n");
-      simulator_->process().signal(SIGKILL);
-      simulator_->process().wait_for_end();
+      simulator_->kill();
       ++planned_;
       start_simulator();
       return;
@@ -236,12 +233,12 @@ class Soak {
     std::printf("killing the synth\n");
     const std::string port = protocol::to_string(synth_->endpoint());
     take_counts();
-    synth_->process().signal(SIGKILL);
-    synth_->process().wait_for_end();
+    synth_->kill();
     planned_ = 0;  // departures are counted by the synth that saw them
     start_synth(port);
   }
 
+  /// Zeros of one that is not there.
   protocol::SynthStatus status() {
     return protocol::to_synth_status(synth_->ask({"/status", {}}, "/status.reply"))
         .value_or(protocol::SynthStatus{});
@@ -274,8 +271,7 @@ class Soak {
     take_counts();
     for (Daemon* daemon :
          {static_cast<Daemon*>(simulator_.get()), static_cast<Daemon*>(synth_.get())}) {
-      daemon->process().signal(SIGTERM);
-      if (daemon->process().wait_for_end() != 0) ++unplanned_;
+      if (daemon->end() != 0) ++unplanned_;
     }
     const long departures = number_before(synth_->process().output(), "departures");
     const auto count = [](auto value) { return std::to_string(value); };

@@ -54,9 +54,10 @@ constexpr int kJitterTicks = 2;
 constexpr protocol::Endpoint kSameHost{INADDR_LOOPBACK, 57300};
 constexpr protocol::Endpoint kOtherHost{0x0A000005, 57300};
 
-class Run {
+/// A steady stream, each event up to 40 ms ahead, over a network that takes 5 to 16 ms.
+class ClockRun {
  public:
-  explicit Run(const Clocks& clocks)
+  explicit ClockRun(const Clocks& clocks)
       : clocks_(clocks), from_(clocks.same_host ? kSameHost : kOtherHost) {}
 
   ClockReport run(double seconds) {
@@ -109,11 +110,6 @@ class Run {
   SimSide sim_{[this] { return kUnix + now() + clocks_.simulator(now()); }};
 };
 
-/// A steady stream, each event up to 40 ms ahead, over a network that takes 5 to 16 ms.
-ClockReport run_clocks(const Clocks& clocks, double seconds) {
-  return Run(clocks).run(seconds);
-}
-
 constexpr double kEnd = 16.0;      // of a run [s]
 constexpr double kStep = 6.001;    // when a clock is set [s]
 constexpr double kSettled = 1.0;   // after the start, or a step [s]
@@ -148,7 +144,7 @@ TEST_P(WrongClock, FromTheStart) {
   for (const double hour : {3600.0, -3600.0}) {
     Clocks both = clocks();
     both.simulator = off_by(hour);
-    const ClockReport report = run_clocks(both, kEnd);
+    const ClockReport report = ClockRun(both).run(kEnd);
     EXPECT_GT(report.events.size(), 700U);
     EXPECT_LE(report.worst(0.0, kSettled), kJitter + 1e-3) << told(hour) << ": by arrival";
     EXPECT_LE(report.worst(kSettled, kEnd), kAgreement) << told(hour);
@@ -162,7 +158,7 @@ TEST_P(WrongClock, SetWhilePlaying) {
     for (const bool of_synth : {false, true}) {
       Clocks both = clocks();
       (of_synth ? both.synth : both.simulator) = set_by(by);
-      const ClockReport report = run_clocks(both, kEnd);
+      const ClockReport report = ClockRun(both).run(kEnd);
       const std::string step = told(by) + (of_synth ? ", the synth's" : ", the simulator's");
       EXPECT_EQ(count_delayed(report, 0.1), 0) << step;
       EXPECT_LE(report.worst(kStep + kSettled, kEnd), kAgreement) << step;
@@ -176,7 +172,7 @@ TEST_P(WrongClock, Drifting) {
     for (const double start : {0.0, 5.0}) {
       Clocks both = clocks();
       both.simulator = [=](double at) { return start + drift * at; };
-      const ClockReport report = run_clocks(both, 60.0);
+      const ClockReport report = ClockRun(both).run(60.0);
       EXPECT_LE(report.worst(kSettled, 60.0), kAgreement) << drift << " from " << start;
       EXPECT_EQ(report.player.too_late, 0U);
     }
@@ -194,7 +190,7 @@ TEST(OneHost, MaySetItsClockWithoutBeingHeard) {
     Clocks both;
     both.same_host = true;
     both.simulator = both.synth = set_by(by);
-    const ClockReport report = run_clocks(both, kEnd);
+    const ClockReport report = ClockRun(both).run(kEnd);
     EXPECT_LE(report.worst(0.0, kEnd), 1e-3) << by;
     EXPECT_EQ(report.player.too_late, 0U) << by;
   }

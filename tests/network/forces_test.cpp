@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <numbers>
@@ -17,6 +14,7 @@
 #include "protocol/time_tag.hpp"
 #include "tests/network/two_hosts.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {
@@ -67,10 +65,10 @@ double later(const std::map<Key, double>& played, const std::map<Key, double>& m
 }
 
 TEST_F(OnTwoHosts, ForcesAreFeltWithTheEventsThoughTheClocksAreAnHourApart) {
-  const std::string sound = tests::temporary_path("texture.yaml");
-  const std::string told = tests::temporary_path("told.osc");
-  const std::string started = tests::temporary_path("started.osc");
-  std::ofstream(sound) << "name: texture\nfoot: {texture: 0.001}\n";
+  const tests::TemporaryFolder folder;
+  const std::string sound = folder.write("texture.yaml", "name: texture\nfoot: {texture: 0.001}\n");
+  const std::string told = folder / "told.osc";
+  const std::string started = folder / "started.osc";
   const tests::SmallScene scene(tests::tracked());
   auto simulator = start(
       kSimHost, "sim-server",
@@ -96,12 +94,10 @@ TEST_F(OnTwoHosts, ForcesAreFeltWithTheEventsThoughTheClocksAreAnHourApart) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   for (tests::ChildProcess* process : {simulator.get(), &synth}) {
-    process->signal(SIGTERM);
-    EXPECT_EQ(process->wait_for_end(), 0) << process->output();
+    EXPECT_EQ(process->end(), 0) << process->output();
   }
   const Moments meant = moments_of(told);
   const Moments played = moments_of(started);
-  for (const std::string& file : {sound, told, started}) std::filesystem::remove(file);
   ASSERT_GT(meant.pushes.size(), 100U) << simulator->output();
   ASSERT_GT(played.pushes.size(), 100U) << synth.output() << simulator->output();
   ASSERT_GT(played.bubbles.size(), 10U) << synth.output();

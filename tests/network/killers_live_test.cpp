@@ -2,7 +2,6 @@
 // The killers against both real programs, while they play: neither ends, stalls or miscounts.
 #include <gtest/gtest.h>
 
-#include "protocol/status.hpp"
 #include "tests/protocol/killers.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/system/small_scene.hpp"
@@ -33,14 +32,11 @@ TEST(LiveKillers, LeaveBothProgramsAtWork) {
   }
   EXPECT_EQ(synth.ask({"/sync", {7}}, "/synced"), (Message{"/synced", {7}}));
   EXPECT_EQ(simulator.ask({"/sync", {7}}, "/synced"), (Message{"/synced", {7}}));
-  const auto heard = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
-  ASSERT_TRUE(heard);
-  EXPECT_EQ(heard->refused, deadly + 1) << "and an address that it does not know";
-  EXPECT_EQ(heard->duplicates, 1U);
-  EXPECT_EQ(heard->lost, 4U);
-  const auto told = protocol::to_sim_status(simulator.ask({"/status", {}}, "/status.reply"));
-  ASSERT_TRUE(told);
-  EXPECT_EQ(told->refused, deadly + 1);
+  const auto heard = synth.status();
+  EXPECT_EQ(heard.refused, deadly + 1) << "and an address that it does not know";
+  EXPECT_EQ(heard.duplicates, 1U);
+  EXPECT_EQ(heard.lost, 4U);
+  EXPECT_EQ(simulator.status().refused, deadly + 1);
   EXPECT_TRUE(synth.process().running()) << synth.process().output();
   EXPECT_TRUE(simulator.process().running()) << simulator.process().output();
 }

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <regex>
 
@@ -195,8 +194,7 @@ TEST_F(OnTwoHosts, TheGoodbyeIsPaidForWhenItIsAskedFor) {
   EXPECT_EQ(brief.drawn_by(protocol::encode(Message{"/notify", {1}})).datagrams, 0U);
   const Drawn done = generous.drawn_by(filled, 1);
   EXPECT_EQ(done.datagrams, 1U);
-  synth->signal(SIGTERM);
-  EXPECT_EQ(synth->wait_for_end(), 0);
+  EXPECT_EQ(synth->end(), 0);
   EXPECT_EQ(brief.drawn().datagrams, 0U);
   const Drawn goodbye = generous.drawn(1);
   EXPECT_EQ(goodbye.datagrams, 1U);

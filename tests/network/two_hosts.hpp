@@ -86,10 +86,4 @@ class OnTwoHosts : public testing::Test {
   TwoHosts hosts_;
 };
 
-[[nodiscard]] inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace splash::network

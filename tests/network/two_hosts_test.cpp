@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -19,6 +18,8 @@
 #include "protocol/time_tag.hpp"
 #include "tests/network/two_hosts.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::network {
@@ -66,7 +67,8 @@ Arguments dead_hosts() {
 
 // Two live receivers, a port where nobody listens, and hosts that do not exist.
 TEST_F(OnTwoHosts, EachReceiverGetsEveryEventWhateverTheOthersDo) {
-  const std::string report = tests::temporary_path("hosts.json");
+  const tests::TemporaryFolder folder;
+  const std::string report = folder / "hosts.json";
   auto synth = start_synth({"--listen", "10.77.0.2:57310", "--allow", "10.77.0.1"});
   protocol::UdpSocket receiver = hosts_.socket_on(kSynthHost, "10.77.0.2:57311");
   const tests::SmallScene scene(tests::plunging());
@@ -79,11 +81,8 @@ TEST_F(OnTwoHosts, EachReceiverGetsEveryEventWhateverTheOthersDo) {
   const Heard heard = listen(receiver);
   EXPECT_EQ(simulator->wait_for_end(), 0) << simulator->output();
 
-  synth->signal(SIGTERM);
-  EXPECT_EQ(synth->wait_for_end(), 0);
-  std::ifstream file(report);
-  const auto told = nlohmann::json::parse(file);
-  std::filesystem::remove(report);
+  EXPECT_EQ(synth->end(), 0);
+  const auto told = nlohmann::json::parse(tests::text_of(report));
   const auto& kinds = told.at("events");
   const auto sent = kinds.at("impacts").get<std::uint64_t>() +
                     kinds.at("bubbles").get<std::uint64_t>() +
@@ -138,8 +137,7 @@ TEST_F(OnTwoHosts, TheSimulatorSendsEventsToAnotherHostThatAsked) {
     EXPECT_EQ(answer_to(question, listener, "10.77.0.1:57300", 20.0).address, "/done");
     std::array<std::byte, 2048> buffer{};
     EXPECT_TRUE(listener.receive(buffer.data(), buffer.size(), 5.0)) << "a heartbeat at least";
-    simulator->signal(SIGTERM);
-    EXPECT_EQ(simulator->wait_for_end(), 0) << simulator->output();
+    EXPECT_EQ(simulator->end(), 0) << simulator->output();
   }
 }
 

@@ -95,7 +95,17 @@ bool ChildProcess::wait_for_text(const std::string& text, double seconds) {
 }
 
 void ChildProcess::signal(int number) const {
-  if (!status_) kill(pid_, number);
+  if (!status_) ::kill(pid_, number);
+}
+
+int ChildProcess::end() {
+  signal(SIGTERM);
+  return wait_for_end();
+}
+
+void ChildProcess::kill() {
+  signal(SIGKILL);
+  wait_for_end();
 }
 
 std::string ChildProcess::output() const {

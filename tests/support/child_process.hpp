@@ -31,6 +31,10 @@ class ChildProcess {
   /// False when it ends or `seconds` pass before it prints `text`.
   bool wait_for_text(const std::string& text, double seconds = 60.0);
   void signal(int number) const;
+  /// SIGTERM, and its exit status.
+  int end();
+  /// SIGKILL, and waits until it is gone.
+  void kill();
   [[nodiscard]] bool running() { return !wait(0.0); }
   [[nodiscard]] pid_t id() const noexcept { return pid_; }
   /// What it has printed so far, to stdout and stderr.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "protocol/time_tag.hpp"
@@ -15,13 +16,6 @@ namespace {
 
 /// 127.0.0.2: not the address from which a program's partner asks.
 constexpr std::uint32_t kOwnHost = INADDR_LOOPBACK + 1;
-
-Arguments on_some_port(Arguments arguments) {
-  if (std::find(arguments.begin(), arguments.end(), "--listen") == arguments.end()) {
-    arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
-  }
-  return arguments;
-}
 
 /// The endpoint that the program prints behind `label`.
 protocol::Endpoint announced(ChildProcess& process, const std::string& label) {
@@ -52,6 +46,13 @@ Arguments command(const std::string& name, const Arguments& arguments) {
   Arguments all{std::string(SPLASH_BINARY_DIR) + "/" + name};
   all.insert(all.end(), arguments.begin(), arguments.end());
   return all;
+}
+
+Arguments on_some_port(Arguments arguments) {
+  if (std::find(arguments.begin(), arguments.end(), "--listen") == arguments.end()) {
+    arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
+  }
+  return arguments;
 }
 
 Ended run_command(const Arguments& words, double seconds,
@@ -97,6 +98,24 @@ protocol::Message Daemon::ask(const protocol::Message& command, const std::strin
     }
   }
   return {};
+}
+
+namespace {
+
+template <class Status>
+Status known(const std::optional<Status>& status, Daemon& daemon) {
+  if (!status) throw std::runtime_error("no status:\n" + daemon.process().output());
+  return *status;
+}
+
+}  // namespace
+
+protocol::SynthStatus Synth::status() {
+  return known(protocol::to_synth_status(ask({"/status", {}}, "/status.reply")), *this);
+}
+
+protocol::SimStatus Simulator::status() {
+  return known(protocol::to_sim_status(ask({"/status", {}}, "/status.reply")), *this);
 }
 
 long number_before(const std::string& text, const std::string& words) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/message.hpp"
+#include "protocol/status.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/child_process.hpp"
 
@@ -19,6 +20,9 @@ using Arguments = std::vector<std::string>;
 
 /// `name` out of the build's programs, with its arguments: what ChildProcess takes.
 [[nodiscard]] Arguments command(const std::string& name, const Arguments& arguments);
+
+/// With --listen and a free port unless they have one.
+[[nodiscard]] Arguments on_some_port(Arguments arguments);
 
 struct Ended {
   int code = 0;
@@ -38,11 +42,14 @@ struct Ended {
 /// A program that says "listening: host:port", with the end of a socket to talk to it.
 class Daemon {
  public:
-  /// Adds --listen with a free port unless `arguments` have one, and waits until it listens.
+  /// On some port; waits until it listens.
   Daemon(const std::string& name, const Arguments& arguments,
          const ChildProcess::Environment& environment = {});
 
   ChildProcess& process() noexcept { return process_; }
+  /// As ChildProcess has them.
+  int end() { return process_.end(); }
+  void kill() { process_.kill(); }
   [[nodiscard]] protocol::Endpoint endpoint() const noexcept { return endpoint_; }
   /// Where it lets viewers in, when it was started with --show.
   [[nodiscard]] protocol::Endpoint viewers();
@@ -60,12 +67,16 @@ class Synth : public Daemon {
  public:
   explicit Synth(const Arguments& arguments, const ChildProcess::Environment& environment = {})
       : Daemon("synth-server", arguments, environment) {}
+  /// Throws std::runtime_error with what it printed when it does not answer.
+  [[nodiscard]] protocol::SynthStatus status();
 };
 
 class Simulator : public Daemon {
  public:
   explicit Simulator(const Arguments& arguments, const ChildProcess::Environment& environment = {})
       : Daemon("sim-server", arguments, environment) {}
+  /// The same.
+  [[nodiscard]] protocol::SimStatus status();
 };
 
 /// The whole number that stands before the first `words` in `text`; -1: none.

@@ -4,13 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "protocol/control.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/notify_socket.hpp"
 #include "tests/system/small_scene.hpp"
@@ -18,7 +17,6 @@
 namespace splash::tests {
 namespace {
 
-namespace fs = std::filesystem;
 using protocol::Message;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -28,27 +26,17 @@ constexpr double kTimeout = 60.0;  ///< [s]
 /// A folder for $XDG_CONFIG_HOME in which a scene and a rig are called "other".
 class OwnConfigs {
  public:
-  OwnConfigs() : folder_(temporary_path("own-configs")) {
-    const SmallScene scene(tracked(), 2);
-    for (const char* kind : {"scenes", "rigs"}) fs::create_directories(folder_ / "splash" / kind);
-    fs::copy_file(scene.path(), folder_ / "splash/scenes/other.yaml",
-                  fs::copy_options::overwrite_existing);
-    fs::copy_file(rig_path("shoes.yaml"), folder_ / "splash/rigs/other.yaml",
-                  fs::copy_options::overwrite_existing);
-    std::ofstream(folder_ / "splash/scenes/wrong.yaml") << "name: wrong\n";
+  OwnConfigs() {
+    folder_.write("splash/scenes/other.yaml", text_of(SmallScene(tracked(), 2).path()));
+    folder_.write("splash/scenes/wrong.yaml", "name: wrong\n");
+    folder_.write("splash/rigs/other.yaml", text_of(rig_path("shoes.yaml")));
   }
-  ~OwnConfigs() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  OwnConfigs(const OwnConfigs&) = delete;
-  OwnConfigs& operator=(const OwnConfigs&) = delete;
   [[nodiscard]] ChildProcess::Environment environment() const {
-    return {{"XDG_CONFIG_HOME", folder_.string()}};
+    return {{"XDG_CONFIG_HOME", folder_.path().string()}};
   }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 /// Whether the program, which is the same process, answers at its port again.
@@ -80,8 +68,7 @@ TEST(AnotherScene, IsGoneOverToInTheSameProcess) {
   EXPECT_NE(manager.wait_for("READY=1\nSTATUS=small", kTimeout), "");
   EXPECT_TRUE(answers(simulator));
   EXPECT_NE(manager.wait_for("WATCHDOG=1", kTimeout), "");
-  simulator.process().signal(SIGTERM);
-  EXPECT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  EXPECT_EQ(simulator.end(), 0) << simulator.process().output();
   EXPECT_NE(manager.wait_for("STOPPING=1", kTimeout), "");
   const std::string said = simulator.process().output();
   const auto first = said.find("viewers: ");
@@ -94,7 +81,8 @@ TEST(AnotherScene, IsGoneOverToInTheSameProcess) {
 TEST(AnotherScene, IsNotForARunThatWritesOrEnds) {
   const OwnConfigs own;
   const SmallScene scene(tracked());
-  const std::string log = temporary_path("kept.osc");
+  const TemporaryFolder folder;
+  const std::string log = folder / "kept.osc";
   for (const auto& [arguments, word] :
        {std::pair<Arguments, std::string>{{"--record", log}, "writes a file"},
         std::pair<Arguments, std::string>{{"--duration", "1000"}, "--duration"}}) {
@@ -105,7 +93,6 @@ TEST(AnotherScene, IsNotForARunThatWritesOrEnds) {
     ASSERT_EQ(reply.arguments.size(), 2U);
     EXPECT_THAT(std::get<std::string>(reply.arguments[1]), HasSubstr(word));
   }
-  fs::remove(log);
 }
 
 TEST(AnotherRig, IsGoneOverToInTheSameProcess) {
@@ -121,19 +108,17 @@ TEST(AnotherRig, IsGoneOverToInTheSameProcess) {
   // The same rig, around another middle.
   EXPECT_EQ(synth.ask({"/rig", {"", 0.5F, 0.25F, -1.0F}}, "/done"), protocol::done("/rig"));
   EXPECT_TRUE(answers(synth));
-  synth.process().signal(SIGTERM);
-  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+  EXPECT_EQ(synth.end(), 0) << synth.process().output();
 }
 
 TEST(AnotherRig, IsNotForASynthThatRecords) {
-  const std::string wav = temporary_path("kept.wav");
+  const TemporaryFolder folder;
+  const std::string wav = folder / "kept.wav";
   Synth synth({"--rig", rig_path("stereo.yaml"), "--device", "null", "--record-audio", wav});
   const Message reply = synth.ask({"/rig", {"shoes"}}, "/fail");
   ASSERT_EQ(reply.arguments.size(), 2U);
   EXPECT_THAT(std::get<std::string>(reply.arguments[1]), HasSubstr("records"));
-  synth.process().signal(SIGTERM);
-  EXPECT_EQ(synth.process().wait_for_end(), 0);
-  fs::remove(wav);
+  EXPECT_EQ(synth.end(), 0);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "synth-server/replay/replay.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -77,13 +77,12 @@ class Contact : public testing::TestWithParam<double> {};
 TEST_P(Contact, IsToldAheadAndSoundsWhenTheSurfacesMeet) {
   const double speed = GetParam();
   const SmallScene scene(falling(speed));
-  const std::string path = temporary_path("contact.osc");
-  const auto [code, text] = run_program(
-      "sim-server", {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--faster-than-real-time",
-                     "--duration", std::to_string(kStarts + 0.25 / speed + 0.1), "--record", path});
+  const TemporaryFolder folder;
+  const std::string path = folder / "contact.osc";
+  const auto [code, text] =
+      simulate(scene.path(), kStarts + 0.25 / speed + 0.1, {"--record", path});
   ASSERT_EQ(code, 0) << text;
   const auto log = protocol::read_log(path);
-  std::filesystem::remove(path);
   const auto told = first_impact(log);
   ASSERT_TRUE(told) << "no impact:\n" << text;
   const double meets = kStarts + (kFrom - kMeets) / speed;

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/support/programs.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -32,14 +31,6 @@ class DeviceChoice : public testing::Test {
   /// The device "basic" of two, which goes wrong that `way`.
   [[nodiscard]] Ended simulate(const std::string& way, const Arguments& more = {},
                                const std::string& wish = "") const {
-    Arguments arguments{"--scene",
-                        scene_.path(),
-                        "--listen",
-                        "127.0.0.1:0",
-                        "--duration",
-                        "0.1",
-                        "--faster-than-real-time"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
     ChildProcess::Environment environment{
         {"POCL_CACHE_DIR", cache_.string()},
         {"POCL_DEVICES", "basic pthread"},
@@ -47,7 +38,7 @@ class DeviceChoice : public testing::Test {
         {"SPLASH_SHIM_DEVICE", "basic"},
         {"SPLASH_SHIM", way}};
     if (!wish.empty()) environment.emplace_back("SPLASH_DEVICE", wish);
-    return run_program("sim-server", arguments, 300.0, environment);
+    return tests::simulate(scene_.path(), 0.1, more, environment);
   }
   [[nodiscard]] std::string remembered() const {
     return text_of(remembered_);

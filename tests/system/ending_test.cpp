@@ -12,6 +12,7 @@
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
@@ -34,8 +35,9 @@ class Ending : public testing::TestWithParam<int> {
 
 TEST_P(Ending, OfTheSimulatorClosesLogAndReport) {
   const SmallScene scene(plunging());
-  const std::string log = temporary_path("ending.osc");
-  const std::string report = temporary_path("ending.json");
+  const TemporaryFolder folder;
+  const std::string log = folder / "ending.osc";
+  const std::string report = folder / "ending.json";
   Simulator simulator({"--scene", scene.path(), "--record", log, "--report", report});
   ASSERT_TRUE(eventually([&] { return text_of(log).size() > 1000; }, 60.0));
   end(simulator);
@@ -48,17 +50,15 @@ TEST_P(Ending, OfTheSimulatorClosesLogAndReport) {
   EXPECT_TRUE(protocol::to_frame(entries.back().messages.at(0))) << "a /frame closes the log";
   const double simulated = nlohmann::json::parse(std::ifstream(report))["simulated_seconds"];
   EXPECT_NEAR(entries.back().seconds, simulated, 0.1) << "to the end";
-  std::filesystem::remove(log);
-  std::filesystem::remove(report);
 }
 
 TEST_P(Ending, OfTheSynthClosesItsRecording) {
-  const std::string wav = temporary_path("ending.wav");
+  const TemporaryFolder folder;
+  const std::string wav = folder / "ending.wav";
   Synth synth({"--rig", rig_path("stereo.yaml"), "--device", "null", "--record-audio", wav});
   end(synth);
   EXPECT_THAT(synth.process().output(), testing::ContainsRegex("ran [0-9.]+ s: played 0 impacts"));
   EXPECT_EQ(read_recording(wav).channels.size(), 2U);
-  std::filesystem::remove(wav);
 }
 
 std::string way(const testing::TestParamInfo<int>& info) {

@@ -3,18 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "protocol/control_port.hpp"
 #include "protocol/event_log.hpp"
 #include "protocol/status.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -24,12 +22,6 @@ using Json = nlohmann::json;
 
 Arguments silent_synth() {
   return {"--rig", rig_path("stereo.yaml"), "--device", "null"};
-}
-
-protocol::SynthStatus status_of(Synth& synth) {
-  const auto status = protocol::to_synth_status(synth.ask({"/status", {}}, "/status.reply"));
-  if (!status) throw std::runtime_error("no status:\n" + synth.process().output());
-  return *status;
 }
 
 std::uint64_t events_in(const std::string& log) {
@@ -43,11 +35,6 @@ std::uint64_t events_in(const std::string& log) {
 /// Three seconds of plunging in real time, to all of `targets`. Returns the report.
 class Events : public testing::Test {
  protected:
-  ~Events() override {
-    std::filesystem::remove(report_);
-    std::filesystem::remove(log_);
-  }
-
   Json run(const std::vector<protocol::Endpoint>& targets) const {
     const SmallScene scene(plunging());
     Arguments arguments{"--scene", scene.path(), "--listen", "127.0.0.1:0", "--duration",
@@ -57,12 +44,12 @@ class Events : public testing::Test {
     }
     const auto [code, text] = run_program("sim-server", arguments);
     EXPECT_EQ(code, 0) << text;
-    std::ifstream file(report_);
-    return Json::parse(file);
+    return Json::parse(text_of(report_));
   }
 
-  std::string report_ = temporary_path("report.json");
-  std::string log_ = temporary_path("events.osc");
+  TemporaryFolder folder_;
+  std::string report_ = folder_ / "report.json";
+  std::string log_ = folder_ / "events.osc";
 };
 
 std::uint64_t events_of(const Json& report) {
@@ -78,7 +65,7 @@ TEST_F(Events, EachOfTwoTargetsGetsAllAndTheReportStatesTheRun) {
   EXPECT_GE(report.at("events").at("impacts"), 2);
   EXPECT_GE(report.at("events").at("bubbles"), 10);
   for (Synth* synth : {&first, &second}) {
-    const auto status = status_of(*synth);
+    const auto status = synth->status();
     EXPECT_EQ(status.events, events_of(report));
     EXPECT_EQ(status.lost, 0U);
     EXPECT_EQ(status.duplicates, 0U);
@@ -89,8 +76,7 @@ TEST_F(Events, EachOfTwoTargetsGetsAllAndTheReportStatesTheRun) {
   EXPECT_EQ(report.at("invalid_events"), 0);
   EXPECT_EQ(report.at("send_failures"), 0);
   std::cout << "late: " << report.at("late") << " of " << events_of(report) << '\n';
-  first.process().signal(SIGTERM);
-  EXPECT_EQ(first.process().wait_for_end(), 0);
+  EXPECT_EQ(first.end(), 0);
   EXPECT_THAT(first.process().output(), testing::HasSubstr("1 sessions"));
   for (const char* key :
        {"device", "scene", "particles", "steps", "frames", "simulated_seconds", "wall_seconds",
@@ -144,18 +130,12 @@ protocol::SimStatus status_in(const Json& report) {
   return status;
 }
 
-protocol::SimStatus status_of(Simulator& simulator) {
-  const auto status = protocol::to_sim_status(simulator.ask({"/status", {}}, "/status.reply"));
-  if (!status) throw std::runtime_error("no status:\n" + simulator.process().output());
-  return *status;
-}
-
 template <class Condition>
 protocol::SimStatus status_when(Simulator& simulator, const Condition& condition) {
-  protocol::SimStatus status = status_of(simulator);
+  protocol::SimStatus status = simulator.status();
   for (int i = 0; i < 400 && !condition(status); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    status = status_of(simulator);
+    sleep(0.06);
+    status = simulator.status();
   }
   EXPECT_TRUE(condition(status)) << simulator.process().output();
   return status;
@@ -187,8 +167,7 @@ TEST_F(Events, StatusIsThatOfTheReport) {
   EXPECT_EQ(paused.steps_per_second, 0.0F);
   EXPECT_EQ(simulator.ask({"/quit", {}}, "/done").address, "/done");
   ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
-  std::ifstream file(report_);
-  const Json report = Json::parse(file);
+  const Json report = Json::parse(text_of(report_));
   protocol::SimStatus expected = status_in(report);
   EXPECT_EQ(expected.refused, 5U);
   EXPECT_GE(report.at("send_failures").get<std::uint64_t>(), paused.unsent);

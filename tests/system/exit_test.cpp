@@ -10,6 +10,7 @@
 #include "protocol/event_log.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -19,15 +20,9 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-Ended simulate(const SmallScene& scene, Arguments further) {
-  further.insert(further.end(),
-                 {"--scene", scene.path(), "--duration", "0.1", "--faster-than-real-time"});
-  return run_program("sim-server", further);
-}
-
 TEST(Exit, UnknownSceneKeyIsNamedWithItsPlace) {
   const SmallScene scene("{kind: script, repaet: true, keyframes: [{time: 0.0}]}");
-  const auto [code, text] = simulate(scene, {});
+  const auto [code, text] = simulate(scene.path(), 0.1);
   EXPECT_EQ(code, 78);
   EXPECT_THAT(text, AllOf(testing::ContainsRegex(scene.path() + ":[0-9]+:28: "),
                           HasSubstr("repaet"), HasSubstr("repeat")));
@@ -35,7 +30,7 @@ TEST(Exit, UnknownSceneKeyIsNamedWithItsPlace) {
 
 TEST(Exit, ARecordingThatMovesNothingIsAMistake) {
   const SmallScene scene(tracked());
-  const auto [code, text] = simulate(scene, {"--tracker", "/nope.trc"});
+  const auto [code, text] = simulate(scene.path(), 0.1, {"--tracker", "/nope.trc"});
   EXPECT_EQ(code, 64);
   EXPECT_THAT(text, HasSubstr("--tracker /nope.trc moves nothing: no body of the scene"));
 }
@@ -71,7 +66,7 @@ TEST(Exit, MissingFilesAreNamed) {
 
 TEST(Exit, MissingRecordingsAreNamed) {
   const SmallScene csv("{kind: csv, file: nowhere.csv}");
-  const auto [code, text] = simulate(csv, {"--listen", "127.0.0.1:0"});
+  const auto [code, text] = simulate(csv.path(), 0.1);
   EXPECT_EQ(code, 78) << "the scene names it";
   EXPECT_THAT(text, HasSubstr("nowhere.csv"));
 }
@@ -80,7 +75,7 @@ TEST(Exit, TakenPortIsNamed) {
   const SmallScene scene(plunging());
   const protocol::UdpSocket taken({INADDR_LOOPBACK, 0});
   const std::string endpoint = protocol::to_string(taken.local());
-  const auto simulator = simulate(scene, {"--listen", endpoint});
+  const auto simulator = simulate(scene.path(), 0.1, {"--listen", endpoint});
   EXPECT_EQ(simulator.code, 69);
   EXPECT_THAT(simulator.text, AllOf(HasSubstr(std::to_string(taken.local().port)),
                                     testing::Not(HasSubstr("compiling"))));
@@ -117,23 +112,23 @@ TEST(Exit, MistypedOptionsGetTheNearestName) {
 TEST(Exit, HostsThatAreNoneAreNamedWithTheirOption) {
   const SmallScene scene(plunging());
   for (const char* option : {"--listen", "--target", "--allow"}) {
-    const auto [code, text] = simulate(scene, {option, "nohost.invalid"});
+    const auto [code, text] = simulate(scene.path(), 0.1, {option, "nohost.invalid"});
     EXPECT_EQ(code, 64);
     EXPECT_THAT(text,
                 HasSubstr(std::string(option) + " 'nohost.invalid': host 'nohost.invalid': "));
   }
   // 192.0.2.0/24 is nobody's (RFC 5737).
-  const auto foreign = simulate(scene, {"--listen", "192.0.2.1:57300"});
+  const auto foreign = simulate(scene.path(), 0.1, {"--listen", "192.0.2.1:57300"});
   EXPECT_EQ(foreign.code, 69);
   EXPECT_THAT(foreign.text, HasSubstr("with an address of this host"));
 }
 
 TEST(Exit, FilesThatCannotBeWrittenAreNamed) {
   const SmallScene scene(plunging());
-  const auto log = simulate(scene, {"--listen", "127.0.0.1:0", "--record", "/nowhere/a.osc"});
+  const auto log = simulate(scene.path(), 0.1, {"--record", "/nowhere/a.osc"});
   EXPECT_EQ(log.code, 74);
   EXPECT_THAT(log.text, HasSubstr("/nowhere/a.osc"));
-  const auto report = simulate(scene, {"--listen", "127.0.0.1:0", "--report", "/nowhere/a.json"});
+  const auto report = simulate(scene.path(), 0.1, {"--report", "/nowhere/a.json"});
   EXPECT_EQ(report.code, 74);
   EXPECT_THAT(report.text, HasSubstr("/nowhere/a.json"));
   EXPECT_THAT(report.text, HasSubstr("density   error mean")) << "its figures are not lost with it";
@@ -145,9 +140,7 @@ TEST(Exit, FilesThatCannotBeWrittenAreNamed) {
 TEST(Exit, FullDiskIsSaid) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   const SmallScene scene(plunging());
-  const auto [code, text] =
-      run_program("sim-server", {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record",
-                                 "/dev/full", "--duration", "2", "--faster-than-real-time"});
+  const auto [code, text] = simulate(scene.path(), 2.0, {"--record", "/dev/full"});
   EXPECT_EQ(code, 74) << text;
   EXPECT_THAT(text, HasSubstr("/dev/full"));
 }
@@ -172,7 +165,8 @@ TEST(Exit, FullDiskEndsTheRecordingNotTheRun) {
 
 // The signal that the kernel sends then would end a program without a word.
 TEST(Exit, AFileAsLongAsItMayBeIsAFullDisk) {
-  const std::string path = temporary_path("limited.wav");
+  const TemporaryFolder folder;
+  const std::string path = folder / "limited.wav";
   Arguments shell{"/bin/sh", "-c", "ulimit -f 64; exec \"$0\" \"$@\""};
   for (const std::string& word :
        command("synth-server", {"--rig", rig_path("stereo.yaml"), "--device", "null", "--listen",
@@ -183,29 +177,26 @@ TEST(Exit, AFileAsLongAsItMayBeIsAFullDisk) {
   EXPECT_EQ(synth.wait_for_end(), 74) << synth.output();
   EXPECT_THAT(synth.output(), AllOf(HasSubstr("the limit of file sizes is reached ('ulimit -f')"),
                                     HasSubstr("Playing goes on, the recording ends here")));
-  std::filesystem::remove(path);
 }
 
 // Bytes on the disk for each second of it; the old file is not touched.
 TEST(Exit, ALogOfMoreThanAWeekIsNotRendered) {
-  const std::string log = temporary_path("old.osc");
-  const std::string wav = temporary_path("old.wav");
+  const TemporaryFolder folder;
+  const std::string log = folder / "old.osc";
+  const std::string wav = folder.write("old.wav", "as it was");
   protocol::Bubble bubble;
   bubble.radius = 0.01F;
   protocol::LogWriter(log).append(4e9, {protocol::to_message(bubble)});
-  std::ofstream(wav) << "as it was";
   const auto [code, text] = run_program(
       "synth-server", {"--rig", rig_path("stereo.yaml"), "--replay", log, "--render", wav});
   EXPECT_EQ(code, 65) << text;
   EXPECT_THAT(text, AllOf(HasSubstr(log), HasSubstr("4000000000 s"), HasSubstr("604800 s")));
   EXPECT_EQ(text_of(wav), "as it was");
-  std::filesystem::remove(log);
-  std::filesystem::remove(wav);
 }
 
 TEST(Exit, DeviceThatIsNotThereIsUnavailable) {
   const SmallScene scene(plunging());
-  const auto [code, text] = simulate(scene, {"--listen", "127.0.0.1:0", "--device", "99"});
+  const auto [code, text] = simulate(scene.path(), 0.1, {"--device", "99"});
   EXPECT_EQ(code, 69);
   EXPECT_THAT(text, testing::ContainsRegex("--device 99: there is no such OpenCL device; there "
                                            "(is only|are) 0: .*compute units"));

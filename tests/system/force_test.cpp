@@ -7,8 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -16,6 +14,9 @@
 #include "examples/force/splash_force.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -86,7 +87,8 @@ TEST(Force, IsFeltAndGoneWhenTheSimulatorIsKilled) {
 
 TEST(Force, IsFoundOnlyWhileSomebodyAsks) {
   const SmallScene scene(tracked());
-  const std::string report = temporary_path("felt.json");
+  const TemporaryFolder folder;
+  const std::string report = folder / "felt.json";
   const auto felt_frames = [&](bool asks) {
     Simulator simulator({"--scene", scene.path(), "--report", report});
     EXPECT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
@@ -94,13 +96,9 @@ TEST(Force, IsFoundOnlyWhileSomebodyAsks) {
       EXPECT_FALSE(simulator.ask({"/notify", {2}}, "/done").arguments.empty());
       EXPECT_FALSE(simulator.ask({"/version", {}}, "/force").arguments.empty()) << "streamed";
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    simulator.process().signal(SIGTERM);
-    EXPECT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
-    std::ifstream file(report);
-    const auto frames = nlohmann::json::parse(file).at("felt_frames").get<int>();
-    std::filesystem::remove(report);
-    return frames;
+    sleep(0.2);
+    EXPECT_EQ(simulator.end(), 0) << simulator.process().output();
+    return nlohmann::json::parse(text_of(report)).at("felt_frames").get<int>();
   };
   EXPECT_EQ(felt_frames(false), 0);
   EXPECT_GT(felt_frames(true), 0);

@@ -3,10 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
-#include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -15,18 +14,13 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-Ended simulate(const std::string& scene, const std::string& gauges,
-               const ChildProcess::Environment& environment = {}) {
-  return run_program("sim-server",
-                     {"--scene", scene, "--gauges", gauges, "--duration", "0.1",
-                      "--faster-than-real-time", "--listen", "127.0.0.1:0"},
-                     120.0, environment);
-}
+const std::string kClosedBox =
+    std::string(SPLASH_SOURCE_DIR) + "/tests/validation/scenes/closed_box.yaml";
 
 TEST(Gauges, AreWritten) {
-  const std::string csv = temporary_path("gauges.csv");
-  const auto [code, text] =
-      simulate(std::string(SPLASH_SOURCE_DIR) + "/tests/validation/scenes/closed_box.yaml", csv);
+  const TemporaryFolder folder;
+  const std::string csv = folder / "gauges.csv";
+  const auto [code, text] = simulate(kClosedBox, 0.1, {"--gauges", csv});
   EXPECT_EQ(code, 0) << text;
   std::ifstream in(csv);
   std::string line;
@@ -40,17 +34,14 @@ TEST(Gauges, AreWritten) {
   while (std::getline(in, line)) ++lines;
   EXPECT_GE(lines, 5) << "50 a second";
   EXPECT_LE(lines, 7);
-  std::filesystem::remove(csv);
 }
 
 TEST(Gauges, OfASceneWithoutAnyAreAMistakeOfTheScene) {
   const SmallScene scene(plunging());
-  const auto [code, text] = simulate(scene.path(), temporary_path("none.csv"));
+  const auto [code, text] = simulate(scene.path(), 0.1, {"--gauges", temporary_path("none.csv")});
   EXPECT_EQ(code, 78);
   EXPECT_THAT(text, HasSubstr("names no gauges"));
-  const auto unwritable =
-      simulate(std::string(SPLASH_SOURCE_DIR) + "/tests/validation/scenes/closed_box.yaml",
-               "/nowhere/g.csv");
+  const auto unwritable = simulate(kClosedBox, 0.1, {"--gauges", "/nowhere/g.csv"});
   EXPECT_EQ(unwritable.code, 74);
   EXPECT_THAT(unwritable.text, HasSubstr("/nowhere/g.csv"));
 }
@@ -61,16 +52,16 @@ TEST(Gauges, ThatTheDeviceRefusesToComputeAreNoFilesThatCannotBeWritten) {
 #endif
   const SmallScene scene(plunging() +
                          "\ngauges: {probes: [{name: floor, kind: pressure, place: [0, 0, 0]}]}");
-  const std::string csv = temporary_path("refused.csv");
+  const TemporaryFolder folder;
+  const std::string csv = folder / "refused.csv";
   const auto [code, text] =
-      simulate(scene.path(), csv,
+      simulate(scene.path(), 0.1, {"--gauges", csv},
                {{"LD_PRELOAD", std::string(SPLASH_BINARY_DIR) + "/libopencl_shim.so"},
                 {"SPLASH_SHIM_DEVICE", "pthread"},
                 {"SPLASH_SHIM", "build"},
                 {"SPLASH_SHIM_KERNEL", "push_by_walls"}});
   EXPECT_EQ(code, 69) << text;
   EXPECT_THAT(text, HasSubstr("do not build on pthread"));
-  std::filesystem::remove(csv);
 }
 
 }  // namespace

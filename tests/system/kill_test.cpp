@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
-#include <filesystem>
 #include <iostream>
 
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/system/kills.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -38,11 +37,11 @@ TEST(Kill, OfSimulatorsLeavesTheSynthPlaying) {
 
 TEST(Kill, OfARecordingSimulatorLeavesWholeBundles) {
   const SmallScene scene(plunging());
-  const std::string log = temporary_path("killed.osc");
+  const TemporaryFolder folder;
+  const std::string log = folder / "killed.osc";
   Simulator simulator({"--scene", scene.path(), "--record", log});
   ASSERT_TRUE(simulator.process().wait_for_text("real time x"));
-  simulator.process().signal(SIGKILL);
-  simulator.process().wait_for_end();
+  simulator.kill();
   const auto entries = protocol::read_log(log);
   ASSERT_GT(entries.size(), 3U);
   // "  2.0 s  450 steps/s  real time x 1.00": so much had been simulated when that was printed.
@@ -50,7 +49,6 @@ TEST(Kill, OfARecordingSimulatorLeavesWholeBundles) {
   const double told = std::stod(text.substr(text.rfind('\n', text.find("real time x"))));
   // The disc goes in once a second and is heard for a part of it.
   EXPECT_GT(entries.back().seconds, told - 0.8) << "until shortly before";
-  std::filesystem::remove(log);
 }
 
 TEST(Kill, OfSynthsLeavesTheSimulatorTelling) {

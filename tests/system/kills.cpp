@@ -78,8 +78,7 @@ void judge(Daemon& other, const std::optional<double>& recovery, Kills& kills) {
 }
 
 void end_in_peace(Daemon& daemon, Kills& kills) {
-  daemon.process().signal(SIGTERM);
-  if (daemon.process().wait_for_end() == 0) return;
+  if (daemon.end() == 0) return;
   kills.complaints.push_back("it did not end cleanly:\n" + daemon.process().output());
 }
 
@@ -117,8 +116,7 @@ Kills kill_simulators(int rounds, std::mt19937& random, const Progress& progress
     const std::uint64_t before = status_of(synth).events;
     Simulator next(simulator);
     judge(synth, await_event(synth, before, start, kills), kills);
-    next.process().signal(SIGKILL);
-    next.process().wait_for_end();
+    next.kill();
     progress(k + 1);
   }
   end_in_peace(synth, kills);
@@ -137,8 +135,7 @@ Kills kill_synths(int rounds, std::mt19937& random, const Progress& progress) {
   std::unique_ptr<Synth> next;
   for (int k = 0; k < rounds; ++k) {
     if (next) {
-      next->process().signal(SIGKILL);
-      next->process().wait_for_end();
+      next->kill();
     }
     const Arguments synth = synth_on(protocol::to_string(port));
     live_and_die(command("synth-server", synth), random);

@@ -16,6 +16,7 @@
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 
@@ -29,12 +30,9 @@ using testing::HasSubstr;
 class Terminal {
  public:
   /// `environment`: "NAME=VALUE", for the launcher.
-  explicit Terminal(const std::string& arguments, const std::string& environment = "")
-      : tools_(temporary_path("launcher-tools")) {
-    fs::create_directories(tools_);
-    std::ofstream(tools_ / "cmake") << "#!/bin/sh\n";
-    fs::permissions(tools_ / "cmake", fs::perms::owner_all);
-    const std::string line = environment + " PATH='" + tools_.string() + "':$PATH exec " +
+  explicit Terminal(const std::string& arguments, const std::string& environment = "") {
+    fs::permissions(tools_.write("cmake", "#!/bin/sh\n"), fs::perms::owner_all);
+    const std::string line = environment + " PATH='" + tools_.path().string() + "':$PATH exec " +
                              SPLASH_SOURCE_DIR + "/splash --no-install --build-dir '" +
                              SPLASH_BINARY_DIR + "/..' " + arguments;
     child_ = forkpty(&master_, nullptr, nullptr, nullptr);
@@ -51,7 +49,6 @@ class Terminal {
       wait_for_end();
     }
     close(master_);
-    fs::remove_all(tools_);
   }
 
   bool wait_for_text(const std::string& text) {
@@ -79,7 +76,7 @@ class Terminal {
     return count > 0;
   }
 
-  fs::path tools_;
+  TemporaryFolder tools_;
   std::string text_;
   int master_ = -1;
   pid_t child_ = -1;
@@ -87,8 +84,9 @@ class Terminal {
 };
 
 TEST(LauncherEnding, CtrlCLetsBothProgramsCloseTheirFiles) {
-  const std::string log = temporary_path("ctrl-c.osc");
-  const std::string report = temporary_path("ctrl-c.json");
+  const TemporaryFolder folder;
+  const std::string log = folder / "ctrl-c.osc";
+  const std::string report = folder / "ctrl-c.json";
   Terminal terminal("run basin --record " + log + " --report " + report);
   ASSERT_TRUE(terminal.wait_for_text("real time x")) << terminal.text();
   terminal.press_ctrl_c();
@@ -105,14 +103,12 @@ TEST(LauncherEnding, CtrlCLetsBothProgramsCloseTheirFiles) {
   // A simulator that a busy machine keeps from its word for 0.3 s has departed once before.
   EXPECT_THAT(terminal.text(), testing::ContainsRegex(" [1-9][0-9]* departures"))
       << "the simulator said that it leaves";
-  fs::remove(log);
-  fs::remove(report);
 }
 
 // The simulator's progress lines go to its log alone.
 TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
-  const fs::path folder = temporary_path("play");
-  Terminal terminal("play --out '" + folder.string() + "'");
+  const TemporaryFolder folder;
+  Terminal terminal("play --out '" + folder.path().string() + "'");
   ASSERT_TRUE(terminal.wait_for_text("Open http://")) << terminal.text();
   ASSERT_TRUE(terminal.wait_for_text("Ctrl-C ends all")) << terminal.text();
   const auto progress = [&] {
@@ -128,13 +124,12 @@ TEST(LauncherPlay, TheAddressOfThePageStaysInSight) {
   EXPECT_THAT(text, HasSubstr("running: " + address + " Ctrl-C ends all"));
   EXPECT_THAT(text, testing::Not(HasSubstr("real time x"))) << "it would scroll the address away";
   EXPECT_THAT(text, HasSubstr("pacing ")) << "the simulator's closing words";
-  fs::remove_all(folder);
 }
 
 // The picture is of the recording, and what it is drawn from is cleared away.
 TEST(LauncherDemo, LeavesSoundLogFiguresAndPicture) {
-  const fs::path folder = temporary_path("demo");
-  Terminal terminal("demo --out '" + folder.string() + "'", "SPLASH_DEMO_SECONDS=4");
+  const TemporaryFolder folder;
+  Terminal terminal("demo --out '" + folder.path().string() + "'", "SPLASH_DEMO_SECONDS=4");
   EXPECT_EQ(terminal.wait_for_end(), 0) << terminal.text();
   EXPECT_THAT(terminal.text(), HasSubstr("a picture of demo.wav"));
   const Recording wav = read_recording((folder / "demo.wav").string());
@@ -142,12 +137,11 @@ TEST(LauncherDemo, LeavesSoundLogFiguresAndPicture) {
   EXPECT_GT(peak(wav.channels[0]), 0.01F) << "a hand was heard";
   EXPECT_THAT(text_of(folder / "demo.png"), testing::StartsWith("\x89PNG"));
   std::set<std::string> left;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
     left.insert(entry.path().filename().string());
   }
   EXPECT_EQ(left, (std::set<std::string>{"demo.json", "demo.lock", "demo.osc", "demo.png",
                                          "demo.wav", "sim.log", "synth.log"}));
-  fs::remove_all(folder);
 }
 
 }  // namespace

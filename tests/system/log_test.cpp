@@ -9,6 +9,7 @@
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -17,25 +18,14 @@ namespace {
 
 class Log : public testing::Test {
  protected:
-  ~Log() override {
-    for (const std::string& file : files_) std::filesystem::remove(file);
-  }
-
-  std::string file(const std::string& name) {
-    files_.push_back(temporary_path(name));
-    return files_.back();
-  }
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
 
   /// Three seconds of plunging; the path of their log.
   std::string record(const std::string& name, int seed = 1,
                      const ChildProcess::Environment& environment = {}) {
     const SmallScene scene(plunging(), seed);
     std::string log = file(name);
-    const auto [code, text] =
-        run_program("sim-server",
-                    {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record", log,
-                     "--duration", "3", "--faster-than-real-time"},
-                    120.0, environment);
+    const auto [code, text] = simulate(scene.path(), 3.0, {"--record", log}, environment);
     EXPECT_EQ(code, 0) << text;
     told_ = text;
     return log;
@@ -53,7 +43,7 @@ class Log : public testing::Test {
   }
 
  private:
-  std::vector<std::string> files_;
+  TemporaryFolder folder_;
   std::string told_;
 };
 

@@ -10,6 +10,7 @@
 
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::tests {
 namespace {
@@ -22,9 +23,7 @@ using testing::HasSubstr;
 const ChildProcess::Environment kNobody = {{"XDG_CONFIG_HOME", "/nonexistent"}};
 
 Ended run_anywhere(const Arguments& words) {
-  ChildProcess program(words, kNobody);
-  const int code = program.wait_for_end();
-  return {code, program.output()};
+  return run_command(words, 60.0, kNobody);
 }
 
 std::string middle_of(const std::string& scene) {
@@ -69,8 +68,9 @@ TEST(Names, ThatAreWrongListWhatThereIs) {
 
 // What is installed may be moved to another place, and the source tree may go.
 TEST(Names, AreFoundWhereTheProgramsAreInstalled) {
-  const fs::path first = temporary_path("prefix");
-  const fs::path prefix = temporary_path("moved");
+  const TemporaryFolder folder;
+  const fs::path first = folder / "prefix";
+  const fs::path prefix = folder / "moved";
   const auto installed = run_anywhere(
       {"cmake", "--install", std::string(SPLASH_BINARY_DIR) + "/..", "--prefix", first.string()});
   ASSERT_EQ(installed.code, 0) << installed.text;
@@ -85,7 +85,6 @@ TEST(Names, AreFoundWhereTheProgramsAreInstalled) {
   EXPECT_EQ(rig.code, 0) << rig.text;
   EXPECT_EQ(run_anywhere({bin + "/synth-server", "--rig", "stereo"}).code, 66)
       << "the source tree's are another's";
-  fs::remove_all(prefix);
 }
 
 TEST(Names, LauncherAndSimulatorKnowTheSameOptions) {
@@ -106,14 +105,14 @@ TEST(Names, LauncherAndSimulatorKnowTheSameOptions) {
 
 // On headphones both ears hear the feet, which step to both sides of the tank's middle.
 TEST(Middle, APoolIsHeardOnBothSides) {
-  const std::string wav = temporary_path("pool-stereo.wav");
+  const TemporaryFolder folder;
+  const std::string wav = folder / "pool-stereo.wav";
   const auto difference = [&](const std::string& middle) {
     const auto [code, text] = run_program(
         "synth-server", {"--rig", "stereo", "--middle=" + middle, "--replay",
                          std::string(SPLASH_SOURCE_DIR) + "/tests/data/pool.osc", "--render", wav});
     EXPECT_EQ(code, 0) << text;
     const Recording recording = read_recording(wav);
-    fs::remove(wav);
     return level_db(recording.channels.at(0)) - level_db(recording.channels.at(1));
   };
   EXPECT_EQ(middle_of("pool"), "0.915,0.915,0.25");

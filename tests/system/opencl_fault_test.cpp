@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -22,21 +22,18 @@ using testing::Not;
 
 class OpenClFault : public testing::Test {
  protected:
-  OpenClFault() { fs::create_directory(folder_); }
-  ~OpenClFault() override { fs::remove_all(folder_); }
-
   [[nodiscard]] fs::path cache() const { return folder_ / "cache"; }
-  [[nodiscard]] Arguments arguments() const {
-    return {"--scene",
-            scene_.path(),
-            "--listen",
-            "127.0.0.1:0",
-            "--duration",
-            "0.1",
-            "--faster-than-real-time"};
-  }
   [[nodiscard]] Ended simulate(const ChildProcess::Environment& environment) const {
-    return run_program("sim-server", arguments(), 120.0, environment);
+    return tests::simulate(scene_.path(), 0.1, {}, environment);
+  }
+  /// The same behind a line of the shell that limits what it may take.
+  [[nodiscard]] Ended simulate_limited(const std::string& limits) const {
+    Arguments shell{"/bin/sh", "-c", limits + "; exec \"$0\" \"$@\""};
+    const Arguments program = command(
+        "sim-server",
+        on_some_port({"--scene", scene_.path(), "--duration", "0.1", "--faster-than-real-time"}));
+    shell.insert(shell.end(), program.begin(), program.end());
+    return run_command(shell, 120.0, {{"POCL_CACHE_DIR", cache().string()}});
   }
   [[nodiscard]] Ended simulate_with_cache() const {
     return simulate({{"POCL_CACHE_DIR", cache().string()}});
@@ -52,7 +49,7 @@ class OpenClFault : public testing::Test {
 
  private:
   SmallScene scene_{plunging()};
-  fs::path folder_ = temporary_path("opencl");
+  TemporaryFolder folder_;
 };
 
 TEST_F(OpenClFault, NoPlatformNamesThePackage) {
@@ -73,13 +70,10 @@ TEST_F(OpenClFault, UnwritableCacheIsNamed) {
 /// A limit on the size of files is what a full disk is to LLVM, which then calls exit(). 256 KiB
 /// are more than the kernels' text, which PoCL writes first, and less than LLVM's files.
 TEST_F(OpenClFault, FullDiskWhileCompilingIsSaid) {
-  Arguments shell{"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 512; exec \"$0\" \"$@\""};
-  const Arguments program = command("sim-server", arguments());
-  shell.insert(shell.end(), program.begin(), program.end());
-  ChildProcess process(shell, {{"POCL_CACHE_DIR", cache().string()}});
-  EXPECT_EQ(process.wait_for_end(), 69);
-  EXPECT_THAT(process.output(), AllOf(HasSubstr("OpenCL ended the program"),
-                                      HasSubstr(cache().string()), HasSubstr("POCL_CACHE_DIR")));
+  const auto [code, text] = simulate_limited("trap '' XFSZ; ulimit -f 512");
+  EXPECT_EQ(code, 69);
+  EXPECT_THAT(text, AllOf(HasSubstr("OpenCL ended the program"), HasSubstr(cache().string()),
+                          HasSubstr("POCL_CACHE_DIR")));
 }
 
 /// The compiler throws then, past PoCL's locks: nothing may wait for those.
@@ -87,12 +81,9 @@ TEST_F(OpenClFault, TooLittleMemoryWhileCompilingIsSaid) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers take address space of their own";
 #endif
-  Arguments shell{"/bin/sh", "-c", "ulimit -v 400000; exec \"$0\" \"$@\""};
-  const Arguments program = command("sim-server", arguments());
-  shell.insert(shell.end(), program.begin(), program.end());
-  ChildProcess process(shell, {{"POCL_CACHE_DIR", cache().string()}});
-  EXPECT_EQ(process.wait_for_end(120.0), 69) << process.output();
-  EXPECT_THAT(process.output(), HasSubstr("(ulimit -v)"));
+  const auto [code, text] = simulate_limited("ulimit -v 400000");
+  EXPECT_EQ(code, 69) << text;
+  EXPECT_THAT(text, HasSubstr("(ulimit -v)"));
 }
 
 /// PoCL aborts where the linker of its compiler fails, and LLVM has taken that signal before.
@@ -110,10 +101,10 @@ TEST_F(OpenClFault, ALinkerThatFailsIsSaid) {
 /// On a machine's first start a splash would wait for it else.
 TEST_F(OpenClFault, NothingIsCompiledOnceTimeRuns) {
   const SmallScene by_count(plunging() + "\ndetect: {cavity_by_count: true}");  // on the device
-  Arguments splash = arguments();
-  splash[1] = by_count.path();
-  splash[5] = "2";  // seconds, in which the disc plunges
-  ChildProcess simulator(command("sim-server", splash), {{"POCL_CACHE_DIR", cache().string()}});
+  ChildProcess simulator(command("sim-server", on_some_port({"--scene", by_count.path(),
+                                                             "--duration", "2",  // the disc plunges
+                                                             "--faster-than-real-time"})),
+                         {{"POCL_CACHE_DIR", cache().string()}});
   ASSERT_TRUE(simulator.wait_for_text("running", 300.0)) << simulator.output();
   const std::vector<fs::path> before = cached(".so");
   EXPECT_EQ(simulator.wait_for_end(120.0), 0);

@@ -4,15 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "protocol/frame.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/frame_viewer.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -24,30 +23,28 @@ using protocol::frame_kind;
 using protocol::frame_number;
 using protocol::ViewFrame;
 
-Json text_of(const ViewFrame& frame) {
+Json told_by(const ViewFrame& frame) {
   return Json::parse(reinterpret_cast<const char*>(&frame[16]),
                      reinterpret_cast<const char*>(frame.data() + frame.size()));
 }
 
-Json end_with_report(Simulator& simulator, const std::string& report) {
-  simulator.process().signal(SIGTERM);
-  EXPECT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
-  std::ifstream file(report);
-  Json json = Json::parse(file);
-  std::filesystem::remove(report);
-  return json;
+/// Of the report that the simulator leaves at its end.
+int shown_frames(Simulator& simulator, const std::string& report) {
+  EXPECT_EQ(simulator.end(), 0) << simulator.process().output();
+  return Json::parse(text_of(report)).at("shown_frames");
 }
 
 TEST(Show, TheWaterIsWhereItIsAndTheBodyMoves) {
   const SmallScene scene(plunging());
-  const std::string report = temporary_path("shown.json");
+  const TemporaryFolder folder;
+  const std::string report = folder / "shown.json";
   Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
   const protocol::Endpoint where = simulator.viewers();
   const FrameViewer viewer(where);
   const ViewFrame first = viewer.read();
   ASSERT_EQ(frame_kind(first.data()), protocol::kSceneFrame);
-  EXPECT_EQ(text_of(first).at("scene"), "small");
-  const auto particles = text_of(first).at("particles").get<std::uint32_t>();
+  EXPECT_EQ(told_by(first).at("scene"), "small");
+  const auto particles = told_by(first).at("particles").get<std::uint32_t>();
   double lowest = 1.0;
   double highest = 0.0;
   double last = 0.0;
@@ -75,12 +72,13 @@ TEST(Show, TheWaterIsWhereItIsAndTheBodyMoves) {
     EXPECT_NEAR(sum / particles, 0.5 * SmallScene::kLevel, 0.02);
   }
   EXPECT_GT(highest - lowest, 0.1) << "the disc plunges once a second";
-  EXPECT_GE(end_with_report(simulator, report).at("shown_frames").get<int>(), 60);
+  EXPECT_GE(shown_frames(simulator, report), 60);
 }
 
 TEST(Show, NothingIsReadBackWhileNobodyAsks) {
   const SmallScene scene(plunging());
-  const std::string report = temporary_path("unseen.json");
+  const TemporaryFolder folder;
+  const std::string report = folder / "unseen.json";
   Simulator simulator({"--scene", scene.path(), "--show", "127.0.0.1:0", "--report", report});
   const FrameViewer idle(simulator.viewers());
   EXPECT_EQ(frame_kind(idle.read().data()), protocol::kSceneFrame);
@@ -91,7 +89,7 @@ TEST(Show, NothingIsReadBackWhileNobodyAsks) {
     EXPECT_FALSE(once.read().empty());
   }
   EXPECT_TRUE(simulator.process().wait_for_text("\n    2."));
-  EXPECT_LE(end_with_report(simulator, report).at("shown_frames").get<int>(), 3);
+  EXPECT_LE(shown_frames(simulator, report), 3);
 }
 
 /// One impact of 2 m/s, at once.
@@ -110,7 +108,7 @@ TEST(Show, LevelsAndSoundAreThoseOfTheDevice) {
   const FrameViewer viewer(where);
   const ViewFrame rig = viewer.read();
   ASSERT_EQ(frame_kind(rig.data()), protocol::kRigFrame);
-  const auto channels = text_of(rig).at("channels").size();
+  const auto channels = told_by(rig).at("channels").size();
   EXPECT_GE(channels, 36U);
   sleep(2.5);  // the synth opens within two seconds
   viewer.ask(16);

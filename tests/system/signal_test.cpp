@@ -11,6 +11,7 @@
 #include "protocol/event_log.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
@@ -25,8 +26,6 @@ constexpr double kTimeout = 60.0;  ///< [s]
 
 class Signals : public testing::Test {
  protected:
-  ~Signals() override { fs::remove_all(folder_); }
-
   [[nodiscard]] std::string file(const std::string& name) const { return folder_ / name; }
   Arguments synth(const Arguments& further = {}) const {
     Arguments all{"--rig", rig_path("stereo.yaml"), "--device", "null"};
@@ -41,11 +40,7 @@ class Signals : public testing::Test {
 
  private:
   SmallScene scene_{plunging()};
-  fs::path folder_ = [] {
-    const fs::path folder = temporary_path("signals");
-    fs::create_directory(folder);
-    return folder;
-  }();
+  TemporaryFolder folder_;
 };
 
 /// Both signals wait while the process stands still: the second finds the first one seen.
@@ -82,8 +77,7 @@ TEST_F(Signals, HangupBeginsTheLogAnewThatWasMovedAway) {
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for_text("began " + log + " anew", kTimeout));
   ASSERT_TRUE(eventually(has_bundles, kTimeout));
-  daemon.process().signal(SIGTERM);
-  EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
+  EXPECT_EQ(daemon.end(), 0) << daemon.process().output();
   const auto first = protocol::read_log(file("first.osc"));
   const auto second = protocol::read_log(log);
   ASSERT_FALSE(first.empty());
@@ -102,8 +96,7 @@ TEST_F(Signals, HangupBeginsTheRecordingAnewThatWasMovedAway) {
   daemon.process().signal(SIGHUP);
   ASSERT_TRUE(daemon.process().wait_for_text("began " + wav + " anew", kTimeout));
   sleep(0.3);
-  daemon.process().signal(SIGTERM);
-  EXPECT_EQ(daemon.process().wait_for_end(), 0) << daemon.process().output();
+  EXPECT_EQ(daemon.end(), 0) << daemon.process().output();
   const std::size_t first = read_recording(file("first.wav")).channels.at(0).size();
   const std::size_t second = read_recording(wav).channels.at(0).size();
   EXPECT_GT(first, 10000U);

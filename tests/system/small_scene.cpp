@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/support/programs.hpp"
-
 namespace splash::tests {
 namespace {
 
@@ -39,6 +37,14 @@ SmallScene::SmallScene(const std::string& motion, int seed, const std::string& s
 SmallScene::~SmallScene() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+}
+
+Ended simulate(const std::string& scene, double seconds, const Arguments& further,
+               const ChildProcess::Environment& environment) {
+  Arguments arguments = {"--scene", scene, "--duration", std::to_string(seconds),
+                         "--faster-than-real-time"};
+  arguments.insert(arguments.end(), further.begin(), further.end());
+  return run_program("sim-server", on_some_port(arguments), 300.0, environment);
 }
 
 std::string plunging() {

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "tests/support/programs.hpp"
+
 namespace splash::tests {
 
 /// A scene file that is removed with this.
@@ -25,6 +27,11 @@ class SmallScene {
  private:
   std::string path_;
 };
+
+/// Runs sim-server with a scene for so many simulated seconds, as fast as it can.
+[[nodiscard]] Ended simulate(const std::string& scene, double seconds,
+                             const Arguments& further = {},
+                             const ChildProcess::Environment& environment = {});
 
 /// Down into the water and out again, once a second, for ever: an impact and bubbles each time.
 [[nodiscard]] std::string plunging();

@@ -4,18 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "protocol/event_log.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text_of.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
@@ -38,7 +36,7 @@ void drive(Simulator& simulator) {
   const double start = protocol::unix_now();
   for (double seconds = 0.0; seconds < kSeconds; seconds += kPeriod) {
     const double left = start + seconds - protocol::unix_now();
-    if (left > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+    if (left > 0.0) sleep(left);
     simulator.send(protocol::encode(
         protocol::to_time_tag(start + seconds),
         {protocol::to_message(protocol::BodyPose{
@@ -46,7 +44,18 @@ void drive(Simulator& simulator) {
   }
 }
 
-std::vector<protocol::Impact> impacts_in(const std::string& log) {
+/// What a simulator of the scene tells while the disc falls.
+std::vector<protocol::Impact> impacts_of(const SmallScene& scene, bool grabs) {
+  const TemporaryFolder folder;
+  const std::string log = folder / "tracker.osc";
+  Simulator simulator({"--scene", scene.path(), "--record", log});
+  if (grabs) {
+    EXPECT_EQ(simulator.ask({"/body/grab", {7, 1}}, "/fail").arguments.size(), 2U)
+        << "no such body";
+    EXPECT_FALSE(simulator.ask({"/body/grab", {0, 1}}, "/done").arguments.empty());
+  }
+  drive(simulator);
+  EXPECT_EQ(simulator.end(), 0) << simulator.process().output();
   std::vector<protocol::Impact> impacts;
   for (const auto& entry : protocol::read_log(log)) {
     for (const auto& message : entry.messages) {
@@ -55,19 +64,13 @@ std::vector<protocol::Impact> impacts_in(const std::string& log) {
       if (const auto* impact = std::get_if<protocol::Impact>(&*event)) impacts.push_back(*impact);
     }
   }
+  EXPECT_EQ(impacts.size(), 1U) << simulator.process().output();
   return impacts;
 }
 
 TEST(Tracker, OnePlungeIsOneImpact) {
-  const SmallScene scene(tracked());
-  const std::string log = temporary_path("tracker.osc");
-  Simulator simulator({"--scene", scene.path(), "--record", log});
-  drive(simulator);
-  simulator.process().signal(SIGTERM);
-  ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
-  const auto impacts = impacts_in(log);
-  std::filesystem::remove(log);
-  ASSERT_EQ(impacts.size(), 1U) << simulator.process().output();
+  const auto impacts = impacts_of(SmallScene(tracked()), false);
+  ASSERT_EQ(impacts.size(), 1U);
   EXPECT_EQ(impacts[0].body, 0);
   EXPECT_NEAR(static_cast<double>(impacts[0].speed), kSpeed, 0.1 * kSpeed);
   EXPECT_NEAR(static_cast<double>(impacts[0].position.z), SmallScene::kLevel, 0.04);
@@ -77,35 +80,24 @@ TEST(Tracker, OnePlungeIsOneImpact) {
 
 // Of a body that stays where it is: what moves it is the hand alone.
 TEST(Tracker, AGrabbedBodyPlungesOnce) {
-  const SmallScene scene("{kind: fixed}\n    rest: {position: [0, 0, 0.35]}");
-  const std::string log = temporary_path("grabbed.osc");
-  Simulator simulator({"--scene", scene.path(), "--record", log});
-  EXPECT_EQ(simulator.ask({"/body/grab", {7, 1}}, "/fail").arguments.size(), 2U) << "no such body";
-  EXPECT_FALSE(simulator.ask({"/body/grab", {0, 1}}, "/done").arguments.empty());
-  drive(simulator);
-  simulator.process().signal(SIGTERM);
-  ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
-  const auto impacts = impacts_in(log);
-  std::filesystem::remove(log);
-  ASSERT_EQ(impacts.size(), 1U) << simulator.process().output();
+  const auto impacts =
+      impacts_of(SmallScene("{kind: fixed}\n    rest: {position: [0, 0, 0.35]}"), true);
+  ASSERT_EQ(impacts.size(), 1U);
   EXPECT_NEAR(static_cast<double>(impacts[0].speed), kSpeed, 0.1 * kSpeed);
 }
 
 TEST(Tracker, WithoutPosesNothingMoves) {
   const SmallScene scene(tracked());
-  const std::string log = temporary_path("untracked.osc");
-  const auto [code, text] =
-      run_program("sim-server", {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--record",
-                                 log, "--duration", "2", "--faster-than-real-time"});
+  const auto [code, text] = simulate(scene.path(), 2.0);
   EXPECT_EQ(code, 0) << text;
   EXPECT_THAT(text, testing::HasSubstr("0 impacts, 0 bubbles, 0 cavities"));
-  std::filesystem::remove(log);
 }
 
 // A tracker that takes two markers for one body, 3 m apart.
 TEST(Tracker, PosesThatNoBodyCanFollowAreRefusedAndTold) {
   const SmallScene scene(tracked());
-  const std::string report = temporary_path("refused.json");
+  const TemporaryFolder folder;
+  const std::string report = folder / "refused.json";
   Simulator simulator({"--scene", scene.path(), "--report", report});
   ASSERT_FALSE(simulator.ask({"/notify", {1}}, "/done").arguments.empty());
   for (int k = 0; k < 20; ++k) {
@@ -119,11 +111,8 @@ TEST(Tracker, PosesThatNoBodyCanFollowAreRefusedAndTold) {
   ASSERT_EQ(told.arguments.size(), 2U);
   EXPECT_EQ(std::get<std::string>(told.arguments[0]), "/body/pose");
   EXPECT_EQ(std::get<std::string>(told.arguments[1]), "'disc': the speed is beyond the limit");
-  simulator.process().signal(SIGTERM);
-  ASSERT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
-  std::ifstream file(report);
-  EXPECT_GE(nlohmann::json::parse(file).at("refused_poses").get<int>(), 1);
-  std::filesystem::remove(report);
+  ASSERT_EQ(simulator.end(), 0) << simulator.process().output();
+  EXPECT_GE(nlohmann::json::parse(text_of(report)).at("refused_poses").get<int>(), 1);
 }
 
 // Millimetres, centimetres, and metres with y up.
@@ -140,7 +129,7 @@ TEST(Tracker, PlacesThatNoWaterIsAtAreToldWithWhatPosesMean) {
   };
   const auto begin_anew = [&] {
     pose(0.0F, 0.0F, 0.35F);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    sleep(1.1);
   };
   ASSERT_FALSE(simulator.ask({"/notify", {1}}, "/done").arguments.empty());
   pose(100.0F, 0.0F, 350.0F);

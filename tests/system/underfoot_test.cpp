@@ -6,39 +6,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <numbers>
-#include <thread>
 
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {
 
 /// A sound with nothing but the texture: all else is 50 dB down or more.
-class TextureAlone {
- public:
-  TextureAlone() : path_(temporary_path("texture.yaml")) {
-    std::ofstream(path_) << "name: texture\nimpact: {amplitude: 0.000001}\nbubble: {gain_db: -60}\n"
-                            "cavity: {gain_db: -60}\nfoot: {texture: 0.001, power: 1}\n";
-  }
-  ~TextureAlone() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TextureAlone(const TextureAlone&) = delete;
-  TextureAlone& operator=(const TextureAlone&) = delete;
-  [[nodiscard]] const std::string& path() const noexcept { return path_; }
-
- private:
-  std::string path_;
-};
+constexpr const char* kTextureAlone =
+    "name: texture\nimpact: {amplitude: 0.000001}\nbubble: {gain_db: -60}\n"
+    "cavity: {gain_db: -60}\nfoot: {texture: 0.001, power: 1}\n";
 
 /// The body's height `seconds` long, swinging by `swing` [m] around the middle of the water.
 void move(Simulator& simulator, double seconds, float swing) {
@@ -48,7 +32,7 @@ void move(Simulator& simulator, double seconds, float swing) {
     const double turn = 2.0 * std::numbers::pi * 2.5 * t;
     pose.position = {0.0F, 0.0F, 0.1F + swing * static_cast<float>(std::sin(turn))};
     simulator.send(protocol::encode(protocol::to_message(pose)));
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    sleep(0.005);
   }
 }
 
@@ -81,27 +65,27 @@ struct Felt {
 
 /// A log as the same rig and sound render it.
 Recording rendered(const std::string& log, const std::string& sound) {
-  const std::string wav = temporary_path("rendered.wav");
-  ChildProcess render(
-      command("synth-server", {"--rig", rig_path("handheld.yaml"), "--sound", sound, "--replay",
-                               log, "--render", wav, "--fade-in", "2"}));
-  EXPECT_EQ(render.wait_for_end(), 0) << render.output();
-  Recording recording = read_recording(wav);
-  std::filesystem::remove(wav);
-  return recording;
+  const std::string wav = log + ".wav";
+  const auto [code, text] =
+      run_program("synth-server", {"--rig", rig_path("handheld.yaml"), "--sound", sound, "--replay",
+                                   log, "--render", wav, "--fade-in", "2"});
+  EXPECT_EQ(code, 0) << text;
+  return read_recording(wav);
 }
+
 Felt felt(bool asks) {
   const SmallScene scene(tracked());
-  const TextureAlone sound;
-  const std::string wav = temporary_path("texture.wav");
-  const std::string told = temporary_path("told.osc");
-  const std::string started = temporary_path("started.osc");
+  const TemporaryFolder folder;
+  const std::string sound = folder.write("texture.yaml", kTextureAlone);
+  const std::string wav = folder / "texture.wav";
+  const std::string told = folder / "told.osc";
+  const std::string started = folder / "started.osc";
   Simulator simulator({"--scene", scene.path(), "--record", told, "--record-forces"});
   EXPECT_TRUE(simulator.process().wait_for_text("running")) << simulator.process().output();
   move(simulator, 1.0, 0.0F);  // down into the water
   Arguments arguments = {
-      "--rig", rig_path("handheld.yaml"), "--sound", sound.path(),      "--device",
-      "null",  "--record-audio",          wav,       "--record-events", started};
+      "--rig", rig_path("handheld.yaml"), "--sound", sound, "--device", "null", "--record-audio",
+      wav,     "--record-events",         started};
   if (asks) {
     arguments.insert(arguments.end(), {"--forces", protocol::to_string(simulator.endpoint())});
   }
@@ -110,23 +94,20 @@ Felt felt(bool asks) {
   constexpr double kMoved = 1.5;         // [s]
   move(simulator, rest, 0.0F);
   move(simulator, kMoved, 0.02F);
-  synth.process().signal(SIGTERM);
-  EXPECT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
-  simulator.process().signal(SIGTERM);
-  EXPECT_EQ(simulator.process().wait_for_end(), 0) << simulator.process().output();
+  EXPECT_EQ(synth.end(), 0) << synth.process().output();
+  EXPECT_EQ(simulator.end(), 0) << simulator.process().output();
   const auto heard = read_recording(wav).channels.at(0);
   const auto sample = [](double seconds) { return static_cast<std::size_t>(seconds * 48000.0); };
   Felt felt = {effective(heard, sample(2.0), sample(rest - 0.1)),
                effective(heard, sample(rest + 0.4), sample(rest + kMoved))};
   if (asks) {
-    const auto again = rendered(started, sound.path()).channels.at(0);
+    const auto again = rendered(started, sound).channels.at(0);
     const auto whole = static_cast<std::ptrdiff_t>(sample(rest + kMoved));  // then it fades out
     felt.same_of_synth_log = std::equal(heard.begin(), heard.begin() + whole, again.begin(),
                                         [](float a, float b) { return std::abs(a - b) < 1e-6F; });
     felt.loudest = loudest_second(heard);
-    felt.of_simulator_log = loudest_second(rendered(told, sound.path()).channels.at(0));
+    felt.of_simulator_log = loudest_second(rendered(told, sound).channels.at(0));
   }
-  for (const std::string& file : {wav, told, started}) std::filesystem::remove(file);
   return felt;
 }
 

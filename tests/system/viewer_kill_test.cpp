@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <filesystem>
 #include <string>
 
 #include "protocol/time_tag.hpp"
 #include "tests/support/browser.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/waiting.hpp"
 
 namespace splash::tests {
@@ -30,9 +29,10 @@ std::vector<protocol::Message> events(int number) {
 // What the synth says that it started gives the same samples where nobody has ever looked, whenever
 // it came and on whatever machine: the picture of a recording shows its components by it.
 TEST(ViewServerKilled, ChangesNoSampleOfTheSynth) {
-  const std::string wav = temporary_path("watched.wav");
-  const std::string log = temporary_path("watched.osc");
-  const std::string again = temporary_path("unwatched.wav");
+  const TemporaryFolder folder;
+  const std::string wav = folder / "watched.wav";
+  const std::string log = folder / "watched.osc";
+  const std::string again = folder / "unwatched.wav";
   std::string played;
   {
     Synth synth({"--rig", rig_path("stereo.yaml"), "--device", "null", "--show", "127.0.0.1:0",
@@ -51,12 +51,10 @@ TEST(ViewServerKilled, ChangesNoSampleOfTheSynth) {
                                     events(3 * round + i)));
         sleep(0.07);
       }
-      view.process().signal(SIGKILL);
-      view.process().wait_for_end();
+      view.kill();
       sleep(0.2);
     }
-    synth.process().signal(SIGTERM);
-    ASSERT_EQ(synth.process().wait_for_end(), 0) << synth.process().output();
+    ASSERT_EQ(synth.end(), 0) << synth.process().output();
     played = synth.process().output();
   }
   const auto [code, text] =
@@ -69,7 +67,6 @@ TEST(ViewServerKilled, ChangesNoSampleOfTheSynth) {
   }
   const Recording watched = read_recording(wav);
   const Recording unwatched = read_recording(again);
-  for (const std::string& file : {wav, log, again}) std::filesystem::remove(file);
   constexpr std::size_t kFade = 2400;  // both end with one
   const std::size_t common =
       std::min(watched.channels[0].size(), unwatched.channels[0].size()) - kFade;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/system/small_scene.hpp"
 
@@ -40,10 +40,9 @@ std::vector<float> floats_behind(const std::string& text, const std::string& hea
 
 TEST(Vtk, EachFileHoldsTheWaterAndTheSeriesHasThemAll) {
   const SmallScene scene(plunging());
-  const fs::path folder = temporary_path("vtk");
-  const auto [code, said] =
-      run_program("sim-server", {"--scene", scene.path(), "--faster-than-real-time", "--duration",
-                                 "0.2", "--listen", "127.0.0.1:0", "--vtk", folder.string()});
+  const TemporaryFolder place;
+  const fs::path folder = place / "vtk";
+  const auto [code, said] = simulate(scene.path(), 0.2, {"--vtk", folder});
   ASSERT_EQ(code, 0) << said;
   const auto series = nlohmann::json::parse(text_of(folder / "water.vtk.series"));
   const auto& files = series.at("files");
@@ -68,14 +67,11 @@ TEST(Vtk, EachFileHoldsTheWaterAndTheSeriesHasThemAll) {
     EXPECT_NEAR(height, 0.5 * SmallScene::kLevel, 0.02);
     EXPECT_NEAR(density, 998.0, 50.0);
   }
-  fs::remove_all(folder);
 }
 
 TEST(Vtk, AFolderThatCannotBeMadeEndsTheRunBeforeItBegins) {
   const SmallScene scene(plunging());
-  const auto [code, said] = run_program(
-      "sim-server",
-      {"--scene", scene.path(), "--listen", "127.0.0.1:0", "--vtk", scene.path() + "/water"});
+  const auto [code, said] = simulate(scene.path(), 0.1, {"--vtk", scene.path() + "/water"});
   EXPECT_EQ(code, 74) << said;
   EXPECT_THAT(said, testing::HasSubstr("cannot write the water to"));
 }

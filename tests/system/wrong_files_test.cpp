@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::tests {
 namespace {
@@ -152,8 +153,6 @@ std::string place_of(const std::string& text, std::size_t byte) {
 
 class WrongFiles : public testing::Test {
  protected:
-  ~WrongFiles() override { std::filesystem::remove(path_); }
-
   Ended read(const std::string& program, const std::string& option, const std::string& text) const {
     std::ofstream(path_, std::ios::binary) << text;
     return run_program(program, {option, path_, "--listen", "127.0.0.1:0", "--duration", "0.01"});
@@ -174,7 +173,8 @@ class WrongFiles : public testing::Test {
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << "one line:\n" << said;
   }
 
-  std::string path_ = temporary_path("wrong.yaml");
+  TemporaryFolder folder_;
+  std::string path_ = folder_ / "wrong.yaml";
 };
 
 TEST_F(WrongFiles, OfScenesAreNamedWithPlaceKeyValueAndRange) {
@@ -208,7 +208,7 @@ TEST_F(WrongFiles, AreNotTheRightOnes) {
 }
 
 TEST_F(WrongFiles, OfLogsAreNamedWithTheByte) {
-  const std::string wav = temporary_path("hostile.wav");
+  const std::string wav = folder_ / "hostile.wav";
   const auto bundle = [](const std::string& size, const std::string& rest) {
     return size + std::string("#bundle\0\0\0\0\1\0\0\0\0", 16) + rest;
   };

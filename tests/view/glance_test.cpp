@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 
 #include "protocol/udp_socket.hpp"
@@ -104,8 +103,7 @@ TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
       kTimeout))
       << "not back on its own way";
 
-  stage.synth().process().signal(SIGTERM);
-  EXPECT_EQ(stage.synth().process().wait_for_end(), 0) << stage.synth().process().output();
+  EXPECT_EQ(stage.synth().end(), 0) << stage.synth().process().output();
   EXPECT_GT(peak(read_recording(wav).channels.at(0)), 1e-3F) << "the tone was the second tile's";
   std::filesystem::remove(wav);
 }

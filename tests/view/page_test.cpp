@@ -163,8 +163,7 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
       << "still grabbed, though the page is gone";
   EXPECT_TRUE(eventually([&] { return std::abs(body().second - 0.35F) < 0.01F; }, kTimeout))
       << "back on its own way";
-  stage.synth().process().signal(SIGTERM);
-  EXPECT_EQ(stage.synth().process().wait_for_end(), 0) << stage.synth().process().output();
+  EXPECT_EQ(stage.synth().end(), 0) << stage.synth().process().output();
   float loudest = 0.0F;
   for (const auto& channel : read_recording(wav).channels) {
     loudest = std::max(loudest, peak(channel));
