@@ -14,8 +14,8 @@
 #include "protocol/time_tag.hpp"
 #include "tests/network/two_hosts.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::network {
 namespace {

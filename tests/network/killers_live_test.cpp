@@ -4,7 +4,7 @@
 
 #include "tests/protocol/killers.hpp"
 #include "tests/support/programs.hpp"
-#include "tests/system/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace splash::network {
 namespace {

@@ -14,9 +14,9 @@
 #include "protocol/status.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/network/two_hosts.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::network {
 namespace {

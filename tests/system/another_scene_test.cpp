@@ -8,11 +8,11 @@
 
 #include "protocol/control.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
 #include "tests/system/notify_socket.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

@@ -13,9 +13,9 @@
 #include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/text_of.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

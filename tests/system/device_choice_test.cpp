@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/small_scene.hpp"
 #include "tests/support/text_of.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <fstream>
 
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

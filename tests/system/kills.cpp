@@ -13,8 +13,8 @@
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/waiting.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

@@ -11,7 +11,7 @@
 #include "protocol/control.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
-#include "tests/system/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/system/notify_socket.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

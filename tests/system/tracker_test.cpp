@@ -11,10 +11,10 @@
 #include "protocol/event_log.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 #include "tests/support/waiting.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

@@ -17,7 +17,7 @@
 #include "protocol/limits.hpp"
 #include "protocol/time_tag.hpp"
 #include "tests/support/programs.hpp"
-#include "tests/system/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
-#include "tests/system/small_scene.hpp"
 
 namespace splash::tests {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/support/programs.hpp"
-#include "tests/system/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/view/chromium.hpp"
 #include "tests/view/picture.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/system/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 
 #include <filesystem>
 #include <fstream>
