@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/figure/wav_text.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::synth {
 namespace {
@@ -14,12 +15,9 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(Components, KeepTheChannelThatWasHitAndFillShortFiles) {
-  const std::filesystem::path folder = testing::fresh_folder("components");
+  const tests::TemporaryFolder folder;
   const auto stereo = [&](const std::string& name, const std::vector<float>& samples) {
-    testing::write(folder / name,
-                   testing::riff(testing::chunk("fmt ", testing::format(3, 2, 1000, 32)) +
-                                 testing::chunk("data", testing::floats(samples))));
-    return folder / name;
+    return folder.write(name, testing::float_file(2, 1000, samples));
   };
   const Components components =
       read_components({stereo("i.wav", {0.0F, 0.5F, 0.0F, 0.25F}),
@@ -30,31 +28,28 @@ TEST(Components, KeepTheChannelThatWasHitAndFillShortFiles) {
   EXPECT_THAT(components.impact, ElementsAre(0.5F, 0.25F, 0.0F));
   EXPECT_THAT(components.bubble, ElementsAre(0.0F, 0.0F, 0.0F));
   EXPECT_THAT(components.signal(), ElementsAre(0.5F, 0.75F, 0.125F));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Components, WhatWasPlayedIsTheSignalAndSaysHowLongItLasts) {
-  const std::filesystem::path folder = testing::fresh_folder("components-played");
-  testing::write_mono(folder / "part.wav", 1000, {0.25F, 0.25F, 0.25F, 0.25F});
-  testing::write_mono(folder / "played.wav", 1000, {0.5F, -0.5F, 0.125F});
+  const tests::TemporaryFolder folder;
+  folder.write("part.wav", testing::float_file(1, 1000, {0.25F, 0.25F, 0.25F, 0.25F}));
+  folder.write("played.wav", testing::float_file(1, 1000, {0.5F, -0.5F, 0.125F}));
   const auto part = folder / "part.wav";
   const Components components = read_components({part, part, part, folder / "played.wav"});
   EXPECT_THAT(components.signal(), ElementsAre(0.5F, -0.5F, 0.125F));
   EXPECT_THAT(components.bubble, ElementsAre(0.25F, 0.25F, 0.25F));
   EXPECT_THAT(cut(components, 0.001, 0.002).signal(), ElementsAre(-0.5F));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Components, RefuseFilesOfDifferentRates) {
-  const std::filesystem::path folder = testing::fresh_folder("components-rates");
-  testing::write_mono(folder / "a.wav", 48000, {0.5F});
-  testing::write_mono(folder / "b.wav", 44100, {0.5F});
+  const tests::TemporaryFolder folder;
+  folder.write("a.wav", testing::float_file(1, 48000, {0.5F}));
+  folder.write("b.wav", testing::float_file(1, 44100, {0.5F}));
   EXPECT_THAT(
       [&] {
         read_components({folder / "a.wav", folder / "a.wav", folder / "b.wav", {}});
       },
       ThrowsMessage<std::runtime_error>(HasSubstr("the files differ")));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Components, CutKeepsItsTime) {

@@ -10,6 +10,7 @@
 #include "protocol/event_log.hpp"
 #include "protocol/message.hpp"
 #include "tests/figure/wav_text.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::synth {
@@ -33,7 +34,7 @@ TEST(LevelMap, IsTheRootMeanSquareOfEachChannelAndColumn) {
 }
 
 TEST(EventFigure, DrawsALogAndItsChannels) {
-  const std::filesystem::path folder = testing::fresh_folder("event-figure");
+  const tests::TemporaryFolder folder;
   {
     protocol::LogWriter log(folder / "some.osc");
     protocol::Bubble bubble;
@@ -47,14 +48,11 @@ TEST(EventFigure, DrawsALogAndItsChannels) {
       frames.push_back(channel == 2 ? 0.1F * std::sin(0.3F * static_cast<float>(i)) : 0.0F);
     }
   }
-  testing::write(folder / "some.wav",
-                 testing::riff(testing::chunk("fmt ", testing::format(3, 4, 8000, 32)) +
-                               testing::chunk("data", testing::floats(frames))));
+  folder.write("some.wav", testing::float_file(4, 8000, frames));
   draw_events({folder / "some.osc", folder / "some.wav", "four \"tiles\""}, folder / "a.png");
   const std::string bytes = tests::text_of(folder / "a.png");
   EXPECT_THAT(bytes, StartsWith("\x89PNG"));
   EXPECT_GT(bytes.size(), 20'000U) << "an empty frame is smaller";
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -5,9 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "synth-server/figure/gnuplot.hpp"
-#include "tests/figure/wav_text.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::synth {
@@ -30,7 +31,7 @@ Components decaying_sines() {
 }
 
 TEST(PlungeFigure, DrawsAPngOfTheStatedSize) {
-  const std::filesystem::path folder = testing::fresh_folder("plunge-figure");
+  const tests::TemporaryFolder folder;
   FigureSettings settings;
   settings.title = "a \"quoted\" title with a \\backslash";
   draw_plunge(decaying_sines(), settings, folder / "a.png");
@@ -38,15 +39,13 @@ TEST(PlungeFigure, DrawsAPngOfTheStatedSize) {
   EXPECT_THAT(bytes, StartsWith("\x89PNG"));
   ASSERT_GT(bytes.size(), 20000U);  // an empty frame is smaller
   EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\x05\xDC\0\0\x04\x24", 8));  // 1500 x 1060
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PlungeFigure, SilenceIsDrawnToo) {
-  const std::filesystem::path folder = testing::fresh_folder("plunge-silence");
+  const tests::TemporaryFolder folder;
   const std::vector<float> silence(4000, 0.0F);
   draw_plunge({8000.0, 0.0, 1, silence, silence, silence}, {}, folder / "a.png");
   EXPECT_THAT(tests::text_of(folder / "a.png"), StartsWith("\x89PNG"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PlungeFigure, SaysThatThePictureCannotBeWritten) {
@@ -61,11 +60,10 @@ TEST(Gnuplot, SaysWhatIsMissing) {
 }
 
 TEST(Gnuplot, ReportsWhatItsScriptDidWrong) {
-  const std::filesystem::path folder = testing::fresh_folder("gnuplot");
-  testing::write(folder / "bad.gp", "plot nonsense(\n");
+  const tests::TemporaryFolder folder;
+  folder.write("bad.gp", "plot nonsense(\n");
   EXPECT_THAT([&] { run_gnuplot(folder / "bad.gp"); },
               ThrowsMessage<GnuplotError>(HasSubstr("bad.gp")));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Gnuplot, ScratchFolderIsRemoved) {
@@ -73,7 +71,7 @@ TEST(Gnuplot, ScratchFolderIsRemoved) {
   {
     const ScratchFolder folder;
     path = folder.path();
-    testing::write(path / "a", "content");
+    std::ofstream(path / "a") << "content";
     EXPECT_TRUE(std::filesystem::exists(path / "a"));
   }
   EXPECT_FALSE(std::filesystem::exists(path));

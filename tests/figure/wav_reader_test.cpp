@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/figure/wav_text.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::synth {
 namespace {
@@ -15,11 +16,8 @@ using ::testing::ThrowsMessage;
 
 class WavReader : public ::testing::Test {
  protected:
-  ~WavReader() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path file(const std::string& bytes) const {
-    testing::write(folder_ / "a.wav", bytes);
-    return folder_ / "a.wav";
+    return folder_.write("a.wav", bytes);
   }
 
   void expect_refused(const std::string& bytes, const std::string& reason) const {
@@ -28,13 +26,12 @@ class WavReader : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_ = testing::fresh_folder("wav-reader");
+  tests::TemporaryFolder folder_;
 };
 
 TEST_F(WavReader, ReadsFloatChannelsApart) {
-  const WavSignal signal = read_wav(
-      file(testing::riff(testing::chunk("fmt ", testing::format(3, 2, 48000, 32)) +
-                         testing::chunk("data", testing::floats({0.5F, -1.0F, 0.25F, 2.0F})))));
+  const WavSignal signal =
+      read_wav(file(testing::float_file(2, 48000, {0.5F, -1.0F, 0.25F, 2.0F})));
   EXPECT_EQ(signal.sample_rate, 48000.0);
   EXPECT_THAT(signal.channels, ElementsAre(ElementsAre(0.5F, 0.25F), ElementsAre(-1.0F, 2.0F)));
 }
@@ -61,8 +58,7 @@ TEST_F(WavReader, SkipsChunksItDoesNotKnowOddLengthsToo) {
 }
 
 TEST_F(WavReader, TakesWhatIsThereWhenTheRecorderWasKilled) {
-  std::string bytes = testing::riff(testing::chunk("fmt ", testing::format(3, 1, 8000, 32)) +
-                                    testing::chunk("data", testing::floats({0.5F, 0.25F, 0.125F})));
+  std::string bytes = testing::float_file(1, 8000, {0.5F, 0.25F, 0.125F});
   bytes.resize(bytes.size() - 4);
   EXPECT_THAT(read_wav(file(bytes)).channels, ElementsAre(ElementsAre(0.5F, 0.25F)));
 }

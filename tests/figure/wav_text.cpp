@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/figure/wav_text.hpp"
 
-#include <unistd.h>
-
 #include <bit>
-#include <fstream>
 
 namespace splash::synth::testing {
 
@@ -39,22 +36,8 @@ std::string floats(const std::vector<float>& samples) {
   return text;
 }
 
-void write(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary)
-      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-void write_mono(const std::filesystem::path& path, int sample_rate,
-                const std::vector<float>& samples) {
-  write(path, riff(chunk("fmt ", format(3, 1, sample_rate, 32)) + chunk("data", floats(samples))));
-}
-
-std::filesystem::path fresh_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() /
-                                       ("splash-test-" + name + "-" + std::to_string(getpid()));
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
+std::string float_file(int channels, int sample_rate, const std::vector<float>& samples) {
+  return riff(chunk("fmt ", format(3, channels, sample_rate, 32)) + chunk("data", floats(samples)));
 }
 
 }  // namespace splash::synth::testing

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,13 +21,7 @@ std::string riff(const std::string& chunks);
 /// Interleaved float samples as bytes.
 std::string floats(const std::vector<float>& samples);
 
-void write(const std::filesystem::path& path, const std::string& bytes);
-
-/// A mono float file.
-void write_mono(const std::filesystem::path& path, int sample_rate,
-                const std::vector<float>& samples);
-
-/// A folder of this test's own, empty.
-std::filesystem::path fresh_folder(const std::string& name);
+/// A whole float file, of interleaved samples.
+std::string float_file(int channels, int sample_rate, const std::vector<float>& samples);
 
 }  // namespace splash::synth::testing

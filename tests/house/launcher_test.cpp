@@ -3,12 +3,11 @@
 // scripts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::house {
@@ -23,26 +22,22 @@ using testing::Not;
 class Launcher : public testing::Test {
  protected:
   Launcher() {
-    fs::create_directories(folder_);
     // Nothing is installed but what a test says; apt-get notes how it was called and gives up.
     write_program("dpkg-query", "cat '" + (folder_ / "installed").string() + "' 2>/dev/null");
     write_program("apt-get", "echo \"$@\" >>'" + (folder_ / "apt").string() + "'; exit 100");
     write_program("sudo", "\"$@\"");
   }
-  ~Launcher() override { fs::remove_all(folder_); }
 
   void write_program(const std::string& name, const std::string& body) const {
-    const fs::path path = folder_ / name;
-    std::ofstream(path) << "#!/bin/sh\n" << body << '\n';
-    fs::permissions(path, fs::perms::owner_all);
+    fs::permissions(folder_.write(name, "#!/bin/sh\n" + body + '\n'), fs::perms::owner_all);
   }
 
   void pretend_installed(const std::string& dpkg_lines) const {
-    std::ofstream(folder_ / "installed") << dpkg_lines;
+    folder_.write("installed", dpkg_lines);
   }
 
   tests::Ended launch(const std::string& arguments) const {
-    return tests::run_shell("PATH='" + folder_.string() + "':$PATH " + SPLASH_SOURCE_DIR +
+    return tests::run_shell("PATH='" + folder_.path().string() + "':$PATH " + SPLASH_SOURCE_DIR +
                             "/splash " + arguments + " --build-dir '" + build().string() + "'");
   }
   fs::path build() const { return folder_ / "build"; }
@@ -51,8 +46,7 @@ class Launcher : public testing::Test {
   fs::path synth_call() const { return folder_ / "synth-call"; }
 
  private:
-  fs::path folder_ =
-      fs::temp_directory_path() / ("splash-launcher-test-" + std::to_string(getpid()));
+  tests::TemporaryFolder folder_;
 };
 
 TEST_F(Launcher, NamesWhatIsMissingAndWhyAndStopsWhenTold) {
@@ -176,7 +170,6 @@ TEST_F(Launcher, ChecksNamesBeforeAnythingIsInstalledOrBuilt) {
 }
 
 TEST_F(Launcher, TellsTheSynthWhereTheScenesMiddleLies) {
-  fs::create_directories(build() / "bin");
   for (const char* name : {"apt-get", "cmake"}) write_program(name, "exit 0");
   write_program("build/bin/sim-server",
                 "case \"$*\" in *--check*) echo 'middle  0.915,0.5,0.25';; esac");

@@ -2,13 +2,13 @@
 // The units that ./splash service writes: with this tree's paths, and as systemd takes them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <regex>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::house {
@@ -23,39 +23,30 @@ using testing::Not;
 class Service : public testing::Test {
  protected:
   Service() {
-    fs::create_directories(build() / "bin");
-    fs::create_directories(folder_ / "tools");
-    write_program(folder_ / "tools" / "cmake");
-    write_program(folder_ / "tools" / "dpkg-query");
-    for (const char* name : {"sim-server", "synth-server", "view-server"})
-      write_program(build() / "bin" / name);
-    std::ofstream(build() / "bin" / "sim-server")
-        << "#!/bin/sh\necho \"scene   $2\"; echo 'middle  0.915,0.5,0.25'\n";
-    std::ofstream(folder_ / "tools" / "dpkg-query")
-        << "#!/bin/sh\n"
-        << "sed -n 's/^\\([a-z0-9+.-]*\\) *| .*/ii \\1/p' '" << SPLASH_SOURCE_DIR << "/splash'\n";
+    write_program("tools/cmake", "");
+    write_program("tools/dpkg-query",
+                  "sed -n 's/^\\([a-z0-9+.-]*\\) *| .*/ii \\1/p' '" SPLASH_SOURCE_DIR "/splash'");
+    write_program("a & 100% b/bin/sim-server",
+                  "echo \"scene   $2\"; echo 'middle  0.915,0.5,0.25'");
+    write_program("a & 100% b/bin/synth-server", "");
+    write_program("a & 100% b/bin/view-server", "");
   }
-  ~Service() override { fs::remove_all(folder_); }
 
-  static void write_program(const fs::path& path) {
-    std::ofstream(path) << "#!/bin/sh\n";
-    fs::permissions(path, fs::perms::owner_all);
+  void write_program(const std::string& name, const std::string& body) const {
+    fs::permissions(folder_.write(name, "#!/bin/sh\n" + body + '\n'), fs::perms::owner_all);
   }
   [[nodiscard]] fs::path build() const { return folder_ / "a & 100% b"; }
   [[nodiscard]] tests::Ended launch(const std::string& arguments) const {
-    return tests::run_shell("XDG_CONFIG_HOME='" + folder_.string() + "' PATH='" +
+    return tests::run_shell("XDG_CONFIG_HOME='" + folder_.path().string() + "' PATH='" +
                             (folder_ / "tools").string() + "':$PATH " + SPLASH_SOURCE_DIR +
                             "/splash service " + arguments + " --no-install --build-dir '" +
                             build().string() + "'");
   }
-  [[nodiscard]] fs::path own(const std::string& kind) const { return folder_ / "splash" / kind; }
   [[nodiscard]] fs::path unit(const std::string& name) const {
-    return folder_ / "systemd" / "user" / (name + ".service");
+    return folder_ / ("systemd/user/" + name + ".service");
   }
 
- private:
-  fs::path folder_ =
-      fs::temp_directory_path() / ("splash-service-test-" + std::to_string(getpid()));
+  tests::TemporaryFolder folder_;
 };
 
 TEST_F(Service, HasThisTreesPaths) {
@@ -121,15 +112,12 @@ TEST_F(Service, IsWhatSystemdTakes) {
 }
 
 TEST_F(Service, FindsOnesOwnScenesAndRigsByName) {
-  fs::create_directories(own("scenes"));
-  fs::create_directories(own("rigs"));
-  std::ofstream(own("scenes") / "pond.yaml") << "name: pond\ndescription: frogs\n";
-  std::ofstream(own("rigs") / "stereo.yaml") << "name: mine\n";
+  const fs::path scene =
+      folder_.write("splash/scenes/pond.yaml", "name: pond\ndescription: frogs\n");
+  const fs::path rig = folder_.write("splash/rigs/stereo.yaml", "name: mine\n");
   ASSERT_EQ(launch("pond --rig stereo").code, 0);
-  EXPECT_THAT(tests::text_of(unit("splash-sim")),
-              HasSubstr((own("scenes") / "pond.yaml").string()));
-  EXPECT_THAT(tests::text_of(unit("splash-synth")),
-              HasSubstr((own("rigs") / "stereo.yaml").string()));
+  EXPECT_THAT(tests::text_of(unit("splash-sim")), HasSubstr(scene.string()));
+  EXPECT_THAT(tests::text_of(unit("splash-synth")), HasSubstr(rig.string()));
   EXPECT_THAT(launch("--help").text, testing::ContainsRegex("\n  pond +frogs\n"));
 }
 
