@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "synth-server/output/biquad.hpp"
@@ -61,21 +60,11 @@ Comparison compare(const std::string& engine, const std::string& scene, const pd
   return c;
 }
 
-/// Impacts are noise, which no two engines draw alike.
-std::vector<protocol::LogEntry> tones(std::vector<protocol::LogEntry> log) {
-  for (protocol::LogEntry& entry : log) {
-    std::erase_if(entry.messages, [](const protocol::Message& message) {
-      const auto event = protocol::to_event(message);
-      return !event || std::holds_alternative<protocol::Impact>(*event);
-    });
-  }
-  return log;
-}
-
 std::vector<Comparison> compare_all() {
   std::vector<Comparison> all;
   for (const char* scene : supercollider::kScenes) {
-    const auto log = tones(supercollider::scene_log(scene));
+    // Impacts are noise, which no two engines draw alike.
+    const auto log = pd::tones(supercollider::scene_log(scene), HUGE_VAL);
     const auto both =
         supercollider::render_both(log, kFrames, supercollider::loud_gain(log, kFrames));
     all.push_back(compare("scsynth", scene, {both.synth}, {both.scsynth}));

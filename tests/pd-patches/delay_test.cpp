@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <string>
 
 #include "tests/pd-patches/rendering.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::pd {
 namespace {
@@ -40,12 +40,10 @@ constexpr const char* kPatch = R"(#N canvas 0 0 600 400 12;
 
 /// How long the event waits, after this message to the patches [ms]; negative: it never came.
 double waited(const std::string& message = {}) {
-  const ScratchFolder folder;
-  const std::string patch = folder.path() / "delay.pd";
-  std::ofstream(patch) << kPatch;
+  const tests::TemporaryFolder folder;
+  const std::string patch = folder.write("delay.pd", kPatch);
   const std::string patches = std::string(SPLASH_SOURCE_DIR) + "/pd-patches";
-  std::vector<std::string> command = {"pd",      "-batch", "-nogui", "-noaudio", "-noprefs",
-                                      "-stderr", "-path",  patches,  "-open",    patch};
+  std::vector<std::string> command = batch({"-path", patches, "-open", patch});
   if (!message.empty()) command.insert(command.end(), {"-send", message});
   command.insert(command.end(), {"-send", "go bang"});
   tests::ChildProcess pd(command);

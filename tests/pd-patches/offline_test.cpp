@@ -13,6 +13,7 @@
 #include "tests/pd-patches/rendering.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::pd {
 namespace {
@@ -165,17 +166,16 @@ TEST(Offline, EveryPatchOpensWithoutAComplaint) {
   for (const char* name : {"splash-tiles.pd", "splash-stereo.pd", "splash-synth-help.pd",
                            "offline.pd", "offline-stereo.pd"}) {
     const std::string patch = std::string(SPLASH_SOURCE_DIR) + "/pd-patches/" + name;
-    tests::ChildProcess pd({"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr", "-open",
-                            patch, "-send", "pd quit"});
+    tests::ChildProcess pd(batch({"-open", patch, "-send", "pd quit"}));
     EXPECT_EQ(pd.wait(60.0), 0) << name;
     EXPECT_EQ(pd.output(), "") << name;
   }
 }
 
 TEST(Offline, TheProgramConvertsALogFile) {
-  const ScratchFolder folder;
-  const auto osc = folder.path() / "log.osc";
-  const auto list = folder.path() / "list.txt";
+  const tests::TemporaryFolder folder;
+  const auto osc = folder / "log.osc";
+  const auto list = folder / "list.txt";
   {
     protocol::LogWriter writer(osc);
     for (const auto& entry : make_log({{0.25, bubble(0.0078125F, 0.0625F, {1.0F, 0.5F, 0.0F})}})) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/pd-patches/rendering.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <variant>
@@ -15,6 +13,7 @@
 #include "synth-server/replay/replay.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::pd {
 namespace {
@@ -27,15 +26,10 @@ std::filesystem::path source(const std::string& folder, const std::string& file)
 
 }  // namespace
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "splash-pd-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+std::vector<std::string> batch(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {"pd", "-batch", "-nogui", "-noaudio", "-noprefs", "-stderr"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
 }
 
 std::vector<protocol::LogEntry> make_log(const std::vector<EventAt>& events) {
@@ -50,17 +44,14 @@ std::vector<protocol::LogEntry> make_log(const std::vector<EventAt>& events) {
 
 Channels render_with_pd(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
                         std::int64_t frames, const std::vector<std::string>& messages) {
-  const ScratchFolder folder;
-  const auto list = folder.path() / "events.txt";
-  const auto wav = folder.path() / "out.wav";
+  const tests::TemporaryFolder folder;
+  const auto list = folder / "events.txt";
+  const auto wav = folder / "out.wav";
   std::ofstream file(list);
   write_event_list(log, kRate, file);
   file.close();
-  std::vector<std::string> command = {"pd",       "-batch",
-                                      "-nogui",   "-noaudio",
-                                      "-noprefs", "-stderr",
-                                      "-r",       std::to_string(static_cast<int>(kRate)),
-                                      "-open",    source("pd-patches", rig.patch).string()};
+  std::vector<std::string> command = batch({"-r", std::to_string(static_cast<int>(kRate)), "-open",
+                                            source("pd-patches", rig.patch).string()});
   for (const std::string& message : messages) command.insert(command.end(), {"-send", message});
   command.insert(command.end(), {"-send", "splash-render " + list.string() + " " + wav.string() +
                                               " " + std::to_string(frames)});

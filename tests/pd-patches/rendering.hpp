@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,18 +26,8 @@ struct RigPair {
 inline const RigPair kTiles = {"tiles36.yaml", "offline.pd"};
 inline const RigPair kStereo = {"stereo.yaml", "offline-stereo.pd"};
 
-/// A folder of its own for one test; gone with it.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+/// A run of pd without window and sound.
+[[nodiscard]] std::vector<std::string> batch(const std::vector<std::string>& arguments);
 
 /// An event at a time from the log's start [s].
 struct EventAt {

@@ -2,9 +2,7 @@
 #include "tests/supercollider/comparison.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -20,8 +18,10 @@
 #include "synth-server/output/output_guard.hpp"
 #include "synth-server/replay/replay.hpp"
 #include "tests/pd-patches/rendering.hpp"
+#include "tests/supercollider/score.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::supercollider {
 namespace {
@@ -33,105 +33,12 @@ struct ScoreSettings {
   std::int64_t frames = 48000;   ///< rendered
 };
 
-// A bubble as SuperCollider's server would play it, compiled by hand: the binary SynthDef format,
-// version 2 (SuperCollider's "Synth Definition File Format").
-
-enum Rate : int { kScalar = 0, kControl = 1, kAudio = 2 };
-/// Special indices of UnaryOpUGen and BinaryOpUGen.
-enum Operator : int {
-  kAdd = 0,
-  kMinus = 1,
-  kTimes = 2,
-  kMinimum = 12,
-  kMaximum = 13,
-  kNegate = 0,
-  kFraction = 10,
-  kExponential = 15,
-  kSine = 28
-};
-
-/// What goes into a unit generator: another's output, or a constant.
-struct Wire {
-  int ugen = -1;  ///< -1: a constant
-  int index = 0;  ///< of the output or of the constant
-};
-
-class Definition {
- public:
-  Wire constant(float value) {
-    constants_.push_back(value);
-    return {-1, static_cast<int>(constants_.size()) - 1};
-  }
-  /// The parameters: the first unit generator.
-  void parameters(const std::vector<std::string>& names) {
-    names_ = names;
-    add("Control", kControl, {}, static_cast<int>(names.size()), 0);
-  }
-  [[nodiscard]] static Wire parameter(int index) { return {0, index}; }
-
-  Wire add(const std::string& name, Rate rate, const std::vector<Wire>& inputs, int outputs = 1,
-           int special = 0) {
-    text(ugens_, name);
-    number(ugens_, rate, 1);
-    number(ugens_, static_cast<std::int64_t>(inputs.size()), 4);
-    number(ugens_, outputs, 4);
-    number(ugens_, special, 2);
-    for (const Wire& wire : inputs) {
-      number(ugens_, wire.ugen, 4);
-      number(ugens_, wire.index, 4);
-    }
-    for (int k = 0; k < outputs; ++k) number(ugens_, rate, 1);
-    return {count_++, 0};
-  }
-  Wire unary(Operator op, Wire in) { return add("UnaryOpUGen", kAudio, {in}, 1, op); }
-  Wire binary(Operator op, Wire a, Wire b) { return add("BinaryOpUGen", kAudio, {a, b}, 1, op); }
-
-  [[nodiscard]] std::vector<std::byte> compiled(const std::string& name) const {
-    std::vector<std::byte> out;
-    for (const char letter : std::string("SCgf")) out.push_back(std::byte(letter));
-    number(out, 2, 4);  // version
-    number(out, 1, 2);  // definitions
-    text(out, name);
-    number(out, static_cast<std::int64_t>(constants_.size()), 4);
-    for (const float value : constants_) number(out, std::bit_cast<std::int32_t>(value), 4);
-    number(out, static_cast<std::int64_t>(names_.size()), 4);
-    for (std::size_t k = 0; k < names_.size(); ++k) number(out, 0, 4);  // defaults
-    number(out, static_cast<std::int64_t>(names_.size()), 4);
-    for (std::size_t k = 0; k < names_.size(); ++k) {
-      text(out, names_[k]);
-      number(out, static_cast<std::int64_t>(k), 4);
-    }
-    number(out, count_, 4);
-    out.insert(out.end(), ugens_.begin(), ugens_.end());
-    number(out, 0, 2);  // variants
-    return out;
-  }
-
- private:
-  /// Big-endian.
-  static void number(std::vector<std::byte>& out, std::int64_t value, int bytes) {
-    for (int k = bytes - 1; k >= 0; --k) {
-      out.push_back(std::byte(static_cast<std::uint64_t>(value) >> (8 * k) & 0xFFU));
-    }
-  }
-  /// A Pascal string.
-  static void text(std::vector<std::byte>& out, const std::string& value) {
-    out.push_back(std::byte(value.size()));
-    for (const char letter : value) out.push_back(std::byte(letter));
-  }
-
-  std::vector<float> constants_;
-  std::vector<std::string> names_;
-  std::vector<std::byte> ugens_;
-  int count_ = 0;
-};
-
 /// "bubble" with the parameters amp, f0 [Hz], d [1/s], length [s], breaks [s]: on bus 0, from the
 /// sample its bundle names,
 ///   amp exp(-d t) sin(2 pi f0 t (1 + 0.1 d t)),   paper section 5.2,
 /// with t from Sweep and the phase's whole cycles taken away before the sine; from `breaks` on it
 /// fades within 50 ms as synth-server's voices do.
-std::vector<std::byte> bubble_synthdef() {
+std::string bubble_synthdef() {
   constexpr int kAmp = 0;
   constexpr int kFrequency = 1;
   constexpr int kDamping = 2;
@@ -173,30 +80,6 @@ constexpr double kFaintest = 1e-8;  ///< a voice ends at this [full scale]
 /// Of a sample: scsynth rounds to the nearest, but what lies on a block's edge it puts into the
 /// last sample of the block before.
 constexpr double kWithin = 0.25;
-
-/// The few kinds of OSC that a score needs.
-class Packet {
- public:
-  void text(const std::string& value) {
-    bytes_ += value;
-    bytes_.append(4 - value.size() % 4, '\0');
-  }
-  void whole(std::int64_t value, int bytes = 4) {
-    for (int k = bytes - 1; k >= 0; --k) {
-      bytes_.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * k) & 0xFFU));
-    }
-  }
-  void real(double value) { whole(std::bit_cast<std::int32_t>(static_cast<float>(value))); }
-  void blob(const std::vector<std::byte>& value) {
-    whole(static_cast<std::int64_t>(value.size()));
-    for (const std::byte byte : value) bytes_.push_back(static_cast<char>(byte));
-    bytes_.append((4 - value.size() % 4) % 4, '\0');
-  }
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
 
 struct Tone {
   double radius = 0.0;   ///< [m]
@@ -258,46 +141,27 @@ std::string new_bubble(const Tone& tone, double gain, double sample_rate) {
   return message.bytes();
 }
 
-void write_bundle(std::ofstream& file, double seconds, const std::string& message) {
-  Packet bundle;
-  bundle.text("#bundle");
-  bundle.whole(static_cast<std::int64_t>(std::llround(seconds * 4294967296.0)), 8);
-  bundle.whole(static_cast<std::int64_t>(message.size()));
-  Packet size;
-  size.whole(static_cast<std::int64_t>(bundle.bytes().size() + message.size()));
-  file << size.bytes() << bundle.bytes() << message;
-}
-
 /// Writes each bubble and cavity of the log as /s_new at its sample; impacts are noise, which no
 /// two engines draw alike, and left out. The framing is the log's own: bundles, each behind its
 /// size, their time tags counting seconds from the start; only the messages change.
 void write_score(const std::vector<protocol::LogEntry>& log, const ScoreSettings& settings,
                  const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
-  Packet definition;
-  definition.text("/d_recv");
-  definition.text(",b");
-  definition.blob(bubble_synthdef());
-  write_bundle(file, 0.0, definition.bytes());
+  write_definition(file, bubble_synthdef());
   for (const auto& [sample, tone] : tones(log, settings)) {
     write_bundle(file, (static_cast<double>(sample) + kWithin) / settings.sample_rate,
                  new_bubble(tone, settings.gain, settings.sample_rate));
   }
-  Packet nothing;  // the rendering ends with the last bundle
-  nothing.text("/c_set");
-  nothing.text(",ii");
-  nothing.whole(0);
-  nothing.whole(0);
-  write_bundle(file, static_cast<double>(settings.frames) / settings.sample_rate, nothing.bytes());
+  write_end(file, static_cast<double>(settings.frames) / settings.sample_rate);
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
 /// Renders it with the real scsynth: one channel. Throws std::runtime_error with what it printed.
 std::vector<float> render_with_scsynth(const std::vector<protocol::LogEntry>& log,
                                        const ScoreSettings& settings) {
-  const pd::ScratchFolder folder;
-  const auto score = folder.path() / "score.osc";
-  const auto wav = folder.path() / "out.wav";
+  const tests::TemporaryFolder folder;
+  const auto score = folder / "score.osc";
+  const auto wav = folder / "out.wav";
   write_score(log, settings, score);
   tests::ChildProcess scsynth({"scsynth", "-V", "-1", "-N", score.string(), "_", wav.string(),
                                std::to_string(std::llround(settings.sample_rate)), "WAV", "float",

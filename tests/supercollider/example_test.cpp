@@ -21,6 +21,7 @@
 #include "tests/pd-patches/rendering.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::supercollider {
 namespace {
@@ -51,9 +52,9 @@ tests::ChildProcess::Environment headless() {
 }
 
 Channels render_with_sclang(const std::vector<protocol::LogEntry>& log) {
-  const pd::ScratchFolder folder;
-  const auto list = folder.path() / "events.txt";
-  const auto wav = folder.path() / "out.wav";
+  const tests::TemporaryFolder folder;
+  const auto list = folder / "events.txt";
+  const auto wav = folder / "out.wav";
   std::ofstream file(list);
   pd::write_event_list(log, pd::kRate, file);
   file.close();
