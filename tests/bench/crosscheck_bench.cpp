@@ -56,7 +56,7 @@ Comparison compare(const std::string& engine, const std::string& scene, const pd
       peak = std::max(peak, std::abs(static_cast<double>(sample)));
     }
   }
-  c.worst = pd::decibels(pd::largest_difference(ours, theirs, 0, kFrames) / peak);
+  c.worst = pd::decibels(pd::largest_difference(ours, theirs) / peak);
   return c;
 }
 

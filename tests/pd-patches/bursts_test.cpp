@@ -86,8 +86,7 @@ double power_decibels(double ratio) {
 
 TEST(Bursts, HaveTheSameEnergyInEveryBandAndAtEveryTime) {
   const auto log = salvos();
-  const Channels pd = render_with_pd(log, kTiles, kFrames);
-  const Channels synth = render_with_synth(log, kTiles, kFrames);
+  const auto [pd, synth] = render_both(log, kTiles, kFrames);
   for (const double frequency : {120.0, 250.0, 420.0, 550.0, 700.0}) {
     const double level = power_decibels(band_energy(pd, frequency) / band_energy(synth, frequency));
     std::cout << frequency << " Hz: " << level << " dB\n";

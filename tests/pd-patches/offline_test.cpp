@@ -52,11 +52,9 @@ void compare(const Size& size, const RigPair& rig, const protocol::Vec3& place) 
   const auto frames = onset + static_cast<std::int64_t>(std::min(11.0 / damping, 6.0) * kRate);
   const auto log =
       make_log({{static_cast<double>(onset) / kRate, bubble(size.radius, size.epsilon, place)}});
-  const Channels pd = render_with_pd(log, rig, frames);
-  const Channels synth = render_with_synth(log, rig, frames);
   const double a0 = static_cast<double>(size.radius) * static_cast<double>(size.epsilon);
   // synth-server's replay fades out at the end of its file, not within these frames
-  const double difference = decibels(largest_difference(pd, synth, 0, frames) / (a0 / kFullScale));
+  const double difference = render_both(log, rig, frames).apart(a0 / kFullScale);
   std::cout << rig.rig << ": r = " << size.radius << " m: " << difference << " dB re A0\n";
   EXPECT_LT(difference, kTolerance);
 }
@@ -84,8 +82,7 @@ TEST(Offline, OnsetsAreOnTheSample) {
     events.push_back({static_cast<double>(samples[k]) / kRate, event});
   }
   const auto log = make_log(events);
-  const Channels pd = render_with_pd(log, kTiles, 26000);
-  const Channels synth = render_with_synth(log, kTiles, 26000);
+  const auto [pd, synth] = render_both(log, kTiles, 26000);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const std::size_t c = channel_of(static_cast<int>(k % 3) * 2, static_cast<int>(k / 3) * 2);
     if (k % 3 == 1) {  // noise: both start from nil, the second sample is the first to be heard
@@ -110,11 +107,8 @@ TEST(Offline, AHundredBubblesOverTheFloorAndBesideIt) {
     events.push_back({0.01 + 0.0137 * k, bubble(radius, 0.02F + 0.0007F * spot, place)});
   }
   const auto log = make_log(events);
-  constexpr std::int64_t kFrames = 96000;
-  const Channels pd = render_with_pd(log, kTiles, kFrames);
-  const Channels synth = render_with_synth(log, kTiles, kFrames);
   const double a0 = 0.09 * 0.021;
-  EXPECT_LT(decibels(largest_difference(pd, synth, 0, kFrames) / (a0 / kFullScale)), kTolerance);
+  EXPECT_LT(render_both(log, kTiles, 96000).apart(a0 / kFullScale), kTolerance);
 }
 
 // One breaks long before it has died away, one just before, one not at all; and a bubble takes the
@@ -127,11 +121,9 @@ TEST(Offline, CavitiesFadeAfterTheirLife) {
                              {0.1, cavity(1.0F, middle_of(5, 0))},
                              {0.1, cavity(0.0F, middle_of(0, 5))},
                              {0.4, bubble(0.03F, 0.05F, middle_of(0, 0))}});
-  constexpr std::int64_t kFrames = 96000;
-  const Channels pd = render_with_pd(log, kTiles, kFrames);
-  const Channels synth = render_with_synth(log, kTiles, kFrames);
+  const Both both = render_both(log, kTiles, 96000);
   const double a0 = 0.06 * 0.1;
-  const double difference = decibels(largest_difference(pd, synth, 0, kFrames) / (a0 / kFullScale));
+  const double difference = both.apart(a0 / kFullScale);
   std::cout << "cavities that break: " << difference << " dB re A0\n";
   EXPECT_LT(difference, kTolerance);
   // Broken by 0.1 + 0.1372 + 0.05 s, but for what the band's filter still swings.
@@ -139,7 +131,7 @@ TEST(Offline, CavitiesFadeAfterTheirLife) {
     const std::vector<float>& one = all[channel];
     return static_cast<double>(tests::peak(one, 16800, 19000));
   };
-  for (const Channels& all : {pd, synth}) {
+  for (const Channels& all : {both.pd, both.synth}) {
     EXPECT_LT(loudest(all, channel_of(0, 0)), 0.05 * loudest(all, channel_of(0, 5)));
     EXPECT_GT(loudest(all, channel_of(5, 0)), 0.9 * loudest(all, channel_of(0, 5)));
   }
@@ -148,8 +140,7 @@ TEST(Offline, CavitiesFadeAfterTheirLife) {
 TEST(Offline, SmallBubblesAreLeftOutWhereTheRigEnds) {
   const auto log = make_log({{0.0, bubble(0.0039F, 0.1F, middle_of(0, 0))},
                              {0.0, bubble(0.0041F, 0.1F, middle_of(5, 5))}});
-  const Channels pd = render_with_pd(log, kTiles, 9600);
-  const Channels synth = render_with_synth(log, kTiles, 9600);
+  const auto [pd, synth] = render_both(log, kTiles, 9600);
   EXPECT_EQ(first_beyond(pd[0], 0.0), -1);
   EXPECT_EQ(first_beyond(synth[0], 0.0), -1);
   EXPECT_GT(first_beyond(pd[35], 1e-3), 0);

@@ -52,11 +52,10 @@ std::vector<protocol::LogEntry> some_cloud() {
 
 void compare(const std::vector<protocol::LogEntry>& log, const synth::EngineSettings& settings,
              const std::vector<std::string>& messages) {
-  const Channels synth = render_with_synth(log, kTiles, kFrames, settings);
-  const Channels pd = render_with_pd(log, kTiles, kFrames, messages);
-  const double peak = loudest(synth);
+  const Both both = render_both(log, kTiles, kFrames, settings, messages);
+  const double peak = loudest(both.synth);
   ASSERT_GT(peak, 0.01);
-  const double level = decibels(largest_difference(pd, synth, 0, kFrames) / peak);
+  const double level = both.apart(peak);
   std::cout << messages.front() << ": " << level << " dB re the peak\n";
   EXPECT_LT(level, kTolerance);
 }

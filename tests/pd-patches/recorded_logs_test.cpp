@@ -18,13 +18,12 @@ TEST(RecordedLogs, SoundAlike) {
     if (entry.path().extension() != ".osc") continue;
     const auto log = tones(protocol::read_log(entry.path()), kLongest);
     constexpr auto kFrames = static_cast<std::int64_t>((kLongest + 0.5) * kRate);
-    const Channels synth = render_with_synth(log, kTiles, kFrames);
-    const double peak = loudest(synth);
+    const Both both = render_both(log, kTiles, kFrames);
+    const double peak = loudest(both.synth);
     // Above its ceiling the engine limits and the patch clips: those would not be alike.
     ASSERT_GT(peak, 0.0) << entry.path();
     ASSERT_LT(peak, 0.89) << entry.path();
-    const Channels pd = render_with_pd(log, kTiles, kFrames);
-    const double level = decibels(largest_difference(pd, synth, 0, kFrames) / peak);
+    const double level = both.apart(peak);
     std::cout << entry.path().filename() << ": " << level << " dB re peak " << peak << '\n';
     EXPECT_LT(level, -80.0) << entry.path();
     ++compared;

@@ -116,17 +116,27 @@ double decibels(double ratio) {
   return 20.0 * std::log10(std::max(ratio, 1e-15));
 }
 
-double largest_difference(const Channels& a, const Channels& b, std::int64_t begin,
-                          std::int64_t end) {
+double largest_difference(const Channels& a, const Channels& b) {
   if (a.size() != b.size()) throw std::invalid_argument("renderings differ in channels");
   double largest = 0.0;
   for (std::size_t c = 0; c < a.size(); ++c) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    for (std::size_t i = 0; i < b[c].size(); ++i) {
       const double difference = static_cast<double>(a[c].at(i)) - static_cast<double>(b[c].at(i));
       largest = std::max(largest, std::abs(difference));
     }
   }
   return largest;
+}
+
+Both render_both(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
+                 std::int64_t frames, const synth::EngineSettings& settings,
+                 const std::vector<std::string>& messages) {
+  return {render_with_pd(log, rig, frames, messages),
+          render_with_synth(log, rig, frames, settings)};
+}
+
+double Both::apart(double size) const {
+  return decibels(largest_difference(pd, synth) / size);
 }
 
 std::int64_t first_beyond(const std::vector<float>& channel, double level) {

@@ -50,6 +50,17 @@ struct EventAt {
                                          const RigPair& rig, std::int64_t frames,
                                          const synth::Sound& sound = {});
 
+/// The same log by both.
+struct Both {
+  Channels pd;
+  Channels synth;
+  /// Their largest difference over `size` [dB].
+  [[nodiscard]] double apart(double size) const;
+};
+[[nodiscard]] Both render_both(const std::vector<protocol::LogEntry>& log, const RigPair& rig,
+                               std::int64_t frames, const synth::EngineSettings& settings = {},
+                               const std::vector<std::string>& messages = {});
+
 /// The bubbles and cavities of a log's first `seconds`: noise cannot be compared sample by sample.
 [[nodiscard]] std::vector<protocol::LogEntry> tones(const std::vector<protocol::LogEntry>& log,
                                                     double seconds);
@@ -57,9 +68,8 @@ struct EventAt {
 [[nodiscard]] double loudest(const Channels& channels);
 /// 20 log10 [dB].
 [[nodiscard]] double decibels(double ratio);
-/// Largest |a - b| in samples [begin, end) of all channels.
-[[nodiscard]] double largest_difference(const Channels& a, const Channels& b, std::int64_t begin,
-                                        std::int64_t end);
+/// Largest |a - b| of all samples of all channels; a may be longer.
+[[nodiscard]] double largest_difference(const Channels& a, const Channels& b);
 /// First sample of a channel beyond `level`; -1: none.
 [[nodiscard]] std::int64_t first_beyond(const std::vector<float>& channel, double level);
 
