@@ -9,6 +9,7 @@
 
 #include "program/text.hpp"
 #include "tests/bench/progress.hpp"
+#include "tests/support/detections.hpp"
 
 namespace splash::bench {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 using sim::KernelKind;
 using sim::PressureKind;
 
-constexpr PressureKind kSolvers[] = {PressureKind::weakly_compressible,
-                                     PressureKind::grid_projected};
 /// A frame has whole steps: a thousand a second would shorten those of the grid.
 constexpr double kFrames = 200.0;
 constexpr double kHalf = 0.5;
@@ -96,7 +95,7 @@ const std::vector<SweepCase>& sweep_cases() {
 
 std::vector<Quality> quick_qualities() {
   std::vector<Quality> list;
-  for (const PressureKind solver : kSolvers) list.push_back({solver});
+  for (const PressureKind solver : tests::kBothSolvers) list.push_back({solver});
   list.push_back({.time_step_factor = kHalf});
   list.push_back({.kernels = KernelKind::reference});
   return list;
@@ -104,7 +103,7 @@ std::vector<Quality> quick_qualities() {
 
 std::vector<Quality> all_qualities() {
   std::vector<Quality> list;
-  for (const PressureKind solver : kSolvers) {
+  for (const PressureKind solver : tests::kBothSolvers) {
     for (const double factor : {1.0, kHalf, kLonger}) list.push_back({solver, factor});
     list.push_back({solver, 1.0, KernelKind::reference});
   }

@@ -14,6 +14,7 @@
 #include "tests/bench/fluid_block.hpp"
 #include "tests/bench/opencl_ledger.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/support/detections.hpp"
 #include "tests/support/scene_text.hpp"
 #include "tests/validation/series.hpp"
 
@@ -83,29 +84,6 @@ SkipScene spheric2() {
   return {"spheric2", scene, 6.0};
 }
 
-/// All numbers of all events, one after the other.
-std::vector<double> numbers_of(const Detections& found) {
-  std::vector<double> all;
-  const auto add = [&](std::initializer_list<double> some, const Vector3& place) {
-    all.insert(all.end(), some);
-    all.insert(all.end(), place.begin(), place.end());
-  };
-  for (const DetectedImpact& e : found.impacts) {
-    add({e.time, static_cast<double>(e.body), e.speed, e.approach}, e.position);
-  }
-  for (const DetectedBubble& e : found.bubbles) {
-    add({e.time, static_cast<double>(e.particle), e.radius, e.epsilon}, e.position);
-  }
-  for (const DetectedCavity& e : found.cavities) {
-    add({e.time, static_cast<double>(e.bubbles), e.radius}, e.position);
-  }
-  return all;
-}
-
-void append(auto& all, const auto& some) {
-  all.insert(all.end(), some.begin(), some.end());
-}
-
 /// Sums over what two gauges say at the same times.
 struct Apart {
   double most = 0.0;
@@ -160,9 +138,7 @@ SkipRun run_with(Device& device, const SkipScene& item, const SkipVariant& varia
     const double before = processor_time();
     const FrameResult frame = simulation.advance();
     run.processor += processor_time() - before;
-    append(run.found.impacts, frame.found.impacts);
-    append(run.found.bubbles, frame.found.bubbles);
-    append(run.found.cavities, frame.found.cavities);
+    tests::append_found(run.found, frame.found);
   }
   run.totals = simulation.totals();
   return run;
@@ -177,7 +153,8 @@ SkipDifference difference(const SkipRun& a, const SkipRun& b) {
   }
   return {heights.most, std::sqrt(heights.squares / heights.count),
           std::sqrt(pressures.squares / pressures.count),
-          std::sqrt(pressures.size / pressures.count), numbers_of(a.found) == numbers_of(b.found)};
+          std::sqrt(pressures.size / pressures.count),
+          tests::numbers_of(a.found) == tests::numbers_of(b.found)};
 }
 
 // The paper's pool, settled, with a stirrer in one corner that keeps about a tenth of its water

@@ -5,7 +5,6 @@
 #include <concepts>
 #include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -99,16 +98,8 @@ void draw(const Map& map, const std::filesystem::path& file) {
   plot.draw();
 }
 
-const Trial& named(const std::string& name) {
-  static const std::vector<Trial> kAll = all_trials();
-  const auto found =
-      std::find_if(kAll.begin(), kAll.end(), [&](const Trial& t) { return t.name == name; });
-  if (found == kAll.end()) throw std::logic_error("no trial is called " + name);
-  return *found;
-}
-
 const Trial& plunge_at(double speed) {
-  return named("plunge at " + std::to_string(speed).substr(0, 4) + " m/s");
+  return trial_named("plunge at " + std::to_string(speed).substr(0, 4) + " m/s");
 }
 
 void run_cell(sim::Device& device, Map& map, const Trial& trial, const Settings& settings, double x,
@@ -143,7 +134,7 @@ Map margin_map(sim::Device& device) {
           {}};
   for (const double factor : kFixedSound) {
     const Settings settings = {kMapped, kMapSpacing, factor, true};
-    run_cell(device, map, named("rest, sunk"), settings, factor, 0.0);
+    run_cell(device, map, trial_named("rest, sunk"), settings, factor, 0.0);
     for (const double speed : kSpeeds) {
       run_cell(device, map, plunge_at(speed), settings, factor, speed);
     }
@@ -158,7 +149,7 @@ Map viscosity_map(sim::Device& device) {
           "particle spacing (m)",
           {}};
   for (const double nu : kViscosities) {
-    Trial trial = named("dam break");
+    Trial trial = trial_named("dam break");
     trial.seconds = nu > 0.05 ? 0.1 : 0.5;
     trial.scene = [inner = trial.scene, nu](double s) {
       sim::Scene scene = inner(s);

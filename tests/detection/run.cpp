@@ -17,6 +17,7 @@
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/detection/run_water.hpp"
 #include "tests/detection/steps.hpp"
+#include "tests/support/detections.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace splash::detection {
@@ -161,7 +162,7 @@ std::vector<Entry> truth_of(const Case& item, const sim::Scene& scene,
       entry.wanted = entry.wanted && item.truth.empty();
       entry.time -= item.pulled;
     }
-    append(all, mine);
+    tests::append(all, mine);
   }
   return all;
 }
@@ -200,9 +201,7 @@ Outcome run_case(sim::Device& device, const Case& item, std::optional<sim::Press
     for (const sim::DetectedImpact& impact : frame.found.impacts) {
       heard.momenta.push_back(impact.momentum);
     }
-    append(heard.found.impacts, frame.found.impacts);
-    append(heard.found.bubbles, frame.found.bubbles);
-    append(heard.found.cavities, frame.found.cavities);
+    tests::append_found(heard.found, frame.found);
     if (progress) progress(frame.seconds / item.seconds);
   }
   heard.paths = paths.all();

@@ -7,6 +7,7 @@
 
 #include "program/text.hpp"
 #include "sim-server/scene/rotation.hpp"
+#include "tests/support/detections.hpp"
 
 namespace splash::detection {
 namespace {
@@ -208,13 +209,13 @@ void add(Score& sum, const Score& one) {
   sum.stray += one.stray;
   sum.stray_above += one.stray_above;
   sum.bubbles += one.bubbles;
-  append(sum.late_ms, one.late_ms);
-  append(sum.speed_error, one.speed_error);
-  append(sum.momentum, one.momentum);
-  append(sum.closing, one.closing);
-  append(sum.air, one.air);
-  append(sum.depth, one.depth);
-  append(sum.faults, one.faults);
+  tests::append(sum.late_ms, one.late_ms);
+  tests::append(sum.speed_error, one.speed_error);
+  tests::append(sum.momentum, one.momentum);
+  tests::append(sum.closing, one.closing);
+  tests::append(sum.air, one.air);
+  tests::append(sum.depth, one.depth);
+  tests::append(sum.faults, one.faults);
 }
 
 }  // namespace splash::detection

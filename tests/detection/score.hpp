@@ -58,10 +58,6 @@ struct Score {
   std::vector<std::string> faults;  ///< a sentence each
 };
 
-void append(auto& all, const auto& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 /// How far from an entry its impact may be told: waves of an earlier one move the surface [s].
 [[nodiscard]] double window_of(const Entry& entry);
 

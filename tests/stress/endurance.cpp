@@ -15,6 +15,7 @@
 #include "sim-server/scene/solver_choice.hpp"
 #include "sim-server/simulation/simulation.hpp"
 #include "tests/bench/tables.hpp"
+#include "tests/support/detections.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace splash::stress {
@@ -70,8 +71,7 @@ class Run {
     const std::int64_t tenth = (wanted_ - before_.steps) / 10;
     while (before_.steps + simulation_.totals().steps < wanted_) {
       const sim::FrameResult frame = simulation_.advance();
-      events_ += static_cast<std::int64_t>(frame.found.impacts.size() + frame.found.bubbles.size() +
-                                           frame.found.cavities.size());
+      events_ += static_cast<std::int64_t>(tests::count_of(frame.found));
       const double now = protocol::monotonic_now();
       if (warm_ == 0.0 && (now > start_ + kWarm || simulation_.totals().steps > tenth)) {
         warm_ = now;

@@ -20,10 +20,6 @@ bool all_finite(const sim::Snapshot& state, const sim::FluidParams& params) {
   return true;
 }
 
-std::size_t events_of(const sim::FrameResult& frame) {
-  return frame.found.impacts.size() + frame.found.bubbles.size() + frame.found.cavities.size();
-}
-
 /// Does one harm in the coming frame, in its step `wanted`.
 class Saboteur {
  public:
@@ -51,7 +47,7 @@ Outcome observe(sim::Simulation& simulation, const Injection& injection, int ste
   const std::int64_t before = simulation.totals().steps;
   for (int k = 0; k <= kFramesBetween; ++k) {
     const sim::FrameResult frame = simulation.advance();
-    outcome.told += events_of(frame);
+    outcome.told += tests::count_of(frame.found);
     if (!frame.step_fault) continue;
     outcome.seen = outcome.seen || (k == 0 && frame.step_fault->step == before + step);
     outcome.sentence = describe(*frame.step_fault);

@@ -8,11 +8,11 @@
 
 #include "sim-server/scene/solver_choice.hpp"
 #include "tests/stress/injection.hpp"
+#include "tests/support/detections.hpp"
 
 namespace splash::stress {
 
-inline constexpr sim::PressureKind kBothSolvers[] = {sim::PressureKind::weakly_compressible,
-                                                     sim::PressureKind::grid_projected};
+using tests::kBothSolvers;
 
 /// A little still water with a body above it, in steps of `factor` of the largest.
 [[nodiscard]] sim::Scene still_scene(sim::PressureKind solver, double factor);

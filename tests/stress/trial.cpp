@@ -13,6 +13,7 @@
 #include "sim-server/scene/rotation.hpp"
 #include "sim-server/scene/shape.hpp"
 #include "sim-server/scene/step_policy.hpp"
+#include "tests/support/detections.hpp"
 #include "tests/support/median.hpp"
 
 namespace splash::stress {
@@ -108,8 +109,7 @@ void watch(Simulation& simulation, const Drive& drive, double seconds, Verdict& 
   while (simulation.seconds() < seconds) {
     if (drive) drive(simulation);
     const sim::FrameResult frame = simulation.advance();
-    const std::size_t events =
-        frame.found.impacts.size() + frame.found.bubbles.size() + frame.found.cavities.size();
+    const std::size_t events = tests::count_of(frame.found);
     verdict.events += events;
     note(verdict, events < kFlood, "event count");
     note(verdict, sound_events(frame.found), "events finite");

@@ -30,6 +30,8 @@ struct Trial {
 
 /// All of them, group by group.
 [[nodiscard]] std::vector<Trial> all_trials();
+/// Throws std::logic_error when there is none of that name.
+[[nodiscard]] const Trial& trial_named(const std::string& name);
 
 struct Settings {
   sim::PressureKind solver = sim::PressureKind::weakly_compressible;

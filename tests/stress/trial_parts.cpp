@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/stress/trial_parts.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace splash::stress {
 
 using sim::BodySettings;
@@ -60,6 +63,14 @@ std::vector<Trial> all_trials() {
   add_free_trials(all);
   add_water_trials(all);
   return all;
+}
+
+const Trial& trial_named(const std::string& name) {
+  static const std::vector<Trial> kAll = all_trials();
+  const auto found =
+      std::find_if(kAll.begin(), kAll.end(), [&](const Trial& t) { return t.name == name; });
+  if (found == kAll.end()) throw std::logic_error("no trial is called " + name);
+  return *found;
 }
 
 }  // namespace splash::stress

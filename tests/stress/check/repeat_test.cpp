@@ -33,28 +33,14 @@ struct Story {
   sim::FluidParams params;
 };
 
-void note(std::vector<double>& numbers, const sim::Vector3& x) {
-  numbers.insert(numbers.end(), x.begin(), x.end());
-}
-
 Story run(sim::Device& device, const sim::Scene& scene, double seconds) {
   sim::Simulation simulation(device, scene, {});
   Story story;
+  sim::Detections found;
   while (simulation.seconds() < seconds) {
-    const sim::FrameResult frame = simulation.advance();
-    for (const auto& e : frame.found.impacts) {
-      story.events.insert(story.events.end(), {e.time, e.speed, e.approach});
-      note(story.events, e.position);
-    }
-    for (const auto& e : frame.found.bubbles) {
-      story.events.insert(story.events.end(), {e.time, e.particle + 0.0, e.radius, e.epsilon});
-      note(story.events, e.position);
-    }
-    for (const auto& e : frame.found.cavities) {
-      story.events.insert(story.events.end(), {e.time, e.bubbles + 0.0, e.radius});
-      note(story.events, e.position);
-    }
+    tests::append_found(found, simulation.advance().found);
   }
+  story.events = tests::numbers_of(found);
   story.water = simulation.fluid().snapshot();
   story.params = simulation.fluid().params();
   return story;

@@ -17,6 +17,7 @@
 #include "sim-server/start/scene_start.hpp"
 #include "tests/stress/endurance.hpp"
 #include "tests/stress/trial.hpp"
+#include "tests/support/detections.hpp"
 
 namespace splash::stress {
 namespace {
@@ -27,22 +28,13 @@ using testing::IsEmpty;
 constexpr double kCoarse = 0.05;  // [m]
 constexpr auto kState = sim::PressureKind::weakly_compressible;
 constexpr auto kGrid = sim::PressureKind::grid_projected;
-constexpr sim::PressureKind kSolvers[] = {kState, kGrid};
-
-const Trial& named(const std::string& name) {
-  static const std::vector<Trial> kAll = all_trials();
-  const auto found =
-      std::find_if(kAll.begin(), kAll.end(), [&](const Trial& t) { return t.name == name; });
-  if (found == kAll.end()) throw std::logic_error("no trial is called " + name);
-  return *found;
-}
 
 /// What runs, and with which solver.
 using Run = std::tuple<const char*, sim::PressureKind>;
 
 Verdict verdict_of(const Run& run, double factor) {
   sim::Device device;
-  return run_trial(device, named(std::get<0>(run)), {std::get<1>(run), kCoarse, factor});
+  return run_trial(device, trial_named(std::get<0>(run)), {std::get<1>(run), kCoarse, factor});
 }
 
 std::string words(const testing::TestParamInfo<Run>& info) {
@@ -71,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      "ten on each other, density 2", "all of it bubbles",
                                      "a sheet one particle thick", "rest, sunk",
                                      "a tank 0.95 m long"),
-                     testing::ValuesIn(kSolvers)),
+                     testing::ValuesIn(tests::kBothSolvers)),
     words);
 INSTANTIATE_TEST_SUITE_P(State, Trials,
                          testing::Combine(testing::Values("let go under water, density 0.001",
@@ -113,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Grid, Limits,
 // theirs.
 TEST(Trials, SoundIsFastEnoughForBodiesWhoseMotionIsKnown) {
   sim::Device device;
-  sim::Scene scene = named("plunge at 10.0 m/s").scene(kCoarse);
+  sim::Scene scene = trial_named("plunge at 10.0 m/s").scene(kCoarse);
   EXPECT_NEAR(sim::Simulation(device, scene, {}).fluid().params().sound_speed, 10.0 / 0.3, 0.1);
   scene.fluid.sound_speed = 20.0;
   EXPECT_NEAR(sim::Simulation(device, scene, {}).fluid().params().sound_speed, 20.0, 1.0e-5);
@@ -139,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values("rest, half in", "dam break", "plunge at 5.00 m/s",
                                      "pressed to the floor", "a box tumbles in, density 1000",
                                      "gravity upwards"),
-                     testing::ValuesIn(kSolvers)),
+                     testing::ValuesIn(tests::kBothSolvers)),
     words);
 INSTANTIATE_TEST_SUITE_P(State, Longer,
                          testing::Values(Run{"let go under water, density 0.001", kState}), words);
@@ -157,16 +149,16 @@ TEST_P(Stretched, StepsAreStable) {
 INSTANTIATE_TEST_SUITE_P(Each, Stretched,
                          testing::Combine(testing::Values("rest", "dam break",
                                                           "plunge at 1.00 m/s"),
-                                          testing::ValuesIn(kSolvers)),
+                                          testing::ValuesIn(tests::kBothSolvers)),
                          words);
 
 // What is heavier than water lies where it was put: these fell while what touches was a contact
 // only where it came nearer. ./splash bench stability has other spacings and steps.
 TEST(Piles, OfTenStand) {
   sim::Device device;
-  for (const sim::PressureKind solver : kSolvers) {
+  for (const sim::PressureKind solver : tests::kBothSolvers) {
     const Verdict verdict =
-        run_trial(device, named("ten on each other, density 10"), {solver, 0.035, 1.5}, 1.0);
+        run_trial(device, trial_named("ten on each other, density 10"), {solver, 0.035, 1.5}, 1.0);
     EXPECT_THAT(verdict.broken, IsEmpty()) << sim::name_of(solver) << ' ' << verdict.step_fault;
   }
 }
@@ -174,7 +166,7 @@ TEST(Piles, OfTenStand) {
 // Longer steps are bought with slower sound, of as many steps as are saved.
 TEST(Trials, TwiceTheStepHalvesTheSpeedOfSound) {
   sim::Device device;
-  sim::Scene scene = named("rest").scene(kCoarse);
+  sim::Scene scene = trial_named("rest").scene(kCoarse);
   const sim::Simulation usual(device, scene, {});
   scene.fluid.time_step_factor = 2.0;
   const sim::Simulation longer(device, scene, {});
@@ -197,12 +189,12 @@ Drive intruding(const sim::Vector3& middle) {
 // Where no pressure says which way out is, it is put out (boundary/keep_out.h).
 TEST(Trials, WaterInABodyIsPutOutWithinAFrame) {
   sim::Device device;
-  Trial trial = named("rest, sunk");
+  Trial trial = trial_named("rest, sunk");
   trial.still = false;
   trial.harmed = true;
   trial.speed = 5.0;  // shot out
   trial.drive = [] { return intruding({0.21, 0.2, 0.09}); };
-  for (const sim::PressureKind solver : kSolvers) {
+  for (const sim::PressureKind solver : tests::kBothSolvers) {
     const Verdict verdict = run_trial(device, trial, {solver, kCoarse, 1.0}, 0.1);
     EXPECT_THAT(verdict.broken, IsEmpty()) << verdict.step_fault << ' ' << verdict.inside;
     EXPECT_GT(verdict.inside, 0.0);
