@@ -25,17 +25,16 @@ Outcome evaluate_closed_box(const std::vector<Run>& runs) {
   const Column& total = g["sum_total"];
   const double freed = 998.0 * 0.2 * 0.12 * 0.3 * 9.81 * kFreed;
   const double rise = largest_rise(total);
-  const Column lost =
-      combine(-1.0 / freed, total, total.front() / freed, Column(total.size(), 1.0));
+  const Column lost = linear(-1.0 / freed, total, total.front() / freed);
   const Parts left = split(kLevel, run.places, run.velocities);
-  const Column aside = combine(1.0, g["mass_x"], -0.5 * kLevel.length, Column(time.size(), 1.0));
+  const Column aside = linear(1.0, g["mass_x"], -0.5 * kLevel.length);
   return {
       {{"largest rise of energy, of what was freed", 100.0 * rise / freed, "%", 0.0, 0.1},
        {"lost by the end, of what was freed", 100.0 * lost.back(), "%"},
        {"momentum across, of mass times sqrt(gH)",
         100.0 *
             std::max(largest_between(time, g["all_y"], 0.0, 100.0),
-                     -largest_between(time, combine(-1.0, g["all_y"], 0.0, time), 0.0, 100.0)) /
+                     -largest_between(time, linear(-1.0, g["all_y"]), 0.0, 100.0)) /
             (7.18 * 1.716),
         "%"},
        {"rms speed at the end", std::hypot(left.sloshing, left.rest), "m/s"},

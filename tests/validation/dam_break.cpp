@@ -27,8 +27,8 @@ double front_error(const Column& time, const Column& front, const Series& refere
 
 Outcome compare(const Run& run, double width, const Series& reference) {
   const Column& seconds = run.gauges["time"];
-  const Column time = combine(std::sqrt(2.0 * 9.81 / width), seconds, 0.0, seconds);
-  const Column front = combine(1.0 / width, run.gauges["tip_front"], 0.0, seconds);
+  const Column time = linear(std::sqrt(2.0 * 9.81 / width), seconds);
+  const Column front = linear(1.0 / width, run.gauges["tip_front"]);
   double best_shift = 0.0;
   double best = front_error(time, front, reference, 0.0);
   const double raw = best;

@@ -57,8 +57,8 @@ Outcome evaluate_elliptical_drop(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Series& g = run.gauges;
   const Column& time = g["time"];
-  const Column shorter = combine(2.0 / kRadius, g["drop_sz"], 0.0, time);
-  const Column longer = combine(2.0 / kRadius, g["drop_sx"], 0.0, time);
+  const Column shorter = linear(2.0 / kRadius, g["drop_sz"]);
+  const Column longer = linear(2.0 / kRadius, g["drop_sx"]);
   const Exact exact = axes_of(-kDrawn, 0.0, kEnd);
   const double a = interpolate(time, shorter, kEnd);
   const double b = interpolate(time, longer, kEnd);
@@ -83,18 +83,11 @@ std::vector<Curve> reference_elliptical_drop() {
   return curves_of(axes_of(-kDrawn, 0.0, 1.0 / kDrawn));
 }
 
-/// Twice the mean distance of the crossings of a sum that swings about zero.
-double period_of(const Column& time, const Column& swing) {
-  const Column crossings = zero_crossings(time, swing);
-  if (crossings.size() < 3) return std::nan("");
-  return 2.0 * (crossings.back() - crossings[0]) / (static_cast<double>(crossings.size()) - 1.0);
-}
-
 Outcome evaluate_oscillating_drop(const std::vector<Run>& runs) {
   const Series& g = runs.front().gauges;
   const Column& time = g["time"];
-  const Column a = combine(2.0 / kRadius, g["drop_sx"], 0.0, time);
-  const Column b = combine(2.0 / kRadius, g["drop_sz"], 0.0, time);
+  const Column a = linear(2.0 / kRadius, g["drop_sx"]);
+  const Column b = linear(2.0 / kRadius, g["drop_sz"]);
   const double period = period_of(time, combine(1.0, a, -1.0, b));
   const Exact exact = axes_of(kSwung, kField, kSeconds);
   const double stretch = largest_between(exact.time, exact.a, 0.0, kPeriod);

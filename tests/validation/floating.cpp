@@ -205,8 +205,7 @@ Outcome evaluate_float(const std::vector<Run>& runs) {
   const double draft = level - (rest - kHeight / 2.0);
   const double spacing = run.scene.fluid.spacing;
   const double hydrostatic = 2.0 * std::numbers::pi * std::sqrt(kDraft / kGravity);
-  const double period =
-      period_of(zero_crossings(time, combine(1.0, z, -rest, Column(time.size(), 1.0))));
+  const double period = period_of(zero_crossings(time, linear(1.0, z, -rest)));
   const double theory = period_of(heave_passages(kHeave, kHeaving));
   const double upright =
       1.0 - 2.0 * (std::pow(g["cuboid_qx"].back(), 2) + std::pow(g["cuboid_qy"].back(), 2));
@@ -219,7 +218,7 @@ Outcome evaluate_float(const std::vector<Run>& runs) {
        {"heave period over the hydrostatic one", period / hydrostatic, "1", 1.0},
        {"the same by linear theory", theory / hydrostatic, "1"},
        {"tilt", 180.0 / std::numbers::pi * std::acos(std::min(upright, 1.0)), "degrees", 0.0, 5.0}},
-      {{"", time, combine(1.0, z, 0.0, z)}}};
+      {{"", time, z}}};
 }
 
 std::vector<Curve> reference_float() {
@@ -238,7 +237,7 @@ Outcome evaluate_sinking(const std::vector<Run>& runs) {
     error += std::abs(z.front() - interpolate(time, z, at[k]) - fallen[k]) /
              static_cast<double>(at.size());
   }
-  const Column way = combine(-1.0, z, z.front(), Column(z.size(), 1.0));
+  const Column way = linear(-1.0, z, z.front());
   const double landing = first_reach(time, way, fallen.back());
   return {{{"way, mean error, of all of it", 100.0 * error / fallen.back(), "%", 0.0, 10.0},
            {"time of landing, error", 100.0 * (landing / at.back() - 1.0), "%", -10.0, 10.0}},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "program/text.hpp"
 #include "tests/validation/cases.hpp"
 
 namespace splash::validation {
@@ -36,13 +37,10 @@ Outcome evaluate_pinch_off(const std::vector<Run>& runs) {
     const double closed = closing_time(time, run.gauges["hollow_pocket"]) - contact;
     const double unit = std::sqrt(kDiameter / 2.0 / 9.81);
     times.push_back(closed / unit);
-    char name[64];
-    std::snprintf(name, sizeof name, "closing time at Fr %.0f",
-                  speed / std::sqrt(9.81 * kDiameter));
-    outcome.figures.push_back({name, closed / unit, "sqrt(R/g)", 1.72, 2.29});
-    std::snprintf(name, sizeof name, "Fr %.0f ", speed / std::sqrt(9.81 * kDiameter));
-    const Column since = combine(1.0 / unit, time, -contact / unit, Column(time.size(), 1.0));
-    outcome.curves.push_back({name, since, combine(1e6, run.gauges["hollow_pocket"], 0.0, since)});
+    const std::string name = program::format("Fr %.0f", speed / std::sqrt(9.81 * kDiameter));
+    outcome.figures.push_back({"closing time at " + name, closed / unit, "sqrt(R/g)", 1.72, 2.29});
+    const Column since = linear(1.0 / unit, time, -contact / unit);
+    outcome.curves.push_back({name + ' ', since, linear(1e6, run.gauges["hollow_pocket"])});
   }
   outcome.figures.push_back(
       {"change with the speed", 100.0 * (times.back() / times.front() - 1.0), "%", -10.0, 10.0});

@@ -147,6 +147,18 @@ std::pair<double, double> fit_line(const Column& x, const Column& y, double firs
   return {(sy - slope * sx) / n, slope};
 }
 
+double period_of(const Column& x, const Column& y) {
+  const Column crossings = zero_crossings(x, y);
+  if (crossings.size() < 3) return std::numeric_limits<double>::quiet_NaN();
+  return 2.0 * (crossings.back() - crossings[0]) / (static_cast<double>(crossings.size()) - 1.0);
+}
+
+Column linear(double a, const Column& x, double b) {
+  Column values;
+  for (const double value : x) values.push_back(a * value + b);
+  return values;
+}
+
 Column combine(double a, const Column& x, double b, const Column& y) {
   Column sum(x.size());
   for (std::size_t k = 0; k < x.size(); ++k) sum[k] = a * x[k] + b * y.at(k);

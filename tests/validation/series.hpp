@@ -46,7 +46,11 @@ class Series {
 /// Least squares y = offset + slope x over first <= x <= last: {offset, slope}.
 [[nodiscard]] std::pair<double, double> fit_line(const Column& x, const Column& y, double first,
                                                  double last);
-/// Element by element.
+/// Twice the mean distance of the zero crossings of what swings about zero; not a number with fewer
+/// than three.
+[[nodiscard]] double period_of(const Column& x, const Column& y);
+/// a x + b and a x + b y, element by element.
+[[nodiscard]] Column linear(double a, const Column& x, double b = 0.0);
 [[nodiscard]] Column combine(double a, const Column& x, double b, const Column& y);
 
 }  // namespace splash::validation

@@ -53,8 +53,8 @@ Outcome evaluate_sinking_ball(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Column& time = run.gauges["time"];
   const Column& z = run.gauges["ball_z"];
-  const Column down = combine(-1.0, run.gauges["ball_vz"], 0.0, time);
-  const Column way = combine(-1.0, z, kStart, Column(z.size(), 1.0));
+  const Column down = linear(-1.0, run.gauges["ball_vz"]);
+  const Column way = linear(-1.0, z, kStart);
   const double reach = kStart - kLowest;
   const double halfway = first_reach(time, way, kFrom * reach);
   const double end = first_reach(time, way, reach);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "program/text.hpp"
 #include "tests/validation/cases.hpp"
 
 namespace splash::validation {
@@ -71,14 +72,12 @@ Outcome evaluate_slap(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     const Slap slap = measure(run);
     const double theory = 4.0 / 3.0 * 998.0 * std::pow(kRadius, 3) * slap.speed;
-    char name[64];
-    std::snprintf(name, sizeof name, "impulse at %.1f m/s, error", slap.speed);
-    outcome.figures.push_back({name, 100.0 * (slap.impulse / theory - 1.0), "%", -20.0, 20.0});
+    outcome.figures.push_back({program::format("impulse at %.1f m/s, error", slap.speed),
+                               100.0 * (slap.impulse / theory - 1.0), "%", -20.0, 20.0});
     log_speed.push_back(std::log(slap.speed));
     log_impulse.push_back(std::log(slap.impulse));
     outcome.curves.push_back(slap.curve);
-    std::snprintf(name, sizeof name, "%.1f m/s ", slap.speed);
-    outcome.curves.back().title = name;
+    outcome.curves.back().title = program::format("%.1f m/s ", slap.speed);
   }
   outcome.figures.push_back({"slope of log impulse against log speed",
                              fit_line(log_speed, log_impulse, -10.0, 10.0).second, "1", 0.9, 1.1});

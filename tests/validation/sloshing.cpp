@@ -67,7 +67,7 @@ double wall_decay(const Basin& basin, double viscosity, double gravity) {
 
 double swing_decay(const Column& time, const Column& y, double first) {
   const Column crossings = zero_crossings(time, y);
-  const Column below = combine(-1.0, y, 0.0, y);
+  const Column below = linear(-1.0, y);
   Column at;
   Column logarithm;
   for (std::size_t k = 0; k + 1 < crossings.size(); ++k) {

@@ -37,17 +37,14 @@ double decay(const Column& time, const Column& kinetic) {
 /// Decay rate of the mode itself, which noise in the velocities does not hide [1/s]: the centre of
 /// mass swings as far sideways as it is high.
 double mode_decay(const Column& time, const Column& centre) {
-  return swing_decay(time, combine(1.0, centre, -0.5 * kLength, Column(centre.size(), 1.0)), 0.0);
+  return swing_decay(time, linear(1.0, centre, -0.5 * kLength), 0.0);
 }
 
 Outcome evaluate_standing_wave(const std::vector<Run>& runs) {
   const Run& run = runs.front();
   const Column& time = run.gauges["time"];
   const Column slope = combine(0.5, run.gauges["left_height"], -0.5, run.gauges["right_height"]);
-  const Column crossings = zero_crossings(time, slope);
-  const double period = crossings.size() < 3 ? std::nan("")
-                                             : 2.0 * (crossings.back() - crossings[0]) /
-                                                   (static_cast<double>(crossings.size()) - 1.0);
+  const double period = period_of(time, slope);
   const double viscosity = decay(time, run.gauges["all_kinetic"]) / (4.0 * kNumber * kNumber);
   return {{{"period, error", 100.0 * (period * kOmega / (2.0 * pi) - 1.0), "%", -3.0, 3.0},
            {"viscosity from the mode's decay",

@@ -20,13 +20,13 @@ Outcome evaluate_vortex(const std::vector<Run>& runs) {
   // From the start to half of the energy: later the pool's own slosh is part of what is left.
   Column logarithm;
   for (const double e : kinetic) logarithm.push_back(std::log(e / kinetic.front()));
-  const double half = first_reach(time, combine(-1.0, logarithm, 0.0, time), std::log(2.0));
+  const double half = first_reach(time, linear(-1.0, logarithm), std::log(2.0));
   const double end = std::isfinite(half) ? half : time.back();
   const double viscosity = -fit_line(time, logarithm, 0.0, end).second / (2.0 * kSquares);
   return {{{"decay rate, error", 100.0 * (viscosity / run.scene.fluid.viscosity - 1.0), "%", -10.0,
             10.0},
            {"viscosity from the decay", viscosity, "m2/s"}},
-          {{"", time, combine(1.0 / kinetic.front(), kinetic, 0.0, time)}}};
+          {{"", time, linear(1.0 / kinetic.front(), kinetic)}}};
 }
 
 std::vector<Curve> reference_vortex() {
