@@ -7,21 +7,17 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
-#include "tests/support/programs.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::tests {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kAnswerTimeout = 120.0;  ///< for an answer [s]
 
@@ -57,8 +53,6 @@ nlohmann::json event_of(const std::string& type, double x, double y) {
           {"clickCount", 1}};
 }
 
-int browsers = 0;
-
 int fifo(const std::string& path) {
   if (mkfifo(path.c_str(), 0600) != 0) throw std::runtime_error("mkfifo " + path);
   return open(path.c_str(), O_RDWR | O_CLOEXEC);
@@ -71,16 +65,13 @@ bool Chromium::is_there() {
 }
 
 Chromium::Chromium(const std::string& window, const std::string& graphics)
-    : folder_(temporary_path("chromium-" + std::to_string(++browsers))) {
-  fs::create_directories(folder_);
-  to_ = fifo(folder_ + "/to");
-  from_ = fifo(folder_ + "/from");
+    : to_(fifo(folder_ / "to")), from_(fifo(folder_ / "from")) {
   process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
-      "/bin/sh", "-c", R"(exec "$@" 3<"$0/to" 4>"$0/from")", folder_, found(), "--headless=new",
-      "--no-sandbox", "--disable-dev-shm-usage", "--remote-debugging-pipe",
+      "/bin/sh", "-c", R"(exec "$@" 3<"$0/to" 4>"$0/from")", folder_.path(), found(),
+      "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--remote-debugging-pipe",
       "--use-angle=" + graphics, "--enable-unsafe-swiftshader",
       "--autoplay-policy=no-user-gesture-required", "--window-size=" + window,
-      "--user-data-dir=" + folder_ + "/profile", "--no-first-run", "--disable-extensions",
+      "--user-data-dir=" + (folder_ / "profile").string(), "--no-first-run", "--disable-extensions",
       "--disable-background-networking", "about:blank"});
   const Json target = call("Target.createTarget", {{"url", "about:blank"}});
   session_ = call("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}})
@@ -92,13 +83,10 @@ Chromium::~Chromium() {
   process_.reset();
   close(to_);
   close(from_);
-  std::error_code ignored;  // what it still writes there
-  fs::remove_all(folder_, ignored);
 }
 
 void Chromium::kill() {
-  process_->signal(SIGKILL);
-  process_->wait_for_end();
+  process_->kill();
 }
 
 void Chromium::send(const Json& message) const {
@@ -174,12 +162,7 @@ Chromium::Json Chromium::evaluate(const std::string& expression) {
 }
 
 bool Chromium::wait_for(const std::string& expression, double seconds) {
-  const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
-  for (;;) {
-    if (evaluate("Boolean(" + expression + ")") == true) return true;
-    if (Clock::now() > deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
+  return eventually([&] { return evaluate("Boolean(" + expression + ")") == true; }, seconds, 0.1);
 }
 
 void Chromium::press(const std::string& key) {

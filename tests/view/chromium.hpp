@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::tests {
 
@@ -54,7 +55,7 @@ class Chromium {
   Json next(double seconds);
   void note(const Json& event);
 
-  std::string folder_;
+  TemporaryFolder folder_;
   int to_ = -1;
   int from_ = -1;
   std::string heard_;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "protocol/udp_socket.hpp"
 #include "tests/support/frame_viewer.hpp"
@@ -17,14 +16,7 @@ namespace {
 
 using testing::IsEmpty;
 
-class Glance : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
-  }
-};
-
-constexpr std::uint32_t kGrabbed = 4;
+class Glance : public InABrowser {};
 
 /// Whether a picture shows the second tile brighter while it sounds, again and again, since
 /// software may draw less than a picture in a tone's second.
@@ -60,7 +52,8 @@ bool splashes(Stage& stage, const Json& way) {
 }
 
 TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
-  const std::string wav = temporary_path("glance.wav");
+  const TemporaryFolder folder;
+  const std::string wav = folder / "glance.wav";
   Stage stage(kWaits, "?share=0.4", "420,300", wav);
   Chromium& browser = stage.browser();
   EXPECT_EQ(browser.evaluate("document.title"), "small - splash");
@@ -83,29 +76,16 @@ TEST_F(Glance, WaterIsSeenATileIsLitAndAHandIsDraggedIntoTheWater) {
   // The page dies with the disc in its hand: the disc goes back to its own way.
   const FrameViewer viewer(protocol::parse_endpoint(stage.sim_show(), 0));
   static_cast<void>(viewer.read());
-  const auto is_held = [&] {
-    viewer.ask();
-    const protocol::ViewFrame frame = viewer.read();
-    return frame.size() > 56 + 28 + 4 &&
-           (protocol::frame_number<std::uint32_t>(&frame[56 + 28]) & kGrabbed) != 0;
-  };
-  EXPECT_TRUE(eventually(is_held, kTimeout));
+  EXPECT_TRUE(eventually([&] { return shown_disc(viewer).grabbed; }, kTimeout));
   browser.kill();
-  EXPECT_TRUE(eventually([&] { return !is_held(); }, kTimeout))
+  EXPECT_TRUE(eventually([&] { return !shown_disc(viewer).grabbed; }, kTimeout))
       << "still grabbed, though the page is gone";
-  EXPECT_TRUE(eventually(
-      [&] {
-        viewer.ask();
-        const protocol::ViewFrame frame = viewer.read();
-        return frame.size() > 56 + 28 + 4 &&
-               std::abs(protocol::frame_number<float>(&frame[56 + 8]) - 0.35F) < 0.01F;
-      },
-      kTimeout))
+  EXPECT_TRUE(
+      eventually([&] { return std::abs(shown_disc(viewer).height - 0.35F) < 0.01F; }, kTimeout))
       << "not back on its own way";
 
   EXPECT_EQ(stage.synth().end(), 0) << stage.synth().process().output();
   EXPECT_GT(peak(read_recording(wav).channels.at(0)), 1e-3F) << "the tone was the second tile's";
-  std::filesystem::remove(wav);
 }
 
 }  // namespace

@@ -13,12 +13,7 @@ namespace {
 
 using testing::IsEmpty;
 
-class Hands : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
-  }
-};
+class Hands : public InABrowser {};
 
 constexpr const char* kController = R"js({
   window.pad = { index: 0, connected: true, axes: [0, 0, 0, 0],
@@ -33,19 +28,18 @@ TEST_F(Hands, AGameControllerHoldsTheDisc) {
   browser.evaluate(kController);
   browser.evaluate("pad.axes[3] = 1");  // nothing is held yet
   browser.evaluate("pad.buttons[0].pressed = true");
-  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", PlayedPage::kTimeout));
+  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", kTimeout));
   EXPECT_TRUE(page.disc_comes("z < 0.30")) << "the right stick down is down";
   browser.evaluate("pad.axes = [1, 0, 0, 0]");
   // From the camera, to the right is towards +x and +y; the tank's walls stop it.
   EXPECT_TRUE(page.disc_comes("x > 0.05 && y > 0.03"));
   browser.evaluate("pad.axes = [0, 0, 0, 0]; pad.buttons[0].pressed = false");
-  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", PlayedPage::kTimeout));
+  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", kTimeout));
   EXPECT_TRUE(page.disc_comes("Math.hypot(x, y, z - 0.35) < 0.01")) << "back on its own way";
   browser.evaluate("pad.buttons[7].pressed = true");  // the right trigger
-  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", PlayedPage::kTimeout));
+  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", kTimeout));
   browser.evaluate("pad.connected = false");
-  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", PlayedPage::kTimeout))
-      << "it was unplugged";
+  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", kTimeout)) << "it was unplugged";
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
@@ -73,14 +67,14 @@ TEST_F(Hands, APenHoldsTheDisc) {
                                               {"pointerType", "pen"}});
   };
   pen("mousePressed", 0.0);
-  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", PlayedPage::kTimeout));
+  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", kTimeout));
   for (int i = 1; i <= 10; ++i) pen("mouseMoved", 0.05 * i);
   // Half of the way down, 0.27 m as seen from above.
   EXPECT_TRUE(page.disc_comes("Math.abs(z - 0.215) < 0.03"))
       << browser.evaluate("splash.playout.states.at(-1)?.bodies[0]").dump();
   EXPECT_EQ(browser.evaluate("[...kinds]"), Json({"pen"}));
   pen("mouseReleased", 0.5);
-  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", PlayedPage::kTimeout));
+  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", kTimeout));
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 
@@ -98,7 +92,7 @@ TEST_F(Hands, ABodyThatAnotherVisitorHoldsIsNotTakenAndIsSaidToBeHeld) {
   Chromium& browser = page.browser();
   const Json at = way_down(browser)[0];
   browser.evaluate(std::string(kVisitor) + "()");
-  ASSERT_TRUE(browser.wait_for("splash.grabs.isHeld(0)", PlayedPage::kTimeout));
+  ASSERT_TRUE(browser.wait_for("splash.grabs.isHeld(0)", kTimeout));
   const auto press = [&] {
     browser.mouse("mousePressed", at[0], at[1]);
     const bool holds = browser.evaluate("splash.grabs.holds(0)");
@@ -109,7 +103,7 @@ TEST_F(Hands, ABodyThatAnotherVisitorHoldsIsNotTakenAndIsSaidToBeHeld) {
   EXPECT_EQ(browser.evaluate("document.getElementById('state').textContent"),
             "Another visitor holds disc; it is free when they let go");
   browser.evaluate("visitor.close()");
-  ASSERT_TRUE(browser.wait_for("!splash.grabs.isHeld(0)", PlayedPage::kTimeout));
+  ASSERT_TRUE(browser.wait_for("!splash.grabs.isHeld(0)", kTimeout));
   EXPECT_TRUE(press());
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
@@ -130,23 +124,22 @@ TEST_F(Hands, OneFingerHoldsTheDiscWhileAnotherTurnsTheCameraAndTwoZoom) {
   const Json way = way_down(browser);
   const double azimuth = browser.evaluate("splash.camera.azimuth");
   touch(browser, "touchStart", {way[0], {20, 150}});
-  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", PlayedPage::kTimeout));
+  ASSERT_TRUE(browser.wait_for("splash.grabs.holds(0)", kTimeout));
   touch(browser, "touchMove", {way[1], {60, 150}});
   EXPECT_TRUE(browser.wait_for(
       "Math.abs(splash.camera.azimuth - (" + std::to_string(azimuth) + " - 40 * 0.006)) < 1e-3",
-      PlayedPage::kTimeout))
+      kTimeout))
       << browser.evaluate("splash.camera.azimuth");
   EXPECT_TRUE(page.disc_comes("z < 0.30"));
   touch(browser, "touchEnd", Json::array());
-  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", PlayedPage::kTimeout));
+  EXPECT_TRUE(browser.wait_for("!splash.grabs.holds(0)", kTimeout));
 
   const double distance = browser.evaluate("splash.camera.distance");
   touch(browser, "touchStart", {{20, 140}, {20, 180}});
   touch(browser, "touchMove", {{20, 130}, {20, 190}});
   touch(browser, "touchMove", {{20, 120}, {20, 200}});
   EXPECT_TRUE(browser.wait_for(
-      "Math.abs(splash.camera.distance / " + std::to_string(distance) + " - 0.5) < 1e-3",
-      PlayedPage::kTimeout))
+      "Math.abs(splash.camera.distance / " + std::to_string(distance) + " - 0.5) < 1e-3", kTimeout))
       << browser.evaluate("splash.camera.distance").dump() << " of " << distance;
   touch(browser, "touchEnd", Json::array());
   EXPECT_FALSE(browser.evaluate("splash.grabs.holds(0)"));
@@ -199,7 +192,7 @@ TEST_F(Hands, AControllerOfAHeadsetHoldsABody) {
   page.load("?share=0.4", 240, 180);
   Chromium& browser = page.browser();
   browser.evaluate(std::string(kHeadset) + "()");
-  ASSERT_TRUE(browser.wait_for("splash.headset.session", PlayedPage::kTimeout));
+  ASSERT_TRUE(browser.wait_for("splash.headset.session", kTimeout));
   // The disc as WebXR sees it: 0.35 m over the tank's lower side, which stands on a table.
   browser.evaluate("Object.assign(hand.place, { x: 0, y: 0.75 + 0.35, z: -0.35 - 0.2 })");
   browser.evaluate("pull('selectstart')");
@@ -210,13 +203,13 @@ TEST_F(Hands, AControllerOfAHeadsetHoldsABody) {
     const [x, y, z] = splash.playout.states.at(-1).bodies[0].place;
     return Math.hypot(x - 0.08, y + 0.03, z - 0.30) < 0.01;
   })())js",
-                               PlayedPage::kTimeout))
+                               kTimeout))
       << browser.evaluate("splash.playout.states.at(-1).bodies[0].place").dump();
   EXPECT_EQ(browser.evaluate("splash.playout.states.at(-1).bodies[0].flags & 4"), 4);
   browser.evaluate("pull('selectend')");
   EXPECT_FALSE(browser.evaluate("splash.grabs.holds(0)"));
   browser.evaluate("document.getElementById('headset').click()");
-  EXPECT_TRUE(browser.wait_for("splash.headset.session === null", PlayedPage::kTimeout));
+  EXPECT_TRUE(browser.wait_for("splash.headset.session === null", kTimeout));
   EXPECT_THAT(browser.errors(), IsEmpty());
 }
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "tests/support/child_process.hpp"
@@ -15,7 +14,6 @@
 namespace splash::tests {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::IsEmpty;
 
 constexpr const char* kPackage = "iwer@2.5.0";
@@ -23,15 +21,11 @@ constexpr const char* kPackage = "iwer@2.5.0";
 /// Its script, for browsers; empty: it cannot be had.
 std::string iwer() {
   if (const char* own = std::getenv("SPLASH_IWER")) return text_of(own);
-  const fs::path folder = temporary_path("iwer");
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   ChildProcess npm({"sh", "-c",
-                    "cd '" + folder.string() + "' && npm pack --fetch-retries=0 " + kPackage +
-                        " && tar xzf iwer-*.tgz package/build/iwer.min.js"});
-  std::string text;
-  if (npm.wait(60.0) == 0) text = text_of(folder / "package/build/iwer.min.js");
-  fs::remove_all(folder);
-  return text;
+                    "cd '" + folder.path().string() + "' && npm pack --fetch-retries=0 " +
+                        kPackage + " && tar xzf iwer-*.tgz package/build/iwer.min.js"});
+  return npm.wait(60.0) == 0 ? text_of(folder / "package/build/iwer.min.js") : "";
 }
 
 /// Before the page's own scripts: a headset with two controllers.
@@ -44,8 +38,9 @@ constexpr const char* kWear = R"js(
 })();
 )js";
 
-TEST(Iwer, AControllerHoldsABodyAndMovesIt) {
-  if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+class Iwer : public InABrowser {};
+
+TEST_F(Iwer, AControllerHoldsABodyAndMovesIt) {
   const std::string script = iwer();
   if (script.empty()) GTEST_SKIP() << "there is no npm, or it cannot fetch " << kPackage;
   Stage stage(kWaits, "?points", "240,180");

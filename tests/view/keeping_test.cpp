@@ -12,12 +12,7 @@ namespace {
 
 using testing::IsEmpty;
 
-class Keeping : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
-  }
-};
+class Keeping : public InABrowser {};
 
 /// What the page saves goes to `saved` instead of a file: its name, its kind and its bytes.
 constexpr const char* kKeep = R"js({

@@ -8,11 +8,8 @@
 namespace splash::tests {
 namespace {
 
-class Modules : public testing::Test {
+class Modules : public InABrowser {
  protected:
-  void SetUp() override {
-    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
-  }
   static Json with_the_modules(const std::string& script) {
     PlayedPage& page = PlayedPage::shared();
     page.load_modules();

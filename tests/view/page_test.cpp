@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 
 #include "protocol/control.hpp"
 #include "sim-server/scene/live_rows.hpp"
@@ -20,14 +19,7 @@ namespace {
 
 using testing::IsEmpty;
 
-constexpr std::uint32_t kGrabbed = 4;
-
-class Page : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
-  }
-};
+class Page : public InABrowser {};
 
 TEST_F(Page, TheWaterIsWhereItIsAndMoves) {
   Stage stage(plunging());
@@ -132,7 +124,8 @@ Drag best_drag(Chromium& browser, const Json& way) {
 }
 
 TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
-  const std::string wav = temporary_path("dragged.wav");
+  const TemporaryFolder folder;
+  const std::string wav = folder / "dragged.wav";
   Stage stage(kWaits, "?points", "720,480", wav);
   Chromium& browser = stage.browser();
   const Json seen = stage.way_down();
@@ -141,13 +134,8 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
   EXPECT_TRUE(browser.evaluate("splash.grabs.holds(0)"));
   const FrameViewer viewer(protocol::parse_endpoint(stage.sim_show(), 0));
   static_cast<void>(viewer.read());
-  const auto body = [&] {
-    viewer.ask();
-    const protocol::ViewFrame frame = viewer.read();
-    return std::pair{protocol::frame_number<std::uint32_t>(&frame[56 + 28]),
-                     protocol::frame_number<float>(&frame[56 + 8])};
-  };
-  const auto is_grabbed = [&] { return (body().first & kGrabbed) != 0; };
+  const auto is_grabbed = [&] { return shown_disc(viewer).grabbed; };
+  const auto height = [&] { return shown_disc(viewer).height; };
   EXPECT_TRUE(eventually(is_grabbed, kTimeout));
   const Drag drag = best_drag(browser, seen);
   EXPECT_GT(drag.speed, 0.6);
@@ -156,12 +144,12 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
   EXPECT_GT(drag.lag, -0.05) << "before the disc was there";
   RecordProperty("speed", std::to_string(drag.speed));
   RecordProperty("lag_ms", std::to_string(std::lround(1e3 * drag.lag)));
-  EXPECT_TRUE(eventually([&] { return body().second < 0.25F; }, kTimeout)) << "held in the water";
+  EXPECT_TRUE(eventually([&] { return height() < 0.25F; }, kTimeout)) << "held in the water";
   EXPECT_THAT(browser.errors(), IsEmpty());
   browser.kill();
   EXPECT_TRUE(eventually([&] { return !is_grabbed(); }, kTimeout))
       << "still grabbed, though the page is gone";
-  EXPECT_TRUE(eventually([&] { return std::abs(body().second - 0.35F) < 0.01F; }, kTimeout))
+  EXPECT_TRUE(eventually([&] { return std::abs(height() - 0.35F) < 0.01F; }, kTimeout))
       << "back on its own way";
   EXPECT_EQ(stage.synth().end(), 0) << stage.synth().process().output();
   float loudest = 0.0F;
@@ -169,7 +157,6 @@ TEST_F(Page, AHandThatIsDraggedHitsTheWaterAndIsGivenBack) {
     loudest = std::max(loudest, peak(channel));
   }
   EXPECT_GT(loudest, 1e-4F) << "nothing else sounded";
-  std::filesystem::remove(wav);
 }
 
 TEST_F(Page, IsHeard) {

@@ -3,6 +3,16 @@
 
 namespace splash::tests {
 
+void show_page(Chromium& browser, const std::string& url,
+               const std::function<std::string()>& words) {
+  browser.call("Page.navigate", {{"url", url}});
+  EXPECT_TRUE(browser.wait_for("window.splash && splash.pictures() > 2", kTimeout))
+      << (words ? words() : url);
+  browser.evaluate(
+      "for (const one of document.querySelectorAll('header, #hint, nav, #panel, footer')) "
+      "one.style.visibility = 'hidden'");
+}
+
 Json seen(Chromium& browser, const Json& places) {
   return browser.evaluate(R"js((async (places) => {
     const { transform } = await import('/vector.js');

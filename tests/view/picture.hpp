@@ -2,13 +2,32 @@
 // The page's picture of the scene, as a test looks at it.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "tests/view/chromium.hpp"
 
 namespace splash::tests {
 
 using Json = nlohmann::json;
+
+/// Skips its tests where there is no browser.
+class InABrowser : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+  }
+};
+
+inline constexpr double kTimeout = 60.0;  ///< [s]
+
+/// Loads the page and waits for pictures, with nothing else in them. `words`: what it says
+/// when it shows none.
+void show_page(Chromium& browser, const std::string& url,
+               const std::function<std::string()>& words = {});
 
 /// Where places of the scene are in the picture [CSS pixels].
 Json seen(Chromium& browser, const Json& places);

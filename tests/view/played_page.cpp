@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/view/played_page.hpp"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <span>
@@ -85,12 +83,7 @@ void PlayedPage::load(const std::string& query, int width, int height, double le
   browser_->call(
       "Emulation.setDeviceMetricsOverride",
       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
-  browser_->call("Page.navigate",
-                 {{"url", "http://" + protocol::to_string(server_.local()) + "/" + query}});
-  EXPECT_TRUE(browser_->wait_for("window.splash && splash.pictures() > 2", kTimeout));
-  browser_->evaluate(
-      "for (const one of document.querySelectorAll('header, #hint, nav, #panel, footer')) "
-      "one.style.visibility = 'hidden'");
+  show_page(*browser_, "http://" + protocol::to_string(server_.local()) + "/" + query);
 }
 
 bool PlayedPage::disc_comes(const std::string& condition) {

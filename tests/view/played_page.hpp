@@ -15,7 +15,7 @@
 #include "protocol/frame_stream.hpp"
 #include "protocol/message.hpp"
 #include "protocol/udp_socket.hpp"
-#include "tests/view/chromium.hpp"
+#include "tests/view/picture.hpp"
 #include "view-server/server.hpp"
 
 namespace splash::tests {
@@ -28,8 +28,7 @@ struct SentPose {
 
 class PlayedPage {
  public:
-  static constexpr double kTimeout = 60.0;  ///< [s]
-  static constexpr double kHalf = 0.2;      ///< of the tank's edges along x and y [m]
+  static constexpr double kHalf = 0.2;   ///< of the tank's edges along x and y [m]
   static constexpr float kRest = 0.35F;  ///< height of the disc's centre where nobody holds it [m]
 
   /// The program's only one.

@@ -11,11 +11,12 @@
 namespace splash::tests {
 namespace {
 
+class Poses : public InABrowser {};
+
 // A hand at 0.5 m/s of which the browser tells in heaps of three, 8 ms between them, each heap when
 // its last has come. The page's clock and timers are the test's: two seconds of them, however long
 // the machine takes for it.
-TEST(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
-  if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+TEST_F(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
   PlayedPage& page = PlayedPage::shared();
   page.load_modules();
   page.browser().evaluate(R"((async () => {
@@ -67,7 +68,6 @@ TEST(Poses, AreEvenHoweverTheBrowserTellsOfTheHand) {
 // While the page's main thread is busy for a second, in which the simulator shows some fifty
 // states, several of them arrive, and not only the one that was on its way before.
 TEST(States, ComeWhileThePageDraws) {
-  if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
   PlayedPage& page = PlayedPage::shared();
   page.load("?points", 300, 220);
   const Json states = page.browser().evaluate(R"((async () => {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tests/view/stage.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <chrono>
-#include <fstream>
-#include <thread>
 
+#include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace splash::tests {
 namespace {
@@ -28,8 +25,7 @@ outputs:
 
 Stage::Stage(const std::string& motion, const std::string& query, const std::string& window,
              const std::string& recording)
-    : scene_(motion), rig_(temporary_path("four.yaml")), recording_(recording) {
-  std::ofstream(rig_) << kRig;
+    : scene_(motion), rig_(folder_.write("four.yaml", kRig)), recording_(recording) {
   start_synth("127.0.0.1:0", "127.0.0.1:0");
   start_simulator("127.0.0.1:0", "127.0.0.1:0");
   start_view("127.0.0.1:0");
@@ -38,11 +34,7 @@ Stage::Stage(const std::string& motion, const std::string& query, const std::str
 }
 
 void Stage::load(const std::string& query) {
-  browser_->call("Page.navigate", {{"url", "http://" + at(*view_) + "/" + query}});
-  EXPECT_TRUE(browser_->wait_for("window.splash && splash.pictures() > 2", kTimeout)) << words();
-  browser_->evaluate(
-      "for (const one of document.querySelectorAll('header, #hint, nav, #panel, footer')) "
-      "one.style.visibility = 'hidden'");
+  show_page(*browser_, "http://" + at(*view_) + "/" + query, [this] { return words(); });
 }
 
 void Stage::start_synth(const std::string& listen, const std::string& show) {
@@ -73,12 +65,21 @@ std::string Stage::words() {
       .get<std::string>();
 }
 
+ShownDisc shown_disc(const FrameViewer& viewer) {
+  constexpr std::uint32_t kGrabbed = 4;  // flag of a body in a state
+  constexpr std::size_t kBody = 56;      // where the first one begins
+  viewer.ask();
+  const protocol::ViewFrame frame = viewer.read();
+  if (frame.size() < kBody + 32) return {};
+  return {(protocol::frame_number<std::uint32_t>(&frame[kBody + 28]) & kGrabbed) != 0,
+          protocol::frame_number<float>(&frame[kBody + 8])};
+}
+
 void drag(Chromium& browser, const Json& from, const Json& to, double seconds) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = protocol::monotonic_now();
   for (double share = 0.0; share < 1.0;) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
-    share = std::min(gone.count() / seconds, 1.0);
+    sleep(0.01);
+    share = std::min((protocol::monotonic_now() - start) / seconds, 1.0);
     const auto between = [&](int axis) {
       return from[axis].get<double>() + share * (to[axis].get<double>() - from[axis].get<double>());
     };

@@ -2,17 +2,18 @@
 // All three programs on a small scene, with the page in a real browser.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 
+#include "tests/support/frame_viewer.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/view/chromium.hpp"
 #include "tests/view/picture.hpp"
 
 namespace splash::tests {
-
-inline constexpr double kTimeout = 60.0;  ///< [s]
 
 /// Still, high above the water.
 inline constexpr const char* kWaits =
@@ -47,6 +48,7 @@ class Stage {
 
  private:
   SmallScene scene_;
+  TemporaryFolder folder_;
   std::string rig_;
   std::string recording_;
   std::string synth_show_;
@@ -56,6 +58,13 @@ class Stage {
   std::unique_ptr<Daemon> view_;
   std::unique_ptr<Chromium> browser_;
 };
+
+/// The disc, as the simulator tells viewers.
+struct ShownDisc {
+  bool grabbed = false;
+  float height = NAN;  ///< [m]
+};
+[[nodiscard]] ShownDisc shown_disc(const FrameViewer& viewer);
 
 /// Moves the mouse from one place to another within so many seconds, a hundred times a second.
 void drag(Chromium& browser, const Json& from, const Json& to, double seconds);

@@ -20,14 +20,15 @@ using testing::IsEmpty;
 
 constexpr double kDepth = 0.1;  ///< [m]; so low, the disc hides none of the far walls
 
-class DrawnWater : public testing::Test {
+class DrawnWater : public InABrowser {
  protected:
   /// Water has a quarter of the picture's pixels along each axis.
   static void SetUpTestSuite() {
     if (Chromium::is_there()) page().load("?share=0.25", 300, 200, kDepth);
   }
   void SetUp() override {
-    if (!Chromium::is_there()) GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+    InABrowser::SetUp();
+    if (IsSkipped()) return;
     browser().evaluate("splash.camera.frame(splash.world().tank, -0.7, 0.87)");
     ASSERT_TRUE(fill(kDepth));
   }
@@ -36,8 +37,7 @@ class DrawnWater : public testing::Test {
     page().fill(level);
     const auto count = std::to_string(std::lround(level / 0.1 * 2000.0));
     return browser().wait_for(
-        "splash.playout.states.every((state) => state.count === " + count + ")",
-        PlayedPage::kTimeout);
+        "splash.playout.states.every((state) => state.count === " + count + ")", kTimeout);
   }
   static PlayedPage& page() { return PlayedPage::shared(); }
   static Chromium& browser() { return page().browser(); }
@@ -174,8 +174,7 @@ TEST_F(DrawnWater, StatesComeAtTheirOwnRateWhilePicturesAreDrawn) {
   EXPECT_EQ(passed(), Json({0, 0})) << "no picture, no state";
   browser().evaluate("requestAnimationFrame = usual; next()");
   EXPECT_TRUE(browser().wait_for(
-      "splash.pictures() > " + browser().evaluate("splash.pictures() + 2").dump(),
-      PlayedPage::kTimeout));
+      "splash.pictures() > " + browser().evaluate("splash.pictures() + 2").dump(), kTimeout));
   browser().evaluate("delete splash.playout.push");
   EXPECT_THAT(browser().errors(), IsEmpty());
 }
