@@ -3,8 +3,6 @@
 #include "view-server/announce.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -12,35 +10,35 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/waiting.hpp"
+
 namespace splash::view {
 namespace {
 
 class Announce : public testing::Test {
  protected:
-  Announce() : folder_(testing::TempDir() + "announce-" + std::to_string(getpid())) {
-    std::filesystem::create_directories(folder_);
-    const std::string program = folder_ + "/avahi-publish";
-    std::ofstream(program) << "#!/bin/sh\necho \"$@\" >" << folder_ << "/told.part\necho $$ >"
-                           << folder_ << "/process\nmv " << folder_ << "/told.part " << folder_
-                           << "/told\nexec sleep 60\n";
-    chmod(program.c_str(), 0755);
-    setenv("PATH", (folder_ + ":" + path_).c_str(), 1);
+  Announce() {
+    const std::string folder = folder_.path();
+    std::filesystem::permissions(
+        folder_.write("avahi-publish", "#!/bin/sh\ncd " + folder +
+                                           "\necho \"$@\" >told.part\necho $$ >process\n"
+                                           "mv told.part told\nexec sleep 60\n"),
+        std::filesystem::perms::owner_all);
+    setenv("PATH", (folder + ":" + path_).c_str(), 1);
   }
-  ~Announce() override {
-    setenv("PATH", path_.c_str(), 1);
-    std::filesystem::remove_all(folder_);
-  }
-  [[nodiscard]] std::string line_of(const std::string& name, int tries) const {
+  ~Announce() override { setenv("PATH", path_.c_str(), 1); }
+  /// Its first line, once it is there.
+  [[nodiscard]] std::string line_of(const std::string& name) const {
     std::string line;
-    for (int i = 0; i < tries && line.empty(); ++i) {
-      std::ifstream file(folder_ + '/' + name);
-      std::getline(file, line);
-      if (line.empty()) usleep(20'000);
-    }
+    tests::eventually([&] {
+      std::ifstream file(folder_ / name);
+      return static_cast<bool>(std::getline(file, line));
+    });
     return line;
   }
 
-  std::string folder_;
+  tests::TemporaryFolder folder_;
   std::string path_ = std::getenv("PATH");
 };
 
@@ -49,10 +47,10 @@ TEST_F(Announce, TellsTheNetworkWhatItCanReachUntilTheEnd) {
   {
     const Announcement announcement(protocol::Endpoint{INADDR_ANY, 8080});
     EXPECT_TRUE(announcement.is_made());
-    const std::string told = line_of("told", 500);
+    const std::string told = line_of("told");
     EXPECT_EQ(told.substr(0, 13), "-s splash on ");
     EXPECT_TRUE(told.ends_with(" _oscjson._tcp 8080")) << told;
-    process = std::stoi(line_of("process", 500));
+    process = std::stoi(line_of("process"));
     EXPECT_EQ(kill(process, 0), 0);
   }
   EXPECT_NE(kill(process, 0), 0) << "it has ended";
