@@ -5,8 +5,6 @@
 
 #include <array>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,12 +15,11 @@
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::tests {
 namespace {
-
-namespace fs = std::filesystem;
 
 const std::string kSource = SPLASH_SOURCE_DIR;
 constexpr double kLowest = 0.65 - 0.003 * 99;  ///< where the page moves the hand to [m]
@@ -53,25 +50,18 @@ bool has(const std::string& program) {
 struct Program {
   std::vector<std::string> arguments;
   ChildProcess::Environment environment;
-  std::vector<std::string> files;  ///< to be removed
 };
 
-std::string write(Program& program, const std::string& name, const std::string& text) {
-  std::string path = temporary_path(name);
-  std::ofstream(path) << text;
-  program.files.push_back(path);
-  return path;
-}
-
-std::optional<Program> make(const std::string& heading, const std::string& language,
-                            std::uint16_t port) {
+/// `folder`: for its files.
+std::optional<Program> make(const TemporaryFolder& folder, const std::string& heading,
+                            const std::string& language, std::uint16_t port) {
   Program program;
   if (language == "pd") {
     const std::string patch = heading.starts_with("Hear") ? "hear" : "move";
     const std::string text = text_of(kSource + "/examples/pd/" + patch + ".pd");
     if (text.empty()) return std::nullopt;
     program.arguments = {"pd", "-nogui", "-noprefs", "-noaudio",
-                         write(program, patch + ".pd", at_port(text, port))};
+                         folder.write(patch + ".pd", at_port(text, port))};
     return program;
   }
   const std::string code = at_port(block(heading, language), port);
@@ -80,11 +70,11 @@ std::optional<Program> make(const std::string& heading, const std::string& langu
     program.arguments = {"python3", "-B", "-u", "-c", code};
     program.environment = {{"PYTHONPATH", kSource + "/examples/python"}};
   } else if (language == "supercollider") {
-    program.arguments = {"sclang", write(program, "page.scd", code)};
+    program.arguments = {"sclang", folder.write("page.scd", code)};
     program.environment = {{"QT_QPA_PLATFORM", "offscreen"}, {"QTWEBENGINE_DISABLE_SANDBOX", "1"}};
   } else {
-    const std::string source = write(program, "page.cpp", code);
-    const std::string binary = write(program, "page", "");
+    const std::string source = folder.write("page.cpp", code);
+    const std::string binary = folder / "page";
     std::vector<std::string> compile = {"g++",  "-std=c++17", "-Wall", "-Wextra", "-I" + kSource,
                                         source, "-o",         binary,  "-pthread"};
     if (code.find("lo/lo.h") != std::string::npos) compile.emplace_back("-llo");
@@ -105,6 +95,8 @@ class Page : public testing::TestWithParam<std::string> {
       GTEST_SKIP() << "sclang is not installed (apt-get install supercollider-language)";
     }
   }
+
+  TemporaryFolder folder_;
 };
 
 const protocol::Message kImpact = {"/impact",
@@ -113,7 +105,7 @@ const protocol::Message kImpact = {"/impact",
 TEST_P(Page, HearsAnImpact) {
   protocol::UdpSocket simulator({.address = INADDR_LOOPBACK, .port = 0});
   protocol::UdpSocket events({.address = INADDR_LOOPBACK, .port = 0});  // sim-server has two, too
-  const auto program = make("Hear an impact", GetParam(), simulator.local().port);
+  const auto program = make(folder_, "Hear an impact", GetParam(), simulator.local().port);
   ASSERT_TRUE(program) << "the page has none";
   ChildProcess ear(program->arguments, program->environment);
   std::array<std::byte, 2048> buffer{};
@@ -133,12 +125,11 @@ TEST_P(Page, HearsAnImpact) {
     heard = ear.wait_for_text("1.25", 10.0);
   }
   EXPECT_TRUE(heard) << ear.output();
-  for (const auto& file : program->files) fs::remove(file);
 }
 
 TEST_P(Page, MovesABody) {
   protocol::UdpSocket simulator({.address = INADDR_LOOPBACK, .port = 0});
-  const auto program = make("Move a body", GetParam(), simulator.local().port);
+  const auto program = make(folder_, "Move a body", GetParam(), simulator.local().port);
   ASSERT_TRUE(program) << "the page has none";
   ChildProcess hand(program->arguments, program->environment);
   std::array<std::byte, 2048> buffer{};
@@ -167,7 +158,6 @@ TEST_P(Page, MovesABody) {
   }
   EXPECT_NEAR(height, kLowest, 0.004) << hand.output();
   EXPECT_GE(poses, 90);
-  for (const auto& file : program->files) fs::remove(file);
 }
 
 INSTANTIATE_TEST_SUITE_P(Languages, Page, testing::Values("python", "cpp", "pd", "supercollider"),

@@ -12,6 +12,7 @@
 #include "protocol/time_tag.hpp"
 #include "protocol/udp_socket.hpp"
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace splash::tests {
 namespace {
@@ -41,7 +42,8 @@ double number(const protocol::Message& message, std::size_t index) {
 
 TEST(Unity, HearsOnTheMainThreadAndMovesABody) {
   if (!has_mono()) GTEST_SKIP() << "mono is not installed (mono-mcs, mono-runtime)";
-  const std::string program = temporary_path("unity.exe");
+  const TemporaryFolder folder;
+  const std::string program = folder / "unity.exe";
   ASSERT_EQ(compile(program), "");
   protocol::UdpSocket simulator({.address = INADDR_LOOPBACK, .port = 0});
   protocol::UdpSocket events({.address = INADDR_LOOPBACK, .port = 0});  // sim-server has two, too
@@ -70,7 +72,6 @@ TEST(Unity, HearsOnTheMainThreadAndMovesABody) {
     }
   }
   ASSERT_EQ(unity.wait_for_end(), 0) << unity.output();
-  fs::remove(program);
   EXPECT_GE(asked, 1) << "and again when nothing is heard";
   // Unity's x is splash's -y, its y splash's z, its z splash's x.
   EXPECT_THAT(unity.output(),

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/support/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text_of.hpp"
 
 namespace splash::tests {
@@ -24,8 +25,6 @@ const fs::path kScripts = fs::path(SPLASH_SOURCE_DIR) / "bundle";
 
 class Bundle : public testing::Test {
  protected:
-  ~Bundle() override { fs::remove_all(folder_); }
-
   static void write(const fs::path& file, const std::string& text) {
     fs::create_directories(file.parent_path());
     std::ofstream(file) << text;
@@ -37,10 +36,10 @@ class Bundle : public testing::Test {
   static Ended run(const Arguments& words, const ChildProcess::Environment& environment = {}) {
     return run_command(words, 300.0, environment);
   }
-  const fs::path& folder() const { return folder_; }
+  const fs::path& folder() const { return folder_.path(); }
   /// A PATH with bash and what it may call of coreutils.
   std::pair<std::string, std::string> bare_path() const {
-    const fs::path tools = folder_ / "tools";
+    const fs::path tools = folder() / "tools";
     fs::create_directories(tools);
     for (const char* name :
          {"bash", "basename", "cat", "cksum", "date", "dirname", "du", "ln", "mkdir", "mktemp",
@@ -51,11 +50,11 @@ class Bundle : public testing::Test {
   }
   /// Of a user who has started nothing yet.
   std::pair<std::string, std::string> new_cache() const {
-    return {"XDG_CACHE_HOME", (folder_ / "cache").string()};
+    return {"XDG_CACHE_HOME", (folder() / "cache").string()};
   }
 
  private:
-  fs::path folder_ = temporary_path("bundle");
+  TemporaryFolder folder_;
 };
 
 // --- As it is made ----------------------------------------------------------------------------
