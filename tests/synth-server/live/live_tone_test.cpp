@@ -19,12 +19,12 @@ class Played {
  public:
   explicit Played(LiveTone& tone) : tone_(tone) {}
   void go(double seconds) {
-    constexpr int kBlock = 64;
-    for (int done = 0; done < static_cast<int>(seconds * kRate); done += kBlock) {
-      for (auto& channel : channels_) channel.resize(channel.size() + kBlock, kWater);
-      const std::array<float*, 2> block = {channels_[0].data() + channels_[0].size() - kBlock,
-                                           channels_[1].data() + channels_[1].size() - kBlock};
-      tone_.process(block.data(), kBlock);
+    constexpr int kPart = 64;
+    for (int done = 0; done < static_cast<int>(seconds * kRate); done += kPart) {
+      for (auto& channel : channels_) channel.resize(channel.size() + kPart, kWater);
+      const std::array<float*, 2> block = {channels_[0].data() + channels_[0].size() - kPart,
+                                           channels_[1].data() + channels_[1].size() - kPart};
+      tone_.process(block.data(), kPart);
     }
   }
   [[nodiscard]] const std::vector<float>& channel(std::size_t c) const { return channels_[c]; }

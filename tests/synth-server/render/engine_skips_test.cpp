@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Floors, UnfeltVoices, testing::ValuesIn(floors()),
 
 TEST_P(UnfeltVoices, StayBelowTheThresholdOfTouch) {
   const Rig& rig = GetParam().rig;
-  struct Rendered {
+  struct Heard {
     Channels out;
     std::uint64_t dropped = 0;
     std::uint64_t voices = 0;
@@ -128,8 +128,7 @@ TEST_P(UnfeltVoices, StayBelowTheThresholdOfTouch) {
     settings.skip_unfelt = skip;
     Engine engine(rig, settings);
     for (const TimedEvent& event : splashes(1500, 48000)) engine.schedule(event);
-    Rendered all{render(engine, 48000), engine.counters().dropped_unheard,
-                 engine.counters().voices};
+    Heard all{render(engine, 48000), engine.counters().dropped_unheard, engine.counters().voices};
     const auto rest = render(engine, 24000);
     for (std::size_t c = 0; c < all.out.size(); ++c) {
       all.out[c].insert(all.out[c].end(), rest[c].begin(), rest[c].end());
@@ -137,8 +136,8 @@ TEST_P(UnfeltVoices, StayBelowTheThresholdOfTouch) {
     EXPECT_EQ(engine.counters().limited, 0U);
     return all;
   };
-  const Rendered skipping = render_with(true);
-  const Rendered diligent = render_with(false);
+  const Heard skipping = render_with(true);
+  const Heard diligent = render_with(false);
   EXPECT_GT(skipping.dropped, 5U);
   EXPECT_EQ(diligent.dropped, 0U);
   EXPECT_LT(static_cast<double>(skipping.voices),
