@@ -42,21 +42,23 @@ std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies) {
   return all;
 }
 
-std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies) {
+std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies,
+                                  const std::set<std::size_t>& measured) {
   std::vector<FreeBody> all;
-  const auto add = [&](bool tracked) {
+  const auto add = [&](std::size_t body) {
+    FreeBody felt = {};
+    felt.body = static_cast<int>(body);
+    felt.size = static_cast<float>(length(bodies[body].shape.size) / 2.0);
+    all.push_back(felt);
+  };
+  for (const std::size_t body : measured) add(body);
+  for (const bool tracked : {true, false}) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const bool follows = bodies[b].motion.kind == MotionKind::osc && !is_tied(bodies[b]);
-      if (tracked ? !follows : !is_grabbable(bodies[b])) continue;
-      if (all.size() == static_cast<std::size_t>(kFreeBodiesMax)) return;
-      FreeBody felt = {};
-      felt.body = static_cast<int>(b);
-      felt.size = static_cast<float>(length(bodies[b].shape.size) / 2.0);
-      all.push_back(felt);
+      if (measured.contains(b) || (tracked ? !follows : !is_grabbable(bodies[b]))) continue;
+      if (all.size() < static_cast<std::size_t>(kFreeBodiesMax)) add(b);
     }
-  };
-  add(true);
-  add(false);
+  }
   return all;
 }
 

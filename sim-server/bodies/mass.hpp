@@ -3,6 +3,7 @@
 // may lie on each other.
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "sim-server/fluid/params/fluid_params.h"
@@ -18,8 +19,10 @@ namespace splash::sim {
 /// The free ones of a scene's bodies, for the device; also those on springs.
 [[nodiscard]] std::vector<FreeBody> free_bodies(const std::vector<BodySettings>& bodies);
 /// Those that go where poses are, then those that poses can take from a motion of their own: their
-/// push is felt, their mass is not known and left out. As many as may be free at most.
-[[nodiscard]] std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies);
+/// push is felt, their mass is not known and left out. As many as may be free at most, but all of
+/// the indices `measured`, which come first.
+[[nodiscard]] std::vector<FreeBody> felt_bodies(const std::vector<BodySettings>& bodies,
+                                                const std::set<std::size_t>& measured = {});
 
 // How long a step may be in which bodies lie on each other.
 

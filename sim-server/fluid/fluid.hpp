@@ -122,11 +122,6 @@ class Fluid {
   [[nodiscard]] Snapshot snapshot();
   void restore(const Snapshot& snapshot);
 
-  /// What the last step's pressures did to each body (PressureSolver::press).
-  [[nodiscard]] std::vector<Press> press() {
-    return solver_->press(device_, static_cast<std::size_t>(boundary_.body_count()));
-  }
-
   /// What PressureSolver says of these.
   void feel(bool on) { solver_->feel(device_, on); }
   void add_pushes(const Step& step, const FeltBodies& felt) {

@@ -63,20 +63,21 @@ void append(std::vector<double>& row, const Values& values) {
   row.insert(row.end(), values.begin(), values.end());
 }
 
+/// Whether pressures are the grid's, and the forces on bodies with them.
+bool is_on_grid(const Scene& scene) {
+  return scene.fluid.solver == PressureKind::grid_projected;
+}
+
 std::vector<BodyState> states_at(double seconds, const Bodies& bodies) {
   std::vector<BodyState> states;
   for (std::size_t b = 0; b < bodies.count(); ++b) states.push_back(bodies.state(b, seconds));
   return states;
 }
 
-/// Of the water on a body that goes its way.
+/// Of the water on a body that goes its way, by the particles' pressures.
 BodyForce force_on(std::size_t body, double seconds, const Scene& scene, const WaterState& water,
                    const Bodies& bodies) {
   const std::vector<BodyState> states = states_at(seconds, bodies);
-  if (!water.press.empty()) {
-    const Press& press = water.press[body];
-    return {press.force, press.torque - cross(states[body].position, press.force)};
-  }
   const auto owner = static_cast<int>(body);
   const BodyForce pushes = body_force(water, bodies.points(), owner, states[body]);
   const auto skin = film_skin(scene.bodies[body].shape, owner, water.spacing);
@@ -88,9 +89,9 @@ BodyForce force_on(std::size_t body, double seconds, const Scene& scene, const W
 void add_body(const GaugeSettings& probe, double seconds, const Scene& scene,
               const WaterState& water, const Bodies& bodies, std::vector<double>& row) {
   const BodyState state = bodies.state(probe.body, seconds);
-  const BodyForce force = bodies.is_free(probe.body)
-                              ? bodies.force(probe.body)
-                              : force_on(probe.body, seconds, scene, water, bodies);
+  const bool told = bodies.is_free(probe.body) || is_on_grid(scene);
+  const BodyForce force =
+      told ? bodies.force(probe.body) : force_on(probe.body, seconds, scene, water, bodies);
   append(row, state.position);
   append(row, state.rotation);
   append(row, state.velocity);
@@ -110,8 +111,7 @@ double pressure_on(const std::optional<Face>& face, const Vector3& place, const 
                    const WaterState& water, const Bodies& bodies,
                    std::span<const BodyState> states) {
   // The grid's pressures are right up to the walls: particles there need not push on a face.
-  const bool on_grid = scene.fluid.solver == PressureKind::grid_projected;
-  if (on_grid || !face) return pressure_at(water, place);
+  if (is_on_grid(scene) || !face) return pressure_at(water, place);
   return thrust_on(*face, water, bodies.points(), states);
 }
 
@@ -212,7 +212,6 @@ std::vector<double> Gauges::read(double seconds, Fluid& fluid, const Bodies& bod
   WaterState water = read_water(fluid, true);
   if (!wall_push_) wall_push_.emplace(fluid);
   water.wall_push = wall_push_->read(fluid, now);
-  water.press = fluid.press();
   return read(seconds, water, bodies);
 }
 

@@ -20,7 +20,6 @@ struct WaterState {
   std::vector<double> image;         ///< R of fluid/boundary/body_image.h; near bodies [1]
   std::vector<Vector3> slope;        ///< grad R; near bodies [1/m]
   std::vector<Vector3> wall_push;    ///< what the walls do to each (gauges.hpp) [m/s2]
-  std::vector<Press> press;  ///< on each body, by the solver's own pressures; empty: by these
 
   double mass = 0.0;          ///< of one particle [kg]
   double spacing = 0.0;       ///< dp [m]

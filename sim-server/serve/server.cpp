@@ -114,6 +114,7 @@ Server::Server(const Options& options, Simulation& simulation, const std::string
   if (const std::string reason = no_forces(simulation); options_.record_forces && !reason.empty()) {
     throw program::Failure(program::kExitUsage, "--record-forces: " + reason);
   }
+  if (gauges_) simulation_.measure_forces();
   if (!options_.show) return;
   show_.emplace(protocol::FrameStreamSettings{.listen = *options_.show, .allowed = options_.allow},
                 simulation_.scene(), simulation_.fluid(), [this] { return rows_.rows(); });

@@ -69,8 +69,9 @@ std::vector<SkinPoint> skins_of(const Scene& scene, const FluidParams& p) {
   return sample_skins(scene.bodies, static_cast<double>(p.spacing));
 }
 
-std::unique_ptr<BodyPushes> make_pushes(Fluid& fluid, const Scene& scene) {
-  const std::vector<FreeBody> felt = felt_bodies(scene.bodies);
+std::unique_ptr<BodyPushes> make_pushes(Fluid& fluid, const Scene& scene,
+                                        const std::set<std::size_t>& measured) {
+  const std::vector<FreeBody> felt = felt_bodies(scene.bodies, measured);
   const auto spacing = static_cast<double>(fluid.params().spacing);
   return std::make_unique<BodyPushes>(fluid, felt, film_skins(scene.bodies, felt, spacing));
 }
@@ -146,6 +147,7 @@ void Simulation::rehearse() {
   const std::vector<Step> steps = steps_of(division, poses);
   set_bodies(division, poses);
   fluid_.begin_watch(steps.size());
+  if (pushes_) pushes_->begin(fluid_, std::vector<bool>(pushes_->bodies().size(), true));
   for (const Step& step : steps) {
     fluid_.prepare(step);
     if (&step == &steps.back()) detector_.rehearse(step);
@@ -153,7 +155,9 @@ void Simulation::rehearse() {
     if (&step == &steps.back() && pushes_) pushes_->add(fluid_, step);
     fluid_.move(step);
   }
+  if (pushes_) pushes_->enqueue_read(fluid_);
   static_cast<void>(fluid_.stats());
+  if (!measured_.empty()) note_forces(division.dt);
   sound_.recall(fluid_.device(), state());
   fluid_.note_recalled();
   fluid_.forget_work();
@@ -197,9 +201,29 @@ void Simulation::set_bodies(const FrameSteps& steps, const std::vector<BodyStep>
 void Simulation::feel(bool on) {
   feels_ = on && can_feel_;
   if (feels_ && !pushes_ && !felt_bodies(scene_.bodies).empty()) {
-    pushes_ = make_pushes(fluid_, scene_);
+    pushes_ = make_pushes(fluid_, scene_, measured_);
   }
-  fluid_.feel(feels_ && pushes_ != nullptr);
+  fluid_.feel((feels_ || !measured_.empty()) && pushes_ != nullptr);
+}
+
+void Simulation::measure_forces() {
+  if (!fluid_.solver().has_pushes()) return;
+  for (const GaugeSettings& probe : scene_.gauges.probes) {
+    if (probe.kind == GaugeKind::body && !is_free(scene_.bodies[probe.body])) {
+      measured_.insert(probe.body);
+    }
+  }
+  if (measured_.empty()) return;
+  pushes_ = make_pushes(fluid_, scene_, measured_);
+  feel(feels_);
+  rehearse();
+}
+
+void Simulation::note_forces(double seconds) {
+  const std::vector<BodyPush> all = pushes_->pushes(seconds);
+  for (std::size_t k = 0; k < measured_.size(); ++k) {  // they come first
+    bodies_.note_force(static_cast<std::size_t>(all[k].body), {all[k].force, all[k].torque});
+  }
 }
 
 bool Simulation::is_felt_now(int body) const {
@@ -308,7 +332,7 @@ FrameResult Simulation::hold_still(double frame) {
 
 void Simulation::enqueue(const std::vector<Step>& steps, const FramePlan& plan, double since) {
   fluid_.begin_watch(steps.size());
-  const bool weighs = feels_ && pushes_;
+  const bool weighs = (feels_ || !measured_.empty()) && pushes_;
   if (weighs) {
     std::vector<bool> wanted;
     for (const FreeBody& body : pushes_->bodies()) {
@@ -361,6 +385,7 @@ std::optional<FrameResult> Simulation::attempt(const std::vector<Step>& steps,
   result.seconds = seconds_;
   result.found = collect(detect_time, since);
   result.stats = fluid_.stats_result();
+  if (!measured_.empty()) note_forces(step_count * dt);
   if (feels_) {
     result.pushes = felt_ = find_pushes(step_count * dt);
     ++totals_.felt;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "sim-server/bodies/body_steps.hpp"
@@ -95,6 +96,10 @@ class Simulation {
   /// Computes the forces on bodies, or not, from the next frame on. Requires can_feel(). The first
   /// call builds kernels where no body follows poses from the start on.
   void feel(bool on);
+  /// From now on Bodies::force() says what the water does to the bodies whose forces the scene's
+  /// gauges read, on the mean over the last frame, if the solver has forces of its own. To be
+  /// called before the first frame, for which it says what would come.
+  void measure_forces();
   /// Whether forces can be computed: poses can move a body, or a body hangs on a device.
   [[nodiscard]] bool can_feel() const noexcept { return can_feel_; }
   void set_hook(StepHook hook) { hook_ = std::move(hook); }
@@ -139,6 +144,8 @@ class Simulation {
   [[nodiscard]] std::vector<bool> felt_now() const;
   /// Whether the force's derivatives are found in the frame of these steps, or are those of before.
   [[nodiscard]] bool wants_rates(const std::vector<BodyStep>& poses, double step, double frame);
+  /// Tells the bodies the forces that are measured, of a frame of so many seconds.
+  void note_forces(double seconds);
   /// Returns the forces that are felt in a frame of so many seconds that has been computed.
   [[nodiscard]] std::vector<BodyPush> find_pushes(double seconds);
   /// Tries to compute a frame; nullopt: it had a fault.
@@ -182,11 +189,12 @@ class Simulation {
   bool took_up_water_ = false;
   bool can_feel_ = false;
   bool feels_ = false;
-  std::vector<BodyPush> felt_;  ///< of the last frame that was computed
-  std::vector<bool> felt_of_;   ///< of each body, whether that has its push; empty: nobody felt
-  bool rates_anew_ = true;      ///< in this frame it is found how forces depend on speeds
-  double rated_way_ = 0.0;      ///< that anything may have gone since that was found [m]
-  double rated_step_ = 0.0;     ///< the time step then [s]
+  std::set<std::size_t> measured_;  ///< bodies whose forces gauges read
+  std::vector<BodyPush> felt_;      ///< of the last frame that was computed
+  std::vector<bool> felt_of_;       ///< of each body, whether that has its push; empty: nobody felt
+  bool rates_anew_ = true;          ///< in this frame it is found how forces depend on speeds
+  double rated_way_ = 0.0;          ///< that anything may have gone since that was found [m]
+  double rated_step_ = 0.0;         ///< the time step then [s]
   double seconds_ = 0.0;
   double begun_ = 0.0;        ///< when the scene last began anew [s]
   double detected_at_ = 0.0;  ///< time of the last detection [s]

@@ -61,6 +61,7 @@ Run run_scene(sim::Device& device, const std::string& name, const Setting& setti
   const Effort start = effort_now();
   sim::Simulation simulation(device, run.scene, {});
   sim::Gauges gauges(run.scene);
+  simulation.measure_forces();
   run.gauges = Series(gauges.columns());
   const auto sample = [&] {
     const double now = simulation.seconds();

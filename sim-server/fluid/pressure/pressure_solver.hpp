@@ -27,12 +27,6 @@ struct SolveWork {
   double error = 0.0;           ///< what the last solve left of the demand [1]
 };
 
-/// Of the water on a body; the torque about the world's origin.
-struct Press {
-  Vector3 force = {0.0, 0.0, 0.0};   ///< [N]
-  Vector3 torque = {0.0, 0.0, 0.0};  ///< [N m]
-};
-
 /// Bodies that go their own way, and what is summed of the water's push on each
 /// (free_bodies/body_pushes.hpp).
 struct FeltBodies {
@@ -60,12 +54,6 @@ class PressureSolver {
   virtual void move(Fluid& fluid, const Step& step);
   /// The velocities that took the particles where the last step left them [m/s].
   [[nodiscard]] virtual const Buffer<float>& carried(const Fluid& fluid) const;
-
-  /// What the last step's pressures did to each of so many bodies, where they are not the
-  /// particles'; empty: they are. Waits.
-  [[nodiscard]] virtual std::vector<Press> press(Device& /*device*/, std::size_t /*bodies*/) {
-    return {};
-  }
 
   /// Whether bodies feel pressures of the solver's own and not the particles': those are added by
   /// add_pushes.

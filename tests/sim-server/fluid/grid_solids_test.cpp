@@ -143,36 +143,6 @@ TEST(GridSolids, ThinPlatesLetNoWaterThrough) {
   }
 }
 
-/// A thin disc that comes down flat sets in motion what a disc at the surface has of added mass,
-/// 4/3 rho R^3 (Lamb, Hydrodynamics, article 102), at once: no air is left under it. Wherever the
-/// surface is in the cells.
-TEST(GridSolids, ADiscThatTouchesTheWaterFlatSlapsIt) {
-  Device device;
-  constexpr double kRadius = 0.14;
-  constexpr double kThick = 0.02;
-  constexpr double kSpeed = 0.5;
-  for (const double depth : {0.24, 0.26}) {
-    const auto at = [&](double time) {
-      return BodyState{.position = {0.4, 0.4, depth + 0.5 * kThick + 0.02 - kSpeed * time},
-                       .velocity = {0.0, 0.0, -kSpeed}};
-    };
-    Water water =
-        with_solid(0.02, {0.8, 0.8, 0.4}, depth,
-                   {ShapeKind::cylinder, {2.0 * kRadius, 2.0 * kRadius, kThick}}, at(0.0));
-    water.motions = {at};
-    water.start(device);
-    double impulse = 0.0;
-    while (kSpeed * water.time < 0.03) {
-      water.step(1.0e-2);
-      impulse += 1.0e-2 * solver_of(*water.fluid).solids().press(device, 1)[0].force[2];
-    }
-    const double part = impulse / (4.0 / 3.0 * kDensity * std::pow(kRadius, 3) * kSpeed);
-    std::printf("water of %.2f m: %.2f of the slap at %.0f mm\n", depth, part,
-                1e3 * (kSpeed * water.time - 0.02));
-    EXPECT_NEAR(part, 1.1, 0.3) << depth;
-  }
-}
-
 class GridBodies : public ::testing::TestWithParam<double> {};
 
 /// From rest under water: (rho_b - rho) g = (rho_b + rho / 2) a, walls and surface add little.

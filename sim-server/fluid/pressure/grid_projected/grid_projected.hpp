@@ -49,9 +49,6 @@ class GridProjected : public PressureSolver {
   void accelerate(Fluid& fluid, const Step& step) override;
   void move(Fluid& fluid, const Step& step) override;
   [[nodiscard]] const Buffer<float>& carried(const Fluid& fluid) const override;
-  [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) override {
-    return solids_.press(device, bodies);
-  }
   [[nodiscard]] bool has_pushes() const override { return true; }
   void feel(Device& device, bool on) override { felt_.feel(device, on); }
   void add_pushes(Fluid& /*fluid*/, const Step& /*step*/, const FeltBodies& felt) override {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Faces beside water get what the pressures do to them, and walls beside it stop it, as far as a
 // cell along the wall: what the step changed at each face is left in `pushed`, or MAC_UNKNOWN where
-// there is no water, or a solid closes the face. `gains`: the change of velocity that the excess at
-// a face has (open_areas.cl): the solid's where water goes with it, else the water's.
+// there is no water, or a solid closes the face.
 // Then the pressures of cells with water, or with air that is shut in, are kept, in Pa.
 
 #include "sim-server/fluid/params/fluid_params.h"
@@ -36,7 +35,7 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
                           global const int* owner, global const float* fill,
                           global const float* carries, global const float* weight,
                           global const float* found, global const float* wet,
-                          global const float* air, global float* gains, global float* pushed,
+                          global const float* air, global float* pushed,
                           global float* pressure) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
@@ -56,15 +55,13 @@ kernel void project_faces(constant FluidParams* p, constant MacGrid* g, float dt
     if (HAS_SOLIDS) {
       const lanes part = LOAD(held, face);
       const lane_flags some = at.real & (part > none);
-      lanes gained = change;
       if (any_lane(some)) {
         open |= some & beside;
         const lanes goes = solids_at_faces(g, bodies + first_body, owner, dt, piston_speed, &at,
                                            some, axis, 0, step[axis]);
-        gained = select(change, goes - LOAD(carries, face), some);
+        const lanes gained = select(change, goes - LOAD(carries, face), some);
         change += part * (gained - change);
       }
-      STORE(gained, gains, face);
     }
     const lane_flags known = at.real & open & (LOAD(weight, face) > (lanes)(MAC_LIGHT));
     STORE(select((lanes)(MAC_UNKNOWN), change, known), pushed, face);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What bodies, slope and wave maker leave open of the grid (solids.cl, open_areas.cl), and how the
-// pressures there push bodies.
+// What bodies, slope and wave maker leave open of the grid (solids.cl, open_areas.cl).
 #pragma once
-
-#include <vector>
 
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
@@ -19,9 +16,6 @@ class GridSolids {
 
   /// Cuts the grid by the solids where they are in this step.
   void place(Fluid& fluid, const Step& step);
-  /// The force and moment of the last step's pressures on each of so many bodies, less the weight
-  /// and inertia of excess(). Waits for the device.
-  [[nodiscard]] std::vector<Press> press(Device& device, std::size_t bodies) const;
 
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// How full cells are, of their open part [1].
@@ -33,8 +27,6 @@ class GridSolids {
   [[nodiscard]] const Buffer<float>& held() const noexcept { return upper_; }
   /// Between full cells, by how much more of a face's volume is open than of its area [1].
   [[nodiscard]] const Buffer<float>& excess() const noexcept { return excess_; }
-  /// How the step changed the speed of that [m/s], written by project.cl.
-  [[nodiscard]] const Buffer<float>& gains() const noexcept { return gains_; }
   [[nodiscard]] const Buffer<float>& space() const noexcept { return space_; }
   [[nodiscard]] const Buffer<int>& owner() const noexcept { return owner_; }
 
@@ -45,14 +37,11 @@ class GridSolids {
   Buffer<float> upper_;   ///< of the upper half of cells along each axis, then held() [1]
   Buffer<float> gap_;     ///< open part of faces [1]
   Buffer<float> excess_;
-  Buffer<float> gains_;
   Buffer<float> space_;       ///< of cells [1]
   Buffer<int> owner_;         ///< whose a cell is (room.h)
   Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
   Buffer<float> clear_;       ///< 1: no water touches a body near the cell; 0: some does [1]
   Buffer<float> filled_;
-  FluidParams params_ = {};  ///< of the last step
-  double dt_ = 0.0;          ///< of the last step [s]
   Kernel cut_cells_;
   Kernel see_room_;
   Kernel open_faces_;

@@ -96,7 +96,6 @@ void PressureSystem::project(Fluid& fluid, const Step& step) {
                       {"piston_speed", as_float(step.piston_speed)},
                       {"gap", solids_.gap()},
                       {"held", solids_.held()},
-                      {"gains", solids_.gains()},
                       {"owner", solids_.owner()},
                       {"fill", solids_.fill()},
                       {"carries", fields_.carries},
