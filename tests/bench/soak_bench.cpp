@@ -269,6 +269,7 @@ class Soak {
 
   bool verdict(bench::Bench& bench) {
     take_counts();
+    ++planned_;  // the simulator ends first, which the synth sees
     for (Daemon* daemon :
          {static_cast<Daemon*>(simulator_.get()), static_cast<Daemon*>(synth_.get())}) {
       if (daemon->end() != 0) ++unplanned_;
