@@ -49,7 +49,7 @@ class Bodies {
   [[nodiscard]] bool is_free(std::size_t body) const noexcept { return free_[body] != nullptr; }
   /// Where a free body is at `seconds`, and what the water did to it in the last step.
   void put(std::size_t body, const BodyState& state, const BodyForce& force, double seconds);
-  /// What the water does to a body that goes its own way, where that is measured.
+  /// Stores the force of the water on a body that is not free, where it is measured.
   void note_force(std::size_t body, const BodyForce& force) { force_[body] = force; }
   /// The last force given with these; none before the first.
   [[nodiscard]] const BodyForce& force(std::size_t body) const noexcept { return force_[body]; }

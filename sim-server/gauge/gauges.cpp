@@ -63,7 +63,7 @@ void append(std::vector<double>& row, const Values& values) {
   row.insert(row.end(), values.begin(), values.end());
 }
 
-/// Whether pressures are the grid's, and the forces on bodies with them.
+/// Whether the grid solver finds the pressures and the forces on bodies.
 bool is_on_grid(const Scene& scene) {
   return scene.fluid.solver == PressureKind::grid_projected;
 }
@@ -74,7 +74,7 @@ std::vector<BodyState> states_at(double seconds, const Bodies& bodies) {
   return states;
 }
 
-/// Of the water on a body that goes its way, by the particles' pressures.
+/// The force of the water on a body that is not free, summed over the particles' pressures.
 BodyForce force_on(std::size_t body, double seconds, const Scene& scene, const WaterState& water,
                    const Bodies& bodies) {
   const std::vector<BodyState> states = states_at(seconds, bodies);
@@ -89,9 +89,9 @@ BodyForce force_on(std::size_t body, double seconds, const Scene& scene, const W
 void add_body(const GaugeSettings& probe, double seconds, const Scene& scene,
               const WaterState& water, const Bodies& bodies, std::vector<double>& row) {
   const BodyState state = bodies.state(probe.body, seconds);
-  const bool told = bodies.is_free(probe.body) || is_on_grid(scene);
+  const bool is_known = bodies.is_free(probe.body) || is_on_grid(scene);
   const BodyForce force =
-      told ? bodies.force(probe.body) : force_on(probe.body, seconds, scene, water, bodies);
+      is_known ? bodies.force(probe.body) : force_on(probe.body, seconds, scene, water, bodies);
   append(row, state.position);
   append(row, state.rotation);
   append(row, state.velocity);

@@ -32,7 +32,8 @@ class WallPush {
   Buffer<float> push_;
 };
 
-/// All gauges of a scene: which numbers they give, and reading them off the fluid.
+/// All gauges of a scene: which numbers they give, and reading them off the fluid. With the grid
+/// solver the forces on bodies are those of Simulation::measure_forces(), zero without it.
 class Gauges {
  public:
   /// `scene` has at least one probe.

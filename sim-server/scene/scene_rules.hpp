@@ -10,7 +10,7 @@
 namespace splash::sim {
 
 // Each throws program::ConfigError at the mapping that breaks the rule.
-/// Of the mapping's `rotation`: at unit length.
+/// Returns the mapping's `rotation`, normalised to unit length.
 [[nodiscard]] Quaternion checked_rotation(const program::ConfigMap& map, const Quaternion& q);
 void check_tank(const program::ConfigMap& map, const Tank& tank);
 void check_slope(const program::ConfigMap& map, const Slope& slope, const Tank& tank);

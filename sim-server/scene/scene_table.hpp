@@ -92,7 +92,7 @@ struct GaugeEntry : GaugeSettings {
 [[nodiscard]] const Fields<TrackerEntry>& tracker_fields();
 [[nodiscard]] const Fields<FloorSettings>& floor_fields();
 [[nodiscard]] const Fields<Keyframe>& mount_fields();
-/// Of a body's motion, as scene files spell them.
+/// The kinds of a body's motion by their names in scene files.
 [[nodiscard]] const std::map<std::string, MotionKind>& motion_kinds();
 
 /// What senders of the common kinds send, under the names of `preset`.

@@ -15,12 +15,12 @@
 namespace splash::sim {
 namespace {
 
-/// Of `all`, at least one [1].
+/// `sum` over `all`, or over 1 if `all` is less [1].
 double share(double sum, std::int64_t all) {
   return sum / static_cast<double>(std::max<std::int64_t>(all, 1));
 }
 
-/// Of the frames that ended well [1].
+/// Mean over the frames that ended without a fault [1].
 double mean_density_error(const RunTotals& totals) {
   return share(totals.mean_excess_sum,
                totals.frames - static_cast<std::int64_t>(totals.calmed + totals.resets));

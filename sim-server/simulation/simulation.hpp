@@ -96,9 +96,9 @@ class Simulation {
   /// Computes the forces on bodies, or not, from the next frame on. Requires can_feel(). The first
   /// call builds kernels where no body follows poses from the start on.
   void feel(bool on);
-  /// From now on Bodies::force() says what the water does to the bodies whose forces the scene's
-  /// gauges read, on the mean over the last frame, if the solver has forces of its own. To be
-  /// called before the first frame, for which it says what would come.
+  /// Computes the forces on the bodies that the scene's gauges read, from now on, if the solver is
+  /// the grid's: Bodies::force() is then the mean force over the last frame. Must be called before
+  /// the first frame; until that ends, the force is that of a trial step.
   void measure_forces();
   /// Whether forces can be computed: poses can move a body, or a body hangs on a device.
   [[nodiscard]] bool can_feel() const noexcept { return can_feel_; }
@@ -144,7 +144,7 @@ class Simulation {
   [[nodiscard]] std::vector<bool> felt_now() const;
   /// Whether the force's derivatives are found in the frame of these steps, or are those of before.
   [[nodiscard]] bool wants_rates(const std::vector<BodyStep>& poses, double step, double frame);
-  /// Tells the bodies the forces that are measured, of a frame of so many seconds.
+  /// Stores the measured forces of a frame that lasts so many seconds in the bodies.
   void note_forces(double seconds);
   /// Returns the forces that are felt in a frame of so many seconds that has been computed.
   [[nodiscard]] std::vector<BodyPush> find_pushes(double seconds);
@@ -191,7 +191,7 @@ class Simulation {
   bool feels_ = false;
   std::set<std::size_t> measured_;  ///< bodies whose forces gauges read
   std::vector<BodyPush> felt_;      ///< of the last frame that was computed
-  std::vector<bool> felt_of_;       ///< of each body, whether that has its push; empty: nobody felt
+  std::vector<bool> felt_of_;       ///< per body, whether felt_ has its force; empty: none asked
   bool rates_anew_ = true;          ///< in this frame it is found how forces depend on speeds
   double rated_way_ = 0.0;          ///< that anything may have gone since that was found [m]
   double rated_step_ = 0.0;         ///< the time step then [s]

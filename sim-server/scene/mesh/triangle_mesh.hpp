@@ -29,7 +29,7 @@ struct TriangleMesh {
 
 /// Outwards, of unit length.
 [[nodiscard]] Vector3 face_normal(const std::array<Vector3, 3>& corner);
-/// Of the triangle at its corner k [rad].
+/// The angle of the triangle at its corner k [rad].
 [[nodiscard]] double angle_at(const std::array<Vector3, 3>& corner, std::size_t k);
 /// What is wrong with one triangle, told with its file, its line and its number from 1.
 [[nodiscard]] program::ConfigError triangle_error(const TriangleMesh& mesh, std::size_t triangle,
