@@ -100,8 +100,7 @@ kernel void fold_air(constant FluidParams* p, global const int* cell_start,
                      global const int* id, global const int* body_start,
                      global const float* body_position, global const float* body_volume,
                      int body_stride, int body_count, float piston, float reach, float least,
-                     float factor, int phase, int room, global int* counts,
-                     global AirFold* out) {
+                     float factor, int phase, int room, global AirFold* out) {
   const int i = get_global_id(0) * SPLASH_FOLDS_APART + phase;
   if (i >= p->count) return;
   const int n = p->capacity;
@@ -136,8 +135,8 @@ kernel void fold_air(constant FluidParams* p, global const int* cell_start,
                          inverse_reach, norm);
   }
   if (!(air > LEAST_AIR)) return;
-  const int place = atomic_inc(counts);
+  const int place = atomic_inc(&out->id);  // of the first entry: how many follow
   if (place >= room) return;
   const AirFold fold = {id[i], x, y, z, factor * 4.0f * air * (1.0f - air) * excess * sqrt(excess)};
-  out[place] = fold;
+  out[1 + place] = fold;
 }

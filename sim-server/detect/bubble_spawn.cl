@@ -16,7 +16,7 @@ kernel void spawn_bubbles(constant FluidParams* p, global const int* cell_start,
                           global const float* bubble_position, int bubble_stride,
                           int bubble_count, float piston, float least_speed,
                           float least_gradient, int room, global float* memory,
-                          global int* counts, global Spawn* out) {
+                          global Spawn* out) {
   const int i = get_global_id(0);
   if (i >= p->count) return;
   const int n = p->capacity;
@@ -43,10 +43,10 @@ kernel void spawn_bubbles(constant FluidParams* p, global const int* cell_start,
   }
   memory[id[i]] = SPLASH_PARTICLE_SPENT;
   if (last == SPLASH_PARTICLE_SPENT) return;
-  const int place = atomic_inc(counts);
+  const int place = atomic_inc(&out->id);  // of the first entry: how many follow
   if (place >= room) return;
   const bool known = last != SPLASH_PARTICLE_SLOW;
   const float before = known ? (least_gradient - last) / (now - last) : -1.0f;
   const Spawn spawn = {id[i], x, y, z, before};
-  out[place] = spawn;
+  out[1 + place] = spawn;
 }

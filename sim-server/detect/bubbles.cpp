@@ -52,15 +52,14 @@ void Bubbles::set(const DetectSettings& settings) {
 
 void Bubbles::upload() {
   const std::size_t count = pool_.size();
+  points_.stride = sorted_.stride = static_cast<int>(count);
   uploaded_.resize(3 * count);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto part = uploaded_.begin() + static_cast<std::ptrdiff_t>(axis * count);
     std::transform(pool_.begin(), pool_.end(), part,
                    [axis](const PoolBubble& b) { return as_float(b.position[axis]); });
-    points_.position.enqueue_write(fluid_.device(),
-                                   std::span<const float>(uploaded_).subspan(axis * count, count),
-                                   axis * static_cast<std::size_t>(points_.stride));
   }
+  points_.position.enqueue_write(fluid_.device(), uploaded_);
 }
 
 void Bubbles::enqueue(const Step& step, double frame) {

@@ -13,34 +13,32 @@
 
 namespace splash::sim {
 
-/// `Found` has the `id` of a particle.
+/// `Found` has the `id` of a particle; on the device the first entry's is the number of the others.
 template <class Found>
 class CountedList {
  public:
   CountedList(Device& device, std::size_t room)
-      : count_(device, 1), list_(device, room), read_(room) {}
+      : room_(room), list_(device, 1 + room), read_(1 + room) {}
 
-  [[nodiscard]] std::size_t room() const noexcept { return read_.size(); }
+  [[nodiscard]] std::size_t room() const noexcept { return room_; }
   /// For the kernel that fills it.
-  [[nodiscard]] std::array<KernelArg, 3> args() const {
-    return {{{"room", static_cast<int>(room())}, {"counts", count_}, {"out", list_}}};
+  [[nodiscard]] std::array<KernelArg, 2> args() const {
+    return {{{"room", static_cast<int>(room_)}, {"out", list_}}};
   }
   /// Before that kernel.
-  void enqueue_clear(Device& device) { count_.enqueue_clear(device); }
+  void enqueue_clear(Device& device) { list_.enqueue_clear(device, 1); }
   /// After a frame's last kernel.
   void enqueue_read(Device& device) {
-    count_.enqueue_read(device, found_);
-    list_.enqueue_read(device, std::span(read_).first(std::min(kAtOnce, room())));
+    list_.enqueue_read(device, std::span(read_).first(std::min(kAtOnce, read_.size())));
   }
   /// Instead of all that: nothing was looked for.
-  void skip() noexcept { found_.front() = 0; }
+  void skip() noexcept { read_.front().id = 0; }
   /// What was found, once the queue is finished.
   [[nodiscard]] std::vector<Found> read(Device& device) {
-    const auto found = static_cast<std::size_t>(found_.front());
-    if (found > kAtOnce) {
-      list_.read(device, std::span(read_).subspan(kAtOnce, found - kAtOnce), kAtOnce);
-    }
-    std::vector<Found> all(read_.begin(), read_.begin() + static_cast<std::ptrdiff_t>(found));
+    const std::size_t end = 1 + std::min(static_cast<std::size_t>(read_.front().id), room_);
+    if (end > kAtOnce)
+      list_.read(device, std::span(read_).subspan(kAtOnce, end - kAtOnce), kAtOnce);
+    std::vector<Found> all(read_.begin() + 1, read_.begin() + static_cast<std::ptrdiff_t>(end));
     std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.id < b.id; });
     return all;
   }
@@ -49,9 +47,8 @@ class CountedList {
   /// Read without asking how many there are: more in one frame are rare.
   static constexpr std::size_t kAtOnce = 128;
 
-  Buffer<int> count_;
+  std::size_t room_;
   Buffer<Found> list_;
-  std::vector<int> found_ = {0};
   std::vector<Found> read_;
 };
 

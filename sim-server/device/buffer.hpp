@@ -65,10 +65,11 @@ class Buffer {
     device.queue().enqueueReadBuffer(memory_, CL_FALSE, first * sizeof(T),
                                      values.size() * sizeof(T), values.data());
   }
-  /// Sets all bytes to zero, without waiting.
-  void enqueue_clear(Device& device) {
-    device.queue().enqueueFillBuffer(memory_, cl_uchar{0}, 0, size_ * sizeof(T));
+  /// Sets all bytes of the first `count` elements to zero, without waiting.
+  void enqueue_clear(Device& device, std::size_t count) {
+    device.queue().enqueueFillBuffer(memory_, cl_uchar{0}, 0, count * sizeof(T));
   }
+  void enqueue_clear(Device& device) { enqueue_clear(device, size_); }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// For kernel arguments.

@@ -127,3 +127,16 @@ kernel void sort_points(constant FluidParams* p, int points, int stride, int chu
     move_point(stride, position, velocity, id, i, &out, source, mine[cells[i]]++);
   }
 }
+
+// All of it, for one chunk: a few points take less time than the launches would.
+kernel void sort_few(constant FluidParams* p, int points, int stride, int whole,
+                     global const float* position, global const float* velocity,
+                     global const int* id, global int* cells, global int* count,
+                     global int* block_sum, global int* extent, global int* cell_start,
+                     global float* position_out, global float* velocity_out, global int* id_out,
+                     global int* source) {
+  count_cells(p, points, stride, 1, whole, position, cells, count, extent);
+  place_cells(p, 1, 1, whole, extent, block_sum, count, cell_start);
+  sort_points(p, points, stride, 1, whole, cells, count, position, velocity, id, position_out,
+              velocity_out, id_out, source, extent);
+}

@@ -29,7 +29,8 @@ CellRuns::CellRuns(Device& device, const cl::Program& program, std::size_t cells
       count_cells_(program, "count_cells", 1),
       sum_blocks_(program, "sum_blocks", 1),
       place_cells_(program, "place_cells", 1),
-      sort_points_(program, "sort_points", 1) {}
+      sort_points_(program, "sort_points", 1),
+      sort_few_(program, "sort_few", 1) {}
 
 void CellRuns::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, int points,
                     const PointArrays& from, const PointArrays& to, const Buffer<int>& cell_start,
@@ -38,6 +39,26 @@ void CellRuns::sort(cl::CommandQueue& queue, const Buffer<FluidParams>& params, 
   const auto blocks = static_cast<std::size_t>(blocks_);
   const int whole = points == sorted_points_ ? 0 : 1;
   sorted_points_ = points;
+  if (chunks_ == 1) {
+    sort_few_.run(queue, 1,
+                  {{"p", params},
+                   {"points", points},
+                   {"stride", from.stride},
+                   {"whole", whole},
+                   {"position", from.position},
+                   {"velocity", from.velocity},
+                   {"id", from.id},
+                   {"cells", cells_},
+                   {"count", count_},
+                   {"block_sum", block_sum_},
+                   {"extent", extent_},
+                   {"cell_start", cell_start},
+                   {"position_out", to.position},
+                   {"velocity_out", to.velocity},
+                   {"id_out", to.id},
+                   {"source", source}});
+    return;
+  }
   count_cells_.run(queue, chunks,
                    {{"p", params},
                     {"points", points},

@@ -37,6 +37,7 @@ class CellRuns {
   Kernel sum_blocks_;
   Kernel place_cells_;
   Kernel sort_points_;
+  Kernel sort_few_;  ///< one chunk in one launch
 };
 
 /// The sort for GPUs: one work-item for each point, work and memory in proportion to points and

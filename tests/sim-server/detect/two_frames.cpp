@@ -28,7 +28,8 @@ std::size_t folds_in(splash::sim::Water& water, splash::sim::DetectSettings sett
 int two_frames(int lanes, std::uint32_t frames) {
   using namespace splash::sim;
   constexpr double kFrame = 0.005;  // [s]
-  Device device(-1, false, lanes);
+  // As on two cores: a simulated device has one.
+  Device device(-1, false, lanes == 1 ? gpu_profile() : cpu_profile(2, lanes));
   Water water = two_bodies();
   water.particles = random_places(230, {0, 0, 0}, {0.4, 0.4, 0.14}, 51);
   water.start(device);

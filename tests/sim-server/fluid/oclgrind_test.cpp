@@ -49,20 +49,20 @@ Kernels join(std::initializer_list<Kernels> parts) {
 }
 
 // Sorts, by vectors and scalar.
-const Kernels kRuns = {"count_cells", "sum_blocks", "place_cells", "sort_points"};
+const Kernels kRuns = {"count_cells", "sum_blocks", "place_cells", "sort_points", "sort_few"};
 const Kernels kRanks = {"count_points", "sum_cells", "start_cells", "gather_cells", "rank_points"};
 const Kernels kStep = {"place_bodies", "gather_body_volumes", "compute_density", "keep_awake",
                        "reduce_stats", "check_health",        "spread_activity", "put_back"};
 const Kernels kTurn = {"turn_water"};
 /// Where pressure pushes pairs of particles.
 const Kernels kPairs = {"compute_acceleration", "integrate"};
-const Kernels kGrid = {
-    "cut_cells",     "open_faces",     "fill_beside_solids", "find_deviation", "move_particles",
-    "project_faces", "find_spacing",   "sample_pressure",    "solve_pressure", "push_faces",
-    "lay_system",    "let_fall",       "grip_water",         "push_bodies",    "tie_bodies",
-    "tell_tugs",     "entrain_water",  "weigh_pressure",     "mark_faces",     "weigh_faces",
-    "weigh_given",   "sum_given",      "open_areas",         "see_room",       "share_at_surface",
-    "sharpen_faces", "ask_for_answer", "find_clear",         "ask_for_room",   "find_shift"};
+const Kernels kGrid = {"cut_cells",      "see_space",      "fill_beside_solids", "find_deviation",
+                       "move_particles", "project_faces",  "find_spacing",       "sample_pressure",
+                       "solve_pressure", "push_faces",     "lay_system",         "let_fall",
+                       "grip_water",     "push_bodies",    "tie_bodies",         "tell_tugs",
+                       "entrain_water",  "weigh_pressure", "mark_faces",         "weigh_faces",
+                       "weigh_given",    "sum_given",      "open_areas",         "share_at_surface",
+                       "sharpen_faces",  "ask_for_answer", "ask_for_room",       "find_shift"};
 /// Where air may be shut in, which is for CPUs.
 const Kernels kPockets = {"find_pockets"};
 /// From particles to its faces, on CPUs and on GPUs.

@@ -27,7 +27,10 @@ class ShutInAir {
   [[nodiscard]] std::vector<AirPocket> read(Device& device) const;
 
   /// State that the next step depends on.
-  [[nodiscard]] std::vector<cl::Buffer> kept() const { return {was_.memory(), pockets_.memory()}; }
+  [[nodiscard]] std::vector<cl::Buffer> kept() const {
+    if (!looks_) return {};
+    return {was_.memory(), pockets_.memory()};
+  }
   void forget(Device& device);
 
   /// q of pockets' cells [1/m2].

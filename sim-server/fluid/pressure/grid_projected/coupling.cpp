@@ -25,6 +25,7 @@ CoupledBodies::CoupledBodies(Device& device, const cl::Program& program, const M
       tell_tugs_(program, "tell_tugs", 1) {}
 
 void CoupledBodies::release(Device& device, std::size_t count) {
+  released_ = true;
   grip_ = Buffer<float>(device, 6 * fields_.room);
   entrained_ = Buffer<float>(device, SPLASH_ENTRAINED_FLOATS * count);
   kept_ = Buffer<float>(device, SPLASH_KEPT_FLOATS * count);

@@ -39,7 +39,10 @@ class CoupledBodies {
   [[nodiscard]] const Buffer<float>& entrained() const noexcept { return entrained_; }
 
   /// State that the next step depends on.
-  [[nodiscard]] const cl::Buffer& kept() const noexcept { return kept_.memory(); }
+  [[nodiscard]] std::vector<cl::Buffer> kept() const {
+    if (!released_) return {};
+    return {kept_.memory()};
+  }
   void forget(Device& device) { kept_.enqueue_clear(device); }
 
  private:
@@ -54,6 +57,7 @@ class CoupledBodies {
   Buffer<FreeBody> no_body_;
   Buffer<float> grip_;  ///< K of each cell
   Buffer<float> entrained_;
+  bool released_ = false;  ///< some are free
   Buffer<float> kept_;
   Buffer<FreeBody> tied_;  ///< as heavy as springs make them
   Buffer<float> tuggings_;

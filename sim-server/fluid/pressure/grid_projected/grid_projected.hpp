@@ -58,8 +58,10 @@ class GridProjected : public PressureSolver {
   [[nodiscard]] SolveWork work() const override { return system_.work(); }
   void forget_work(Device& device) override { system_.forget_work(device); }
   [[nodiscard]] std::vector<cl::Buffer> kept() const override {
-    std::vector<cl::Buffer> all = air_.kept();
-    all.insert(all.end(), {fields_.pressure.memory(), fields_.wet.memory(), bodies_.kept()});
+    std::vector<cl::Buffer> all = {fields_.pressure.memory(), fields_.wet.memory()};
+    for (const std::vector<cl::Buffer>& more : {air_.kept(), bodies_.kept()}) {
+      all.insert(all.end(), more.begin(), more.end());
+    }
     return all;
   }
   void forget_pressure(Device& device) override;

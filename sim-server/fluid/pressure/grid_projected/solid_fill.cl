@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How full cells are beside solids, whose hats see only a part of the space around them.
 
-#include "sim-server/fluid/boundary/bodies.h"
-#include "sim-server/fluid/boundary/body_face.h"
 #include "sim-server/fluid/lanes/lanes.h"
-#include "sim-server/fluid/neighbours/grid.h"
 #include "sim-server/fluid/params/fluid_params.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_cell.h"
 #include "sim-server/fluid/pressure/grid_projected/mac_grid.h"
@@ -12,64 +9,6 @@
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 #define OWN_WEIGHT 0.05f  // of a cell's own fill in the estimate of what its hat cannot see [1]
-#define TOUCHES 0.75f     // bodies so near to a particle touch it, at rest half of one [spacings]
-#define CLEAR 1.0f        // bodies that are farther off do not [spacings]
-
-// Least distance between a body and the particles in a cell and in the cells around it, clamped to
-// TOUCHES and CLEAR [spacings].
-static float way_to_bodies(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
-                           global const int* cell_start, global const float* position) {
-  const int n = p->capacity;
-  const float3 edge = (float3)(g->hx, g->hy, g->hz);
-  const float3 lower = (float3)(g->x, g->y, g->z) + edge * (float3)(at.x - 1, at.y - 1, at.z - 1);
-  const float3 upper = lower + 3.0f * edge;
-  const RowBox box = rows_of_box(p, lower, upper);
-  float way = CLEAR;
-  for (int z = box.high_z; z >= box.low_z && way > TOUCHES; --z) {
-    for (int y = box.low_y; y <= box.high_y && way > TOUCHES; ++y) {
-      const int2 run = run_of_row(p, cell_start, box, y, z);
-      for (int j = run.x; j < run.y && way > TOUCHES; j += LANES) {
-        const lanes px = load_x(position, j, run.y);
-        const lanes py = LOAD(position + n, j), pz = LOAD(position + 2 * n, j);
-        const lane_flags near = (px > (lanes)(lower.x)) & (px < (lanes)(upper.x)) &
-                                (py > (lanes)(lower.y)) & (py < (lanes)(upper.y)) &
-                                (pz > (lanes)(lower.z)) & (pz < (lanes)(upper.z));
-        if (!any_lane(near)) continue;
-        const BodyFace face = nearest_face_near(s->shapes, s->meshes, s->bodies, s->first,
-                                                s->count, lower, upper, px, py, pz);
-        way = fmin(way, least(select((lanes)(CLEAR), face.distance / p->spacing, near)));
-      }
-    }
-  }
-  return fmax(way, TOUCHES);
-}
-
-// `clear`, for cells of whose hat a body hides a part: 1 if no particle near the cell touches a
-// body, 0 if one does, in between by its distance. Where it is 1, the hidden part counts as empty.
-kernel void find_clear(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
-                       global const float* meshes, global const BodyStep* bodies, int first_body,
-                       int body_count, global const int* cell_start, global const float* position,
-                       global const float* seen, global const int* owner, global float* clear) {
-  const Cells at = cells_of(g, get_global_id(0));
-  const MacLevel l = g->level[0];
-  if (at.z > l.nz) return;
-  const lanes none = 0.0f, one = 1.0f;
-  const lane_flags cut = at.inside & (LOAD(owner, at.first) >= (lane_flags)(0)) &
-                         (LOAD(seen, at.first) < one);
-  STORE(none, clear, at.first);
-  if (!any_lane(cut)) return;
-  const Solids solids = {shapes, meshes, bodies, first_body, body_count, 0.0f};
-  int x[LANES], y[LANES], is_cut[LANES];
-  STORE(at.x, x, 0);
-  STORE(at.y, y, 0);
-  STORE(cut, is_cut, 0);
-  for (int lane = 0; lane < LANES; ++lane) {
-    if (!is_cut[lane]) continue;
-    const float way = way_to_bodies(p, g, &solids, (int4)(x[lane], y[lane], at.z, 1), cell_start,
-                                    position);
-    clear[at.first + lane] = (way - TOUCHES) / (CLEAR - TOUCHES);
-  }
-}
 
 // How full cells are of what their hats see of open space.
 static lanes full_part(global const float* fill, global const float* seen, int c) {

@@ -22,9 +22,7 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
       clear_(device, any ? fields.room : 1),
       filled_(device, any ? fields.room : 1),
       cut_cells_(program, "cut_cells", std::min<std::size_t>(device.profile().group, 16)),
-      see_room_(program, "see_room", std::min<std::size_t>(device.profile().group, 16)),
-      open_faces_(program, "open_faces", device.profile().group),
-      find_clear_(program, "find_clear", std::min<std::size_t>(device.profile().group, 16)),
+      see_space_(program, "see_space", std::min<std::size_t>(device.profile().group, 16)),
       fill_beside_solids_(program, "fill_beside_solids", device.profile().group),
       open_areas_(program, "open_areas", std::min<std::size_t>(device.profile().group, 16)) {}
 
@@ -34,27 +32,22 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
   const Boundary& boundary = fluid.boundary();
   cut_cells_.run(queue, fields_.vectors,
                  {{"piston", as_float(step.piston)},
-                  {"lower", volume_},
+                  {"lower", gap_},
                   {"upper", upper_},
                   {"room", space_},
                   {"owner", owner_}},
                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
-  see_room_.run(queue, fields_.vectors,
-                {{"g", fields_.on_device},
-                 {"lower", volume_},
-                 {"upper", upper_},
-                 {"room", space_},
-                 {"owner", owner_},
-                 {"seen", seen_space_}});
-  find_clear_.run(queue, fields_.vectors,
-                  {{"cell_start", fluid.grid().cell_start()},
-                   {"position", fluid.particles().position},
-                   {"seen", seen_space_},
-                   {"owner", owner_},
-                   {"clear", clear_}},
-                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
-  open_faces_.run(queue, fields_.vectors, {{"upper", upper_}, {"volume", volume_}},
-                  fields_.args(fluid));
+  see_space_.run(queue, fields_.vectors,
+                 {{"cell_start", fluid.grid().cell_start()},
+                  {"position", fluid.particles().position},
+                  {"lower", gap_},
+                  {"upper", upper_},
+                  {"room", space_},
+                  {"owner", owner_},
+                  {"volume", volume_},
+                  {"seen", seen_space_},
+                  {"clear", clear_}},
+                 boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
   fill_beside_solids_.run(queue, fields_.vectors,
                           {{"g", fields_.on_device},
                            {"volume", volume_},

@@ -35,7 +35,7 @@ class GridSolids {
   bool any_;
   Buffer<float> volume_;  ///< open part of the volume around faces [1]
   Buffer<float> upper_;   ///< of the upper half of cells along each axis, then held() [1]
-  Buffer<float> gap_;     ///< open part of faces [1]
+  Buffer<float> gap_;  ///< of the lower half of cells along each axis, then open part of faces [1]
   Buffer<float> excess_;
   Buffer<float> space_;       ///< of cells [1]
   Buffer<int> owner_;         ///< whose a cell is (room.h)
@@ -43,9 +43,7 @@ class GridSolids {
   Buffer<float> clear_;       ///< 1: no water touches a body near the cell; 0: some does [1]
   Buffer<float> filled_;
   Kernel cut_cells_;
-  Kernel see_room_;
-  Kernel open_faces_;
-  Kernel find_clear_;
+  Kernel see_space_;
   Kernel fill_beside_solids_;
   Kernel open_areas_;
 };
