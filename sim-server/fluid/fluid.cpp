@@ -154,9 +154,11 @@ std::size_t Fluid::groups() const {
 }
 
 void Fluid::compute_density(const Step& step) {
+  const int everywhere = step.dt == 0.0 || solver_->needs_density() ? 1 : 0;
   compute_density_.run(device_.queue(), groups(),
                        {{"p", params_buffer_},
                         {"dt", as_float(step.dt)},
+                        {"everywhere", everywhere},
                         {"piston", as_float(step.piston)},
                         {"cell_start", grid_.cell_start()},
                         {"activity", sleep_.activity()},

@@ -5,8 +5,8 @@
 //   f_i   = R_i sum_b V_b W_ib                                                   body_image.h
 // and pressure from it by the weakly compressible state equation (state_equation.h). The force
 // needs p / rho^2 only, so that is what is stored. The part without bodies is kept, too: it tells
-// water from the film that a body carries along. Where the water sleeps all of them are what they
-// were before the sort.
+// water from the film that a body carries along. Where the water sleeps, and away from bodies in
+// steps that do not ask for them `everywhere`, all of them are what they were before the sort.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_face.h"
@@ -98,7 +98,7 @@ kernel void compute_density(
     global const float* position, global const int* body_start, global const float* body_position,
     global const float* body_volume, int body_stride, constant BodyShape* shapes,
     global const float* meshes, global const BodyStep* bodies, int first_body, int body_count,
-    float dt, float piston, global float* images, global float* density,
+    float dt, int everywhere, float piston, global float* images, global float* density,
     global float* water_density, global float* peak, global float* pressure_term,
     global float* acceleration, global int* moving, global int* resting) {
   const int group = get_global_id(0);
@@ -128,7 +128,8 @@ kernel void compute_density(
       choose_image(&images_here, &image, g.mine);
       any_near = true;
     }
-    if (activity_of(p, activity, &g) < SPLASH_ACTIVITY_DENSITY) {
+    const bool asked = everywhere || near;
+    if (!asked || activity_of(p, activity, &g) < SPLASH_ACTIVITY_DENSITY) {
       water = select(water, kept(water_density_before, source, first, last), g.mine);
       rho = select(rho, kept(density_before, source, first, last), g.mine);
       turn = g.next;

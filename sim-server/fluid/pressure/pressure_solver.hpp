@@ -45,6 +45,9 @@ class PressureSolver {
 
   /// From now on the water moves so many bodies.
   virtual void release(Device& /*device*/, std::size_t /*count*/) {}
+  /// Whether the next step asks for the density of all water, or only beside bodies: what is
+  /// farther off then keeps the density that it had.
+  [[nodiscard]] virtual bool needs_density() const { return true; }
   /// After density: leaves in Fluid::pressure_term() what is known before the step is solved, or,
   /// where its length is 0, for whoever wants to read it.
   virtual void recall_pressure(Fluid& fluid, const Step& step) = 0;

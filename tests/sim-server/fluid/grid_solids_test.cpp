@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -15,6 +16,7 @@
 #include "sim-server/start/settle.hpp"
 #include "tests/sim-server/fluid/free_float.hpp"
 #include "tests/sim-server/fluid/grid_projected_reference.hpp"
+#include "tests/sim-server/fluid/reference.hpp"
 #include "tests/sim-server/fluid/small_water.hpp"
 
 namespace splash::sim {
@@ -32,6 +34,60 @@ Water with_solid(double spacing, const Vector3& tank, double depth, const Shape&
   Water water = {.scene = scene, .particles = initial_particles(scene)};
   water.motions = {[place](double) { return place; }};
   return water;
+}
+
+/// Away from bodies every second step finds densities and spaces the particles, for both; beside
+/// them each step does, for itself.
+TEST(GridSpacing, IsLessOftenAwayFromBodies) {
+  Device device;
+  constexpr double kSide = 0.06;
+  const Vector3 middle = {0.08, 0.08, 0.06};
+  Water water =
+      with_solid(0.02, {0.6, 0.16, 0.3}, 0.12, {ShapeKind::box, {kSide, kSide, kSide}}, {middle});
+  water.start(device);
+  water.stir(0.1, 3);
+  Fluid& fluid = *water.fluid;
+  std::map<int, double> last;  // densities by id
+  for (int k = 0; k < 6; ++k) {
+    const Step step = water.step_at(0.005);
+    fluid.set_bodies(water.bodies->at(water.time));
+    fluid.prepare(step);
+    const bool everywhere = fluid.solver().needs_density();
+    EXPECT_EQ(everywhere, k % kSpacingSteps == 0);
+    FluidState state = read_state(fluid);
+    fluid.accelerate(step);
+    const std::vector<Vector3> push = read_acceleration(fluid);
+    const std::vector<double> density = reference_density(state);
+    FluidParams& p = state.params;
+    p.gravity_x = p.gravity_y = p.gravity_z = p.viscous = p.artificial = 0.0F;
+    p.sound_speed = static_cast<float>(kSpacingWay * static_cast<double>(p.support) / step.dt);
+    for (std::size_t i = 0; i < push.size(); ++i) {
+      state.pressure_term[i] = reference_pressure_term(p, state.density[i], state.peak_density[i]);
+    }
+    const std::vector<ReferenceAcceleration> expected = reference_acceleration(state);
+    int beside = 0;
+    int away = 0;
+    for (std::size_t i = 0; i < push.size(); ++i) {
+      double gap = 0.0;  // to the body
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        gap = std::max(gap, std::abs(state.position[i][axis] - middle[axis]) - 0.5 * kSide);
+      }
+      const bool is_beside = gap < static_cast<double>(p.support - p.spacing);
+      if (!is_beside && gap < 0.2) continue;  // some of a vector's particles may be beside it
+      ++(is_beside ? beside : away);
+      const double times = is_beside ? 1.0 : everywhere ? kSpacingSteps : 0.0;
+      const Vector3 off = push[i] - times * expected[i].value;
+      ASSERT_LT(length(off), 1.0e-4 * (1.0 + expected[i].scale)) << k << ' ' << gap;
+      const double known = is_beside || everywhere ? density[i] : last.at(state.id[i]);
+      ASSERT_NEAR(state.density[i], known, 0.01) << k << ' ' << gap;
+    }
+    EXPECT_GT(beside, 100);
+    EXPECT_GT(away, 100);
+    for (std::size_t i = 0; i < push.size(); ++i) last[state.id[i]] = state.density[i];
+    fluid.move(step);
+    fluid.device().queue().finish();
+    water.time += step.dt;
+  }
 }
 
 /// What the faces along each axis, and the cells, say of the volume of the solids in them [m3].

@@ -77,13 +77,14 @@ void GridProjected::accelerate(Fluid& fluid, const Step& step) {
   find_spacing_.run(queue, fluid.groups(),
                     {{"p", fluid.params_buffer()},
                      {"slower", as_float(part_ * slower * slower)},
+                     {"everywhere", static_cast<int>(spaces())},
+                     {"steps", static_cast<float>(kSpacingSteps)},
                      {"cell_start", fluid.grid().cell_start()},
                      {"position", particles.position},
                      {"term", fluid.pressure_term()},
                      {"images", fluid.body_images()},
                      {"piston", as_float(step.piston)},
                      {"acceleration", fluid.acceleration()},
-                     {"moving", fluid.moving()},
                      {"feels", static_cast<int>(felt_.feels())},
                      {"by_bodies", felt_.jolt()}},
                     boundary.matter(), boundary.bodies_at(step));
@@ -107,11 +108,13 @@ void GridProjected::move(Fluid& fluid, const Step& step) {
                        {"position", fluid.particles().position},
                        {"velocity", fluid.particles().velocity},
                        {"carried", fields_.carried},
+                       {"moving", fluid.moving()},
                        {"feels", static_cast<int>(felt_.feels())},
                        {"jolt", felt_.jolt()}},
                       fluid.boundary().outlines(), fluid.boundary().bodies_at(step),
                       fields_.args(fluid));
   felt_.weigh(fluid, step);
+  since_spacing_ = (since_spacing_ + 1) % kSpacingSteps;
 }
 
 const Buffer<float>& GridProjected::carried(const Fluid& /*fluid*/) const {
@@ -127,6 +130,7 @@ void GridProjected::forget_pressure(Device& device) {
 }
 
 void GridProjected::note_recalled(Device& device) {
+  since_spacing_ = 0;
   system_.forget(device);
   felt_.forget(device);
 }

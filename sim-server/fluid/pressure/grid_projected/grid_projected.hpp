@@ -36,6 +36,8 @@ inline constexpr double kLargestGridCfl = 1.05;
 /// push stays as speed [1]. In shorter ones both count by the time that they take.
 inline constexpr double kSpacingWay = 0.25;
 inline constexpr double kSpacingKick = 0.05;
+/// Away from bodies one step in so many spaces the particles, for all of these [1].
+inline constexpr int kSpacingSteps = 2;
 
 class GridProjected : public PressureSolver {
  public:
@@ -44,6 +46,7 @@ class GridProjected : public PressureSolver {
                 bool solids);
 
   void release(Device& device, std::size_t count) override { bodies_.release(device, count); }
+  [[nodiscard]] bool needs_density() const override { return spaces(); }
   /// Where a step follows nobody asks: pressure_term() stays the state equation's, for spacing.
   void recall_pressure(Fluid& fluid, const Step& step) override;
   void accelerate(Fluid& fluid, const Step& step) override;
@@ -79,7 +82,11 @@ class GridProjected : public PressureSolver {
  private:
   GridProjected(Device& device, const FluidParams& params, const cl::Program& program, bool solids);
 
-  double part_;  ///< of the default step's length, by the scene's factor [1]
+  /// Whether the next step, or the present one, spaces all particles.
+  [[nodiscard]] bool spaces() const noexcept { return since_spacing_ == 0; }
+
+  int since_spacing_ = 0;  ///< steps, modulo kSpacingSteps
+  double part_;            ///< of the default step's length, by the scene's factor [1]
   MacFields fields_;
   GridSolids solids_;
   ShutInAir air_;

@@ -84,9 +84,9 @@ static void look_ahead(constant MacGrid* g, float dt, global const float* carrie
 }
 
 // `filtered`: 1 - exp(-rate dt). `kick`: part of the spacing's push that stays as speed. `carried`:
-// the velocity that took each particle where it is. `jolt`: acceleration by the spacing to bodies
-// [m/s2]; if any body is felt (`feels` is not 0), it is replaced by the change of velocity that
-// this and moving particles back out of bodies caused [m/s].
+// the velocity that took each particle where it is. `moving`: all of them do. `jolt`: acceleration
+// by the spacing to bodies [m/s2]; if any body is felt (`feels` is not 0), it is replaced by the
+// change of velocity that this and moving particles back out of bodies caused [m/s].
 kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float dt, float filtered,
                            float kick, float piston, float piston_speed, constant BodyShape* shapes,
                            global const float* meshes, global const BodyStep* bodies,
@@ -95,7 +95,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
                            global const float* seen, global const float* shift,
                            global const float* deviation, global float* acceleration,
                            global float* position, global float* velocity, global float* carried,
-                           int feels, global float* jolt) {
+                           global int* moving, int feels, global float* jolt) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   if (first >= p->count) return;
@@ -146,6 +146,7 @@ kernel void move_particles(constant FluidParams* p, constant MacGrid* g, float d
   keep_in_tank(p, piston, piston_speed, &x[0], &x[1], &x[2], &u[0], &u[1], &u[2]);
   const float per_step = 1.0f / dt;
   const lane_flags here = LANE_NUMBERS < (lane_flags)(p->count - first);
+  STORE(here, moving, first);
   for (int axis = 0; axis < 3; ++axis) {
     const lane_flags stopped = x[axis] != free[axis];
     STORE(select(way[axis], (x[axis] - from[axis]) * per_step, stopped), carried + axis * n, first);

@@ -30,25 +30,29 @@ static BodyShare share_of_bodies(constant FluidParams* p, const Group* g,
   return share;
 }
 
-
-// `slower`: square of that sound over the scene's. All particles move. `by_bodies`: the part of the
-// acceleration by bodies [m/s2], written if any body is felt (`feels` is not 0).
-kernel void find_spacing(constant FluidParams* p, float slower, global const int* cell_start,
-                         global const float* position, global const float* term,
-                         global const float* images, global const int* body_start,
-                         global const float* body_position, global const float* body_volume,
-                         int body_stride, global const BodyStep* bodies, int first_body,
-                         int body_count, float piston, global float* acceleration,
-                         global int* moving, int feels, global float* by_bodies) {
+// `slower`: square of that sound over the scene's. Away from bodies only steps that are to push
+// `everywhere` do so, for as many `steps`. `by_bodies`: the part of the acceleration by
+// bodies [m/s2], written if any body is felt (`feels` is not 0).
+kernel void find_spacing(constant FluidParams* p, float slower, int everywhere, float steps,
+                         global const int* cell_start, global const float* position,
+                         global const float* term, global const float* images,
+                         global const int* body_start, global const float* body_position,
+                         global const float* body_volume, int body_stride,
+                         global const BodyStep* bodies, int first_body, int body_count,
+                         float piston, global float* acceleration, int feels,
+                         global float* by_bodies) {
   const int n = p->capacity;
   const int first = get_global_id(0) * LANES;
   const int last = min(first + LANES, p->count);
   if (first >= last) return;
-  const float gradient = slower * gradient_norm(p) * p->mass;
   const lanes own = LOAD(term, first);
   lanes ax = 0.0f, ay = 0.0f, az = 0.0f, bodies_x = 0.0f, bodies_y = 0.0f, bodies_z = 0.0f;
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
+    turn = g.next;
+    const bool beside = bodies_near_box(bodies, first_body, body_count, g.lower, g.upper);
+    if (!beside && !everywhere) continue;
+    const float strength = beside ? slower : steps * slower;
     lanes x = 0.0f, y = 0.0f, z = 0.0f;
     Near near;
     begin_search(&near);
@@ -63,23 +67,22 @@ kernel void find_spacing(constant FluidParams* p, float slower, global const int
       }
     }
     lanes bx = 0.0f, by = 0.0f, bz = 0.0f;
-    if (bodies_near_box(bodies, first_body, body_count, g.lower, g.upper)) {
+    if (beside) {
       const BodyShare share = share_of_bodies(p, &g, body_start, body_position, body_volume,
                                               body_stride);
       const BodyImage image = load_image(p, images, first);
       image_gradient(p, &image, &share, &bx, &by, &bz);
     }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);
-    const lanes by_wall = slower * own * p->rest_density;
+    const float gradient = strength * gradient_norm(p) * p->mass;
+    const lanes by_wall = strength * own * p->rest_density;
     ax = select(ax, gradient * x - by_wall * (wall.gx + bx), g.mine);
     ay = select(ay, gradient * y - by_wall * (wall.gy + by), g.mine);
     az = select(az, gradient * z - by_wall * (wall.gz + bz), g.mine);
     bodies_x = select(bodies_x, -by_wall * bx, g.mine);
     bodies_y = select(bodies_y, -by_wall * by, g.mine);
     bodies_z = select(bodies_z, -by_wall * bz, g.mine);
-    turn = g.next;
   }
-  STORE(LANE_NUMBERS < (lane_flags)(last - first), moving, first);
   STORE(ax, acceleration, first);
   STORE(ay, acceleration + n, first);
   STORE(az, acceleration + 2 * n, first);
