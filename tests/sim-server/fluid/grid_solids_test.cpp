@@ -150,22 +150,33 @@ TEST(GridSolids, DisplaceTheirVolume) {
   expect(box, askew, 0.13 * 0.09 * 0.07, 0.03);
 }
 
-/// Lying on the floor, too: nothing but its weight keeps it there.
+/// On the floor, too, near it or on it: there is water beneath. Of a post that goes through the
+/// floor only the sides are wet, and nothing bears it.
 TEST(GridSolids, AreBorneByTheWeightOfWhatTheyDisplace) {
   Device device;
-  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}};
-  const double volume = std::numbers::pi * std::pow(0.12, 3) / 6.0;
-  for (const double height : {0.142, 0.061}) {
-    Water water = with_solid(0.015, {0.3, 0.3, 0.5}, 0.3, ball, {{0.161, 0.147, height}});
+  const auto expect = [&](const Shape& shape, double height, double displaces, double within) {
+    Water water = with_solid(0.015, {0.3, 0.3, 0.5}, 0.3, shape, {{0.161, 0.147, height}});
     water.start(device);
     settle(*water.fluid, water.bodies->at(0.0), 0.0, 0.5, 1.0e-2);
     for (int k = 0; k < 50; ++k) water.step(1.0e-2);
-    const Displaced by = displaced(device, *water.fluid);
-    std::printf("at %.3f m: %.4f of the weight\n", height,
-                by.borne / (kDensity * kGravity * volume));
-    EXPECT_NEAR(by.borne / (kDensity * kGravity * volume), 1.0, 0.05) << height;
+    const double borne = displaced(device, *water.fluid).borne / (kDensity * kGravity);
+    std::printf("at %.3f m: %.4f litres of %.4f\n", height, 1000.0 * borne, 1000.0 * displaces);
+    EXPECT_NEAR(borne, displaces, within) << height;
     EXPECT_LT(water.fluid->stats().speed, 0.03 * std::sqrt(kGravity * 0.3));
-  }
+  };
+  const Shape ball = {ShapeKind::sphere, {0.12, 0.12, 0.12}};
+  const Shape box = {ShapeKind::box, {0.13, 0.09, 0.07}};
+  const Shape mat = {ShapeKind::box, {0.21, 0.17, 0.03}};
+  const double of_ball = std::numbers::pi * std::pow(0.12, 3) / 6.0;
+  const double of_box = 0.13 * 0.09 * 0.07;
+  const double of_mat = 0.21 * 0.17 * 0.03;
+  expect(ball, 0.142, of_ball, 0.01 * of_ball);
+  expect(ball, 0.061, of_ball, 0.01 * of_ball);
+  expect(box, 0.035, of_box, 0.03 * of_box);
+  expect(box, 0.04, of_box, 0.03 * of_box);
+  expect(mat, 0.015, of_mat, 0.05 * of_mat);
+  const double wet = 0.09 * 0.09 * 0.3;
+  expect({ShapeKind::box, {0.09, 0.09, 0.5}}, 0.2, 0.0, 0.05 * wet);
 }
 
 /// A plate that starts to move deep in the water sets as much of it in motion, however thin it is
@@ -218,6 +229,28 @@ TEST_P(GridBodies, BeginAsTheirAddedMassSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Densities, GridBodies, ::testing::Values(20.0, 500.0, 2000.0));
+
+/// From where they stand flat on the floor what is lighter than water rises; what is heavier stays.
+TEST(GridSolids, LeaveTheFloorIfTheyAreLight) {
+  Device device;
+  for (const ShapeKind kind : {ShapeKind::box, ShapeKind::cylinder, ShapeKind::sphere}) {
+    for (const double density : {0.9 * kDensity, 1.1 * kDensity}) {
+      FreeFloat world = {tank_scene(0.03, {0.6, 0.6, 0.6}, 0.36)};
+      world.scene.fluid.solver = PressureKind::grid_projected;
+      world.add({kind, {0.12, 0.12, 0.12}}, density, {{0.33, 0.28, 0.06}});
+      world.start(device);
+      world.dt = 1.0e-2;
+      world.run(1.0);
+      const double risen = world.state(0).position[2] - 0.06;
+      std::printf("%.0f kg/m3: %.1f mm\n", density, 1000.0 * risen);
+      if (density < kDensity) {
+        EXPECT_GT(risen, 0.05);
+      } else {
+        EXPECT_LT(std::abs(risen), 0.003);
+      }
+    }
+  }
+}
 
 /// Pressures have no moment about a ball's centre.
 TEST(GridSolids, ABallThatFloatsDoesNotSpin) {

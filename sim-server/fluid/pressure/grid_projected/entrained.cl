@@ -6,7 +6,8 @@
 //   E = sum m J J^T,   R = sum m (u + dt g.n) J,   J = (n, r x n / lever)
 // with the moments that pressures can have. Without pressures a body that would have the speeds q
 // has (M + E)^-1 (M q + R). In still water it weighs what the pressures carry of it: what a body
-// displaces is its volume.
+// displaces is its volume. On the floor, where pressures are those of half a cell higher, m is
+// negative, which lends the body the buoyancy that it lacks, but no inertia.
 
 #include "sim-server/fluid/boundary/bodies.h"
 #include "sim-server/fluid/boundary/body_inertia.h"
@@ -21,7 +22,7 @@
 // Adds a face's part of E and R.
 static void add_face(float mass, float speed, const float* way, float* water) {
   for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c <= r; ++c) water[SIX_AT(r, c)] += mass * way[r] * way[c];
+    for (int c = 0; c <= r; ++c) water[SIX_AT(r, c)] += fmax(mass, 0.0f) * way[r] * way[c];
     water[SIX_ENTRIES + r] += mass * way[r] * speed;
   }
 }
@@ -44,7 +45,8 @@ static void find_entrained(constant FluidParams* p, constant MacGrid* g, float d
     const int4 at = (int4)(c % l.layer % l.row, c % l.layer / l.row, c / l.layer, 1) - 1;
     for (int axis = 0; axis < 3; ++axis) {
       const int face = axis * l.cells + c;
-      const int whose = owner[c] >= 0 ? owner[c] : owner[c - step[axis]];
+      const bool floor = axis == 2 && at.z == 0;
+      const int whose = owner[c] >= 0 || floor ? owner[c] : owner[c - step[axis]];
       if (whose != f.body || excess[face] == 0.0f) continue;
       const float3 n = (float3)(axis == 0, axis == 1, axis == 2);
       const float3 arm = face_middle(g, at, axis) - (float3)(b.px, b.py, b.pz);

@@ -60,11 +60,11 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
     const int below = c - step[axis], face = axis * l.cells + c;
     const int where = axis == 0 ? at.x : axis == 1 ? at.y : at.z;
     const int cells = axis == 0 ? l.nx : l.ny;  // upwards there is no upper wall
-    const bool wall = where == 0 || (axis < 2 && where == cells);
+    const bool wall = where == 0 || (axis < 2 && where == cells), floor = wall && axis == 2;
     const int whom = owner[c] == OF_NOBODY && !wall ? owner[below] : owner[c];
     const float3 place = face_middle(g, at, axis), far = FACES_BEYOND * edge_of(g);
     int of = OF_NOBODY;
-    for (int k = 0; k < felt_count && !wall && of == OF_NOBODY; ++k) {
+    for (int k = 0; k < felt_count && (!wall || floor) && of == OF_NOBODY; ++k) {
       const bool around_it =
           bodies_near_box(bodies, first_body + felt[k].body, 1, place - far, place + far);
       if (whom == felt[k].body || (whom == OF_NOBODY && around_it)) of = k;
@@ -72,14 +72,17 @@ kernel void mark_faces(constant FluidParams* p, constant MacGrid* g, float falls
     if (afar) of = of == OF_NOBODY && !wall ? only : OF_NOBODY;
     whose[face] = of;
     given[face] = taken[face] = 0.0f;
-    if (wall) continue;
+    const float fall = falls * (axis == 0   ? p->gravity_x - p->pull_x * (place.x - p->centre_x)
+                                : axis == 1 ? p->gravity_y - p->pull_y * (place.y - p->centre_y)
+                                            : p->gravity_z - p->pull_z * (place.z - p->centre_z));
+    if (wall) {
+      if (of != OF_NOBODY) taken[face] = heavy * excess[face] * fall;
+      continue;
+    }
     const bool here = wet[c] > 0.0f, there = wet[below] > 0.0f;
     const float way = here == there ? 1.0f
                       : here        ? way_to_surface_of(fill[c], fill[below])
                                     : way_to_surface_of(fill[below], fill[c]);
-    const float fall = falls * (axis == 0   ? p->gravity_x - p->pull_x * (place.x - p->centre_x)
-                                : axis == 1 ? p->gravity_y - p->pull_y * (place.y - p->centre_y)
-                                            : p->gravity_z - p->pull_z * (place.z - p->centre_z));
     const float rise = (here ? found[c] : 0.0f) - (there ? found[below] : 0.0f);
     const float grows = rise / way * inverse[axis];
     if (of != OF_NOBODY && (here || there)) {

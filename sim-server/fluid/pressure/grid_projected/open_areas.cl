@@ -26,6 +26,7 @@ static float open_surface(constant FluidParams* p, constant MacGrid* g, const So
     place[axis][n] = from[axis] + (cell[axis] - 0.5f + part) * edge[axis];
     place[across[0]][n] = from[across[0]] + (cell[across[0]] + 0.5f * (k % 3)) * edge[across[0]];
     place[across[1]][n] = from[across[1]] + (cell[across[1]] + 0.5f * (k / 3)) * edge[across[1]];
+    place[2][n] = height_of(g, place[2][n]);
   }
   const float3 first = (float3)(place[0][0], place[1][0], place[2][0]);
   const float3 last = (float3)(place[0][8], place[1][8], place[2][8]);
@@ -79,7 +80,8 @@ static float open_area(constant FluidParams* p, constant MacGrid* g, const Solid
 // the surface areas open and close at once while a body sways, and water at its edge would jump.
 // Between a cell that holds water and one that does not, a face is no more open than the surface
 // between them: water that a solid lies flat on has none. `held`: of the water around a face, the
-// part that goes with the solid. `excess`: between full cells, volume less area.
+// part that goes with the solid. `excess`: between full cells, volume less area; at first
+// it has what cut_cells found at the floor, and keeps that beneath full cells.
 kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                        global const float* meshes, global const BodyStep* bodies, int first_body,
                        int body_count, float piston, global const int* owner,
@@ -99,9 +101,10 @@ kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant Bo
     const lanes open = LOAD(volume, first);
     STORE(open, gap, first);
     STORE(none, held, first);
-    STORE(none, excess, first);
     const lanes above = LOAD(fill, c), below = LOAD(fill, c - s);
     const lane_flags wet_above = above > (lanes)(MAC_FULL), wet_below = below > (lanes)(MAC_FULL);
+    const bool floor = axis == 2 && at.z == 0;
+    STORE(floor ? select(none, LOAD(excess, first), wet_above) : none, excess, first);
     const lane_flags cut = at.real & (here[axis] > (lane_flags)(0)) &
                            (here[axis] < (lane_flags)(count[axis])) & (open > none) &
                            (open < one) & (wet_above | wet_below);

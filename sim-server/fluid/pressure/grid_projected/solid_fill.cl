@@ -8,6 +8,7 @@
 #include "sim-server/fluid/pressure/grid_projected/solids.h"
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
+#define SEES_ENOUGH 0.9f  // of the space around it, for a cell to say how full others are [1]
 #define OWN_WEIGHT 0.05f  // of a cell's own fill in the estimate of what its hat cannot see [1]
 
 // How full cells are of what their hats see of open space.
@@ -18,6 +19,25 @@ static lanes full_part(global const float* fill, global const float* seen, int c
 // How far the fill of cells says where the surface is, by how much open space they see [1].
 static lanes seen_well(global const float* seen, int c) {
   return within(5.0f * LOAD(seen, c) - 4.0f, 0.0f, 1.0f);
+}
+
+// Water beneath a body that stands on the floor is as full as the cells around the body, on average
+// over the nearest ones along x and y that see enough. `otherwise`: if there are none.
+static float full_beneath(const MacLevel l, int4 at, global const float* fill,
+                          global const float* seen, float otherwise) {
+  float sum = 0.0f, found = 0.0f;
+  for (int way = 0; way < 4; ++way) {
+    const int4 step = (way & 1 ? 1 : -1) * (int4)(way < 2, way >= 2, 0, 0);
+    for (int4 next = at + step;
+         next.x >= 0 && next.x < l.nx && next.y >= 0 && next.y < l.ny; next += step) {
+      const int c = number_of(l, next);
+      if (seen[c] < SEES_ENOUGH) continue;
+      sum += fmin(fill[c] / seen[c], 1.0f);
+      found += 1.0f;
+      break;
+    }
+  }
+  return found > 0.0f ? sum / found : otherwise;
 }
 
 // How full cells are beside solids: as if what solids take of their hats were as full as the water
@@ -67,4 +87,15 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* volume,
   const lanes touched = (sure * whole + in_gaps) / space;
   const lanes estimate = touched + LOAD(clear, c) * (LOAD(fill, c) - touched);
   STORE(select(none, estimate, known), filled, c);
+  const lane_flags films = at.inside & (own > none) & (own < (lanes)(2.0f * FILM));
+  if (at.z > 0 || !any_lane(films)) return;
+  int x[LANES], y[LANES], is_film[LANES];
+  STORE(at.x, x, 0);
+  STORE(at.y, y, 0);
+  STORE(films, is_film, 0);
+  for (int lane = 0; lane < LANES; ++lane) {
+    if (!is_film[lane]) continue;
+    const int4 cell = (int4)(x[lane], y[lane], 0, 0);
+    filled[c + lane] = full_beneath(l, cell, fill, seen, filled[c + lane]);
+  }
 }

@@ -35,8 +35,8 @@ static bool solids_near(constant FluidParams* p, global const BodyStep* bodies, 
 
 // Distances of 27 places in a box from its `lower` corner on, `apart` from each other, x first: of
 // solids that may be nearer than the support, or than that and `beyond`. Whose the middle is.
-static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, float3 apart,
-                       float beyond, float* distance) {
+static int measure_box(constant FluidParams* p, constant MacGrid* g, const Solids* s, float3 lower,
+                       float3 apart, float beyond, float* distance) {
   int owner = OF_NOBODY;
   for (int first = 0; first < 27; first += LANES) {
     float place[3][LANES];
@@ -44,7 +44,7 @@ static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, f
       const int k = min(first + lane, 26);
       place[0][lane] = lower.x + (k % 3) * apart.x;
       place[1][lane] = lower.y + (k / 3 % 3) * apart.y;
-      place[2][lane] = lower.z + (k / 9) * apart.z;
+      place[2][lane] = height_of(g, lower.z + (k / 9) * apart.z);
     }
     lanes whose;
     const lanes far =
@@ -63,12 +63,12 @@ static int measure_box(constant FluidParams* p, const Solids* s, float3 lower, f
 
 // Of an eighth of a cell with these corners: by its own eighths, and what that changed goes on to
 // where it would end (Richardson); what is `flat` is as its corners say.
-static float open_eighth(constant FluidParams* p, const Solids* s, float3 lower, float3 edge,
-                         const float* corner, bool flat) {
+static float open_eighth(constant FluidParams* p, constant MacGrid* g, const Solids* s,
+                         float3 lower, float3 edge, const float* corner, bool flat) {
   const float whole = open_box(corner);
   if (flat || !(whole > 0.0f && whole < 1.0f)) return whole;
   float d[27], sum = 0.0f;
-  measure_box(p, s, lower, 0.5f * edge, 0.0f, d);
+  measure_box(p, g, s, lower, 0.5f * edge, 0.0f, d);
   for (int k = 0; k < 8; ++k) {
     float part[8];
     corners_of(d, k, part);
@@ -92,11 +92,13 @@ static float open_side(const float* d, int axis, int side) {
 }
 
 // Where cells' open parts go: of their halves along the axes, the lower and the `upper` ones, at
-// the tank's walls of their area, and of all of them, `room`. `owner`: whose they are.
+// the tank's walls of their area, and of all of them, `room`. `beneath`: of the lower halves of
+// cells on the floor, less the open part of their area there. `owner`: whose they are.
 typedef struct {
   global float* lower;
   global float* upper;
   global float* room;
+  global float* beneath;
   global int* owner;
 } OpenParts;
 
@@ -144,7 +146,8 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
   const bool flat = !by_bodies && !piston_near(p, solids, low, high);  // the slope alone cuts it
   const float3 edge = 0.5f * (float3)(g->hx, g->hy, g->hz);
   float d[27];
-  const int whose = measure_box(p, solids, low, edge, fmax(owned_within(g) - p->support, 0.0f), d);
+  const float beyond = fmax(owned_within(g) - p->support, 0.0f);
+  const int whose = measure_box(p, g, solids, low, edge, beyond, d);
   if (d[13] < owned_within(g)) parts->owner[c] = whose;
   float nearest = d[0];
   for (int k = 1; k < 27; ++k) nearest = fmin(nearest, d[k]);
@@ -155,7 +158,7 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
     float corner[8];
     corners_of(d, k, corner);
     const float3 from = low + edge * (float3)(x, y, z);
-    const float open = 0.25f * open_eighth(p, solids, from, edge, corner, flat);
+    const float open = 0.25f * open_eighth(p, g, solids, from, edge, corner, flat);
     of_half[x] += open;
     of_half[2 + y] += open;
     of_half[4 + z] += open;
@@ -169,6 +172,7 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
         here[axis] == count[axis] - 1 ? open_side(d, axis, 2) : of_half[2 * axis + 1];
   }
   parts->room[c] = sum;
+  if (at.z == 0) parts->beneath[c] = 0.5f * (of_half[4] - parts->lower[2 * l.cells + c]);
 }
 
 // Whether a solid may be near any cell of a vector; most vectors have none near them.
@@ -188,7 +192,7 @@ static bool solids_near_cells(constant FluidParams* p, constant MacGrid* g, cons
 kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                       global const float* meshes, global const BodyStep* bodies, int first_body,
                       int body_count, float piston, global float* lower, global float* upper,
-                      global float* room, global int* owner) {
+                      global float* room, global float* excess, global int* owner) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -198,10 +202,12 @@ kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant Bod
     STORE(open, upper + axis * l.cells, at.first);
   }
   STORE(open, room, at.first);
+  global float* beneath = excess + 2 * l.cells;
+  STORE(none, beneath, at.first);
   STORE((lane_flags)(OF_NOBODY), owner, at.first);
   const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
   if (!solids_near_cells(p, g, &solids, &at)) return;
-  const OpenParts parts = {lower, upper, room, owner};
+  const OpenParts parts = {lower, upper, room, beneath, owner};
   int x[LANES], y[LANES], real[LANES];
   STORE(at.x, x, 0);
   STORE(at.y, y, 0);

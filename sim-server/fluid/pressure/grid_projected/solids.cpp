@@ -35,6 +35,7 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                   {"lower", gap_},
                   {"upper", upper_},
                   {"room", space_},
+                  {"excess", excess_},
                   {"owner", owner_}},
                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
   see_space_.run(queue, fields_.vectors,

@@ -12,6 +12,14 @@
 
 #define LEAST_SEEN 1e-4f  // cells that see less open space are full of nothing [1]
 #define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
+#define FILM 0.02f       // of water beneath bodies that stand on the floor [cells]
+
+// The height at which solids are looked for: on the floor, FILM lower. So there is water beneath a
+// body that stands on it, whose pressure it feels, and none beneath one that goes deeper.
+static float height_of(constant MacGrid* g, float z) {
+  const float film = FILM * g->hz;
+  return z < g->z + film ? g->z - film : z;
+}
 
 // Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
 static float open_tetrahedron(float a, float b, float c, float d) {

@@ -25,7 +25,8 @@ class GridSolids {
   [[nodiscard]] const Buffer<float>& gap() const noexcept { return gap_; }
   /// Part of the water around a face that moves with the solid [1].
   [[nodiscard]] const Buffer<float>& held() const noexcept { return upper_; }
-  /// Between full cells, by how much more of a face's volume is open than of its area [1].
+  /// Between full cells, and on the floor beneath one, by how much more of the volume around a
+  /// face is open than of its area, of a whole cell [1].
   [[nodiscard]] const Buffer<float>& excess() const noexcept { return excess_; }
   [[nodiscard]] const Buffer<float>& space() const noexcept { return space_; }
   [[nodiscard]] const Buffer<int>& owner() const noexcept { return owner_; }
