@@ -79,9 +79,9 @@ struct MainKernels {
         f.grid().source().memory(), rho.memory(), water.memory(), peak.memory(),
         f.particles().position.memory(), f.boundary().grid().cell_start().memory(),
         f.boundary().points().position.memory(), none.memory(), 0, f.boundary().shapes().memory(),
-        f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F, 0.0F, f.body_images().memory(),
-        rho.memory(), water.memory(), peak.memory(), term.memory(), push.memory(), moving.memory(),
-        resting.memory());
+        f.boundary().meshes().memory(), nobody.memory(), 0, 0, 0.0F, 1, 0.0F,
+        f.body_images().memory(), rho.memory(), water.memory(), peak.memory(), term.memory(),
+        push.memory(), moving.memory(), resting.memory());
     set(acceleration, f.params_buffer().memory(), f.grid().cell_start().memory(), activity.memory(),
         resting.memory(), f.particles().position.memory(), f.particles().velocity.memory(),
         f.pressure_term().memory(), f.body_images().memory(),

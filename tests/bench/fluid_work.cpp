@@ -243,14 +243,22 @@ std::map<std::string, Work> sort_work(const SortSize& size, const Profile& profi
             {"rank_points", {.bytes = 76.0 * n, .operations = (kOfMove + 8.0 * kOfPlace) * n}}};
   }
   const double counts = size.used * size.chunks;
-  return {{"count_cells",
-           {.bytes = 16.0 * n + 12.0 * counts, .operations = alone(kOfCell * n, profile)}},
+  const Work count = {.bytes = 16.0 * n + 12.0 * counts, .operations = alone(kOfCell * n, profile)};
+  const Work place = {.bytes = 8.0 * counts + 4.0 * size.used,
+                      .operations = alone(5.0 * counts, profile)};
+  const Work move = {.bytes = 64.0 * n + 8.0 * counts,
+                     .operations = kOfMove * n + alone(kOfPlace * n, profile)};
+  if (size.chunks == 1.0) {
+    Work few = count;
+    few += place;
+    few += move;
+    few.launches = 1.0;
+    return {{"sort_few", few}};
+  }
+  return {{"count_cells", count},
           {"sum_blocks", {.bytes = 4.0 * counts, .operations = alone(counts, profile)}},
-          {"place_cells",
-           {.bytes = 8.0 * counts + 4.0 * size.used, .operations = alone(5.0 * counts, profile)}},
-          {"sort_points",
-           {.bytes = 64.0 * n + 8.0 * counts,
-            .operations = kOfMove * n + alone(kOfPlace * n, profile)}}};
+          {"place_cells", place},
+          {"sort_points", move}};
 }
 
 /// `turns`: of the search among particles.
