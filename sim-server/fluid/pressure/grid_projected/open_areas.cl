@@ -14,9 +14,9 @@
 #define LESS_CLOSED 0.25f // a thin plate leaves faces open that are so much less closed [1]
 
 // How much solids leave open of the section across an axis, `part` of the way from the middle of
-// the cell below the one at `at` to its own [1].
+// the cell below the one at `at` to its own [1]. `sides`: as looked_at.
 static float open_surface(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
-                          int axis, float part) {
+                          int axis, float part, bool sides) {
   const float edge[3] = {g->hx, g->hy, g->hz}, from[3] = {g->x, g->y, g->z};
   const int cell[3] = {at.x, at.y, at.z};
   const int across[2] = {(axis + 1) % 3, (axis + 2) % 3};
@@ -26,7 +26,10 @@ static float open_surface(constant FluidParams* p, constant MacGrid* g, const So
     place[axis][n] = from[axis] + (cell[axis] - 0.5f + part) * edge[axis];
     place[across[0]][n] = from[across[0]] + (cell[across[0]] + 0.5f * (k % 3)) * edge[across[0]];
     place[across[1]][n] = from[across[1]] + (cell[across[1]] + 0.5f * (k / 3)) * edge[across[1]];
-    place[2][n] = height_of(g, place[2][n]);
+    const float3 there = looked_at(g, (float3)(place[0][n], place[1][n], place[2][n]), sides);
+    place[0][n] = there.x;
+    place[1][n] = there.y;
+    place[2][n] = there.z;
   }
   const float3 first = (float3)(place[0][0], place[1][0], place[2][0]);
   const float3 last = (float3)(place[0][8], place[1][8], place[2][8]);
@@ -60,12 +63,12 @@ static float plate_share(float volume, float below, float above) {
 // open as its widest section leaves it; the nearer the other one comes to that, the more so is it.
 // `held`: of what is open around the face, the part that such a plate closes.
 static float open_area(constant FluidParams* p, constant MacGrid* g, const Solids* s, int4 at,
-                       int axis, float volume, float share, float* held) {
-  const float here = open_surface(p, g, s, at, axis, 0.5f);
+                       int axis, float volume, float share, bool sides, float* held) {
+  const float here = open_surface(p, g, s, at, axis, 0.5f, sides);
   const bool between = here > volume && share > 0.0f;
   float least = here;
   for (int k = 0; k < SECTIONS && between; ++k) {
-    least = fmin(least, open_surface(p, g, s, at, axis, (k + 0.5f) / SECTIONS));
+    least = fmin(least, open_surface(p, g, s, at, axis, (k + 0.5f) / SECTIONS, sides));
   }
   const float open = here + share * (least - here);
   *held = open < LEAST_GAP ? 1.0f : 1.0f - open / here;
@@ -122,18 +125,20 @@ kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant Bo
       if (!is_cut[lane]) continue;
       const int face = first + lane;
       const int4 cell = (int4)(x[lane], y[lane], at.z, 0);
+      const int whose = owner[c + lane] >= 0 ? owner[c + lane] : owner[c + lane - s];
+      const bool sides = whose >= 0 && shapes[whose].free;
       if (!is_full[lane]) {
-        gap[face] = fmin(volume[face], open_surface(p, g, &solids, cell, axis, up[lane]));
+        const float open_here = open_surface(p, g, &solids, cell, axis, up[lane], sides);
+        gap[face] = fmin(volume[face], open_here);
         held[face] = 1.0f - gap[face] / volume[face];
         continue;
       }
-      const int whose = owner[c + lane] >= 0 ? owner[c + lane] : owner[c + lane - s];
       const int over = c + lane + l.layer;
       const bool deep = fill[over] > MAC_FULL && fill[over - s] > MAC_FULL;
       if (whose < 0 || (shapes[whose].free && !deep)) continue;
       const float plate = plate_share(volume[face], volume[face - s], volume[face + s]);
       float with;
-      gap[face] = open_area(p, g, &solids, cell, axis, volume[face], plate, &with);
+      gap[face] = open_area(p, g, &solids, cell, axis, volume[face], plate, sides, &with);
       if (shapes[whose].free) {
         gap[face] = volume[face] + plate * fmin(gap[face] - volume[face], 0.0f);
         with = 1.0f - gap[face] / volume[face];

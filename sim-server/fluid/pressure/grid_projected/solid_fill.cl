@@ -21,10 +21,10 @@ static lanes seen_well(global const float* seen, int c) {
   return within(5.0f * LOAD(seen, c) - 4.0f, 0.0f, 1.0f);
 }
 
-// Water beneath a body that stands on the floor is as full as the cells around the body, on average
-// over the nearest ones along x and y that see enough. `otherwise`: if there are none.
-static float full_beneath(const MacLevel l, int4 at, global const float* fill,
-                          global const float* seen, float otherwise) {
+// The film between a body and the floor or a wall is as full as the cells around the body, on
+// average over the nearest ones along x and y that see enough. `otherwise`: if there are none.
+static float full_film(const MacLevel l, int4 at, global const float* fill,
+                       global const float* seen, float otherwise) {
   float sum = 0.0f, found = 0.0f;
   for (int way = 0; way < 4; ++way) {
     const int4 step = (way & 1 ? 1 : -1) * (int4)(way < 2, way >= 2, 0, 0);
@@ -87,15 +87,18 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* volume,
   const lanes touched = (sure * whole + in_gaps) / space;
   const lanes estimate = touched + LOAD(clear, c) * (LOAD(fill, c) - touched);
   STORE(select(none, estimate, known), filled, c);
-  const lane_flags films = at.inside & (own > none) & (own < (lanes)(2.0f * FILM));
-  if (at.z > 0 || !any_lane(films)) return;
+  const lane_flags at_wall = (at.x == (lane_flags)(0)) | (at.x == (lane_flags)(l.nx - 1)) |
+                             (at.y == (lane_flags)(0)) | (at.y == (lane_flags)(l.ny - 1)) |
+                             ((lane_flags)(at.z) == (lane_flags)(0));
+  const lane_flags films = at.inside & at_wall & (own > none) & (own < (lanes)(2.0f * FILM));
+  if (!any_lane(films)) return;
   int x[LANES], y[LANES], is_film[LANES];
   STORE(at.x, x, 0);
   STORE(at.y, y, 0);
   STORE(films, is_film, 0);
   for (int lane = 0; lane < LANES; ++lane) {
     if (!is_film[lane]) continue;
-    const int4 cell = (int4)(x[lane], y[lane], 0, 0);
-    filled[c + lane] = full_beneath(l, cell, fill, seen, filled[c + lane]);
+    const int4 cell = (int4)(x[lane], y[lane], at.z, 0);
+    filled[c + lane] = full_film(l, cell, fill, seen, filled[c + lane]);
   }
 }

@@ -35,16 +35,18 @@ static bool solids_near(constant FluidParams* p, global const BodyStep* bodies, 
 
 // Distances of 27 places in a box from its `lower` corner on, `apart` from each other, x first: of
 // solids that may be nearer than the support, or than that and `beyond`. Whose the middle is.
+// `sides`: as looked_at.
 static int measure_box(constant FluidParams* p, constant MacGrid* g, const Solids* s, float3 lower,
-                       float3 apart, float beyond, float* distance) {
+                       float3 apart, float beyond, bool sides, float* distance) {
   int owner = OF_NOBODY;
   for (int first = 0; first < 27; first += LANES) {
     float place[3][LANES];
     for (int lane = 0; lane < LANES; ++lane) {
       const int k = min(first + lane, 26);
-      place[0][lane] = lower.x + (k % 3) * apart.x;
-      place[1][lane] = lower.y + (k / 3 % 3) * apart.y;
-      place[2][lane] = height_of(g, lower.z + (k / 9) * apart.z);
+      const float3 at = looked_at(g, lower + apart * (float3)(k % 3, k / 3 % 3, k / 9), sides);
+      place[0][lane] = at.x;
+      place[1][lane] = at.y;
+      place[2][lane] = at.z;
     }
     lanes whose;
     const lanes far =
@@ -64,11 +66,11 @@ static int measure_box(constant FluidParams* p, constant MacGrid* g, const Solid
 // Of an eighth of a cell with these corners: by its own eighths, and what that changed goes on to
 // where it would end (Richardson); what is `flat` is as its corners say.
 static float open_eighth(constant FluidParams* p, constant MacGrid* g, const Solids* s,
-                         float3 lower, float3 edge, const float* corner, bool flat) {
+                         float3 lower, float3 edge, const float* corner, bool flat, bool sides) {
   const float whole = open_box(corner);
   if (flat || !(whole > 0.0f && whole < 1.0f)) return whole;
   float d[27], sum = 0.0f;
-  measure_box(p, g, s, lower, 0.5f * edge, 0.0f, d);
+  measure_box(p, g, s, lower, 0.5f * edge, 0.0f, sides, d);
   for (int k = 0; k < 8; ++k) {
     float part[8];
     corners_of(d, k, part);
@@ -147,7 +149,10 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
   const float3 edge = 0.5f * (float3)(g->hx, g->hy, g->hz);
   float d[27];
   const float beyond = fmax(owned_within(g) - p->support, 0.0f);
-  const int whose = measure_box(p, g, solids, low, edge, beyond, d);
+  const int whose = measure_box(p, g, solids, low, edge, beyond, false, d);
+  const bool beside = at.x == 0 || at.y == 0 || at.x == l.nx - 1 || at.y == l.ny - 1;
+  const bool sides = beside && whose >= 0 && solids->shapes[whose].free;
+  if (sides) measure_box(p, g, solids, low, edge, beyond, true, d);
   if (d[13] < owned_within(g)) parts->owner[c] = whose;
   float nearest = d[0];
   for (int k = 1; k < 27; ++k) nearest = fmin(nearest, d[k]);
@@ -158,7 +163,7 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
     float corner[8];
     corners_of(d, k, corner);
     const float3 from = low + edge * (float3)(x, y, z);
-    const float open = 0.25f * open_eighth(p, g, solids, from, edge, corner, flat);
+    const float open = 0.25f * open_eighth(p, g, solids, from, edge, corner, flat, sides);
     of_half[x] += open;
     of_half[2 + y] += open;
     of_half[4 + z] += open;

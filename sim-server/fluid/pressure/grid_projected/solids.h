@@ -14,11 +14,20 @@
 #define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
 #define FILM 0.02f       // of water beneath bodies that stand on the floor [cells]
 
-// The height at which solids are looked for: on the floor, FILM lower. So there is water beneath a
-// body that stands on it, whose pressure it feels, and none beneath one that goes deeper.
-static float height_of(constant MacGrid* g, float z) {
-  const float film = FILM * g->hz;
-  return z < g->z + film ? g->z - film : z;
+// Where solids are looked for: on the floor, FILM lower. So there is water beneath a body that
+// stands on it, whose pressure it feels, and none beneath one that goes deeper. `sides`: likewise
+// on the side walls; that is for bodies that the water moves, as others may be made to be tight.
+static float3 looked_at(constant MacGrid* g, float3 x, bool sides) {
+  const MacLevel l = g->level[0];
+  const float3 film = FILM * (float3)(g->hx, g->hy, g->hz), from = (float3)(g->x, g->y, g->z);
+  const float3 to = from + (float3)(l.nx * g->hx, l.ny * g->hy, 0.0f);
+  if (x.z < from.z + film.z) x.z = from.z - film.z;
+  if (!sides) return x;
+  if (x.x < from.x + film.x) x.x = from.x - film.x;
+  if (x.y < from.y + film.y) x.y = from.y - film.y;
+  if (x.x > to.x - film.x) x.x = to.x + film.x;
+  if (x.y > to.y - film.y) x.y = to.y + film.y;
+  return x;
 }
 
 // Part of a tetrahedron where a linear distance is positive, from those of its corners [1].
