@@ -84,6 +84,18 @@ static bool bodies_near_box(global const BodyStep* bodies, int first, int count,
   return false;
 }
 
+// Which lanes are within reach of a body, each by itself.
+static lane_flags lanes_near_bodies(global const BodyStep* bodies, int first, int count, lanes x,
+                                    lanes y, lanes z) {
+  lane_flags near = 0;
+  for (int k = first; HAS_BODIES && k < first + count; ++k) {
+    global const BodyStep* b = bodies + k;
+    near |= (x > (lanes)(b->lower_x)) & (x < (lanes)(b->upper_x)) & (y > (lanes)(b->lower_y)) &
+            (y < (lanes)(b->upper_y)) & (z > (lanes)(b->lower_z)) & (z < (lanes)(b->upper_z));
+  }
+  return near;
+}
+
 static bool near_bodies(global const BodyStep* bodies, int first, int count, float x, float y,
                         float z) {
   return bodies_near_box(bodies, first, count, (float3)(x, y, z), (float3)(x, y, z));

@@ -128,10 +128,14 @@ kernel void compute_density(
       choose_image(&images_here, &image, g.mine);
       any_near = true;
     }
-    const bool asked = everywhere || near;
-    if (!asked || activity_of(p, activity, &g) < SPLASH_ACTIVITY_DENSITY) {
+    lane_flags asked = g.mine;
+    const bool asleep = activity_of(p, activity, &g) < SPLASH_ACTIVITY_DENSITY;
+    if (asleep || !everywhere) {
       water = select(water, kept(water_density_before, source, first, last), g.mine);
       rho = select(rho, kept(density_before, source, first, last), g.mine);
+      asked &= lanes_near_bodies(bodies, first_body, body_count, g.x, g.y, g.z);
+    }
+    if (asleep || !any_lane(asked)) {
       turn = g.next;
       continue;
     }
@@ -144,8 +148,8 @@ kernel void compute_density(
           p->kernel_norm * sum_bodies(p, &g, body_start, body_position, body_volume, body_stride);
       all += p->rest_density * image.factor * bodies_share;
     }
-    water = select(water, fluid, g.mine);
-    rho = select(rho, all, g.mine);
+    water = select(water, fluid, asked);
+    rho = select(rho, all, asked);
     turn = g.next;
   }
   if (any_near) store_image(p, &images_here, first, images);

@@ -73,7 +73,7 @@ TEST(GridSpacing, IsLessOftenAwayFromBodies) {
         gap = std::max(gap, std::abs(state.position[i][axis] - middle[axis]) - 0.5 * kSide);
       }
       const bool is_beside = gap < static_cast<double>(p.support - p.spacing);
-      if (!is_beside && gap < 0.2) continue;  // some of a vector's particles may be beside it
+      if (!is_beside && gap < static_cast<double>(p.support)) continue;
       ++(is_beside ? beside : away);
       const double times = is_beside ? 1.0 : everywhere ? kSpacingSteps : 0.0;
       const Vector3 off = push[i] - times * expected[i].value;

@@ -50,9 +50,11 @@ kernel void find_spacing(constant FluidParams* p, float slower, int everywhere, 
   for (int turn = first; turn < last;) {
     const Group g = load_group(p, cell_start, position, first, last, turn);
     turn = g.next;
-    const bool beside = bodies_near_box(bodies, first_body, body_count, g.lower, g.upper);
-    if (!beside && !everywhere) continue;
-    const float strength = beside ? slower : steps * slower;
+    const bool near_any = bodies_near_box(bodies, first_body, body_count, g.lower, g.upper);
+    if (!near_any && !everywhere) continue;
+    const lanes away = everywhere ? steps * slower : 0.0f;
+    const lane_flags beside = lanes_near_bodies(bodies, first_body, body_count, g.x, g.y, g.z);
+    const lanes strength = select(away, (lanes)(slower), beside);
     lanes x = 0.0f, y = 0.0f, z = 0.0f;
     Near near;
     begin_search(&near);
@@ -67,14 +69,14 @@ kernel void find_spacing(constant FluidParams* p, float slower, int everywhere, 
       }
     }
     lanes bx = 0.0f, by = 0.0f, bz = 0.0f;
-    if (beside) {
+    if (near_any) {
       const BodyShare share = share_of_bodies(p, &g, body_start, body_position, body_volume,
                                               body_stride);
       const BodyImage image = load_image(p, images, first);
       image_gradient(p, &image, &share, &bx, &by, &bz);
     }
     const WallField wall = wall_field(p, g.x, g.y, g.z, piston);
-    const float gradient = strength * gradient_norm(p) * p->mass;
+    const lanes gradient = strength * gradient_norm(p) * p->mass;
     const lanes by_wall = strength * own * p->rest_density;
     ax = select(ax, gradient * x - by_wall * (wall.gx + bx), g.mine);
     ay = select(ay, gradient * y - by_wall * (wall.gy + by), g.mine);
