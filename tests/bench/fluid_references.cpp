@@ -75,6 +75,7 @@ struct MainKernels {
     term = Buffer<float>(device, points);
     push = Buffer<float>(device, 3 * points);
     moving = Buffer<int>(device, points);
+    // Without bodies, for a step of no length, everywhere, without a piston.
     set(density, f.params_buffer().memory(), f.grid().cell_start().memory(), activity.memory(),
         f.grid().source().memory(), rho.memory(), water.memory(), peak.memory(),
         f.particles().position.memory(), f.boundary().grid().cell_start().memory(),

@@ -84,7 +84,8 @@ static bool bodies_near_box(global const BodyStep* bodies, int first, int count,
   return false;
 }
 
-// Which lanes are within reach of a body, each by itself.
+// The lanes whose own point lies in the bounding box of a body's points, grown by the support
+// radius.
 static lane_flags lanes_near_bodies(global const BodyStep* bodies, int first, int count, lanes x,
                                     lanes y, lanes z) {
   lane_flags near = 0;

@@ -36,7 +36,8 @@ inline constexpr double kLargestGridCfl = 1.05;
 /// push stays as speed [1]. In shorter ones both count by the time that they take.
 inline constexpr double kSpacingWay = 0.25;
 inline constexpr double kSpacingKick = 0.05;
-/// Away from bodies one step in so many spaces the particles, for all of these [1].
+/// Particles away from bodies are pushed apart in one of so many steps, by as much as all of these
+/// steps would push them [1].
 inline constexpr int kSpacingSteps = 2;
 
 class GridProjected : public PressureSolver {
@@ -82,7 +83,8 @@ class GridProjected : public PressureSolver {
  private:
   GridProjected(Device& device, const FluidParams& params, const cl::Program& program, bool solids);
 
-  /// Whether the next step, or the present one, spaces all particles.
+  /// Whether the present step, or the next one between steps, pushes all particles apart and not
+  /// only those beside bodies.
   [[nodiscard]] bool spaces() const noexcept { return since_spacing_ == 0; }
 
   int since_spacing_ = 0;  ///< steps, modulo kSpacingSteps

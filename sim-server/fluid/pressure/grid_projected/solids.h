@@ -14,9 +14,10 @@
 #define LEAST_GAP 1e-3f   // faces that are less open are closed [1]
 #define FILM 0.02f       // of water beneath bodies that stand on the floor [cells]
 
-// Where solids are looked for: on the floor, FILM lower. So there is water beneath a body that
-// stands on it, whose pressure it feels, and none beneath one that goes deeper. `sides`: likewise
-// on the side walls; that is for bodies that the water moves, as others may be made to be tight.
+// The place at which the distance from solids is measured for a place of the grid: FILM below it if
+// it is on the floor. So a body that stands on the floor has water beneath it, whose pressure it
+// feels, and one that goes through the floor has none. `sides`: the same at the side walls, for
+// free bodies alone, since others, such as gates, may have to be tight.
 static float3 looked_at(constant MacGrid* g, float3 x, bool sides) {
   const MacLevel l = g->level[0];
   const float3 film = FILM * (float3)(g->hx, g->hy, g->hz), from = (float3)(g->x, g->y, g->z);
