@@ -9,6 +9,8 @@
 // other does not: a half at a flat surface, none deep in water, little around drops in the air. A
 // sum over the particles is an integral over the water that does not ask how many they are, so one
 // in SPLASH_FOLDS_APART of those in grid order stands for its neighbours; `phase`: which.
+// k is at most half the square of the fastest around: where none is fast enough, that is all that
+// is looked at.
 
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/fluid/boundary/walls.h"
@@ -51,6 +53,40 @@ static bool next_run(constant FluidParams* p, global const int* start, Reach* r,
     ++r->row_z;
   }
   return true;
+}
+
+// Of each cell the square of its fastest particle's speed [m2/s2], 0 if it has none. One work-item
+// for each row of cells.
+kernel void find_fastest(constant FluidParams* p, global const int* cell_start,
+                         global const float* velocity, global float* fastest) {
+  const int row = get_global_id(0);
+  if (row >= p->cells_y * p->cells_z) return;
+  const int n = p->capacity;
+  for (int cell = row * p->cells_x; cell < (row + 1) * p->cells_x; ++cell) {
+    const int first = cell_start[cell * SLICES], last = cell_start[(cell + 1) * SLICES];
+    lanes squares = 0.0f;
+    for (int j = first; j < last; j += LANES) {
+      const lanes u = LOAD(velocity, j), v = LOAD(velocity + n, j), w = LOAD(velocity + 2 * n, j);
+      const lane_flags here = LANE_NUMBERS < (lane_flags)(last - j);
+      squares = fmax(squares, select((lanes)(0.0f), u * u + v * v + w * w, here));
+    }
+    fastest[cell] = most(squares);
+  }
+}
+
+// Whether the square of any speed in those cells is above `square`.
+static bool any_faster(constant FluidParams* p, const Reach* r, global const float* fastest,
+                       float square) {
+  const int first = r->from_x / SLICES, last = r->to_x / SLICES;
+  for (int z = r->row_z; z <= r->to_z; ++z) {
+    for (int y = r->from_y; y <= r->to_y; ++y) {
+      global const float* row = fastest + (z * p->cells_y + y) * p->cells_x;
+      for (int x = first; x <= last; ++x) {
+        if (row[x] > square) return true;
+      }
+    }
+  }
+  return false;
 }
 
 // Weights of LANES points from `j` on.
@@ -99,16 +135,18 @@ kernel void fold_air(constant FluidParams* p, global const int* cell_start,
                      global const float* position, global const float* velocity,
                      global const int* id, global const int* body_start,
                      global const float* body_position, global const float* body_volume,
-                     int body_stride, int body_count, float piston, float reach, float least,
-                     float factor, int phase, int room, global AirFold* out) {
+                     int body_stride, int body_count, global const float* fastest, float piston,
+                     float reach, float least, float factor, int phase, int room,
+                     global AirFold* out) {
   const int i = get_global_id(0) * SPLASH_FOLDS_APART + phase;
   if (i >= p->count) return;
   const int n = p->capacity;
   const float x = position[i], y = position[n + i], z = position[2 * n + i];
   const float inverse_reach = 1.0f / reach;
+  Reach r = within(p, x, y, z, reach);
+  if (!any_faster(p, &r, fastest, 2.0f * least)) return;
   lanes c = 0.0f, cu = 0.0f, cv = 0.0f, cw = 0.0f, squares = 0.0f;
-  int2 run;
-  for (Reach r = within(p, x, y, z, reach); next_run(p, cell_start, &r, &run);) {
+  for (int2 run; next_run(p, cell_start, &r, &run);) {
     for (int j = run.x; j < run.y; j += LANES) {
       const lanes weight = weights(position, n, &r, j, run.y, inverse_reach);
       // Against the particle's own velocity: of fast water the squares alone would differ little.

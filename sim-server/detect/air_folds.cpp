@@ -19,6 +19,11 @@ double factor_of(const DetectSettings& settings, const FluidParams& p, double wi
   return settings.bubble_energy * water / (width * lift);
 }
 
+/// Rows of cells along x.
+std::size_t rows_of(const FluidParams& p) {
+  return static_cast<std::size_t>(p.cells_y) * static_cast<std::size_t>(p.cells_z);
+}
+
 }  // namespace
 
 double gravity_of(const FluidParams& params) {
@@ -38,6 +43,10 @@ AirFolds::AirFolds(Fluid& fluid, const cl::Program& program)
     : fluid_(fluid),
       folds_(fluid.device(),
              static_cast<std::size_t>(fluid.params().count / SPLASH_FOLDS_APART + 1)),
+      fastest_(fluid.device(),
+               rows_of(fluid.params()) * static_cast<std::size_t>(fluid.params().cells_x)),
+      find_fastest_(program, "find_fastest",
+                    std::min<std::size_t>(fluid.device().profile().group, 4)),
       fold_air_(program, "fold_air") {}
 
 void AirFolds::enqueue(const Step& step, const DetectSettings& settings, int phase) {
@@ -48,6 +57,11 @@ void AirFolds::enqueue(const Step& step, const DetectSettings& settings, int pha
   const Boundary& boundary = fluid_.boundary();
   const double width = eddy_width(settings, static_cast<double>(p.spacing));
   folds_.enqueue_clear(fluid_.device());
+  find_fastest_.run(fluid_.device().queue(), rows_of(p),
+                    {{"p", fluid_.params_buffer()},
+                     {"cell_start", fluid_.grid().cell_start()},
+                     {"velocity", fluid_.particles().velocity},
+                     {"fastest", fastest_}});
   fold_air_.run(fluid_.device().queue(), folds_.room(),
                 {{"p", fluid_.params_buffer()},
                  {"cell_start", fluid_.grid().cell_start()},
@@ -55,6 +69,7 @@ void AirFolds::enqueue(const Step& step, const DetectSettings& settings, int pha
                  {"velocity", fluid_.particles().velocity},
                  {"id", fluid_.particles().id},
                  {"body_count", boundary.body_count()},
+                 {"fastest", fastest_},
                  {"piston", as_float(step.piston)},
                  {"reach", as_float(width)},
                  {"least", as_float(1.5 * settings.bubble_onset * settings.bubble_onset)},

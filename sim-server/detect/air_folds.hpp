@@ -38,6 +38,8 @@ class AirFolds {
   Fluid& fluid_;
   CountedList<AirFold> folds_;
   bool looks_ = false;
+  Buffer<float> fastest_;  ///< square of the highest speed in each cell [m2/s2]
+  Kernel find_fastest_;
   Kernel fold_air_;
 };
 

@@ -2,7 +2,9 @@
 #include "tests/bench/fluid_work.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <tuple>
@@ -295,16 +297,46 @@ void add_bodies(std::map<std::string, Work>& all, const Places& p, double turns,
   }
 }
 
-double count_fast(Fluid& fluid, double speed) {
+/// Which particles are at least that fast, in sorted order.
+std::vector<bool> find_fast(Fluid& fluid, double speed) {
   const auto stride = static_cast<std::size_t>(fluid.particles().stride);
-  const auto count = static_cast<std::size_t>(fluid.params().count);
   const std::vector<float> v = fluid.particles().velocity.read(fluid.device(), 3 * stride);
-  double fast = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto u = static_cast<double>(std::hypot(v[i], v[stride + i], v[2 * stride + i]));
-    fast += u >= speed ? 1.0 : 0.0;
+  std::vector<bool> fast(static_cast<std::size_t>(fluid.params().count));
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    fast[i] = static_cast<double>(std::hypot(v[i], v[stride + i], v[2 * stride + i])) >= speed;
   }
   return fast;
+}
+
+double count_fast(Fluid& fluid, double speed) {
+  const std::vector<bool> fast = find_fast(fluid, speed);
+  return static_cast<double>(std::count(fast.begin(), fast.end(), true));
+}
+
+/// Particles that may have a fast one within an eddy's width: in cells as wide, those in its own
+/// and in the 26 around.
+double count_stirred(Fluid& fluid, const Places& places, double speed) {
+  const std::vector<bool> fast = find_fast(fluid, speed);
+  const std::size_t stride = places.position.size() / 3;
+  const auto cell_of = [&](std::size_t i) {
+    std::array<int, 3> cell;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto x = static_cast<double>(places.position[axis * stride + i]);
+      cell[axis] = static_cast<int>(std::floor(x / kEddy));
+    }
+    return cell;
+  };
+  std::set<std::array<int, 3>> stirred;
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    if (!fast[i]) continue;
+    const auto [x, y, z] = cell_of(i);
+    for (int k = 0; k < 27; ++k) {
+      stirred.insert({x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1});
+    }
+  }
+  double count = 0.0;
+  for (std::size_t i = 0; i < fast.size(); ++i) count += stirred.contains(cell_of(i)) ? 1.0 : 0.0;
+  return count;
 }
 
 /// Particles in any body's box, in which neighbours may be those of its skin.
@@ -428,6 +460,9 @@ FrameSeen see_frame(Simulation& simulation) {
     if (moment != Moment::between) return;
     seen.places = places_of(fluid, step);
     seen.fast = count_fast(fluid, scene.detect.bubble_speed);
+    // What eddies as fast as bubble_onset along each axis have.
+    const double eddying = std::sqrt(3.0) * scene.detect.bubble_onset;
+    seen.stirred = count_stirred(fluid, seen.places, eddying);
     seen.near = count_near(fluid, step);
   });
   const FrameResult frame = simulation.advance();
@@ -472,9 +507,10 @@ std::map<std::string, Work> frame_work(const FrameSeen& seen, const Profile& pro
     all["spawn_bubbles"].operations += alone(kOfSlow * n, profile);
     // One particle in so many looks within an eddy's width, as a search does within the support.
     const double wide = std::pow(kEddy / static_cast<double>(p.params.support), 3.0);
-    const double few = std::ceil(n / SPLASH_FOLDS_APART);
+    const double few = std::ceil(seen.stirred / SPLASH_FOLDS_APART);
     all["fold_air"] = pairs_of(few, std::max(1.0, wide) * lanes, kOfPair + kOfEddy, profile);
-    all["fold_air"].bytes = 24.0 * few;
+    all["fold_air"].bytes = 12.0 * n / SPLASH_FOLDS_APART + 12.0 * few;
+    all["find_fastest"] = {.bytes = 12.0 * n, .operations = 6.0 * n};
   }
   if (seen.bubbles == 0.0) return all;
   all["carry_bubbles"] = pairs_of(2.0 * seen.bubbles, lanes, kOfPair + kOfCarried, profile);

@@ -66,6 +66,7 @@ struct FrameSeen {
   double near = 0.0;     ///< particles in bodies' boxes
   double bubbles = 0.0;  ///< that are carried
   double fast = 0.0;     ///< particles that may entrap air
+  double stirred = 0.0;  ///< particles that may be in eddies fast enough for it
 };
 
 /// Computes a frame and looks at it; waits in its midst. Throws std::runtime_error for a frame that

@@ -74,11 +74,11 @@ const Kernels kMoved = {"weigh_water", "answer_bodies", "carry_water", "keep_out
 /// Where particles push them.
 const Kernels kFree =
     join({kMoved, {"reach_bodies", "measure_rims", "press_films", "sum_films", "sum_pushes"}});
-const Kernels kDetect = {"place_bodies",   "gather_body_volumes",  "compute_density",
-                         "integrate",      "compute_acceleration", "touch_water",
-                         "spawn_bubbles",  "carry_bubbles",        "seed_cavities",
-                         "grow_cavities",  "push_by_walls",        "fold_air",
-                         "average_density"};
+const Kernels kDetect = {"place_bodies",  "gather_body_volumes",  "compute_density",
+                         "integrate",     "compute_acceleration", "touch_water",
+                         "spawn_bubbles", "carry_bubbles",        "seed_cavities",
+                         "grow_cavities", "push_by_walls",        "fold_air",
+                         "find_fastest",  "average_density"};
 
 const std::vector<Watched> kWatched = {
     // The interpreter's own counter of instructions breaks its heap here, with no other option,
