@@ -66,9 +66,8 @@ kernel void find_fastest(constant FluidParams* p, global const int* cell_start,
     const int first = cell_start[cell * SLICES], last = cell_start[(cell + 1) * SLICES];
     lanes squares = 0.0f;
     for (int j = first; j < last; j += LANES) {
-      const lanes u = LOAD(velocity, j), v = LOAD(velocity + n, j), w = LOAD(velocity + 2 * n, j);
       const lane_flags here = LANE_NUMBERS < (lane_flags)(last - j);
-      squares = fmax(squares, select((lanes)(0.0f), u * u + v * v + w * w, here));
+      squares = fmax(squares, select((lanes)(0.0f), squares_at(velocity, n, j), here));
     }
     fastest[cell] = most(squares);
   }

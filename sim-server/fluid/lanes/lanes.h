@@ -77,6 +77,13 @@ static lanes load_x(global const float* array, int index, int end) {
 #endif
 }
 
+// Squares of the lengths of the vectors from `index` on, whose x, y and z parts are `stride` apart.
+static lanes squares_at(global const float* array, int stride, int index) {
+  const lanes x = LOAD(array, index), y = LOAD(array + stride, index);
+  const lanes z = LOAD(array + 2 * stride, index);
+  return x * x + y * y + z * z;
+}
+
 // 1 / sqrt(a). AVX-512 has an estimate good to 2^-14; one Newton step brings it to float accuracy
 // at a third of the cost of a square root and a division.
 static lanes inverse_root(lanes a) {

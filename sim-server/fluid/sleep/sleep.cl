@@ -37,9 +37,8 @@ static int2 cells_within(float lower, float upper, float origin, float inverse_c
 // Whether any of the particles `first` to `last` is not slower than `speed`.
 static bool any_fast(int n, global const float* velocity, float speed, int first, int last) {
   for (int j = first; j < last; j += LANES) {
-    const lanes u = LOAD(velocity, j), v = LOAD(velocity + n, j), w = LOAD(velocity + 2 * n, j);
     // Not the other way round: what is no number stays awake.
-    const lane_flags slow = u * u + v * v + w * w <= (lanes)(speed * speed);
+    const lane_flags slow = squares_at(velocity, n, j) <= (lanes)(speed * speed);
     if (any_lane((slow == 0) & (LANE_NUMBERS < (lane_flags)(last - j)))) return true;
   }
   return false;
