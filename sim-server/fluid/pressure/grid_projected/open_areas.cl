@@ -12,6 +12,8 @@
 
 #define SECTIONS 4        // between two cells' middles, in which a thin plate is looked for
 #define LESS_CLOSED 0.25f // a thin plate leaves faces open that are so much less closed [1]
+#define THIN 1.0f         // bodies that are no thicker close faces by area [cells]
+#define THICK 1.5f        // bodies that are as thick close them by volume [cells]
 
 // How much solids leave open of the section across an axis, `part` of the way from the middle of
 // the cell below the one at `at` to its own [1]. `sides`: as looked_at.
@@ -57,6 +59,19 @@ static float plate_share(float volume, float below, float above) {
   return thin * clamp((fmax(below, above) - volume) / (1.0f - volume), 0.0f, 1.0f);
 }
 
+// How thin a body is around a face [1], by how deep it is in the cells beside the face and in those
+// around them: 1 up to THIN, 0 from THICK on.
+static float thinness(const MacLevel l, int axis, int face_cell, global const float* depth) {
+  const int step[3] = {1, l.row, l.layer};
+  const int along = step[axis], a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
+  float deepest = 0.0f;
+  for (int k = 0; k < 36; ++k) {
+    const int near = face_cell + (k / 9 - 2) * along + (k % 3 - 1) * a + (k / 3 % 3 - 1) * b;
+    deepest = fmax(deepest, depth[clamp(near, 0, l.cells - 1)]);
+  }
+  return clamp((THICK - 2.0f * deepest) / (THICK - THIN), 0.0f, 1.0f);
+}
+
 // What a body leaves open of the area of a face between two full cells: `volume` is what it leaves
 // of the volume around the face. A plate thinner than a cell, by its `share`, may be between two
 // faces, which are then more open than their volumes. The one whose volume it closes more is as
@@ -76,11 +91,12 @@ static float open_area(constant FluidParams* p, constant MacGrid* g, const Solid
 }
 
 // How open faces are for the flow, `gap`, by what solids leave of the `volume` around them.
-// Between full cells bodies leave what they leave of the area: by volume a plate of a cell's
-// thickness would let water through, and a body's edge more than there is room for. Those that the
-// water moves leave what they leave of the volume, and less only where they are plates deeper than
-// a cell under the surface; the water that this encloses goes with them (entrained.cl). Nearer to
-// the surface areas open and close at once while a body sways, and water at its edge would jump.
+// Between full cells bodies leave what they leave of the volume, but where they are thin, of the
+// area: by volume a plate of a cell's thickness would let water through, by area a thick body would
+// take water with it that flows around it. Those that the water moves leave less than of the volume
+// only where they are plates deeper than a cell under the surface; the water that this encloses
+// goes with them (entrained.cl). Nearer to the surface areas open and close at once while a body
+// sways, and water at its edge would jump.
 // Between a cell that holds water and one that does not, a face is no more open than the surface
 // between them: water that a solid lies flat on has none. `held`: of the water around a face, the
 // part that goes with the solid. `excess`: between full cells, volume less area; at first
@@ -89,7 +105,7 @@ kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant Bo
                        global const float* meshes, global const BodyStep* bodies, int first_body,
                        int body_count, float piston, global const int* owner,
                        global const float* fill, global const float* volume, global float* gap,
-                       global float* held, global float* excess) {
+                       global const float* depth, global float* held, global float* excess) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -136,12 +152,17 @@ kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant Bo
       const int over = c + lane + l.layer;
       const bool deep = fill[over] > MAC_FULL && fill[over - s] > MAC_FULL;
       if (whose < 0 || (shapes[whose].free && !deep)) continue;
+      const float thin = thinness(l, axis, c + lane, depth);
+      if (thin == 0.0f) continue;
       const float plate = plate_share(volume[face], volume[face - s], volume[face + s]);
       float with;
-      gap[face] = open_area(p, g, &solids, cell, axis, volume[face], plate, sides, &with);
+      const float area = open_area(p, g, &solids, cell, axis, volume[face], plate, sides, &with);
       if (shapes[whose].free) {
-        gap[face] = volume[face] + plate * fmin(gap[face] - volume[face], 0.0f);
+        gap[face] = volume[face] + thin * plate * fmin(area - volume[face], 0.0f);
         with = 1.0f - gap[face] / volume[face];
+      } else {
+        gap[face] = volume[face] + thin * (area - volume[face]);
+        with *= thin;
       }
       held[face] = with;
       excess[face] = volume[face] - gap[face];

@@ -95,12 +95,14 @@ static float open_side(const float* d, int axis, int side) {
 
 // Where cells' open parts go: of their halves along the axes, the lower and the `upper` ones, at
 // the tank's walls of their area, and of all of them, `room`. `beneath`: of the lower halves of
-// cells on the floor, less the open part of their area there. `owner`: whose they are.
+// cells on the floor, less the open part of their area there. `depth`: how far their places are in
+// solids, of those that are half a cell apart the deepest [cells]. `owner`: whose they are.
 typedef struct {
   global float* lower;
   global float* upper;
   global float* room;
   global float* beneath;
+  global float* depth;
   global int* owner;
 } OpenParts;
 
@@ -157,6 +159,7 @@ static void cut_cell(constant FluidParams* p, constant MacGrid* g, const Solids*
   float nearest = d[0];
   for (int k = 1; k < 27; ++k) nearest = fmin(nearest, d[k]);
   if (nearest > 0.0f) return;
+  parts->depth[c] = -nearest / cbrt(g->hx * g->hy * g->hz);
   float of_half[6] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, sum = 0.0f;
   for (int k = 0; k < 8; ++k) {
     const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
@@ -197,7 +200,8 @@ static bool solids_near_cells(constant FluidParams* p, constant MacGrid* g, cons
 kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                       global const float* meshes, global const BodyStep* bodies, int first_body,
                       int body_count, float piston, global float* lower, global float* upper,
-                      global float* room, global float* excess, global int* owner) {
+                      global float* room, global float* excess, global float* depth,
+                      global int* owner) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -209,10 +213,11 @@ kernel void cut_cells(constant FluidParams* p, constant MacGrid* g, constant Bod
   STORE(open, room, at.first);
   global float* beneath = excess + 2 * l.cells;
   STORE(none, beneath, at.first);
+  STORE(none, depth, at.first);
   STORE((lane_flags)(OF_NOBODY), owner, at.first);
   const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
   if (!solids_near_cells(p, g, &solids, &at)) return;
-  const OpenParts parts = {lower, upper, room, beneath, owner};
+  const OpenParts parts = {lower, upper, room, beneath, depth, owner};
   int x[LANES], y[LANES], real[LANES];
   STORE(at.x, x, 0);
   STORE(at.y, y, 0);

@@ -16,6 +16,7 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
       upper_(device, any ? 3 * fields.room : 1),
       gap_(device, any ? 3 * fields.room : 1),
       excess_(device, any ? 3 * fields.room : 1),
+      depth_(device, any ? fields.room : 1),
       space_(device, any ? fields.room : 1),
       owner_(device, any ? fields.room : 1),
       seen_space_(device, any ? fields.room : 1),
@@ -36,6 +37,7 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                   {"upper", upper_},
                   {"room", space_},
                   {"excess", excess_},
+                  {"depth", depth_},
                   {"owner", owner_}},
                  boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));
   see_space_.run(queue, fields_.vectors,
@@ -63,6 +65,7 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                    {"fill", filled_},
                    {"volume", volume_},
                    {"gap", gap_},
+                   {"depth", depth_},
                    {"held", upper_},
                    {"excess", excess_}},
                   boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));

@@ -38,6 +38,7 @@ class GridSolids {
   Buffer<float> upper_;   ///< of the upper half of cells along each axis, then held() [1]
   Buffer<float> gap_;  ///< of the lower half of cells along each axis, then open part of faces [1]
   Buffer<float> excess_;
+  Buffer<float> depth_;
   Buffer<float> space_;       ///< of cells [1]
   Buffer<int> owner_;         ///< whose a cell is (room.h)
   Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]
