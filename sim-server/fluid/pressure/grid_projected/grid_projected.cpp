@@ -124,6 +124,7 @@ const Buffer<float>& GridProjected::carried(const Fluid& /*fluid*/) const {
 void GridProjected::forget_pressure(Device& device) {
   fields_.pressure.enqueue_clear(device);
   fields_.wet.enqueue_clear(device);
+  solids_.forget(device);
   bodies_.forget(device);
   air_.forget(device);
   note_recalled(device);

@@ -63,7 +63,7 @@ class GridProjected : public PressureSolver {
   void forget_work(Device& device) override { system_.forget_work(device); }
   [[nodiscard]] std::vector<cl::Buffer> kept() const override {
     std::vector<cl::Buffer> all = {fields_.pressure.memory(), fields_.wet.memory()};
-    for (const std::vector<cl::Buffer>& more : {air_.kept(), bodies_.kept()}) {
+    for (const std::vector<cl::Buffer>& more : {solids_.kept(), air_.kept(), bodies_.kept()}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;

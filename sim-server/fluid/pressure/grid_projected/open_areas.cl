@@ -100,12 +100,14 @@ static float open_area(constant FluidParams* p, constant MacGrid* g, const Solid
 // Between a cell that holds water and one that does not, a face is no more open than the surface
 // between them: water that a solid lies flat on has none. `held`: of the water around a face, the
 // part that goes with the solid. `excess`: between full cells, volume less area; at first
-// it has what cut_cells found at the floor, and keeps that beneath full cells.
+// it has what cut_cells found at the floor, and keeps that beneath full cells. `airless`: 1 where a
+// cell holds water or no open space, for the next step.
 kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant BodyShape* shapes,
                        global const float* meshes, global const BodyStep* bodies, int first_body,
                        int body_count, float piston, global const int* owner,
                        global const float* fill, global const float* volume, global float* gap,
-                       global const float* depth, global float* held, global float* excess) {
+                       global const float* depth, global const float* room,
+                       global float* held, global float* excess, global float* airless) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;
@@ -115,6 +117,8 @@ kernel void open_areas(constant FluidParams* p, constant MacGrid* g, constant Bo
   const int count[3] = {l.nx, l.ny, l.nz};
   const Solids solids = {shapes, meshes, bodies, first_body, body_count, piston};
   const lanes none = 0.0f, one = 1.0f;
+  const lane_flags shut = LOAD(room, c) <= (lanes)(LEAST_SEEN);
+  STORE(select(none, one, at.inside & (shut | hold_water(fill, c))), airless, c);
   for (int axis = 0; axis < 3; ++axis) {
     const int s = step[axis], first = axis * l.cells + c;
     const lanes open = LOAD(volume, first);

@@ -9,6 +9,8 @@
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 #define SEES_ENOUGH 0.9f  // of the space around it, for a cell to say how full others are [1]
+#define LEAST_TOLD 0.15f   // cells that seem less full may be empty, whatever is around them [1]
+#define NOT_EMPTY 0.55f    // cells that cannot be empty are as full at least: they hold water [1]
 #define OWN_WEIGHT 0.05f  // of a cell's own fill in the estimate of what its hat cannot see [1]
 
 // How full cells are of what their hats see of open space.
@@ -40,13 +42,26 @@ static float full_film(const MacLevel l, int4 at, global const float* fill,
   return found > 0.0f ? sum / found : otherwise;
 }
 
+// Air comes from somewhere: where neither a cell nor any around it had air in the step before, no
+// air can be. Without that, what seems half empty behind a body that moves in deep water, as its
+// particles lag, would lose the pressure around it. `airless`: 1 where there was none, or 0.
+static lanes without_new_air(const MacLevel l, const Cells* at, global const float* airless,
+                             lanes told) {
+  const lane_flags empty =
+      at->inside & (told > (lanes)(LEAST_TOLD)) & (told < (lanes)(NOT_EMPTY));
+  if (!any_lane(empty)) return told;
+  const lane_flags shut = least_around(l, airless, at) > (lanes)(0.0f);
+  return select(told, (lanes)(NOT_EMPTY), empty & shut);
+}
+
 // How full cells are beside solids: as if what solids take of their hats were as full as the water
 // around goes on to be there, but empty where no water touches a body. The less open space a cell
 // has, the more it counts what is behind its open faces: in a gap where no particle fits there may
 // be water.
 kernel void fill_beside_solids(constant MacGrid* g, global const float* volume,
                                global const float* room, global const float* seen,
-                               global const float* clear, global const float* fill,
+                               global const float* clear, global const float* airless,
+                               global const float* fill,
                                global float* filled) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
@@ -86,7 +101,7 @@ kernel void fill_beside_solids(constant MacGrid* g, global const float* volume,
   const lane_flags known = at.real & (space > (lanes)(LEAST_SEEN));
   const lanes touched = (sure * whole + in_gaps) / space;
   const lanes estimate = touched + LOAD(clear, c) * (LOAD(fill, c) - touched);
-  STORE(select(none, estimate, known), filled, c);
+  STORE(without_new_air(l, &at, airless, select(none, estimate, known)), filled, c);
   const lane_flags at_wall = (at.x == (lane_flags)(0)) | (at.x == (lane_flags)(l.nx - 1)) |
                              (at.y == (lane_flags)(0)) | (at.y == (lane_flags)(l.ny - 1)) |
                              ((lane_flags)(at.z) == (lane_flags)(0));

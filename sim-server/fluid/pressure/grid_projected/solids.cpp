@@ -17,6 +17,7 @@ GridSolids::GridSolids(Device& device, const cl::Program& program, const MacFiel
       gap_(device, any ? 3 * fields.room : 1),
       excess_(device, any ? 3 * fields.room : 1),
       depth_(device, any ? fields.room : 1),
+      airless_(device, any ? fields.room : 1),
       space_(device, any ? fields.room : 1),
       owner_(device, any ? fields.room : 1),
       seen_space_(device, any ? fields.room : 1),
@@ -57,6 +58,7 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                            {"room", space_},
                            {"seen", seen_space_},
                            {"clear", clear_},
+                           {"airless", airless_},
                            {"fill", fields_.fill},
                            {"filled", filled_}});
   open_areas_.run(queue, fields_.vectors,
@@ -66,6 +68,8 @@ void GridSolids::place(Fluid& fluid, const Step& step) {
                    {"volume", volume_},
                    {"gap", gap_},
                    {"depth", depth_},
+                   {"room", space_},
+                   {"airless", airless_},
                    {"held", upper_},
                    {"excess", excess_}},
                   boundary.outlines(), boundary.bodies_at(step), fields_.args(fluid));

@@ -2,6 +2,8 @@
 // What bodies, slope and wave maker leave open of the grid (solids.cl, open_areas.cl).
 #pragma once
 
+#include <vector>
+
 #include "sim-server/device/buffer.hpp"
 #include "sim-server/device/kernel.hpp"
 #include "sim-server/fluid/pressure/grid_projected/mac_fields.hpp"
@@ -13,6 +15,13 @@ class GridSolids {
  public:
   /// `any`: the scene may have some. Without, nothing is cut, and the arrays have one element.
   GridSolids(Device& device, const cl::Program& program, const MacFields& fields, bool any);
+
+  /// What the next step needs of the last one.
+  [[nodiscard]] std::vector<cl::Buffer> kept() const {
+    if (!any_) return {};
+    return {airless_.memory()};
+  }
+  void forget(Device& device) { airless_.enqueue_clear(device); }
 
   /// Cuts the grid by the solids where they are in this step.
   void place(Fluid& fluid, const Step& step);
@@ -38,7 +47,8 @@ class GridSolids {
   Buffer<float> upper_;   ///< of the upper half of cells along each axis, then held() [1]
   Buffer<float> gap_;  ///< of the lower half of cells along each axis, then open part of faces [1]
   Buffer<float> excess_;
-  Buffer<float> depth_;
+  Buffer<float> depth_;       ///< how deep cells reach into solids [cells]
+  Buffer<float> airless_;     ///< 1: a cell held water or no open space in the last step; else 0
   Buffer<float> space_;       ///< of cells [1]
   Buffer<int> owner_;         ///< whose a cell is (room.h)
   Buffer<float> seen_space_;  ///< open part of what a cell's hat sees [1]

@@ -71,20 +71,25 @@ static lane_flags hold_water(global const float* fill, int c) {
   return LOAD(fill, c) > (lanes)(MAC_FULL);
 }
 
-// Whether every cell around each that is in the tank holds water.
-static lane_flags are_inner(const MacLevel l, global const float* fill, const Cells* at) {
+// The least number of each cell and those around it that are in the tank, and 1 at most.
+static lanes least_around(const MacLevel l, global const float* field, const Cells* at) {
   const lane_flags none = 0;
-  lanes least_full = 1.0f;
+  lanes number = 1.0f;
   for (int z = max(-1, -at->z); z <= 1; ++z) {
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) {
         const lane_flags i = at->x + x, j = at->y + y;
         const lane_flags behind =
             (i < none) | (i >= (lane_flags)(l.nx)) | (j < none) | (j >= (lane_flags)(l.ny));
-        const lanes there = LOAD(fill, at->first + z * l.layer + y * l.row + x);
-        least_full = fmin(least_full, select(there, (lanes)(1.0f), behind));
+        const lanes there = LOAD(field, at->first + z * l.layer + y * l.row + x);
+        number = fmin(number, select(there, (lanes)(1.0f), behind));
       }
     }
   }
-  return least_full > (lanes)(MAC_FULL);
+  return number;
+}
+
+// Whether every cell around each that is in the tank holds water.
+static lane_flags are_inner(const MacLevel l, global const float* fill, const Cells* at) {
+  return least_around(l, fill, at) > (lanes)(MAC_FULL);
 }
