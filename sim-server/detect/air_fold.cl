@@ -9,8 +9,8 @@
 // other does not: a half at a flat surface, none deep in water, little around drops in the air. A
 // sum over the particles is an integral over the water that does not ask how many they are, so one
 // in SPLASH_FOLDS_APART of those in grid order stands for its neighbours; `phase`: which.
-// k is at most half the square of the fastest around: where none is fast enough, that is all that
-// is looked at.
+// k is at most half the square of the highest speed within reach: where that cannot exceed `least`,
+// the sums are left out.
 
 #include "sim-server/detect/bubble_state.h"
 #include "sim-server/fluid/boundary/walls.h"
@@ -55,8 +55,8 @@ static bool next_run(constant FluidParams* p, global const int* start, Reach* r,
   return true;
 }
 
-// Of each cell the square of its fastest particle's speed [m2/s2], 0 if it has none. One work-item
-// for each row of cells.
+// Finds for each cell the square of the highest speed of its particles [m2/s2]; 0 in empty cells.
+// Each work-item handles one row of cells.
 kernel void find_fastest(constant FluidParams* p, global const int* cell_start,
                          global const float* velocity, global float* fastest) {
   const int row = get_global_id(0);
@@ -73,7 +73,7 @@ kernel void find_fastest(constant FluidParams* p, global const int* cell_start,
   }
 }
 
-// Whether the square of any speed in those cells is above `square`.
+// Whether any particle in the cells within reach has a speed whose square exceeds `square` [m2/s2].
 static bool any_faster(constant FluidParams* p, const Reach* r, global const float* fastest,
                        float square) {
   const int first = r->from_x / SLICES, last = r->to_x / SLICES;

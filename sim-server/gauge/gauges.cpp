@@ -63,7 +63,7 @@ void append(std::vector<double>& row, const Values& values) {
   row.insert(row.end(), values.begin(), values.end());
 }
 
-/// Whether the scene has the grid solver, which computes the forces on bodies itself.
+/// True if the scene uses the grid solver, which computes the forces on bodies itself.
 bool is_on_grid(const Scene& scene) {
   return scene.fluid.solver == PressureKind::grid_projected;
 }

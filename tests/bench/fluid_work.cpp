@@ -297,7 +297,7 @@ void add_bodies(std::map<std::string, Work>& all, const Places& p, double turns,
   }
 }
 
-/// Which particles are at least that fast, in sorted order.
+/// For each particle, in sorted order, whether its speed is at least `speed` [m/s].
 std::vector<bool> find_fast(Fluid& fluid, double speed) {
   const auto stride = static_cast<std::size_t>(fluid.particles().stride);
   const std::vector<float> v = fluid.particles().velocity.read(fluid.device(), 3 * stride);

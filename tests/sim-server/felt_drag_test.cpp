@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bodies that are towed through weightless water at a steady speed, against the drag of
-// experiments. If water stuck to them, a hand would feel too much of it, and that it goes from cell
-// to cell.
+// The felt force on bodies that are towed through deep water at a steady speed, against the drag of
+// experiments; and how much it pulses as they go from cell to cell of the grid.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +15,9 @@
 namespace splash::sim {
 namespace {
 
-constexpr double kTowed = 0.5;   ///< [m/s]
-constexpr double kApart = 0.03;  ///< [m]
-constexpr double kSide = 0.12;   ///< of the bodies [m]
+constexpr double kTowSpeed = 0.5;     ///< [m/s]
+constexpr double kTowSpacing = 0.03;  ///< [m]
+constexpr double kSide = 0.12;        ///< of the bodies [m]
 
 /// A force's mean, and the rms of the rest [N].
 struct TowForce {
@@ -26,12 +25,12 @@ struct TowForce {
   double rms = 0.0;
 };
 
-/// Against the motion, over the last seven of eleven tenths of a second.
+/// The force against the motion on a body of that `kind`, from 0.4 to 1.1 s; `gravity` [m/s2].
 TowForce towed(const std::string& kind, const std::string& gravity) {
   Device device;
   const std::string wide = std::to_string(kSide);
   const Scene scene = parse_scene(
-      "fluid: {settle: never, solver: grid_projected, spacing: " + std::to_string(kApart) +
+      "fluid: {settle: never, solver: grid_projected, spacing: " + std::to_string(kTowSpacing) +
           ", gravity: [0, 0, -" + gravity + "]}\n" +
           "tank: {lower: [-0.4, -0.4, 0], upper: [1.2, 0.4, 0.9]}\n"
           "water: [{lower: [-0.4, -0.4, 0], upper: [1.2, 0.4, 0.7]}]\n"
@@ -46,7 +45,7 @@ TowForce towed(const std::string& kind, const std::string& gravity) {
   double squares = 0.0;
   while (simulation.seconds() < 1.1) {
     const double now = simulation.seconds();
-    const double way = kTowed * (now < 0.2 ? 2.5 * now * now : now - 0.1);
+    const double way = kTowSpeed * (now < 0.2 ? 2.5 * now * now : now - 0.1);
     static_cast<void>(
         simulation.live_body(0)->push({way, 0.0, 0.35}, {0.0, 0.0, 0.0, 1.0}, {now, {}}));
     const FrameResult frame = simulation.advance();
@@ -62,7 +61,7 @@ TowForce towed(const std::string& kind, const std::string& gravity) {
 
 /// rho U^2 / 2 on an area [N].
 double stagnation(double area) {
-  return 0.5 * 998.0 * kTowed * kTowed * area;
+  return 0.5 * 998.0 * kTowSpeed * kTowSpeed * area;
 }
 
 /// At Reynolds numbers of some ten thousands a ball has 0.47 and a cube 1.05 (Hoerner 1965).

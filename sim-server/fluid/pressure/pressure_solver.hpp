@@ -45,7 +45,7 @@ class PressureSolver {
 
   /// From now on the water moves so many bodies.
   virtual void release(Device& /*device*/, std::size_t /*count*/) {}
-  /// Whether the next step needs the densities of all particles. If not, those beside bodies get a
+  /// True if the next step needs the densities of all particles. If not, those beside bodies get a
   /// new density and all others keep theirs.
   [[nodiscard]] virtual bool needs_density() const { return true; }
   /// After density: leaves in Fluid::pressure_term() what is known before the step is solved, or,

@@ -83,8 +83,8 @@ class GridProjected : public PressureSolver {
  private:
   GridProjected(Device& device, const FluidParams& params, const cl::Program& program, bool solids);
 
-  /// Whether the present step, or the next one between steps, pushes all particles apart and not
-  /// only those beside bodies.
+  /// True if this step pushes all particles apart, false if only those beside bodies. Between
+  /// steps: of the next step.
   [[nodiscard]] bool spaces() const noexcept { return since_spacing_ == 0; }
 
   int since_spacing_ = 0;  ///< steps, modulo kSpacingSteps

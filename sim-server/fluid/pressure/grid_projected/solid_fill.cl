@@ -9,8 +9,8 @@
 #include "sim-server/fluid/pressure/grid_projected/surface.h"
 
 #define SEES_ENOUGH 0.9f  // of the space around it, for a cell to say how full others are [1]
-#define LEAST_TOLD 0.15f   // cells that seem less full may be empty, whatever is around them [1]
-#define NOT_EMPTY 0.55f    // cells that cannot be empty are as full at least: they hold water [1]
+#define MAY_BE_EMPTY 0.15f  // cells estimated less full may hold air, whatever is around them [1]
+#define WITHOUT_AIR 0.55f   // least fill of cells that cannot hold air: they count as water [1]
 #define OWN_WEIGHT 0.05f  // of a cell's own fill in the estimate of what its hat cannot see [1]
 
 // How full cells are of what their hats see of open space.
@@ -42,16 +42,17 @@ static float full_film(const MacLevel l, int4 at, global const float* fill,
   return found > 0.0f ? sum / found : otherwise;
 }
 
-// Air comes from somewhere: where neither a cell nor any around it had air in the step before, no
-// air can be. Without that, what seems half empty behind a body that moves in deep water, as its
-// particles lag, would lose the pressure around it. `airless`: 1 where there was none, or 0.
+// Raises the estimated fill of cells that cannot hold air, because neither they nor any cell around
+// them held air in the step before. Behind a body that moves in deep water the particles lag; cells
+// there would otherwise count as air and lose the pressure of the water around. `airless`: 1 where
+// a cell held no air in the step before, else 0.
 static lanes without_new_air(const MacLevel l, const Cells* at, global const float* airless,
-                             lanes told) {
-  const lane_flags empty =
-      at->inside & (told > (lanes)(LEAST_TOLD)) & (told < (lanes)(NOT_EMPTY));
-  if (!any_lane(empty)) return told;
-  const lane_flags shut = least_around(l, airless, at) > (lanes)(0.0f);
-  return select(told, (lanes)(NOT_EMPTY), empty & shut);
+                             lanes fill) {
+  const lane_flags low =
+      at->inside & (fill > (lanes)(MAY_BE_EMPTY)) & (fill < (lanes)(WITHOUT_AIR));
+  if (!any_lane(low)) return fill;
+  const lane_flags no_air_near = least_around(l, airless, at) > (lanes)(0.0f);
+  return select(fill, (lanes)(WITHOUT_AIR), low & no_air_near);
 }
 
 // How full cells are beside solids: as if what solids take of their hats were as full as the water
@@ -61,8 +62,7 @@ static lanes without_new_air(const MacLevel l, const Cells* at, global const flo
 kernel void fill_beside_solids(constant MacGrid* g, global const float* volume,
                                global const float* room, global const float* seen,
                                global const float* clear, global const float* airless,
-                               global const float* fill,
-                               global float* filled) {
+                               global const float* fill, global float* filled) {
   const Cells at = cells_of(g, get_global_id(0));
   const MacLevel l = g->level[0];
   if (at.z > l.nz) return;

@@ -71,10 +71,11 @@ static lane_flags hold_water(global const float* fill, int c) {
   return LOAD(fill, c) > (lanes)(MAC_FULL);
 }
 
-// The least number of each cell and those around it that are in the tank, and 1 at most.
+// The least value of `field` in each cell and the cells around it, without those outside the tank;
+// 1 at most.
 static lanes least_around(const MacLevel l, global const float* field, const Cells* at) {
   const lane_flags none = 0;
-  lanes number = 1.0f;
+  lanes lowest = 1.0f;
   for (int z = max(-1, -at->z); z <= 1; ++z) {
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) {
@@ -82,14 +83,14 @@ static lanes least_around(const MacLevel l, global const float* field, const Cel
         const lane_flags behind =
             (i < none) | (i >= (lane_flags)(l.nx)) | (j < none) | (j >= (lane_flags)(l.ny));
         const lanes there = LOAD(field, at->first + z * l.layer + y * l.row + x);
-        number = fmin(number, select(there, (lanes)(1.0f), behind));
+        lowest = fmin(lowest, select(there, (lanes)(1.0f), behind));
       }
     }
   }
-  return number;
+  return lowest;
 }
 
-// Whether every cell around each that is in the tank holds water.
+// Whether each cell and all cells around it, except those outside the tank, hold water.
 static lane_flags are_inner(const MacLevel l, global const float* fill, const Cells* at) {
   return least_around(l, fill, at) > (lanes)(MAC_FULL);
 }
